@@ -1,0 +1,16 @@
+# spherule_module(NAME SOURCES ... USES other modules ... LIBRARIES ...)
+# One static library per folder of server/. Its headers are seen as "NAME/..." only by targets that use it, so the
+# compiler refuses an include that the architecture does not allow.
+function(spherule_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  set(root ${CMAKE_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
+  add_library(spherule_${name} STATIC ${ARG_SOURCES})
+  target_include_directories(spherule_${name} PUBLIC ${root})
+  target_link_libraries(spherule_${name} PRIVATE spherule_options)
+  foreach(used ${ARG_USES})
+    target_link_libraries(spherule_${name} PUBLIC spherule_${used})
+  endforeach()
+  target_link_libraries(spherule_${name} PUBLIC ${ARG_LIBRARIES})
+endfunction()

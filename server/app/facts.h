@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+#include "sim/simulation.h"
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::app {
+
+v1::ServerMessage factsMessage(const sim::Simulation& simulation, const v1::WireGrid& grid, std::uint32_t epoch);
+v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused);
+
+}  // namespace spherule::app

@@ -1,0 +1,59 @@
+#include "app/metrics.h"
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include "sim/pass.h"
+
+namespace spherule::app {
+
+struct Metrics::Families {
+    prometheus::Registry registry;
+
+    // A counter is kept elsewhere; here it is brought up to date.
+    void counter(const char* name, const char* help, double value, const prometheus::Labels& labels = {}) {
+        auto& metric = prometheus::BuildCounter().Name(name).Help(help).Register(registry).Add(labels);
+        metric.Increment(std::max(0.0, value - metric.Value()));
+    }
+    void gauge(const char* name, const char* help, double value, const prometheus::Labels& labels = {}) {
+        prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add(labels).Set(value);
+    }
+};
+
+Metrics::Metrics() : families_(std::make_unique<Families>()) {}
+Metrics::~Metrics() = default;
+
+std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
+    Families& to = *families_;
+    const auto count = [](const net::Counters::Count& value) { return static_cast<double>(value.load()); };
+
+    to.gauge("spherule_device_info", "The device, as labels", 1, {{"device", live.device}, {"renderer", live.renderer}});
+    to.gauge("spherule_spheres", "Spheres in the scene", live.spheres);
+    to.gauge("spherule_sleeping_spheres", "Spheres asleep, while somebody watches", live.status.sleeping());
+    to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while somebody watches", live.status.outside());
+    to.gauge("spherule_non_finite_spheres", "Spheres without finite state", live.status.non_finite());
+    to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", live.status.real_time_factor());
+    to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(live.steps));
+    to.gauge("spherule_simulated_seconds", "Simulated time since the scene began", live.simSeconds);
+    to.counter("spherule_states_produced_total", "State frames produced", static_cast<double>(live.framesProduced));
+    for (std::size_t pass = 0; pass < live.passSeconds.size(); ++pass)
+        to.counter("spherule_pass_seconds_total", "Device time per pass", live.passSeconds[pass],
+                   {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
+
+    to.gauge("spherule_sessions", "Open sessions", count(net.sessions));
+    to.counter("spherule_sessions_accepted_total", "Sessions ever", count(net.accepted));
+    to.counter("spherule_handshakes_refused_total", "WebSocket handshakes refused", count(net.handshakesRefused));
+    to.counter("spherule_http_requests_total", "HTTP requests answered", count(net.httpRequests));
+    to.counter("spherule_commands_total", "Commands received", count(net.commands));
+    to.counter("spherule_frames_sent_total", "State frames sent, over all sessions", count(net.framesSent));
+    to.counter("spherule_frames_replaced_total", "State frames that newer ones replaced", count(net.framesReplaced));
+    to.counter("spherule_bytes_sent_total", "Payload bytes sent", count(net.bytesSent));
+    for (std::size_t cause = 0; cause < net.closed.size(); ++cause)
+        to.counter("spherule_sessions_closed_total", "Sessions ended, by cause", count(net.closed[cause]),
+                   {{"cause", std::string(net::closeCauseNames[cause])}});
+    return prometheus::TextSerializer().Serialize(to.registry.Collect());
+}
+
+}  // namespace spherule::app

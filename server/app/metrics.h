@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/live.h"
+#include "net/counters.h"
+
+namespace spherule::app {
+
+// The page /metrics: figures of the simulation and the network in a prometheus-cpp registry. One thread.
+class Metrics {
+  public:
+    Metrics();
+    ~Metrics();
+    Metrics(const Metrics&) = delete;
+    Metrics& operator=(const Metrics&) = delete;
+
+    std::string text(const LiveReport& live, const net::Counters& net);
+
+  private:
+    struct Families;
+    std::unique_ptr<Families> families_;
+};
+
+}  // namespace spherule::app

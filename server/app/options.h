@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "scene/load.h"
+
+// One function per subcommand: adds it to the command line; when chosen, it runs and sets `exitCode`.
+namespace spherule::app {
+
+// A scene on the command line and what may be changed of it.
+struct SceneOptions {
+    std::string scene = "box";
+    std::string device = "auto";
+    scene::Overrides overrides;
+
+    void addTo(CLI::App& command);
+};
+
+void addServe(CLI::App& app, int& exitCode);
+void addRun(CLI::App& app, int& exitCode);
+void addPlan(CLI::App& app, int& exitCode);
+void addCtl(CLI::App& app, int& exitCode);
+void addProbe(CLI::App& app, int& exitCode);
+
+// Prints the error to stderr and gives its exit code.
+int report(const Error& error);
+
+}  // namespace spherule::app

@@ -1,0 +1,44 @@
+#include "app/pacer.h"
+
+#include <algorithm>
+
+namespace spherule::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+// A late step is made up for up to this much; beyond it, the simulation runs slower than asked.
+constexpr auto mostLag = 50ms;
+constexpr auto window = 2s;
+constexpr std::size_t mostRecent = 4096;
+
+}  // namespace
+
+void Pacer::setSpeed(double speed) {
+    speed_ = speed;
+    due_ = Clock::now();
+}
+
+Pacer::Clock::duration Pacer::untilDue(Clock::time_point now) const { return std::max(due_ - now, Clock::duration{}); }
+
+void Pacer::stepped(Clock::time_point now) {
+    const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(step_ / speed_));
+    due_ = std::max(due_ + interval, now - mostLag);
+    recent_.push_back(now);
+    while (recent_.size() > mostRecent || (recent_.size() > 2 && now - recent_.front() > window)) recent_.pop_front();
+}
+
+void Pacer::resume(Clock::time_point now) {
+    due_ = now;
+    recent_.clear();
+}
+
+double Pacer::stepsPerSecond(Clock::time_point now) const {
+    if (recent_.size() < 2) return 0;
+    const double span = std::chrono::duration<double>(std::max(now, recent_.back()) - recent_.front()).count();
+    return span > 0 ? static_cast<double>(recent_.size() - 1) / span : 0;
+}
+
+double Pacer::realTimeFactor(Clock::time_point now) const { return stepsPerSecond(now) * step_; }
+
+}  // namespace spherule::app

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+
+namespace spherule::app {
+
+// Decides when the next step is due, and measures how fast the simulation really goes. When the machine cannot keep up,
+// simulated time slows down; it never tries to catch up. One thread.
+class Pacer {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    void setStep(double seconds) { step_ = seconds; }
+    void setSpeed(double speed);  // simulated seconds asked for per wall second
+    [[nodiscard]] double speed() const { return speed_; }
+
+    // Time until the next step; zero when it is due.
+    [[nodiscard]] Clock::duration untilDue(Clock::time_point now) const;
+    void stepped(Clock::time_point now);
+    void resume(Clock::time_point now);  // after a pause: due at once, and the past does not count
+
+    [[nodiscard]] double realTimeFactor(Clock::time_point now) const;
+    [[nodiscard]] double stepsPerSecond(Clock::time_point now) const;
+
+  private:
+    double step_ = 1.0 / 60;
+    double speed_ = 1;
+    Clock::time_point due_ = Clock::now();
+    std::deque<Clock::time_point> recent_;  // steps of the last few seconds
+};
+
+}  // namespace spherule::app

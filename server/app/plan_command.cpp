@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include "app/exit_codes.h"
+#include "app/options.h"
+#include "scene/features.h"
+#include "sim/plan.h"
+
+namespace spherule::app {
+
+namespace {
+
+struct PlanOptions {
+    std::string scene = "box";
+    std::string kind = "gpu";
+    scene::Overrides overrides;
+    bool json = false;
+};
+
+int plan(const PlanOptions& options) {
+    const auto loaded = scene::load(options.scene, options.kind, options.overrides);
+    if (!loaded) return report(loaded.error());
+    const auto plan = sim::planFor(*loaded, scene::featuresOf(*loaded),
+                                   static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiiOf(*loaded));
+    fmt::print("{}\n", options.json ? sim::planJson(*loaded, plan) : sim::planText(*loaded, plan));
+    return exitDone;
+}
+
+}  // namespace
+
+void addPlan(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<PlanOptions>();
+    CLI::App* command = app.add_subcommand("plan", "show what a scene requires; needs no device");
+    command->add_option("scene", options->scene, "a scene file or a name")->capture_default_str();
+    command->add_option("--device", options->kind, "the kind of device to plan for: gpu or software")
+        ->check(CLI::IsMember({"gpu", "software"}))
+        ->capture_default_str();
+    command->add_flag("--no-sleep", options->overrides.noSleep, "no sphere is put to sleep");
+    command->add_flag("--json", options->json, "print one line of JSON");
+    command->callback([options, &exitCode] { exitCode = plan(*options); });
+}
+
+}  // namespace spherule::app

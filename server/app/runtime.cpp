@@ -1,0 +1,106 @@
+#include "app/runtime.h"
+
+#include <future>
+
+#include "core/log.h"
+
+namespace spherule::app {
+
+Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const net::Options& listen) {
+    std::unique_ptr<Runtime> runtime(new Runtime());
+    std::promise<Result<void>> ready;
+    auto opened = ready.get_future();
+    runtime->simulation_ = std::jthread([self = runtime.get(), scene, &ready](const std::stop_token& stop) {
+        self->simulate(stop, scene, ready);
+    });
+    const Result<void> world = opened.get();
+    Result<std::unique_ptr<net::Server>> server = tl::unexpected(Error{});
+    if (world) server = net::startServer(listen, runtime->handlers());
+    if (world && server) {
+        runtime->server_ = std::move(*server);
+        runtime->encoder_ =
+            std::make_unique<Encoder>([self = runtime.get()](auto state) { self->server_->publish(std::move(state)); });
+    } else {
+        runtime->simulation_.request_stop();
+    }
+    runtime->listening_.set_value();
+    if (!world) return tl::unexpected(world.error());
+    if (!server) return tl::unexpected(server.error());
+    return runtime;
+}
+
+Runtime::~Runtime() {
+    simulation_.request_stop();
+    if (simulation_.joinable()) simulation_.join();
+}
+
+// The thread that owns the device, for its whole life.
+void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, std::promise<Result<void>>& ready) {
+    auto world = World::open(scene.device, scene.scene, scene.overrides);
+    if (!world) {
+        ready.set_value(tl::unexpected(world.error()));
+        return;
+    }
+    live_.update([&](LiveReport& report) {
+        report.device = (*world)->device().kind;
+        report.renderer = (*world)->device().renderer;
+        report.reason = (*world)->device().reason;
+        report.scene = (*world)->simulation().scene().name;
+        report.spheres = (*world)->simulation().count();
+    });
+    ready.set_value({});
+    listening_.get_future().wait();
+    if (stop.stop_requested()) return;
+    SimLoop loop(**world, requests_, live_, outlets());
+    if (auto ended = loop.run(stop); !ended) {
+        failure_ = ended.error();
+        failed_ = true;
+        live_.update([](LiveReport& report) { report.state = "failed"; });
+    }
+}
+
+Outlets Runtime::outlets() {
+    return {.scene = [this](auto message) { server_->setScene(std::move(message)); },
+            .settings = [this](auto message) { server_->setSettings(std::move(message)); },
+            .event = [this](auto message) { server_->broadcast(std::move(message)); },
+            .state = [this](Encoder::Packed state) { encoder_->put(std::move(state)); },
+            .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
+            .viewers = [this] { return server_->viewers(); },
+            .rate = [this] { return server_->rate(); }};
+}
+
+net::Handlers Runtime::handlers() {
+    return {.welcome =
+                [this](const v1::Hello&) {
+                    const LiveReport live = live_.read();
+                    v1::Welcome welcome;
+                    welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
+                    welcome.set_device(live.device);
+                    welcome.set_renderer(live.renderer);
+                    for (const std::string& name : scene::names()) welcome.add_scenes(name);
+                    return welcome;
+                },
+            .submit =
+                [this](net::SessionId session, v1::Command command) {
+                    return requests_.push({session, std::move(command)});
+                },
+            .get = [this](const std::string& path) { return site_.get(path, server_->counters()); }};
+}
+
+std::optional<Error> Runtime::failure() const {
+    if (!failed_) return std::nullopt;
+    return failure_;
+}
+
+void Runtime::drain() {
+    simulation_.request_stop();
+    if (simulation_.joinable()) simulation_.join();
+    live_.update([](LiveReport& report) { report.state = "draining"; });
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(v1::Event::DRAINING);
+    message.mutable_event()->set_text("The server is stopping.");
+    server_->broadcast(std::make_shared<const frame::Message>(std::move(message)));
+    server_->drain();
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/live.h"
+#include "app/options.h"
+#include "app/sim_loop.h"
+#include "app/site.h"
+#include "core/bounded_queue.h"
+#include "net/server.h"
+
+namespace spherule::app {
+
+// A served simulation: owns the simulation thread, the encoder and the server, and joins them.
+class Runtime {
+  public:
+    // Opens the device, loads the scene and listens; returns when all of that is done.
+    static Result<std::unique_ptr<Runtime>> start(const SceneOptions& scene, const net::Options& listen);
+    ~Runtime();
+    Runtime(const Runtime&) = delete;
+    Runtime& operator=(const Runtime&) = delete;
+
+    [[nodiscard]] std::uint16_t port() const { return server_->port(); }
+    [[nodiscard]] LiveReport report() const { return live_.read(); }
+    // Why the simulation ended by itself, when it did. Any thread.
+    [[nodiscard]] std::optional<Error> failure() const;
+    // Tells the viewers, lets them go, stops.
+    void drain();
+
+  private:
+    Runtime() = default;
+    void simulate(const std::stop_token& stop, const SceneOptions& scene, std::promise<Result<void>>& ready);
+    Outlets outlets();
+    net::Handlers handlers();
+
+    Live live_;
+    BoundedQueue<Request> requests_{256};
+    Site site_{live_};
+    std::unique_ptr<net::Server> server_;
+    std::unique_ptr<Encoder> encoder_;
+    std::promise<void> listening_;
+    std::atomic<bool> failed_ = false;
+    Error failure_;  // valid once failed_ is set
+    std::jthread simulation_;
+};
+
+}  // namespace spherule::app

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <stop_token>
+
+#include "app/encoder.h"
+#include "app/live.h"
+#include "app/world.h"
+#include "core/bounded_queue.h"
+#include "frame/message.h"
+
+namespace spherule::app {
+
+struct Request {
+    std::uint64_t session = 0;
+    v1::Command command;
+};
+
+// Where the simulation's results go; called on the simulation thread.
+struct Outlets {
+    std::function<void(frame::SharedMessage)> scene;
+    std::function<void(frame::SharedMessage)> settings;
+    std::function<void(frame::SharedMessage)> event;
+    std::function<void(Encoder::Packed)> state;
+    std::function<void(std::uint64_t session, v1::CommandResult)> reply;
+    std::function<std::uint32_t()> viewers;
+    std::function<std::uint32_t()> rate;
+};
+
+// What the simulation thread does: commands, steps, states. It waits for a command or for the next step, never for the
+// network or for a copy.
+class SimLoop {
+  public:
+    SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, Outlets outlets);
+
+    // Until stopped or the device is lost.
+    Result<void> run(const std::stop_token& stop);
+
+  private:
+    struct Pending {
+        v1::Frame head;
+        std::unique_ptr<compute::ReadBack> copy;
+    };
+
+    void serve(const Request& request);
+    void announce();
+    Result<void> step();
+    void stopAtNonFinite();
+    void produce(Pacer::Clock::time_point now);
+    void collect();
+    void report();
+    [[nodiscard]] v1::Status status(Pacer::Clock::time_point now);
+    [[nodiscard]] Pacer::Clock::duration patience(Pacer::Clock::time_point now) const;
+
+    World& world_;
+    BoundedQueue<Request>& requests_;
+    Live& live_;
+    Outlets outlets_;
+    std::deque<Pending> pending_;
+    std::deque<Pacer::Clock::time_point> produced_;
+    Pacer::Clock::time_point nextState_{};
+    Pacer::Clock::time_point nextReport_{};
+    sim::Statistics measured_;  // of the last report while somebody watched
+    std::uint64_t sequence_ = 0;
+    std::uint32_t epoch_ = 0;
+    bool watched_ = false;
+    bool stale_ = true;      // the viewers' picture is older than the world
+    bool nonFinite_ = false;
+};
+
+}  // namespace spherule::app

@@ -1,0 +1,63 @@
+#include "app/site.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "embedded/page.h"
+
+namespace spherule::app {
+
+namespace {
+
+// A step of a large scene on a software renderer takes seconds.
+constexpr std::chrono::seconds longestSilence{60};
+
+std::string_view typeOf(std::string_view path) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> types = {{
+        {".html", "text/html; charset=utf-8"},
+        {".js", "text/javascript; charset=utf-8"},
+        {".css", "text/css; charset=utf-8"},
+        {".svg", "image/svg+xml"},
+        {".png", "image/png"},
+        {".ico", "image/x-icon"},
+    }};
+    for (const auto& [suffix, type] : types)
+        if (path.ends_with(suffix)) return type;
+    return "application/octet-stream";
+}
+
+net::HttpAnswer file(std::string_view path) {
+    const std::string_view name = path == "/" ? "index.html" : path.substr(1);
+    for (const embedded::File& file : embedded::page())
+        if (file.path == name) return {200, std::string(typeOf(name)), std::string(file.bytes)};
+    return {404, "text/plain; charset=utf-8", "There is nothing here. The page is at /.\n"};
+}
+
+net::HttpAnswer health(const LiveReport& live) {
+    const auto silence = std::chrono::steady_clock::now() - live.heartbeat;
+    if (silence < longestSilence) return {200, "text/plain; charset=utf-8", "alive\n"};
+    return {503, "text/plain; charset=utf-8", "the simulation thread is silent\n"};
+}
+
+net::HttpAnswer readiness(const LiveReport& live) {
+    const nlohmann::ordered_json json = {{"state", live.state},       {"device", live.device},
+                                         {"renderer", live.renderer}, {"reason", live.reason},
+                                         {"scene", live.scene},       {"spheres", live.spheres},
+                                         {"steps", live.steps},       {"realTimeFactor", live.status.real_time_factor()}};
+    const bool ready = live.state == "running" || live.state == "paused";
+    return {ready ? 200 : 503, "application/json", json.dump() + "\n"};
+}
+
+}  // namespace
+
+net::HttpAnswer Site::get(const std::string& path, const net::Counters& counters) {
+    if (path == "/healthz") return health(live_.read());
+    if (path == "/readyz") return readiness(live_.read());
+    if (path == "/metrics") return {200, "text/plain; version=0.0.4", metrics_.text(live_.read(), counters)};
+    return file(path);
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,121 @@
+#include "app/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/facts.h"
+#include "frame/wire.h"
+
+namespace spherule::app {
+
+namespace {
+
+constexpr double slowest = 0.001;
+constexpr double fastest = 1000;
+constexpr std::uint32_t mostSteps = 100'000;
+
+}  // namespace
+
+Result<std::unique_ptr<World>> World::open(const std::string& deviceChoice, const std::string& scene,
+                                           const scene::Overrides& overrides) {
+    auto device = compute::openDevice(deviceChoice);
+    if (!device) return tl::unexpected(device.error());
+    auto loaded = scene::load(scene, (*device)->info().kind, overrides);
+    if (!loaded) return tl::unexpected(loaded.error());
+    std::unique_ptr<World> world(new World(std::move(*device), overrides));
+    if (auto done = world->adopt(std::move(*loaded)); !done) return tl::unexpected(done.error());
+    return world;
+}
+
+Result<void> World::adopt(scene::Scene scene) {
+    auto made = sim::Simulation::create(*device_, std::move(scene));
+    if (!made) return tl::unexpected(made.error());
+    simulation_ = std::move(*made);
+    pacer_.setStep(simulation_->scene().step);
+    pendingSteps_ = 0;
+    refreshFacts();
+    return {};
+}
+
+// The wire grid follows the smallest sphere, so it is made anew with the facts.
+void World::refreshFacts() {
+    grid_ = frame::wireGridFor(simulation_->scene().bounds, sim::radiiOf(simulation_->scene()).smallest);
+    simulation_->setWireGrid(grid_);
+    generation_ = simulation_->generation();
+    ++epoch_;
+}
+
+v1::ServerMessage World::facts() const { return factsMessage(*simulation_, grid_, epoch_); }
+
+v1::ServerMessage World::settings() const { return settingsMessage(simulation_->scene(), pacer_.speed(), paused_); }
+
+Result<void> World::step() {
+    if (pendingSteps_ > 0) --pendingSteps_;
+    return simulation_->step();
+}
+
+Result<v1::Applied> World::applied() const {
+    v1::Applied applied;
+    applied.set_step(simulation_->steps());
+    return applied;
+}
+
+Result<v1::Applied> World::apply(const v1::Command& command) {
+    switch (command.kind_case()) {
+        case v1::Command::kPause:
+            pause();
+            return applied();
+        case v1::Command::kResume:
+            paused_ = false;
+            pacer_.resume(Pacer::Clock::now());
+            return applied();
+        case v1::Command::kStep:
+            return stepBy(command.step().count());
+        case v1::Command::kLoad:
+            return load(command.load());
+        default:
+            break;
+    }
+    if (command.has_set() && command.set().has_speed())
+        if (auto done = setSpeed(command.set().speed()); !done) return done;
+    auto done = simulation_->apply(command);
+    if (simulation_->generation() != generation_) refreshFacts();
+    return done;
+}
+
+Result<v1::Applied> World::stepBy(std::uint32_t count) {
+    if (count < 1 || count > mostSteps)
+        return fail(ErrorKind::Refused, "step.count", fmt::format("is {}, must be within 1 and {}", count, mostSteps));
+    paused_ = true;
+    pendingSteps_ = count;
+    pacer_.resume(Pacer::Clock::now());
+    return applied();
+}
+
+Result<v1::Applied> World::setSpeed(double speed) {
+    if (!(speed >= slowest && speed <= fastest))
+        return fail(ErrorKind::Refused, "set.speed",
+                    fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
+    pacer_.setSpeed(speed);
+    return applied();
+}
+
+// By name only scenes that come with the program: a client does not reach the server's files.
+Result<v1::Applied> World::load(const v1::LoadScene& load) {
+    Result<scene::Scene> loaded = fail(ErrorKind::Refused, "load", "needs a name or a scene");
+    if (load.source_case() == v1::LoadScene::kScene) {
+        loaded = scene::build(load.scene(), overrides_);
+    } else if (load.source_case() == v1::LoadScene::kName) {
+        const auto names = scene::names();
+        if (std::ranges::find(names, load.name()) == names.end())
+            return fail(ErrorKind::Refused, "load.name",
+                        fmt::format("is \"{}\"; known are {}", load.name(), fmt::join(names, ", ")));
+        loaded = scene::load(load.name(), device_->info().kind, overrides_);
+    }
+    if (!loaded) return tl::unexpected(loaded.error());
+    if (auto done = adopt(std::move(*loaded)); !done) return tl::unexpected(done.error());
+    return applied();
+}
+
+}  // namespace spherule::app

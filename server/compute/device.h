@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+// A place where kernels run. Knows nothing of spheres. All calls come from the thread that created the device.
+namespace spherule::compute {
+
+struct DeviceInfo {
+    std::string kind;      // "gpu" or "software"
+    std::string renderer;  // GL_RENDERER
+    std::string vendor;
+    std::string version;
+    std::string reason;  // why this device was chosen, one sentence
+    std::size_t maxBufferBytes = 0;
+    bool robust = false;  // reports a lost context
+};
+
+// Device memory, filled with zeros at creation.
+class Buffer {
+  public:
+    virtual ~Buffer() = default;
+    [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+class Kernel {
+  public:
+    virtual ~Kernel() = default;
+    [[nodiscard]] virtual const std::string& name() const = 0;
+};
+
+struct Define {
+    std::string name;
+    std::string value;
+};
+
+// Kernel source by file name ("integrate.comp", "shared/kernel.h").
+class SourceSet {
+  public:
+    virtual ~SourceSet() = default;
+    [[nodiscard]] virtual std::optional<std::string_view> find(std::string_view name) const = 0;
+};
+
+// One launch: `count` invocations (none: nothing happens), or as many as the uvec4 at `argumentsOffset` (bytes) of
+// `arguments` says (groups x, y, z, then the invocation count).
+struct Launch {
+    const Kernel* kernel = nullptr;
+    std::span<Buffer* const> buffers;  // by slot
+    Buffer* parameters = nullptr;      // the uniform block; may be null
+    std::uint32_t phase = 0;           // the kernel's `phase`
+    std::uint32_t count = 0;
+    Buffer* arguments = nullptr;
+    std::size_t argumentsOffset = 0;
+};
+
+// Copy of device memory on its way to the host; the device goes on meanwhile.
+class ReadBack {
+  public:
+    virtual ~ReadBack() = default;
+    // The bytes once they have arrived, without waiting; empty before.
+    [[nodiscard]] virtual std::optional<std::span<const std::byte>> poll() = 0;
+};
+
+class Device {
+  public:
+    virtual ~Device() = default;
+    [[nodiscard]] virtual const DeviceInfo& info() const = 0;
+
+    // Refused, with both figures, when the device has no room for it or a kernel could not see all of it. The label is
+    // for errors and debuggers.
+    virtual Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes) = 0;
+
+    // Compiles `file` with the defines; an error carries the compiler's text with file and line. A kernel has a local
+    // size of 64, storage buffers bound at their slot, at most one uniform block (binding 0), and may have the uniforms
+    // `phase` and `invocations` (its count; 0xffffffff when launched indirectly: then it reads the count itself). Its
+    // index is gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64.
+    virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
+                                                         std::span<const Define> defines) = 0;
+
+    virtual void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) = 0;
+    // Waits for all launches before.
+    virtual void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) = 0;
+    virtual void fill(Buffer& buffer, std::uint32_t value) = 0;
+    virtual void copy(const Buffer& from, Buffer& to, std::size_t bytes) = 0;
+
+    // Every launch sees what the launches before it wrote. A buffer that the kernel declares and the launch lacks, used
+    // or not, ends the program: it would compute wrong results.
+    virtual void launch(const Launch& launch) = 0;
+
+    // At most two copies are under way at once: nothing when both places are taken.
+    virtual std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) = 0;
+
+    // Device time between begin and end is added to `slot`; takeTimes returns seconds per slot and starts anew. The
+    // first waits for nothing, the last for all launches before. Timers do not nest.
+    virtual void beginTimer(unsigned slot) = 0;
+    virtual void endTimer() = 0;
+    virtual std::vector<double> takeTimes() = 0;
+
+    virtual void finish() = 0;                        // waits until the device is idle
+    [[nodiscard]] virtual Result<void> status() = 0;  // DeviceLost when the context is gone
+};
+
+// "auto" (a hardware GPU, else "software", and the info's reason says so), "gpu", "gpu:N" (N counts the hardware
+// devices as `spherule probe` lists them) or "software". Input for anything else, NoDevice when there is none.
+Result<std::unique_ptr<Device>> openDevice(const std::string& choice);
+
+}  // namespace spherule::compute

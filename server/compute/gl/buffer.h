@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "compute/device.h"
+#include "compute/gl/context.h"
+
+namespace spherule::compute::gl {
+
+// Device memory. Its size is rounded up to a whole vec4, so that a kernel may read in those.
+class GlBuffer final : public Buffer {
+  public:
+    // Refused, with figures, when the driver has no room.
+    static Result<std::unique_ptr<Buffer>> create(const std::shared_ptr<Context>& context, std::string_view label,
+                                                  std::size_t bytes);
+    ~GlBuffer() override;
+
+    [[nodiscard]] std::size_t bytes() const override { return bytes_; }
+    [[nodiscard]] GLuint id() const { return id_; }
+
+  private:
+    GlBuffer(std::shared_ptr<Context> context, std::size_t bytes);
+
+    std::shared_ptr<Context> context_;
+    std::size_t bytes_;
+    GLuint id_ = 0;
+};
+
+}  // namespace spherule::compute::gl

@@ -1,0 +1,194 @@
+#include "compute/gl/device.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "compute/check.h"
+#include "compute/gl/buffer.h"
+#include "compute/gl/kernel.h"
+#include "compute/gl/limits.h"
+
+namespace spherule::compute::gl {
+namespace {
+
+constexpr std::uint32_t maxGroupsX = 32768;          // GL allows at least 65535 in each direction
+constexpr std::uint32_t countInBuffer = 0xffffffff;  // `invocations` of an indirect launch
+constexpr std::size_t downloadChunk = std::size_t{16} << 20U;
+
+const GlBuffer& glBuffer(const Buffer& buffer) {
+    return static_cast<const GlBuffer&>(buffer);
+}
+
+void checkRange(const char* what, const Buffer& buffer, std::size_t offset, std::size_t bytes) {
+    if (offset <= buffer.bytes() && bytes <= buffer.bytes() - offset) return;
+    programError(fmt::format("{} of {} bytes at {} in a buffer of {}", what, bytes, offset, buffer.bytes()));
+}
+
+void bindBuffers(State& state, const GlKernel& kernel, const Launch& launch) {
+    for (const auto& slot : kernel.slots()) {
+        const Buffer* const buffer = slot.binding < launch.buffers.size() ? launch.buffers[slot.binding] : nullptr;
+        if (buffer == nullptr) {
+            programError(fmt::format("{} is launched without a buffer for {} at slot {}", kernel.name(), slot.block,
+                                     slot.binding));
+        }
+        state.bindStorage(slot.binding, glBuffer(*buffer).id());
+    }
+    if (kernel.wantsParameters()) {
+        if (launch.parameters == nullptr) programError(kernel.name() + " is launched without its parameters");
+        state.bindUniforms(glBuffer(*launch.parameters).id());
+    }
+}
+
+// Rows of equal length, so that the last one wastes little.
+void dispatch(std::uint32_t count) {
+    const std::uint32_t groups = count / groupSize + (count % groupSize != 0 ? 1 : 0);
+    const std::uint32_t rows = (groups + maxGroupsX - 1) / maxGroupsX;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+}
+
+}  // namespace
+
+GlDevice::GlDevice(const Opened& opened)
+    : context_(opened.context),
+      downloads_(context_),
+      readBacks_(std::make_shared<ReadBackPlaces>(context_)),
+      timers_(context_) {
+    context_->use();
+    info_.kind = opened.kind;
+    info_.renderer = context_->renderer();
+    info_.vendor = context_->vendor();
+    info_.version = context_->version();
+    info_.reason = opened.reason;
+    info_.maxBufferBytes = queryLimits().maxBufferBytes;
+    info_.robust = context_->robust();
+}
+
+Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, std::size_t bytes) {
+    if (bytes > info_.maxBufferBytes) {
+        constexpr double mebi = 1 << 20;
+        return fail(ErrorKind::Refused, std::string(label),
+                    fmt::format("needs {:.1f} MiB, but a kernel of {} sees at most {:.1f} MiB of one buffer; use fewer "
+                                "spheres or another device",
+                                static_cast<double>(bytes) / mebi, info_.renderer,
+                                static_cast<double>(info_.maxBufferBytes) / mebi));
+    }
+    return GlBuffer::create(context_, label, bytes);
+}
+
+Result<std::unique_ptr<Kernel>> GlDevice::createKernel(const SourceSet& sources, std::string_view file,
+                                                       std::span<const Define> defines) {
+    return GlKernel::create(context_, sources, file, defines);
+}
+
+void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
+    checkRange("upload", buffer, offset, bytes.size());
+    context_->use();
+    context_->state().beforeCopy();
+    glNamedBufferSubData(glBuffer(buffer).id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                         bytes.data());
+}
+
+// By way of host memory of our own: reading a buffer directly makes some drivers move it there for good.
+void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) {
+    checkRange("download", buffer, offset, bytes.size());
+    context_->use();
+    context_->state().beforeCopy();
+    while (!bytes.empty()) {
+        const std::size_t part = std::min(bytes.size(), downloadChunk);
+        if (!downloads_.reserve(part)) {
+            std::memset(bytes.data(), 0, bytes.size());
+            return;
+        }
+        glCopyNamedBufferSubData(glBuffer(buffer).id(), downloads_.id(), static_cast<GLintptr>(offset), 0,
+                                 static_cast<GLsizeiptr>(part));
+        glFinish();
+        std::memcpy(bytes.data(), downloads_.data(), part);
+        offset += part;
+        bytes = bytes.subspan(part);
+    }
+}
+
+void GlDevice::fill(Buffer& buffer, std::uint32_t value) {
+    context_->use();
+    context_->state().beforeCopy();
+    glClearNamedBufferData(glBuffer(buffer).id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
+}
+
+void GlDevice::copy(const Buffer& from, Buffer& to, std::size_t bytes) {
+    checkRange("copy", from, 0, bytes);
+    checkRange("copy", to, 0, bytes);
+    context_->use();
+    context_->state().beforeCopy();
+    glCopyNamedBufferSubData(glBuffer(from).id(), glBuffer(to).id(), 0, 0, static_cast<GLsizeiptr>(bytes));
+}
+
+void GlDevice::launch(const Launch& launch) {
+    if (launch.kernel == nullptr) programError("a launch without a kernel");
+    const auto& kernel = static_cast<const GlKernel&>(*launch.kernel);
+    context_->use();
+    auto& state = context_->state();
+    bindBuffers(state, kernel, launch);
+    state.useProgram(kernel.program());
+    if (launch.arguments != nullptr) {
+        checkRange("launch arguments", *launch.arguments, launch.argumentsOffset, 16);
+        kernel.setUniforms(launch.phase, countInBuffer);
+        state.bindArguments(glBuffer(*launch.arguments).id());
+        glDispatchComputeIndirect(static_cast<GLintptr>(launch.argumentsOffset));
+    } else {
+        if (launch.count == 0) return;
+        kernel.setUniforms(launch.phase, launch.count);
+        dispatch(launch.count);
+    }
+    state.afterLaunch();
+}
+
+std::unique_ptr<ReadBack> GlDevice::startReadBack(const Buffer& buffer, std::size_t bytes) {
+    checkRange("read back", buffer, 0, bytes);
+    context_->use();
+    return readBacks_->start(glBuffer(buffer).id(), bytes);
+}
+
+void GlDevice::beginTimer(unsigned slot) {
+    context_->use();
+    timers_.begin(slot);
+}
+
+void GlDevice::endTimer() {
+    context_->use();
+    timers_.end();
+}
+
+std::vector<double> GlDevice::takeTimes() {
+    context_->use();
+    return timers_.take();
+}
+
+void GlDevice::finish() {
+    context_->use();
+    glFinish();
+}
+
+Result<void> GlDevice::status() {
+    context_->use();
+    const char* cause = nullptr;
+    // Anything else than these is no answer: without robust access some drivers return leftovers.
+    switch (glGetGraphicsResetStatus()) {
+        case GL_GUILTY_CONTEXT_RESET:
+            cause = "a kernel of this program hung or crashed it";
+            break;
+        case GL_INNOCENT_CONTEXT_RESET:
+            cause = "another program hung or crashed it";
+            break;
+        case GL_UNKNOWN_CONTEXT_RESET:
+            cause = "the driver does not say why";
+            break;
+        default:
+            return {};
+    }
+    return fail(ErrorKind::DeviceLost, info_.renderer,
+                fmt::format("the device was reset: {}; start again from the last checkpoint", cause));
+}
+
+}  // namespace spherule::compute::gl

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compute/device.h"
+#include "compute/gl/context.h"
+#include "compute/gl/open_context.h"
+#include "compute/gl/read_back.h"
+#include "compute/gl/staging.h"
+#include "compute/gl/timers.h"
+
+namespace spherule::compute::gl {
+
+// Device on OpenGL compute. Buffers, kernels and read-backs may outlive it.
+class GlDevice final : public Device {
+  public:
+    explicit GlDevice(const Opened& opened);
+
+    [[nodiscard]] const DeviceInfo& info() const override { return info_; }
+    Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes) override;
+    Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
+                                                 std::span<const Define> defines) override;
+    void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) override;
+    void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) override;
+    void fill(Buffer& buffer, std::uint32_t value) override;
+    void copy(const Buffer& from, Buffer& to, std::size_t bytes) override;
+    void launch(const Launch& launch) override;
+    std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) override;
+    void beginTimer(unsigned slot) override;
+    void endTimer() override;
+    std::vector<double> takeTimes() override;
+    void finish() override;
+    [[nodiscard]] Result<void> status() override;
+
+  private:
+    std::shared_ptr<Context> context_;
+    DeviceInfo info_;
+    Staging downloads_;
+    std::shared_ptr<ReadBackPlaces> readBacks_;
+    Timers timers_;
+};
+
+}  // namespace spherule::compute::gl

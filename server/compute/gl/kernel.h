@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compute/device.h"
+#include "compute/gl/context.h"
+
+namespace spherule::compute::gl {
+
+constexpr std::uint32_t groupSize = 64;  // invocations per group, as shaders/shared/kernel.h declares
+
+// A compiled compute program and what it wants bound.
+class GlKernel final : public Kernel {
+  public:
+    struct Slot {
+        GLuint binding = 0;
+        std::string block;
+    };
+
+    // Input, with the compiler's messages, when it does not compile or breaks the conventions of kernels.
+    static Result<std::unique_ptr<Kernel>> create(const std::shared_ptr<Context>& context, const SourceSet& sources,
+                                                  std::string_view file, std::span<const Define> defines);
+    ~GlKernel() override;
+
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] GLuint program() const { return program_; }
+    [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
+    [[nodiscard]] bool wantsParameters() const { return wantsParameters_; }
+
+    // Sets `phase` and `invocations` where the kernel uses them.
+    void setUniforms(std::uint32_t phase, std::uint32_t invocations) const;
+
+  private:
+    // A uniform that the compiler may have removed (location -1).
+    class Uniform {
+      public:
+        void find(GLuint program, const char* name);
+        void set(GLuint program, std::uint32_t value);
+
+      private:
+        GLint location_ = -1;
+        std::uint32_t value_ = 0;  // GL's initial value
+    };
+
+    GlKernel(std::shared_ptr<Context> context, std::string name);
+    Result<void> build(const std::string& text, std::span<const std::string> files);
+    Result<void> reflect();
+    Result<void> reflectSlots();
+
+    std::shared_ptr<Context> context_;
+    std::string name_;
+    GLuint program_ = 0;
+    std::vector<Slot> slots_;
+    bool wantsParameters_ = false;
+    mutable Uniform phase_, invocations_;  // caches of what GL holds
+};
+
+}  // namespace spherule::compute::gl

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "compute/probe.h"
+
+namespace spherule::compute::gl {
+
+// Of the current context.
+Limits queryLimits();
+
+}  // namespace spherule::compute::gl

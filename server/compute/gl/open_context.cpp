@@ -1,0 +1,126 @@
+#include "compute/gl/open_context.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "core/log.h"
+
+namespace spherule::compute::gl {
+namespace {
+
+constexpr std::string_view gpuAdvice =
+    "Check that the GPU's driver is installed with its OpenGL part (in a container NVIDIA_DRIVER_CAPABILITIES must "
+    "name "
+    "graphics), see `spherule probe`, or use --device software";
+constexpr std::string_view softwareAdvice =
+    "Install Mesa's software renderer (on Debian: apt install libegl-mesa0 libgl1-mesa-dri)";
+
+Result<std::shared_ptr<Context>> contextOn(const Result<std::shared_ptr<EglDisplay>>& display) {
+    if (!display) return tl::unexpected(display.error());
+    return Context::create(*display);
+}
+
+// Opens one after the other until one is what is wanted, and keeps what went wrong.
+class Attempts {
+  public:
+    bool open(const Result<std::shared_ptr<EglDisplay>>& display, bool wantSoftware) {
+        auto context = contextOn(display);
+        if (!context) {
+            note(context.error().text());
+            return false;
+        }
+        if ((*context)->software() != wantSoftware) {
+            note(fmt::format("{}: its renderer is {}", (*context)->display().name(), (*context)->renderer()));
+            return false;
+        }
+        context_ = std::move(*context);
+        return true;
+    }
+
+    [[nodiscard]] const std::shared_ptr<Context>& context() const { return context_; }
+    [[nodiscard]] std::string problems() const {
+        return problems_.empty() ? "" : fmt::format(" ({})", fmt::join(problems_, "; "));
+    }
+
+  private:
+    void note(const std::string& problem) {
+        if (std::find(problems_.begin(), problems_.end(), problem) != problems_.end()) return;
+        spdlog::debug("not used: {}", problem);
+        problems_.push_back(problem);
+    }
+
+    std::shared_ptr<Context> context_;
+    std::vector<std::string> problems_;
+};
+
+bool openHardware(Attempts& attempts, const Wish& wish, const std::vector<EglDevice>& devices) {
+    unsigned place = 0;
+    for (const auto& device : devices) {
+        if (device.software()) continue;
+        const bool wanted = !wish.numbered || place == wish.gpu;
+        ++place;
+        if (wanted && attempts.open(EglDisplay::forDevice(device), false)) return true;
+    }
+    return devices.empty() && !wish.numbered && attempts.open(EglDisplay::surfaceless(false), false);
+}
+
+// The software device by name: with another vendor's library installed, that is what makes it Mesa's.
+bool openSoftware(Attempts& attempts, const std::vector<EglDevice>& devices) {
+    for (const auto& device : devices) {
+        if (device.software() && attempts.open(EglDisplay::forDevice(device), true)) return true;
+    }
+    return attempts.open(EglDisplay::surfaceless(true), true);
+}
+
+std::string gpuName(const Wish& wish) {
+    return wish.numbered ? fmt::format("gpu:{}", wish.gpu) : "gpu";
+}
+
+}  // namespace
+
+Result<Wish> parseWish(const std::string& choice) {
+    using Kind = Wish::Kind;
+    if (choice == "auto") return Wish{};
+    if (choice == "gpu") return Wish{.kind = Kind::Gpu};
+    if (choice == "software") return Wish{.kind = Kind::Software};
+    if (choice.starts_with("gpu:")) {
+        Wish wish{.kind = Kind::Gpu, .numbered = true};
+        const char* const end = choice.data() + choice.size();
+        const auto parsed = std::from_chars(choice.data() + 4, end, wish.gpu);
+        if (parsed.ec == std::errc() && parsed.ptr == end) return wish;
+    }
+    return fail(ErrorKind::Input, "device",
+                fmt::format("\"{}\" is none of auto, gpu, gpu:N (N from 0), software", choice));
+}
+
+Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devices) {
+    Attempts attempts;
+    if (wish.kind != Wish::Kind::Software && openHardware(attempts, wish, devices)) {
+        const auto& context = attempts.context();
+        const auto reason = wish.kind == Wish::Kind::Auto
+                                ? fmt::format("a hardware GPU was found ({})", context->display().name())
+                                : fmt::format("asked for as {} ({})", gpuName(wish), context->display().name());
+        return Opened{context, "gpu", reason};
+    }
+    if (wish.kind == Wish::Kind::Gpu) {
+        return fail(ErrorKind::NoDevice, gpuName(wish),
+                    fmt::format("no such GPU that computes with OpenGL 4.5{}. {}", attempts.problems(), gpuAdvice));
+    }
+    const auto gpuProblems = attempts.problems();
+    if (openSoftware(attempts, devices)) {
+        const auto reason = wish.kind == Wish::Kind::Software
+                                ? std::string("asked for as software: Mesa's software renderer on the CPU, slow")
+                                : fmt::format(
+                                      "no usable GPU was found{}, so Mesa's software renderer computes on the "
+                                      "CPU: right, but slow",
+                                      gpuProblems);
+        return Opened{attempts.context(), "software", reason};
+    }
+    return fail(ErrorKind::NoDevice, wish.kind == Wish::Kind::Software ? "software" : "auto",
+                fmt::format("nothing to compute on{}. {}", attempts.problems(), softwareAdvice));
+}
+
+}  // namespace spherule::compute::gl

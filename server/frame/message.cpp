@@ -1,0 +1,21 @@
+#include "frame/message.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <google/protobuf/util/json_util.h>
+
+namespace spherule::frame {
+
+Message::Message(v1::ServerMessage message) : message_(std::move(message)), binary_(message_.SerializeAsString()) {}
+
+const std::string& Message::json() const {
+    std::call_once(jsonMade_, [this] {
+        const auto status = google::protobuf::util::MessageToJsonString(message_, &json_);
+        // Only a string field that is not UTF-8 can fail, and every string of ours was checked when it came in.
+        if (!status.ok()) throw std::logic_error("a server message has no JSON form: " + status.ToString());
+    });
+    return json_;
+}
+
+}  // namespace spherule::frame

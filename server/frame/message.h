@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::frame {
+
+// One message to any number of clients: serialised once, shared, immutable. Any thread.
+class Message {
+  public:
+    explicit Message(v1::ServerMessage message);
+
+    [[nodiscard]] const v1::ServerMessage& content() const { return message_; }
+    [[nodiscard]] const std::string& binary() const { return binary_; }
+    // Protobuf's JSON form; made when first asked for.
+    [[nodiscard]] const std::string& json() const;
+
+  private:
+    const v1::ServerMessage message_;
+    const std::string binary_;
+    mutable std::once_flag jsonMade_;
+    mutable std::string json_;
+};
+
+using SharedMessage = std::shared_ptr<const Message>;
+
+}  // namespace spherule::frame

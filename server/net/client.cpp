@@ -1,0 +1,185 @@
+#include "net/client.h"
+
+#include <utility>
+
+#include <google/protobuf/util/json_util.h>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+namespace spherule::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+using beast::error_code;
+
+namespace {
+
+constexpr std::size_t largestMessage = std::size_t{256} << 20U;  // some 40 million spheres in one frame
+constexpr std::uint16_t closedAbnormally = 1006;
+
+}  // namespace
+
+// Every wait is an asynchronous call and a run of the io_context, because Beast's waiting calls know no timeout.
+struct Client::Connection {
+    asio::io_context io{1};
+    websocket::stream<beast::tcp_stream, false> stream{io};
+    beast::flat_buffer incoming{};
+    std::string url{};
+    Timeout timeout{};
+    bool reading = false;  // a read that outlived its receive()
+    std::optional<error_code> readDone{};
+    std::optional<CloseFrame> closed{};
+    Encoding receivedAs = Encoding::Binary;
+
+    // Runs until `done` has a value; false when the time is over.
+    bool wait(const std::optional<error_code>& done, Timeout limit) {
+        const auto end = std::chrono::steady_clock::now() + limit;
+        io.restart();
+        while (!done && io.run_one_until(end) > 0) {
+        }
+        return done.has_value();
+    }
+
+    template <class Start>
+    error_code waitFor(Start start) {
+        std::optional<error_code> done;
+        start([&done](error_code error, auto&&...) { done = error; });
+        if (!wait(done, timeout)) {
+            beast::get_lowest_layer(stream).close();
+            io.restart();
+            while (!done && io.run_one() > 0) {
+            }
+            return asio::error::timed_out;
+        }
+        return *done;
+    }
+
+    [[nodiscard]] Error error(const std::string& what) const {
+        return {.kind = ErrorKind::Refused, .where = url, .message = what};
+    }
+};
+
+Result<Url> parseUrl(const std::string& url) {
+    constexpr std::string_view scheme = "ws://";
+    const auto refuse = [&](const std::string& why) {
+        return fail(ErrorKind::Input, url, why + "; wanted is ws://host:port/ws");
+    };
+    if (url.compare(0, scheme.size(), scheme) != 0) return refuse("does not begin with ws://");
+    const std::size_t slash = url.find('/', scheme.size());
+    std::string authority = url.substr(scheme.size(), slash - scheme.size());
+    Url result{.host = "", .port = "80", .path = slash == std::string::npos ? "/ws" : url.substr(slash)};
+    const std::size_t colon = authority.rfind(':');
+    if (colon != std::string::npos && authority.back() != ']') {
+        result.port = authority.substr(colon + 1);
+        authority.resize(colon);
+    }
+    if (authority.size() > 2 && authority.front() == '[' && authority.back() == ']') {
+        authority = authority.substr(1, authority.size() - 2);
+    }
+    if (authority.empty() || result.port.empty()) return refuse("names no host or no port");
+    result.host = authority;
+    return result;
+}
+
+Client::Client(std::unique_ptr<Connection> connection) : connection_(std::move(connection)) {}
+
+Client::~Client() = default;
+
+Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout timeout,
+                                                const std::string& subprotocol) {
+    const auto parts = parseUrl(url);
+    if (!parts) return tl::unexpected(parts.error());
+    auto connection = std::make_unique<Connection>();
+    connection->url = url;
+    connection->timeout = timeout;
+    auto& stream = connection->stream;
+    error_code error;
+    const auto endpoints = tcp::resolver(connection->io).resolve(parts->host, parts->port, error);
+    if (!error) {
+        error = connection->waitFor([&](auto done) { beast::get_lowest_layer(stream).async_connect(endpoints, done); });
+    }
+    if (error) return tl::unexpected(connection->error("cannot be reached: " + error.message()));
+    stream.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
+        if (!subprotocol.empty()) request.set(http::field::sec_websocket_protocol, subprotocol);
+    }));
+    stream.read_message_max(largestMessage);
+    websocket::response_type response;
+    error = connection->waitFor(
+        [&](auto done) { stream.async_handshake(response, parts->host + ":" + parts->port, parts->path, done); });
+    if (error) {
+        const std::string said = response.body().empty() ? error.message() : response.body();
+        return tl::unexpected(connection->error("is not a stream of spherule: HTTP " +
+                                                std::to_string(response.result_int()) + ", " + said));
+    }
+    return std::unique_ptr<Client>(new Client(std::move(connection)));
+}
+
+Result<void> Client::send(const v1::ClientMessage& message, Encoding encoding) {
+    if (encoding == Encoding::Binary) return sendBytes(message.SerializeAsString(), encoding);
+    std::string text;
+    const auto status = google::protobuf::util::MessageToJsonString(message, &text);
+    if (!status.ok()) return fail(ErrorKind::Input, "", "the message has no JSON form: " + status.ToString());
+    return sendBytes(text, encoding);
+}
+
+Result<void> Client::sendBytes(std::string_view bytes, Encoding encoding) {
+    auto& stream = connection_->stream;
+    stream.text(encoding == Encoding::Text);
+    const error_code error =
+        connection_->waitFor([&](auto done) { stream.async_write(asio::buffer(bytes.data(), bytes.size()), done); });
+    if (error) return tl::unexpected(connection_->error("the message could not be sent: " + error.message()));
+    return {};
+}
+
+Result<std::optional<v1::ServerMessage>> Client::receive(Timeout timeout) {
+    Connection& connection = *connection_;
+    if (connection.closed) return tl::unexpected(connection.error("closed: " + connection.closed->reason));
+    if (!connection.reading) {
+        connection.reading = true;
+        connection.readDone.reset();
+        connection.stream.async_read(connection.incoming,
+                                     [&connection](error_code error, std::size_t) { connection.readDone = error; });
+    }
+    if (!connection.wait(connection.readDone, timeout)) return std::nullopt;
+    connection.reading = false;
+    if (*connection.readDone) {
+        const auto& said = connection.stream.reason();
+        const bool clean = *connection.readDone == websocket::error::closed;
+        connection.closed = clean ? CloseFrame{said.code, {said.reason.data(), said.reason.size()}}
+                                  : CloseFrame{closedAbnormally, connection.readDone->message()};
+        return tl::unexpected(connection.error("closed with " + std::to_string(connection.closed->code) + ": " +
+                                               connection.closed->reason));
+    }
+    connection.receivedAs = connection.stream.got_text() ? Encoding::Text : Encoding::Binary;
+    const auto bytes = connection.incoming.cdata();
+    const std::string_view text(static_cast<const char*>(bytes.data()), bytes.size());
+    v1::ServerMessage message;
+    const bool decoded = connection.receivedAs == Encoding::Text
+                             ? google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message).ok()
+                             : message.ParseFromArray(text.data(), static_cast<int>(text.size()));
+    connection.incoming.clear();
+    if (!decoded) return tl::unexpected(connection.error("sent something that is no message of spherule.v1"));
+    return message;
+}
+
+Encoding Client::receivedAs() const {
+    return connection_->receivedAs;
+}
+
+const std::optional<CloseFrame>& Client::closed() const {
+    return connection_->closed;
+}
+
+void Client::close() {
+    if (connection_->closed) return;
+    connection_->waitFor([&](auto done) { connection_->stream.async_close(websocket::close_code::normal, done); });
+}
+
+}  // namespace spherule::net

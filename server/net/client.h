@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "net/decode.h"
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::net {
+
+struct Url {
+    std::string host;
+    std::string port;
+    std::string path;
+};
+
+// Of ws://host[:port][/path]; port 80 and path /ws where they are missing.
+Result<Url> parseUrl(const std::string& url);
+
+// How the connection ended: the server's close frame, or code 1006 when there was none.
+struct CloseFrame {
+    std::uint16_t code = 0;
+    std::string reason;
+};
+
+// A small WebSocket client that waits. One thread. It answers pings only within receive().
+class Client {
+  public:
+    using Timeout = std::chrono::milliseconds;
+
+    static Result<std::unique_ptr<Client>> connect(const std::string& url, Timeout timeout,
+                                                   const std::string& subprotocol = "spherule.v1");
+    ~Client();
+    Client(const Client&) = delete;
+    Client& operator=(const Client&) = delete;
+
+    Result<void> send(const v1::ClientMessage& message, Encoding encoding = Encoding::Binary);
+    Result<void> sendBytes(std::string_view bytes, Encoding encoding);
+
+    // The next message, in either encoding; nothing when none came in time; an error when the connection has ended.
+    Result<std::optional<v1::ServerMessage>> receive(Timeout timeout);
+
+    // How the last message came.
+    [[nodiscard]] Encoding receivedAs() const;
+    [[nodiscard]] const std::optional<CloseFrame>& closed() const;
+
+    // Says goodbye; waits for the answer as long as for connecting.
+    void close();
+
+  private:
+    struct Connection;
+    explicit Client(std::unique_ptr<Connection> connection);
+
+    std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace spherule::net

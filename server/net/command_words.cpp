@@ -1,0 +1,185 @@
+// The words of `spherule ctl`.
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <span>
+#include <utility>
+
+#include <google/protobuf/util/json_util.h>
+
+#include "net/ctl.h"
+
+namespace spherule::net {
+
+const std::string_view commandForms =
+    "  pause\n"
+    "  resume\n"
+    "  step [N]\n"
+    "  reset\n"
+    "  load NAME | load FILE.json\n"
+    "  set gravity X Y Z | set restitution E | set substeps N | set speed S\n"
+    "  spawn JSON                                 a group of spheres\n"
+    "  push SPHERE JX JY JZ                       an impulse in N s\n"
+    "  push ray OX OY OZ DX DY DZ JX JY JZ        at the first sphere that the ray meets\n"
+    "  query\n"
+    "  JSON                                       a command, such as {\"step\":{\"count\":10}}";
+
+namespace {
+
+using Words = std::span<const std::string>;
+
+tl::unexpected<Error> refuse(const std::string& what) {
+    return fail(ErrorKind::Input, "command", what + "; accepted are\n" + std::string(commandForms));
+}
+
+// Of a finite number that takes up the whole word.
+template <class T>
+Result<T> number(const std::string& word) {
+    T value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    bool good = error == std::errc() && end == word.data() + word.size();
+    if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
+    if (!good) return refuse("'" + word + "' is no " + (std::is_integral_v<T> ? "whole number" : "number"));
+    return value;
+}
+
+template <class Field>
+Result<void> numbers(Words words, Field* field) {
+    for (const std::string& word : words) {
+        const auto value = number<double>(word);
+        if (!value) return tl::unexpected(value.error());
+        field->Add(*value);
+    }
+    return {};
+}
+
+template <class Message>
+Result<Message> fromJson(const std::string& json, const std::string& where) {
+    Message message;
+    const auto status = google::protobuf::util::JsonStringToMessage(json, &message);
+    if (!status.ok()) return fail(ErrorKind::Input, where, std::string(status.message()));
+    return message;
+}
+
+Result<void> wantWords(Words words, std::size_t count, const std::string& command) {
+    if (words.size() == count) return {};
+    return refuse("'" + command + "' takes " + std::to_string(count) + " words, not " + std::to_string(words.size()));
+}
+
+Result<void> step(Words words, v1::Command& command) {
+    command.mutable_step()->set_count(1);
+    if (words.empty()) return {};
+    if (auto right = wantWords(words, 1, "step"); !right) return right;
+    const auto count = number<std::uint32_t>(words[0]);
+    if (!count) return tl::unexpected(count.error());
+    command.mutable_step()->set_count(*count);
+    return {};
+}
+
+Result<void> load(Words words, v1::Command& command) {
+    if (auto right = wantWords(words, 1, "load"); !right) return right;
+    const std::string& source = words[0];
+    if (!source.ends_with(".json")) {
+        command.mutable_load()->set_name(source);
+        return {};
+    }
+    std::ifstream file(source, std::ios::binary);
+    if (!file) return fail(ErrorKind::Input, source, "cannot be read");
+    auto scene = fromJson<v1::Scene>({std::istreambuf_iterator<char>(file), {}}, source);
+    if (!scene) return tl::unexpected(scene.error());
+    *command.mutable_load()->mutable_scene() = std::move(*scene);
+    return {};
+}
+
+Result<void> set(Words words, v1::Command& command) {
+    if (words.empty()) return refuse("'set' needs a name and a value");
+    const std::string& name = words[0];
+    const Words values = words.subspan(1);
+    v1::Set& change = *command.mutable_set();
+    if (name == "gravity") {
+        if (auto right = wantWords(values, 3, "set gravity"); !right) return right;
+        return numbers(values, change.mutable_gravity());
+    }
+    if (name != "restitution" && name != "substeps" && name != "speed") return refuse("'" + name + "' cannot be set");
+    if (auto right = wantWords(values, 1, "set " + name); !right) return right;
+    if (name == "substeps") {
+        const auto count = number<std::uint32_t>(values[0]);
+        if (!count) return tl::unexpected(count.error());
+        change.set_substeps(*count);
+        return {};
+    }
+    const auto value = number<double>(values[0]);
+    if (!value) return tl::unexpected(value.error());
+    name == "speed" ? change.set_speed(*value) : change.set_restitution(*value);
+    return {};
+}
+
+Result<void> spawn(Words words, v1::Command& command) {
+    if (auto right = wantWords(words, 1, "spawn"); !right) return right;
+    auto group = fromJson<v1::Group>(words[0], "spawn");
+    if (!group) return tl::unexpected(group.error());
+    *command.mutable_spawn()->mutable_group() = std::move(*group);
+    return {};
+}
+
+Result<void> push(Words words, v1::Command& command) {
+    v1::Push& push = *command.mutable_push();
+    if (!words.empty() && words[0] == "ray") {
+        if (auto right = wantWords(words, 10, "push"); !right) return right;
+        auto read = numbers(words.subspan(1, 3), push.mutable_ray()->mutable_origin());
+        if (read) read = numbers(words.subspan(4, 3), push.mutable_ray()->mutable_direction());
+        if (read) read = numbers(words.subspan(7, 3), push.mutable_impulse());
+        return read;
+    }
+    if (auto right = wantWords(words, 4, "push"); !right) return right;
+    const auto sphere = number<std::uint32_t>(words[0]);
+    if (!sphere) return tl::unexpected(sphere.error());
+    push.set_sphere(*sphere);
+    return numbers(words.subspan(1), push.mutable_impulse());
+}
+
+// The commands without words of their own.
+template <auto Make>
+Result<void> plain(Words words, v1::Command& command) {
+    if (!words.empty()) return refuse("'" + words[0] + "' is one word too many");
+    (command.*Make)();
+    return {};
+}
+
+using Parse = Result<void> (*)(Words, v1::Command&);
+
+const std::map<std::string_view, Parse>& parsers() {
+    static const std::map<std::string_view, Parse> table = {
+        {"pause", plain<&v1::Command::mutable_pause>},
+        {"resume", plain<&v1::Command::mutable_resume>},
+        {"reset", plain<&v1::Command::mutable_reset>},
+        {"query", plain<&v1::Command::mutable_query>},
+        {"step", step},
+        {"load", load},
+        {"set", set},
+        {"spawn", spawn},
+        {"push", push},
+    };
+    return table;
+}
+
+}  // namespace
+
+Result<v1::Command> commandFrom(const std::vector<std::string>& words) {
+    if (words.empty()) return refuse("nothing was given");
+    if (words.size() == 1 && words[0].starts_with('{')) {
+        auto command = fromJson<v1::Command>(words[0], "command");
+        if (command && command->kind_case() == v1::Command::KIND_NOT_SET) return refuse("the JSON names no command");
+        return command;
+    }
+    const auto parser = parsers().find(words[0]);
+    if (parser == parsers().end()) return refuse("'" + words[0] + "' is no command");
+    v1::Command command;
+    if (auto parsed = parser->second(Words(words).subspan(1), command); !parsed) return tl::unexpected(parsed.error());
+    return command;
+}
+
+}  // namespace spherule::net

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace spherule::net {
+
+// Why a session ended.
+enum class CloseCause : std::uint8_t {
+    Left,         // the client closed, with or without a close frame
+    NoHello,      // 1008: no hello first, none in time, or a second one
+    Undecodable,  // 1007
+    TooBig,       // 1009
+    Protocol,     // 1002: not WebSocket
+    Overflow,     // 1013: the reliable queue was full
+    Stalled,      // dropped: a write made no progress
+    Silent,       // dropped: no sign of life
+    Drained,      // 1012: the server stopped
+};
+
+constexpr std::array<std::string_view, 9> closeCauseNames = {
+    "left", "no_hello", "undecodable", "too_big", "protocol", "overflow", "stalled", "silent", "drained"};
+
+// For metrics. Written by the io thread, read by any.
+struct Counters {
+    using Count = std::atomic<std::uint64_t>;
+
+    Count sessions = 0;  // open now
+    Count accepted = 0;  // ever
+    Count handshakesRefused = 0;
+    Count httpRequests = 0;
+    Count commands = 0;
+    Count commandsRefused = 0;  // by the network: queue full or unknown
+    Count framesSent = 0;
+    Count framesReplaced = 0;  // by newer ones, because the session was still busy with an older one
+    Count bytesSent = 0;       // payload of messages
+    std::array<Count, closeCauseNames.size()> closed{};  // by CloseCause
+
+    Count& closedBy(CloseCause cause) { return closed[static_cast<std::size_t>(cause)]; }
+    [[nodiscard]] const Count& closedBy(CloseCause cause) const { return closed[static_cast<std::size_t>(cause)]; }
+};
+
+}  // namespace spherule::net

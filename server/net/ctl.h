@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "spherule/v1/control.pb.h"
+
+// Remote control from a shell: words in, a command out, its result as text.
+namespace spherule::net {
+
+// The forms that commandFrom takes, one per line.
+extern const std::string_view commandForms;
+
+// Of `set gravity 0 0 -1.6` and the like, or of one word that is the JSON form of a Command. `load FILE.json` reads the
+// file. Anything else is an error that lists what is accepted.
+Result<v1::Command> commandFrom(const std::vector<std::string>& words);
+
+// Connects, says hello without asking for states, sends the command and waits for its result. A refused command is a
+// result, not an error. `timeout` bounds each of the steps.
+Result<v1::CommandResult> sendCommand(const std::string& url, v1::Command command, std::chrono::milliseconds timeout);
+
+// For people: "applied at step 120", with the figures of a query on the lines that follow, or "refused: ...".
+std::string resultText(const v1::CommandResult& result);
+
+}  // namespace spherule::net

@@ -1,0 +1,85 @@
+#include "net/listener.h"
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include <boost/asio/strand.hpp>
+
+#include "core/log.h"
+#include "net/http.h"
+
+namespace spherule::net {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+// The kernel would otherwise take seconds of states for a slow client, who would then watch the past. It doubles the
+// figure for its own bookkeeping.
+constexpr int sendBuffer = 256 * 1024;
+constexpr std::chrono::milliseconds retryAfter{100};
+
+}  // namespace
+
+Listener::Listener(asio::io_context& io, Context& context)
+    : io_(io), context_(context), acceptor_(io), retryTimer_(io) {}
+
+Result<void> Listener::open() {
+    const Options& options = context_.options;
+    const std::string address = options.host + ":" + std::to_string(options.port);
+    error_code error;
+    const auto found =
+        tcp::resolver(io_).resolve(options.host, std::to_string(options.port), tcp::resolver::passive, error);
+    if (error) return fail(ErrorKind::Input, address, "cannot be listened on: " + error.message());
+    const tcp::endpoint endpoint = found.begin()->endpoint();
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (error) {
+        return fail(
+            ErrorKind::Refused, address,
+            "cannot be listened on: " + error.message() + "; choose another address, or port 0 for any free one");
+    }
+    port_ = acceptor_.local_endpoint().port();
+    return {};
+}
+
+void Listener::run() {
+    accept();
+}
+
+void Listener::close() {
+    error_code ignored;
+    acceptor_.close(ignored);
+    retryTimer_.cancel();
+}
+
+void Listener::accept() {
+    acceptor_.async_accept(asio::make_strand(io_), [self = shared_from_this()](error_code error, tcp::socket socket) {
+        self->onAccept(error, std::move(socket));
+    });
+}
+
+void Listener::onAccept(error_code error, tcp::socket socket) {
+    if (!acceptor_.is_open()) return;
+    if (error) {
+        // Mostly out of file descriptors: try again when some session may have ended, rather than spin or give up.
+        spdlog::warn("a connection could not be accepted: {}", error.message());
+        retryTimer_.expires_after(retryAfter);
+        retryTimer_.async_wait([self = shared_from_this()](error_code cancelled) {
+            if (!cancelled) self->accept();
+        });
+        return;
+    }
+    error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
+    std::make_shared<HttpConnection>(boost::beast::tcp_stream(std::move(socket)), context_)->run();
+    accept();
+}
+
+}  // namespace spherule::net

@@ -1,0 +1,79 @@
+#include "net/server.h"
+
+#include <thread>
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+
+#include "net/context.h"
+#include "net/listener.h"
+
+namespace spherule::net {
+
+namespace {
+
+constexpr std::chrono::seconds dropTime{1};  // for sessions to notice that they were dropped
+
+class RunningServer final : public Server {
+  public:
+    RunningServer(const Options& options, Handlers handlers)
+        : context_{.options = options, .handlers = std::move(handlers)},
+          listener_(std::make_shared<Listener>(io_, context_)) {}
+
+    RunningServer(const RunningServer&) = delete;
+    RunningServer& operator=(const RunningServer&) = delete;
+
+    ~RunningServer() override {
+        io_.stop();
+        if (thread_.joinable()) thread_.join();
+    }
+
+    Result<void> start() {
+        if (auto opened = listener_->open(); !opened) return opened;
+        listener_->run();
+        thread_ = std::thread([this] { io_.run(); });
+        return {};
+    }
+
+    [[nodiscard]] std::uint16_t port() const override { return listener_->port(); }
+
+    void setScene(frame::SharedMessage facts) override { context_.hub.setScene(std::move(facts)); }
+    void setSettings(frame::SharedMessage settings) override { context_.hub.setSettings(std::move(settings)); }
+    void publish(frame::SharedMessage state) override { context_.hub.publish(std::move(state)); }
+    void broadcast(frame::SharedMessage message) override { context_.hub.broadcast(message); }
+
+    void reply(SessionId session, v1::CommandResult result) override {
+        v1::ServerMessage message;
+        *message.mutable_result() = std::move(result);
+        context_.hub.sendTo(session, std::make_shared<frame::Message>(std::move(message)));
+    }
+
+    [[nodiscard]] std::uint32_t viewers() const override { return context_.hub.viewers(); }
+    [[nodiscard]] std::uint32_t rate() const override { return context_.hub.rate(); }
+    [[nodiscard]] const Counters& counters() const override { return context_.counters; }
+
+    void drain() override {
+        boost::asio::post(io_, [listener = listener_] { listener->close(); });
+        context_.hub.drain();
+        if (context_.hub.waitEmpty(context_.options.drainTimeout)) return;
+        context_.hub.dropAll();
+        context_.hub.waitEmpty(dropTime);
+    }
+
+  private:
+    boost::asio::io_context io_{1};
+    Context context_;  // after io_: the hub lets go of its sessions while their executor still exists
+    std::shared_ptr<Listener> listener_;
+    std::thread thread_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Server>> startServer(const Options& options, Handlers handlers) {
+    auto server = std::make_unique<RunningServer>(options, std::move(handlers));
+    if (auto started = server->start(); !started) return tl::unexpected(started.error());
+    return server;
+}
+
+}  // namespace spherule::net

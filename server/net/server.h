@@ -1,0 +1,73 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+#include "frame/message.h"
+#include "net/counters.h"
+#include "spherule/v1/control.pb.h"
+
+// One port: the page, health, metrics and the WebSocket stream. Knows nothing of the simulation.
+namespace spherule::net {
+
+using SessionId = std::uint64_t;
+
+struct Options {
+    std::string host = "127.0.0.1";
+    std::uint16_t port = 8080;                          // 0: any free one
+    std::size_t maxMessageBytes = 1U << 20U;            // a longer one closes with 1009
+    std::size_t controlQueue = 64;                      // messages per session; overflow closes with 1013
+    std::chrono::milliseconds progressTimeout{10'000};  // a write without progress for this long ends the session
+    std::chrono::milliseconds idleTimeout{60'000};      // a silent peer is pinged, then dropped
+    std::chrono::milliseconds helloTimeout{10'000};     // for the client's first message
+    std::chrono::milliseconds drainTimeout{10'000};
+};
+
+struct HttpAnswer {
+    int status = 200;
+    std::string contentType;
+    std::string body;
+};
+
+// What the server asks of its owner. Called on the io thread: must neither wait nor throw. A welcome's rate is filled
+// in by the server.
+struct Handlers {
+    std::function<v1::Welcome(const v1::Hello&)> welcome;
+    std::function<bool(SessionId, v1::Command)> submit;      // false: the queue is full
+    std::function<HttpAnswer(const std::string& path)> get;  // status 404 where there is nothing
+};
+
+class Server {
+  public:
+    virtual ~Server() = default;
+    [[nodiscard]] virtual std::uint16_t port() const = 0;
+
+    // Any thread from here on.
+    // What a client gets after its welcome, and all clients when it changes.
+    virtual void setScene(frame::SharedMessage facts) = 0;
+    virtual void setSettings(frame::SharedMessage settings) = 0;
+    // Lossy lane: newest wins. A state of another epoch than the scene's waits for its facts. While somebody watches, a
+    // newcomer first gets the latest state; for the first viewer the owner publishes one, even when paused.
+    virtual void publish(frame::SharedMessage state) = 0;
+    // Reliable lane.
+    virtual void broadcast(frame::SharedMessage message) = 0;
+    virtual void reply(SessionId session, v1::CommandResult result) = 0;
+
+    [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want states
+    [[nodiscard]] virtual std::uint32_t rate() const = 0;     // highest state rate that one of them wants, 1/s
+
+    // Stops accepting, closes sessions with 1012 after what is queued, waits up to drainTimeout.
+    // Not from the io thread.
+    virtual void drain() = 0;
+
+    [[nodiscard]] virtual const Counters& counters() const = 0;
+};
+
+// Binds and starts the io thread.
+Result<std::unique_ptr<Server>> startServer(const Options& options, Handlers handlers);
+
+}  // namespace spherule::net

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include "core/latest_slot.h"
+#include "net/context.h"
+#include "net/decode.h"
+#include "net/hub.h"
+#include "net/liveness.h"
+#include "net/outbox.h"
+
+namespace spherule::net {
+
+constexpr std::string_view subprotocol = "spherule.v1";
+
+// One WebSocket client. Everything happens on the strand of its stream; the Subscriber's calls post there.
+class Session : public Subscriber, public std::enable_shared_from_this<Session> {
+  public:
+    using Request = boost::beast::http::request<boost::beast::http::string_body>;
+
+    Session(boost::beast::tcp_stream stream, Context& context);
+
+    // Answers an upgrade request and serves the client until one side leaves. Call once, on the strand.
+    void run(const Request& upgrade);
+
+    void send(frame::SharedMessage message) override;
+    void offer(frame::SharedMessage state) override;
+    void drain() override;
+    void drop() override;
+
+  private:
+    using ErrorCode = boost::beast::error_code;
+
+    void configure();
+    void onAccepted(ErrorCode error);
+    void read();
+    void onRead(ErrorCode error, std::size_t bytes);
+    void onHello(const v1::Hello& hello);
+    void onCommand(v1::Command command);
+    void refuse(std::uint64_t command, const std::string& reason);
+
+    void queue(frame::SharedMessage message);
+    void pump();
+    void onWritten(ErrorCode error, std::size_t bytes);
+    void waitForFrame();
+
+    void watch();
+    void onWatch(ErrorCode error);
+    void ping();
+
+    void close(boost::beast::websocket::close_code code, const std::string& reason, CloseCause cause);
+    void abort(CloseCause cause);
+    void finish(CloseCause cause);
+    [[nodiscard]] CloseCause causeOf(ErrorCode error) const;
+
+    // Keeps the session alive until the handler has run.
+    template <class Method>
+    auto bind(Method method) {
+        return boost::beast::bind_front_handler(method, shared_from_this());
+    }
+
+    Context& context_;
+    boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;
+    boost::asio::steady_timer watchTimer_;
+    boost::asio::steady_timer frameTimer_;
+    boost::beast::flat_buffer incoming_;
+    Liveness liveness_;
+    LatestSlot<frame::SharedMessage> offered_;
+    Outbox outbox_;
+    frame::SharedMessage writing_;
+    Encoding encoding_ = Encoding::Binary;
+    SessionId id_ = 0;
+    std::string client_ = "a client";
+    CloseCause cause_ = CloseCause::Left;
+    bool helloDone_ = false;
+    bool pinging_ = false;
+    bool draining_ = false;
+    bool closing_ = false;  // a close frame is on its way: nothing else may be written
+    bool finished_ = false;
+};
+
+}  // namespace spherule::net

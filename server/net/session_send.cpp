@@ -1,0 +1,140 @@
+// The sending half of a session: its lanes, its clock, its end.
+#include <utility>
+
+#include <boost/asio/post.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "net/session.h"
+#include "net/tcp_progress.h"
+#include "net/text.h"
+
+namespace spherule::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using websocket::close_code;
+using Clock = Outbox::Clock;
+
+void Session::send(frame::SharedMessage message) {
+    asio::post(stream_.get_executor(), [self = shared_from_this(), message = std::move(message)]() mutable {
+        self->queue(std::move(message));
+    });
+}
+
+// However long the io thread is busy, one state waits for it, not a row of them.
+void Session::offer(frame::SharedMessage state) {
+    if (offered_.put(std::move(state))) return;
+    asio::post(stream_.get_executor(), [self = shared_from_this()] {
+        auto newest = self->offered_.take();
+        if (self->closing_ || self->finished_) return;
+        const bool replaced = self->outbox_.offer(std::move(*newest), Clock::now());
+        if (replaced && self->writing_) ++self->context_.counters.framesReplaced;
+        self->pump();
+    });
+}
+
+void Session::drain() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] {
+        self->draining_ = true;
+        self->pump();
+    });
+}
+
+void Session::drop() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] { self->abort(CloseCause::Drained); });
+}
+
+void Session::queue(frame::SharedMessage message) {
+    if (closing_ || finished_) return;
+    if (!outbox_.push(std::move(message))) {
+        return close(close_code::try_again_later, "too many messages wait for this client to read them",
+                     CloseCause::Overflow);
+    }
+    pump();
+}
+
+void Session::pump() {
+    if (writing_ || closing_ || finished_ || !stream_.is_open()) return;
+    if (draining_) outbox_.dropFrame();
+    writing_ = outbox_.next(Clock::now());
+    if (!writing_) {
+        if (draining_) return close(close_code::service_restart, "the server is stopping", CloseCause::Drained);
+        return waitForFrame();
+    }
+    const bool text = encoding_ == Encoding::Text;
+    stream_.text(text);
+    liveness_.writeBegan(Clock::now());
+    stream_.async_write(asio::buffer(text ? writing_->json() : writing_->binary()), bind(&Session::onWritten));
+}
+
+void Session::onWritten(ErrorCode error, std::size_t bytes) {
+    liveness_.writeEnded();
+    const auto written = std::exchange(writing_, nullptr);
+    if (error) return;  // the read under way fails too, and knows more
+    context_.counters.bytesSent += bytes;
+    if (written->content().has_frame()) ++context_.counters.framesSent;
+    pump();
+}
+
+void Session::waitForFrame() {
+    const auto due = outbox_.frameDue();
+    if (!due) return;
+    frameTimer_.expires_at(*due);
+    frameTimer_.async_wait([self = shared_from_this()](ErrorCode error) {
+        if (!error) self->pump();
+    });
+}
+
+void Session::watch() {
+    watchTimer_.expires_after(liveness_.interval());
+    watchTimer_.async_wait(bind(&Session::onWatch));
+}
+
+void Session::onWatch(ErrorCode error) {
+    if (error || finished_) return;
+    const auto progress = tcpProgress(beast::get_lowest_layer(stream_).socket().native_handle());
+    switch (liveness_.check(progress, Clock::now())) {
+        case Liveness::Verdict::Fine:
+            break;
+        case Liveness::Verdict::Ping:
+            ping();
+            break;
+        case Liveness::Verdict::NoHello:
+            close(close_code::policy_error, "no hello came in time", CloseCause::NoHello);
+            break;
+        case Liveness::Verdict::Stalled:
+            return abort(CloseCause::Stalled);
+        case Liveness::Verdict::Silent:
+            return abort(CloseCause::Silent);
+    }
+    watch();
+}
+
+void Session::ping() {
+    if (pinging_ || closing_ || !stream_.is_open()) return;
+    pinging_ = true;
+    stream_.async_ping({}, [self = shared_from_this()](ErrorCode) { self->pinging_ = false; });
+}
+
+void Session::close(close_code code, const std::string& reason, CloseCause cause) {
+    if (closing_ || finished_) return;
+    closing_ = true;
+    cause_ = cause;
+    outbox_.clear();
+    frameTimer_.cancel();
+    liveness_.closeBegan(Clock::now());
+    if (!stream_.is_open()) return finish(cause);
+    stream_.async_close({code, closeReason(reason)},
+                        [self = shared_from_this()](ErrorCode) { self->finish(self->cause_); });
+}
+
+// For a peer that does not take what is sent: a close frame would wait behind it, and so would the kernel's copy.
+void Session::abort(CloseCause cause) {
+    if (finished_) return;
+    ErrorCode ignored;
+    beast::get_lowest_layer(stream_).socket().set_option(asio::socket_base::linger(true, 0), ignored);
+    finish(closing_ ? cause_ : cause);
+}
+
+}  // namespace spherule::net

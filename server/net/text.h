@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace spherule::net {
+
+// What a stranger sent, made fit for one line of the log.
+std::string printable(std::string_view text);
+
+// Cut to the 123 bytes that a close frame holds, never within a character.
+std::string closeReason(std::string_view reason);
+
+}  // namespace spherule::net

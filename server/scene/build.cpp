@@ -1,0 +1,123 @@
+#include "scene/build.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/group.h"
+#include "scene/surroundings.h"
+#include "scene/view.h"
+
+namespace spherule::scene {
+
+namespace {
+
+double smallestRadiusOf(const std::vector<Sphere>& spheres) {
+    const auto byRadius = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
+    return static_cast<double>(std::min_element(spheres.begin(), spheres.end(), byRadius)->radius);
+}
+
+void readGroups(Check& check, const v1::Scene& message, const std::optional<std::filesystem::path>& directory,
+                const Overrides& overrides, Scene& scene) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(message.groups_size()) && check.ok(); ++i) {
+        const v1::Group& group = message.groups(static_cast<int>(i));
+        const auto first = static_cast<std::uint32_t>(scene.spheres.size());
+        std::vector<Sphere> spheres = readGroup(check, group, scene,
+                                                {.field = at("groups", i),
+                                                 .stream = i,
+                                                 .seed = overrides.seed,
+                                                 .directory = directory,
+                                                 .taken = scene.spheres,
+                                                 .room = maxSpheres - first});
+        scene.groups.push_back({group.name(), first, static_cast<std::uint32_t>(spheres.size()), group.colour()});
+        if (first == 0) {
+            scene.spheres = std::move(spheres);
+        } else {
+            scene.spheres.insert(scene.spheres.end(), spheres.begin(), spheres.end());
+        }
+    }
+}
+
+Sleep readSleep(Check& check, const v1::Sleep& message, bool noSleep) {
+    Sleep sleep;
+    if (message.has_enabled()) sleep.enabled = message.enabled();
+    if (message.has_speed()) sleep.speed = check.upTo(message.speed(), 1000, "sleep.speed", " m/s");
+    if (message.has_time()) sleep.time = check.upTo(message.time(), 3600, "sleep.time", " s");
+    if (noSleep) sleep.enabled = false;
+    return sleep;
+}
+
+std::uint32_t readSubsteps(Check& check, const v1::Scene& message, const Overrides& overrides, const Scene& scene) {
+    const bool given = overrides.substeps || message.has_substeps();
+    const double radius = scene.spheres.empty() ? 0 : smallestRadiusOf(scene.spheres);
+    const std::uint32_t substeps = given ? overrides.substeps.value_or(message.substeps())
+                                         : defaultSubsteps(scene.step, glm::length(scene.gravity), radius);
+    if (substeps >= 1 && substeps <= maxSubsteps) return substeps;
+    check.refuse("substeps",
+                 given ? fmt::format("is {}, must be 1 to {}", substeps, maxSubsteps)
+                       : fmt::format("would be {} for this gravity and a smallest radius of {:.6g} m, must be "
+                                     "at most {}; shorten the step or give substeps",
+                                     substeps, radius, maxSubsteps));
+    return 1;
+}
+
+}  // namespace
+
+std::uint32_t defaultSubsteps(double step, double gravity, double smallestRadius) {
+    constexpr double longest = 1.0 / 480;
+    // The rule's constant has two figures, so a substep may exceed it by a hundredth: 1/480 s at r = 0.05 m on earth.
+    constexpr double slack = 0.01;
+    const bool falls = gravity > 0 && smallestRadius > 0;
+    const double substep = falls ? std::min(longest, std::sqrt(8.5e-4 * smallestRadius / gravity)) : longest;
+    const double substeps = std::ceil(step / substep * (1 - slack));
+    return static_cast<std::uint32_t>(std::clamp(substeps, 1.0, double{std::numeric_limits<std::uint32_t>::max()}));
+}
+
+Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
+                      const Overrides& overrides) {
+    Check check;
+    Scene scene;
+    scene.name = message.name();
+    scene.description = message.description();
+    scene.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
+    if (message.has_restitution()) scene.restitution = check.within(message.restitution(), 0, 1, "restitution");
+    if (message.has_step()) scene.step = check.upTo(message.step(), 1, "step", " s");
+    if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
+    scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
+    if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");
+    scene.bounds = readBounds(check, message.bounds(), scene.restitution, "bounds");
+    scene.obstacles = readObstacles(check, message.obstacles(), scene.restitution);
+    if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
+    if (check.ok()) readGroups(check, message, directory, overrides, scene);
+    if (check.ok() && !scene.spheres.empty()) {
+        checkResolution(check, scene.bounds, smallestRadiusOf(scene.spheres), "bounds");
+    }
+    if (check.ok()) scene.substeps = readSubsteps(check, message, overrides, scene);
+    if (!check.ok()) return check.error();
+    return scene;
+}
+
+Result<Scene> build(const v1::Scene& message, const Overrides& overrides) {
+    return buildIn(std::nullopt, message, overrides);
+}
+
+Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene) {
+    Check check;
+    const std::size_t room = maxSpheres - std::min<std::size_t>(maxSpheres, scene.spheres.size());
+    std::vector<Sphere> spheres = readGroup(check, group, scene, {.field = "group", .room = room});
+    if (check.ok() && !spheres.empty()) checkResolution(check, scene.bounds, smallestRadiusOf(spheres), "group.radius");
+    if (!check.ok()) return check.error();
+    return spheres;
+}
+
+Result<glm::dvec3> vectorOf(const Numbers& values, std::string_view field) {
+    Check check;
+    const glm::dvec3 result = check.vector(values, field);
+    if (!check.ok()) return check.error();
+    return result;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,135 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "scene/source.h"
+
+namespace spherule::scene {
+
+namespace {
+
+using Row = std::array<double, 7>;
+
+struct Columns {
+    bool velocity = false;
+    bool radius = false;
+
+    [[nodiscard]] std::vector<std::string_view> names() const {
+        std::vector<std::string_view> result{"x", "y", "z"};
+        if (velocity) result.insert(result.end(), {"vx", "vy", "vz"});
+        if (radius) result.emplace_back("radius");
+        return result;
+    }
+};
+
+std::optional<Columns> columnsOf(std::string_view header) {
+    for (const bool velocity : {false, true}) {
+        for (const bool radius : {false, true}) {
+            const Columns columns{velocity, radius};
+            if (header == fmt::format("{}", fmt::join(columns.names(), ","))) return columns;
+        }
+    }
+    return std::nullopt;
+}
+
+// Refuses with the place in the file, kept at the line that is being read.
+class CsvReader {
+  public:
+    CsvReader(Check& check, std::string field, std::filesystem::path path)
+        : check_(check), field_(std::move(field)), path_(std::move(path)) {}
+
+    bool open() {
+        std::error_code error;
+        if (std::filesystem::is_regular_file(path_, error)) file_.open(path_);
+        if (file_.is_open()) return true;
+        check_.refuse(field_, fmt::format("is {}, which is not a readable file", shown(path_.string())));
+        return false;
+    }
+
+    bool nextLine() {
+        if (!std::getline(file_, text_)) return false;
+        ++line_;
+        if (text_.ends_with('\r')) text_.pop_back();
+        return true;
+    }
+
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+    void refuse(std::size_t column, std::string_view reason) {
+        check_.refuse(field_, fmt::format("{}:{}:{}: {}", path_.string(), line_, column, reason));
+    }
+
+    // The numbers of the line, one for each name.
+    std::optional<Row> row(const std::vector<std::string_view>& names) {
+        Row result{};
+        std::size_t start = 0;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const std::size_t comma = std::min(text_.find(',', start), text_.size());
+            if ((comma == text_.size()) != (i + 1 == names.size())) {
+                refuse(comma + 1, fmt::format("the line must have {} numbers, as the header has names", names.size()));
+                return std::nullopt;
+            }
+            if (!number(start, comma, names[i], result[i])) return std::nullopt;
+            start = comma + 1;
+        }
+        return result;
+    }
+
+  private:
+    bool number(std::size_t start, std::size_t end, std::string_view name, double& value) {
+        while (start < end && text_[start] == ' ') ++start;
+        while (end > start && text_[end - 1] == ' ') --end;
+        const std::string_view digits = std::string_view(text_).substr(start, end - start);
+        const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        Check limits;
+        if (error != std::errc() || rest != digits.data() + digits.size()) {
+            limits.refuse("", fmt::format("is {}, must be a number", shown(digits)));
+        } else if (name == "radius") {
+            readRadius(limits, value, "");
+        } else {
+            limits.within(value, -largestComponent, largestComponent, "");
+        }
+        if (!limits.ok()) refuse(start + 1, fmt::format("{} {}", name, limits.error().value().message));
+        return limits.ok();
+    }
+
+    Check& check_;
+    std::string field_;
+    std::filesystem::path path_;
+    std::ifstream file_;
+    std::string text_;
+    std::size_t line_ = 0;
+};
+
+}  // namespace
+
+std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
+                            SourceInput input) {
+    const std::string field = at(input.field, "file");
+    CsvReader reader(check, field, directory / csv.file());
+    if (!reader.open()) return {};
+    const auto columns = reader.nextLine() ? columnsOf(reader.text()) : std::nullopt;
+    if (!columns) {
+        reader.refuse(1, fmt::format("the header is {}, must be x,y,z[,vx,vy,vz][,radius]", shown(reader.text())));
+        return {};
+    }
+    const std::vector<std::string_view> names = columns->names();
+    const Radii radii = columns->radius ? Radii{} : requiredRadii(check, input);
+    std::vector<Sphere> spheres;
+    while (check.ok() && reader.nextLine()) {
+        const auto row = reader.row(names);
+        if (!row || !checkRoom(check, input, static_cast<double>(spheres.size() + 1), field)) break;
+        const Row& v = *row;
+        Sphere sphere{.position = {v[0], v[1], v[2]}, .velocity = input.velocity};
+        if (columns->velocity) sphere.velocity = glm::dvec3(v[3], v[4], v[5]);
+        sphere.radius = columns->radius ? static_cast<float>(v[names.size() - 1]) : radii.draw(input.random);
+        spheres.push_back(sphere);
+    }
+    return spheres;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,90 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/occupancy.h"
+#include "scene/source.h"
+#include "scene/surroundings.h"
+
+namespace spherule::scene {
+
+namespace {
+
+// A place is drawn anew until it is free. Equal spheres placed this way jam at 0.38 of the volume; a budget far above
+// what 0.3 needs keeps an impossible wish from taking forever.
+constexpr std::uint64_t workPerSphere = 2'000;
+constexpr std::uint64_t workAtLeast = 10'000'000;
+
+// Large ones first: they find no place later. Equal radii keep their order.
+std::vector<std::uint32_t> byFallingRadius(const std::vector<Sphere>& spheres) {
+    std::vector<std::uint32_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return spheres[a].radius > spheres[b].radius; });
+    return order;
+}
+
+glm::dvec3 drawPlace(Random& random, const Box& region, double radius) {
+    glm::dvec3 place{};
+    for (int axis = 0; axis < 3; ++axis) {
+        place[axis] = random.uniform(region.min[axis] + radius, region.max[axis] - radius);
+    }
+    return place;
+}
+
+bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector<Obstacle>& obstacles,
+              Occupancy& occupancy, Random& random, std::size_t& placed) {
+    const std::uint64_t budget = occupancy.work() + std::max(workAtLeast, workPerSphere * spheres.size());
+    std::uint64_t work = 0;
+    for (const std::uint32_t i : byFallingRadius(spheres)) {
+        const double radius = static_cast<double>(spheres[i].radius);
+        do {
+            work += 1 + obstacles.size();
+            if (work + occupancy.work() > budget) return false;
+            spheres[i].position = drawPlace(random, region, radius);
+        } while (obstacleAt(obstacles, spheres[i].position, radius) || !occupancy.isFree(spheres[i].position, radius));
+        occupancy.add(spheres[i].position, radius);
+        ++placed;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
+                             std::span<const Sphere> taken, SourceInput input) {
+    const Radii radii = requiredRadii(check, input);
+    const Box region = check.box(fill.min(), fill.max(), input.field);
+    const std::string countField = at(input.field, "count");
+    if (fill.count() == 0) check.refuse(countField, "is 0 or missing, must be at least 1");
+    if (!check.ok() || !checkRoom(check, input, fill.count(), countField)) return {};
+    const glm::dvec3 side = region.max - region.min;
+    if (const double narrowest = std::min({side.x, side.y, side.z}); narrowest < 2 * radii.max) {
+        check.refuse(input.field, fmt::format("is {} m wide between min and max, too narrow for a radius of {} m",
+                                              narrowest, radii.max));
+        return {};
+    }
+
+    std::vector<Sphere> spheres(fill.count());
+    for (Sphere& sphere : spheres) {
+        sphere.velocity = input.velocity;
+        sphere.radius = radii.draw(input.random);
+    }
+    double largest = radii.max;
+    for (const Sphere& sphere : taken) largest = std::max(largest, static_cast<double>(sphere.radius));
+    Occupancy occupancy(spheres.size() + taken.size(), largest);
+    for (const Sphere& sphere : taken) occupancy.add(sphere.position, static_cast<double>(sphere.radius));
+    std::size_t placed = 0;
+    if (!placeAll(spheres, region, obstacles, occupancy, input.random, placed)) {
+        check.refuse(countField,
+                     fmt::format("asks for {} spheres, but no free place was found after {}; lower the count "
+                                 "or make the region larger",
+                                 fill.count(), placed));
+        return {};
+    }
+    return spheres;
+}
+
+}  // namespace spherule::scene

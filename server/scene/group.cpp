@@ -1,0 +1,116 @@
+#include "scene/group.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "scene/load.h"
+#include "scene/source.h"
+#include "scene/surroundings.h"
+
+namespace spherule::scene {
+
+namespace {
+
+constexpr double smallestDensity = 1e-6;  // kg/m^3
+constexpr double largestDensity = 1e9;    // kg/m^3
+
+// The name of the source as it stands in the scene file; empty when there is none.
+std::string sourceName(const v1::Group& message) {
+    switch (message.source_case()) {
+        case v1::Group::kList:
+            return "list";
+        case v1::Group::kLattice:
+            return "lattice";
+        case v1::Group::kFill:
+            return "fill";
+        case v1::Group::kCsv:
+            return "csv";
+        case v1::Group::SOURCE_NOT_SET:
+            break;
+    }
+    return "";
+}
+
+std::uint64_t seedOf(const v1::Group& message) {
+    constexpr std::uint64_t absent = 1;
+    if (message.has_lattice() && message.lattice().has_seed()) return message.lattice().seed();
+    if (message.has_fill() && message.fill().has_seed()) return message.fill().seed();
+    return absent;
+}
+
+std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context,
+                               SourceInput input) {
+    switch (message.source_case()) {
+        case v1::Group::kList:
+            return fromList(check, message.list(), std::move(input));
+        case v1::Group::kLattice:
+            return fromLattice(check, message.lattice(), std::move(input));
+        case v1::Group::kFill:
+            return fromFill(check, message.fill(), scene.obstacles, context.taken, std::move(input));
+        case v1::Group::kCsv:
+            if (context.directory) return fromCsv(check, message.csv(), *context.directory, std::move(input));
+            check.refuse(input.field, fmt::format("names the file {}, but only a scene file may name files; give the "
+                                                  "spheres as a list",
+                                                  shown(message.csv().file())));
+            break;
+        case v1::Group::SOURCE_NOT_SET:
+            check.refuse(context.field, "has no spheres, must have one of list, lattice, fill, csv");
+            break;
+    }
+    return {};
+}
+
+// Where the maker of the scene finds sphere `index`: its field, and what to say before the reason.
+void refuseSphere(Check& check, const v1::Group& message, const std::string& source, std::size_t index,
+                  const Sphere& sphere, const std::string& reason) {
+    const std::string what = fmt::format("at {} with radius {}", shown(sphere.position), sphere.radius);
+    if (message.has_list()) {
+        check.refuse(at(at(source, "spheres"), index), fmt::format("is {} and {}", what, reason));
+    } else if (message.has_csv()) {
+        // The first line is the header.
+        check.refuse(at(source, "file"),
+                     fmt::format("{}:{}:1: the sphere {} {}", message.csv().file(), index + 2, what, reason));
+    } else {
+        check.refuse(source, fmt::format("puts a sphere {}, which {}", what, reason));
+    }
+}
+
+void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, const std::string& source,
+                 const std::vector<Sphere>& spheres) {
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const double radius = static_cast<double>(spheres[i].radius);
+        std::optional<std::string> reason = whyOutside(scene.bounds, spheres[i].position, radius);
+        if (const auto hit = obstacleAt(scene.obstacles, spheres[i].position, radius); !reason && hit) {
+            reason = fmt::format("reaches into {}", at("obstacles", *hit));
+        }
+        if (reason) return refuseSphere(check, message, source, i, spheres[i], *reason);
+    }
+}
+
+}  // namespace
+
+std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context) {
+    const std::string source = at(context.field, sourceName(message));
+    SourceInput input{.field = source,
+                      .room = context.room,
+                      .random = Random(context.seed.value_or(seedOf(message)), context.stream)};
+    if (message.has_radius()) input.radii = readRadii(check, message.radius(), at(context.field, "radius"));
+    input.velocity = check.vectorOr(message.velocity(), {}, at(context.field, "velocity"));
+    const double density =
+        message.has_density() ? check.positive(message.density(), at(context.field, "density")) : 1000;
+    check.within(density, smallestDensity, largestDensity, at(context.field, "density"), " kg/m^3");
+    const double restitution = message.has_restitution()
+                                   ? check.within(message.restitution(), 0, 1, at(context.field, "restitution"))
+                                   : scene.restitution;
+    check.colour(message.colour(), at(context.field, "colour"));
+    if (!check.ok()) return {};
+
+    std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));
+    for (Sphere& sphere : spheres) {
+        sphere.density = static_cast<float>(density);
+        sphere.restitution = static_cast<float>(restitution);
+    }
+    if (check.ok()) checkPlaces(check, message, scene, source, spheres);
+    return spheres;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,70 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "scene/source.h"
+
+namespace spherule::scene {
+
+namespace {
+
+// Places per axis such that a sphere of the largest radius stays within the region wherever jitter moves it.
+struct Places {
+    glm::dvec3 count{};  // whole numbers, perhaps larger than an integer holds
+    glm::dvec3 first{};
+
+    [[nodiscard]] double total() const { return count.x * count.y * count.z; }
+};
+
+Places placesIn(const Box& region, double spacing, double reach) {
+    // Keeps a place that only rounding would push out.
+    constexpr double slack = 1e-9;
+    Places places;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double steps = (region.max[axis] - region.min[axis] - 2 * reach) / spacing;
+        places.count[axis] = steps < -slack ? 0 : std::floor(steps + slack) + 1;
+    }
+    const glm::dvec3 centre = 0.5 * (region.min + region.max);
+    places.first = centre - 0.5 * spacing * (places.count - 1.0);
+    places.first.z = region.min.z + reach;
+    return places;
+}
+
+}  // namespace
+
+std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, SourceInput input) {
+    const Radii radii = requiredRadii(check, input);
+    const Box region = check.box(lattice.min(), lattice.max(), input.field);
+    const double spacing = check.positive(lattice.spacing(), at(input.field, "spacing"));
+    const double jitter = check.within(lattice.jitter(), 0, spacing, at(input.field, "jitter"), " m (the spacing)");
+    if (!check.ok()) return {};
+
+    const Places places = placesIn(region, spacing, radii.max + jitter);
+    const double wanted = lattice.has_count() ? lattice.count() : places.total();
+    const std::string field = lattice.has_count() ? at(input.field, "count") : input.field;
+    if (wanted > places.total() || (wanted == 0 && !lattice.has_count())) {
+        check.refuse(field,
+                     fmt::format("asks for {:.0f} spheres, but {:.0f} x {:.0f} x {:.0f} fit between min and max "
+                                 "at a spacing of {} m",
+                                 std::max(wanted, 1.0), places.count.x, places.count.y, places.count.z, spacing));
+        return {};
+    }
+    if (!checkRoom(check, input, wanted, field)) return {};
+
+    const auto total = static_cast<std::size_t>(wanted);
+    std::vector<Sphere> spheres;
+    spheres.reserve(total);
+    for (double z = 0; spheres.size() < total; ++z) {
+        for (double y = 0; y < places.count.y && spheres.size() < total; ++y) {
+            for (double x = 0; x < places.count.x && spheres.size() < total; ++x) {
+                Sphere sphere{.position = places.first + spacing * glm::dvec3(x, y, z), .velocity = input.velocity};
+                for (int axis = 0; axis < 3; ++axis) sphere.position[axis] += input.random.uniform(-jitter, jitter);
+                sphere.radius = radii.draw(input.random);
+                spheres.push_back(sphere);
+            }
+        }
+    }
+    return spheres;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,43 @@
+#include <spdlog/fmt/fmt.h>
+
+#include "scene/load.h"
+#include "scene/source.h"
+
+namespace spherule::scene {
+
+bool checkRoom(Check& check, const SourceInput& input, double count, std::string_view field) {
+    if (count <= static_cast<double>(input.room)) return true;
+    check.refuse(std::string(field),
+                 fmt::format("asks for {:.0f} spheres, but a scene holds at most {} and has room for {}", count,
+                             maxSpheres, input.room));
+    return false;
+}
+
+Radii requiredRadii(Check& check, const SourceInput& input) {
+    if (input.radii) return *input.radii;
+    const std::size_t end = input.field.rfind('.');
+    const std::string group = end == std::string::npos ? "" : input.field.substr(0, end);
+    check.refuse(at(group, "radius"), "is missing; give a constant, a uniform or a normal radius");
+    return {};
+}
+
+std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input) {
+    std::vector<Sphere> spheres;
+    const auto count = static_cast<std::size_t>(list.spheres_size());
+    if (!checkRoom(check, input, static_cast<double>(count), at(input.field, "spheres"))) return spheres;
+    spheres.reserve(count);
+    for (std::size_t i = 0; i < count && check.ok(); ++i) {
+        const v1::Sphere& message = list.spheres(static_cast<int>(i));
+        const std::string field = at(at(input.field, "spheres"), i);
+        Sphere sphere;
+        sphere.position = check.vector(message.position(), at(field, "position"));
+        sphere.velocity = check.vectorOr(message.velocity(), input.velocity, at(field, "velocity"));
+        sphere.radius = message.has_radius()
+                            ? static_cast<float>(readRadius(check, message.radius(), at(field, "radius")))
+                            : requiredRadii(check, input).draw(input.random);
+        spheres.push_back(sphere);
+    }
+    return spheres;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/scene.h"
+#include "spherule/v1/scene.pb.h"
+
+namespace spherule::scene {
+
+constexpr std::uint32_t maxSpheres = 16'000'000;
+constexpr std::uint32_t maxObstacles = 1000;  // every sphere meets each of them
+constexpr std::uint32_t maxSubsteps = 10'000;
+
+// What a caller may change of a scene before it is built.
+struct Overrides {
+    std::optional<std::uint32_t> substeps{};
+    std::optional<std::uint64_t> seed{};  // replaces every seed of the scene
+    bool noSleep = false;
+};
+
+// `source` is a path to a JSON file, or the name of a scene that comes with the program. `deviceKind` ("gpu", "cpu",
+// "software") decides how many spheres the default scene `box` has.
+Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {});
+
+// An inline scene, as a client sends it: may not name files. Errors carry the field path.
+Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {});
+
+// Spheres for a Spawn command, to be added to `scene`: inside its bounds and clear of its obstacles. Places taken by
+// other spheres are the caller's to check.
+Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene);
+
+// Three finite numbers, or the error for `field`.
+Result<glm::dvec3> vectorOf(const google::protobuf::RepeatedField<double>& values, std::string_view field);
+
+// Substeps per step by the stability rule h = min(1/480 s, sqrt(8.5e-4 r_min / g)); g in m/s^2, r_min and step in SI.
+std::uint32_t defaultSubsteps(double step, double gravity, double smallestRadius);
+
+// Names of the scenes that come with the program, sorted.
+std::vector<std::string> names();
+
+}  // namespace spherule::scene

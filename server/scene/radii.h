@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "scene/check.h"
+#include "scene/random.h"
+#include "spherule/v1/scene.pb.h"
+
+namespace spherule::scene {
+
+constexpr double smallestRadius = 1e-6;  // m
+constexpr double largestRadius = 1e6;    // m
+
+// A validated law of radii: always the same, uniform in min..max, or normal cut to min..max.
+struct Radii {
+    struct Bell {
+        double mean = 0;
+        double deviation = 0;
+    };
+
+    double min = 0;  // m
+    double max = 0;  // m
+    std::optional<Bell> bell;
+
+    // A constant draws no random number.
+    [[nodiscard]] float draw(Random& random) const;
+};
+
+// A single radius in m.
+double readRadius(Check& check, double value, std::string_view field);
+
+Radii readRadii(Check& check, const v1::Radius& message, std::string_view field);
+
+}  // namespace spherule::scene

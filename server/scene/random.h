@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace spherule::scene {
+
+// Random numbers that are the same with every compiler and standard library: only the engine's raw output and exactly
+// rounded arithmetic are used, neither std::*_distribution nor the mathematical library.
+class Random {
+  public:
+    // Streams of one seed are independent of each other.
+    explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+
+    // In [0, 1), a multiple of 2^-53.
+    double uniform();
+    double uniform(double low, double high);
+
+    // Mean 0, variance 1. Algorithm N of C. Karney, "Sampling exactly from the normal distribution", ACM Trans. Math.
+    // Softw. 42 (2016): comparisons of uniform numbers alone.
+    double normal();
+
+  private:
+    // True with probability exp(-t), 0 <= t <= 1, by von Neumann's runs.
+    bool withProbabilityOfExpMinus(double t);
+
+    std::mt19937_64 engine_;
+};
+
+}  // namespace spherule::scene

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/check.h"
+#include "scene/radii.h"
+#include "scene/random.h"
+#include "spherule/v1/scene.pb.h"
+
+namespace spherule::scene {
+
+// What the sources of a group work from. The spheres they return have position, velocity and radius; density and
+// restitution, and the check that each sphere has a place in the scene, are the group's.
+struct SourceInput {
+    std::string field;             // of the source: "groups[2].lattice"
+    std::optional<Radii> radii{};  // of the group
+    glm::vec3 velocity{};          // m/s, of the group
+    std::size_t room = 0;          // spheres that the scene may still take
+    Random random;
+};
+
+// False, and refused, when `count` spheres are more than there is room for.
+bool checkRoom(Check& check, const SourceInput& input, double count, std::string_view field);
+
+// The group's radii; refused when it has none.
+Radii requiredRadii(Check& check, const SourceInput& input);
+
+std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
+
+std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, SourceInput input);
+
+// Reads `directory`/list.file(). Places in the file are told as file:line:column.
+std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
+                            SourceInput input);
+
+// Clear of `obstacles` and of `taken`. Gives up, and refuses, when free places become too hard to find.
+std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
+                             std::span<const Sphere> taken, SourceInput input);
+
+}  // namespace spherule::scene

@@ -1,0 +1,127 @@
+#include "scene/surroundings.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+#include "scene/load.h"
+
+namespace spherule::scene {
+
+namespace {
+
+double depth(const Plane& plane, const glm::dvec3& centre, double radius) {
+    return radius - glm::dot(centre - plane.point, plane.normal);
+}
+
+double depth(const Box& box, const glm::dvec3& centre, double radius) {
+    return radius - glm::distance(centre, glm::clamp(centre, box.min, box.max));
+}
+
+Plane readPlane(Check& check, const v1::Plane& message, const std::string& field) {
+    constexpr double shortest = 1e-9;
+    Plane plane{check.vector(message.point(), at(field, "point")), check.vector(message.normal(), at(field, "normal"))};
+    const double length = glm::length(plane.normal);
+    if (length < shortest) {
+        check.refuse(at(field, "normal"), fmt::format("is {}, must not be zero", shown(plane.normal)));
+        return plane;
+    }
+    plane.normal /= length;
+    return plane;
+}
+
+Obstacle readObstacle(Check& check, const v1::Obstacle& message, double restitution, const std::string& field) {
+    Obstacle obstacle;
+    switch (message.shape_case()) {
+        case v1::Obstacle::kPlane:
+            obstacle.shape = readPlane(check, message.plane(), at(field, "plane"));
+            break;
+        case v1::Obstacle::kBox:
+            obstacle.shape = check.box(message.box().min(), message.box().max(), at(field, "box"));
+            break;
+        case v1::Obstacle::SHAPE_NOT_SET:
+            check.refuse(field, "has no shape, must be a plane or a box");
+            break;
+    }
+    obstacle.restitution =
+        message.has_restitution() ? check.within(message.restitution(), 0, 1, at(field, "restitution")) : restitution;
+    obstacle.colour = check.colour(message.colour(), at(field, "colour"));
+    return obstacle;
+}
+
+}  // namespace
+
+Bounds readBounds(Check& check, const v1::Bounds& message, double restitution, std::string_view field) {
+    Bounds bounds;
+    const Box box = check.box(message.min(), message.max(), field);
+    bounds.min = box.min;
+    bounds.max = box.max;
+    for (int i = 0; i < message.open_size(); ++i) {
+        const int face = message.open(i) - v1::X_MIN;
+        if (face >= XMin && face <= ZMax) {
+            bounds.open[static_cast<std::size_t>(face)] = true;
+        } else {
+            check.refuse(at(at(field, "open"), static_cast<std::size_t>(i)),
+                         fmt::format("is {}, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX",
+                                     static_cast<int>(message.open(i))));
+        }
+    }
+    bounds.restitution =
+        message.has_restitution() ? check.within(message.restitution(), 0, 1, at(field, "restitution")) : restitution;
+    return bounds;
+}
+
+std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
+                                    double restitution) {
+    std::vector<Obstacle> obstacles;
+    const auto count = static_cast<std::size_t>(messages.size());
+    if (count > maxObstacles) {
+        check.refuse("obstacles", fmt::format("has {} entries, must have at most {}", count, maxObstacles));
+        return obstacles;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], restitution, at("obstacles", i)));
+    }
+    return obstacles;
+}
+
+void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, std::string_view field) {
+    const glm::dvec3 side = bounds.max - bounds.min;
+    const double longest = std::max({side.x, side.y, side.z});
+    const double resolution = 0.5 * longest * 0x1p-23;
+    const double allowed = 1e-4 * smallestRadius;
+    if (resolution <= allowed) return;
+    check.refuse(
+        std::string(field),
+        fmt::format("have a longest side of {} m, in which float32 resolves {:.3g} m, but the smallest radius of "
+                    "{:.6g} m needs {:.3g} m; make them at most {:.6g} m long or the spheres larger",
+                    longest, resolution, smallestRadius, allowed, allowed * 0x1p24));
+}
+
+std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& centre, double radius) {
+    constexpr const char* axes[] = {"x", "y", "z"};
+    const double slack = touchTolerance * radius;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = centre[axis] - radius;
+        const double high = centre[axis] + radius;
+        const bool below = low < bounds.min[axis] - slack;
+        if (!below && high <= bounds.max[axis] + slack) continue;
+        return fmt::format("reaches {} = {:.6g}, outside the bounds, which are {} to {}", axes[axis],
+                           below ? low : high, bounds.min[axis], bounds.max[axis]);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, const glm::dvec3& centre, double radius) {
+    const auto reaches = [&](const Obstacle& obstacle) {
+        const auto depthIn = [&](const auto& shape) { return depth(shape, centre, radius); };
+        return std::visit(depthIn, obstacle.shape) > touchTolerance * radius;
+    };
+    const auto found = std::find_if(obstacles.begin(), obstacles.end(), reaches);
+    if (found == obstacles.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - obstacles.begin());
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/check.h"
+#include "spherule/v1/scene.pb.h"
+
+namespace spherule::scene {
+
+// Bounds and obstacles of a scene. `restitution` is the scene's, for those that have none of their own.
+Bounds readBounds(Check& check, const v1::Bounds& message, double restitution, std::string_view field);
+std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
+                                    double restitution);
+
+// Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius (m).
+void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, std::string_view field);
+
+// How far a sphere may reach into a face or an obstacle, as a share of its radius: what rounding of decimal figures and
+// of the radius to float32 can amount to.
+constexpr double touchTolerance = 1e-6;
+
+// Why a sphere cannot be there ("reaches x = -0.1, outside the bounds, which are 0 to 5"), or nothing. Open faces count
+// like closed ones: spheres may leave through them later, but start inside.
+std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& centre, double radius);
+
+// The first obstacle that a sphere reaches into.
+std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, const glm::dvec3& centre, double radius);
+
+}  // namespace spherule::scene

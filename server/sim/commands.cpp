@@ -1,0 +1,156 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "scene/load.h"
+#include "sim/picking.h"
+#include "sim/simulation.h"
+
+namespace spherule::sim {
+
+namespace {
+
+constexpr double mostGravity = 1e6;  // m/s^2
+
+Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
+    if (set.gravity().empty()) return {};
+    auto gravity = scene::vectorOf(set.gravity(), "gravity");
+    if (!gravity) return tl::unexpected(gravity.error());
+    if (!(glm::length(*gravity) <= mostGravity))
+        return fail(ErrorKind::Refused, "gravity", fmt::format("is {:g} m/s^2 long, at most {:g} is allowed",
+                                                               glm::length(*gravity), mostGravity));
+    scene.gravity = *gravity;
+    return {};
+}
+
+Result<void> setRestitution(scene::Scene& scene, const v1::Set& set) {
+    if (!set.has_restitution()) return {};
+    const double e = set.restitution();
+    if (!(e >= 0 && e <= 1))
+        return fail(ErrorKind::Refused, "restitution", fmt::format("is {:g}, must be within 0 and 1", e));
+    scene.restitution = e;
+    scene.bounds.restitution = e;
+    for (scene::Obstacle& obstacle : scene.obstacles) obstacle.restitution = e;
+    for (scene::Sphere& sphere : scene.spheres) sphere.restitution = static_cast<float>(e);
+    return {};
+}
+
+Result<void> setSubsteps(scene::Scene& scene, const v1::Set& set) {
+    if (!set.has_substeps()) return {};
+    if (set.substeps() < 1 || set.substeps() > scene::maxSubsteps)
+        return fail(ErrorKind::Refused, "substeps",
+                    fmt::format("is {}, must be within 1 and {}", set.substeps(), scene::maxSubsteps));
+    scene.substeps = set.substeps();
+    return {};
+}
+
+}  // namespace
+
+Result<v1::Applied> Simulation::apply(const v1::Command& command) {
+    v1::Applied applied;
+    Result<void> done;
+    switch (command.kind_case()) {
+        case v1::Command::kSet:
+            done = set(command.set());
+            break;
+        case v1::Command::kSpawn:
+            done = spawn(command.spawn());
+            break;
+        case v1::Command::kPush: {
+            auto hit = push(command.push());
+            if (!hit) return tl::unexpected(hit.error());
+            applied.set_sphere(*hit);
+            break;
+        }
+        case v1::Command::kReset:
+            done = reset();
+            break;
+        case v1::Command::kQuery: {
+            *applied.mutable_statistics() = messageOf(statistics());
+            applied.mutable_statistics()->set_step(steps_);
+            applied.mutable_statistics()->set_sim_time(time_);
+            applied.mutable_statistics()->set_spheres(count());
+            break;
+        }
+        default:
+            return fail(ErrorKind::Refused, "", "this command is not one for a simulation");
+    }
+    if (!done) return tl::unexpected(done.error());
+    applied.set_step(steps_);
+    return applied;
+}
+
+Result<void> Simulation::set(const v1::Set& set) {
+    scene::Scene changed = scene_;
+    for (auto change : {setGravity, setRestitution, setSubsteps})
+        if (auto done = change(changed, set); !done) return done;
+    return adopt(std::move(changed), snapshot());
+}
+
+Result<void> Simulation::spawn(const v1::Spawn& spawn) {
+    State state = snapshot();
+    scene::Scene grown = scene_;
+    const glm::dvec3 centre = grown.bounds.centre();
+    for (std::uint32_t id = 0; id < state.count(); ++id)
+        grown.spheres[id].position = glm::dvec3(state.position[id]) + centre;
+
+    auto added = scene::buildGroup(spawn.group(), grown);
+    if (!added) return tl::unexpected(added.error());
+    if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
+    grown.groups.push_back({spawn.group().name(), state.count(), static_cast<std::uint32_t>(added->size()),
+                            spawn.group().colour()});
+    scene::Scene addition = scene_;
+    addition.spheres = *added;
+    const State fresh = stateOf(addition);
+    state.position.insert(state.position.end(), fresh.position.begin(), fresh.position.end());
+    state.velocity.insert(state.velocity.end(), fresh.velocity.begin(), fresh.velocity.end());
+    grown.spheres.insert(grown.spheres.end(), added->begin(), added->end());
+    if (auto done = adopt(std::move(grown), std::move(state)); !done) return done;
+    ++generation_;
+    return {};
+}
+
+Result<std::uint32_t> Simulation::push(const v1::Push& push) {
+    auto impulse = scene::vectorOf(push.impulse(), "impulse");
+    if (!impulse) return tl::unexpected(impulse.error());
+    std::uint32_t id = push.sphere();
+    if (push.has_ray()) {
+        auto origin = scene::vectorOf(push.ray().origin(), "ray.origin");
+        auto direction = scene::vectorOf(push.ray().direction(), "ray.direction");
+        if (!origin) return tl::unexpected(origin.error());
+        if (!direction) return tl::unexpected(direction.error());
+        const double length = glm::length(*direction);
+        if (!(length > 0)) return fail(ErrorKind::Refused, "ray.direction", "has no length");
+        const auto hit = firstHit(snapshot(), *origin - scene_.bounds.centre(), *direction / length);
+        if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere");
+        id = *hit;
+    } else if (push.target_case() != v1::Push::kSphere) {
+        return fail(ErrorKind::Refused, "target", "is missing: give a sphere or a ray");
+    }
+    if (id >= count())
+        return fail(ErrorKind::Refused, "sphere", fmt::format("is {}, the scene has {} spheres", id, count()));
+    pipeline_->kick(id, glm::vec3(*impulse));
+    return id;
+}
+
+v1::Statistics messageOf(const Statistics& s) {
+    v1::Statistics message;
+    message.set_kinetic_energy(s.kineticEnergy);
+    message.set_rotational_energy(s.rotationalEnergy);
+    message.set_potential_energy(s.potentialEnergy);
+    for (int axis = 0; axis < 3; ++axis) message.add_momentum(s.momentum[axis]);
+    message.set_contacts(s.contacts);
+    message.set_overlap_mean(s.overlapMean);
+    message.set_overlap_max(s.overlapMax);
+    message.set_wall_overlap_max(s.wallOverlapMax);
+    message.set_speed_max(s.speedMax);
+    message.set_speed_rms(s.speedRms);
+    message.set_mean_height(s.meanHeight);
+    message.set_sleeping(s.sleeping);
+    message.set_outside(s.outside);
+    message.set_non_finite(s.nonFinite);
+    return message;
+}
+
+}  // namespace spherule::sim

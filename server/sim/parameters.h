@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "sim/layout.h"
+#include "sim/plan.h"
+#include "spherule/v1/frame.pb.h"
+
+namespace spherule::sim {
+
+// The uniform block for a scene and its plan.
+layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
+                                 const v1::WireGrid& wire);
+
+// Planes first, then boxes, relative to the bounds' centre.
+std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);
+
+}  // namespace spherule::sim

@@ -1,0 +1,151 @@
+#include "sim/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sim/shaders.h"
+
+namespace spherule::sim {
+
+namespace {
+
+constexpr std::uint32_t workgroup = 64;
+constexpr std::uint32_t mostGroupsPerAxis = 32768;
+
+// Groups x, y, z for `invocations`, as the kernels index them.
+glm::uvec4 groupsFor(std::uint32_t invocations) {
+    const std::uint32_t groups = (invocations + workgroup - 1) / workgroup;
+    const std::uint32_t x = std::min(groups, mostGroupsPerAxis);
+    return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, invocations};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Pipeline>> Pipeline::create(compute::Device& device, Plan plan) {
+    std::unique_ptr<Pipeline> pipeline(new Pipeline(device, std::move(plan)));
+    if (auto done = pipeline->allocate(); !done) return tl::unexpected(done.error());
+    if (auto done = pipeline->compile(); !done) return tl::unexpected(done.error());
+    return pipeline;
+}
+
+Result<void> Pipeline::allocateArray(const ArraySpec& spec) {
+    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes);
+    if (!made) return tl::unexpected(made.error());
+    const auto index = static_cast<std::size_t>(spec.array);
+    owned_[index] = std::move(*made);
+    slots_[index] = owned_[index].get();
+    return {};
+}
+
+Result<void> Pipeline::allocate() {
+    auto absent = device_.createBuffer("absent", 64);
+    if (!absent) return tl::unexpected(absent.error());
+    absent_ = std::move(*absent);
+    slots_.fill(absent_.get());
+    for (const ArraySpec& spec : plan_.arrays)
+        if (auto done = allocateArray(spec); !done) return done;
+    auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters));
+    if (!parameters) return tl::unexpected(parameters.error());
+    parameters_ = std::move(*parameters);
+    if (plan_.has(Array::FullLaunches)) {
+        std::vector<glm::uvec4> rows;
+        for (const std::uint32_t invocations : plan_.fullLaunches) rows.push_back(groupsFor(invocations));
+        write<glm::uvec4>(Array::FullLaunches, rows);
+    }
+    return {};
+}
+
+Result<void> Pipeline::compile() {
+    const std::vector<compute::Define> defines = definesFor(plan_.features);
+    for (const auto* launches : {&plan_.substep, &plan_.statistics, &plan_.pack}) {
+        for (const LaunchSpec& launch : *launches) {
+            if (std::ranges::any_of(kernels_, [&](const auto& known) { return known.first == launch.kernel; })) continue;
+            auto kernel = device_.createKernel(shaders(), launch.kernel, defines);
+            if (!kernel) return tl::unexpected(kernel.error());
+            kernels_.emplace_back(launch.kernel, std::move(*kernel));
+        }
+    }
+    return {};
+}
+
+void Pipeline::setParameters(const layout::Parameters& parameters) {
+    device_.upload(*parameters_, 0, std::as_bytes(std::span(&parameters, 1)));
+}
+
+void Pipeline::upload(const State& state) {
+    write<glm::vec4>(Array::Position, state.position);
+    write<glm::vec4>(Array::Velocity, state.velocity);
+    std::vector<std::uint32_t> ids(state.count());
+    std::iota(ids.begin(), ids.end(), 0U);
+    write<std::uint32_t>(Array::Id, ids);
+    if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
+    std::array<std::uint32_t, COUNTER_WORDS> counters{};
+    counters[COUNTER_REBUILD] = 1;
+    write<std::uint32_t>(Array::Counters, counters);
+}
+
+State Pipeline::download() {
+    const auto position = read<glm::vec4>(Array::Position);
+    const auto velocity = read<glm::vec4>(Array::Velocity);
+    const auto id = read<std::uint32_t>(Array::Id);
+    State state;
+    state.position.resize(plan_.spheres);
+    state.velocity.resize(plan_.spheres);
+    for (std::uint32_t slot = 0; slot < plan_.spheres; ++slot) {
+        state.position[id[slot]] = position[slot];
+        state.velocity[id[slot]] = velocity[slot];
+    }
+    return state;
+}
+
+void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
+    std::uint32_t slot = id;
+    if (plan_.has(Array::SlotOf))
+        device_.download(buffer(Array::SlotOf), id * sizeof slot, std::as_writable_bytes(std::span(&slot, 1)));
+    glm::vec4 velocity;
+    device_.download(buffer(Array::Velocity), slot * sizeof velocity, std::as_writable_bytes(std::span(&velocity, 1)));
+    velocity.w = std::abs(velocity.w);
+    velocity += glm::vec4(impulse * velocity.w, 0);
+    write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
+}
+
+Result<void> Pipeline::growPairs(std::uint32_t capacity) {
+    plan_.pairCapacity = capacity;
+    for (ArraySpec& spec : plan_.arrays) {
+        if (spec.array != Array::Pairs && spec.array != Array::Touching) continue;
+        spec.bytes = std::uint64_t{capacity} * sizeof(glm::uvec2);
+        if (auto done = allocateArray(spec); !done) return done;
+    }
+    const std::uint32_t rebuild = 1;
+    write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
+    return {};
+}
+
+void Pipeline::run(const std::vector<LaunchSpec>& launches) {
+    std::optional<Pass> timed;
+    std::array<compute::Buffer*, 8> bound{};
+    for (const LaunchSpec& spec : launches) {
+        if (timed != spec.pass) {
+            if (timed) device_.endTimer();
+            device_.beginTimer(static_cast<unsigned>(spec.pass));
+            timed = spec.pass;
+        }
+        for (std::size_t slot = 0; slot < spec.slots.size(); ++slot) bound[slot] = &buffer(spec.slots[slot]);
+        const auto kernel =
+            std::ranges::find_if(kernels_, [&](const auto& known) { return known.first == spec.kernel; });
+        compute::Launch launch{.kernel = kernel->second.get(),
+                               .buffers = std::span(bound.data(), spec.slots.size()),
+                               .parameters = parameters_.get(),
+                               .phase = spec.phase,
+                               .count = spec.count};
+        if (spec.launchRow) {
+            launch.arguments = &buffer(Array::Launches);
+            launch.argumentsOffset = *spec.launchRow * sizeof(glm::uvec4);
+        }
+        device_.launch(launch);
+    }
+    if (timed) device_.endTimer();
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "compute/device.h"
+#include "sim/layout.h"
+#include "sim/plan.h"
+#include "sim/state.h"
+
+namespace spherule::sim {
+
+// A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
+class Pipeline {
+  public:
+    static Result<std::unique_ptr<Pipeline>> create(compute::Device& device, Plan plan);
+
+    void setParameters(const layout::Parameters& parameters);
+    void upload(const State& state);  // in id order; the lists are rebuilt in the next substep
+    [[nodiscard]] State download();   // in id order; waits for the device
+
+    void substep() { run(plan_.substep); }
+    void runStatistics() { run(plan_.statistics); }
+    void runPack() { run(plan_.pack); }
+
+    // Whole array as elements of T; waits for the device. Empty where the plan has no such array.
+    template <class T>
+    std::vector<T> read(Array array) {
+        std::vector<T> values(static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T));
+        if (!values.empty()) device_.download(buffer(array), 0, std::as_writable_bytes(std::span(values)));
+        return values;
+    }
+    template <class T>
+    void write(Array array, std::span<const T> values, std::size_t first = 0) {
+        device_.upload(buffer(array), first * sizeof(T), std::as_bytes(values));
+    }
+
+    // Wakes a sphere and gives it an impulse, in N s. Waits for the device.
+    void kick(std::uint32_t id, glm::vec3 impulse);
+
+    // Room for more pairs; the lists are rebuilt.
+    Result<void> growPairs(std::uint32_t capacity);
+
+    [[nodiscard]] const Plan& plan() const { return plan_; }
+    [[nodiscard]] compute::Buffer& buffer(Array array) { return *slots_[static_cast<std::size_t>(array)]; }
+
+  private:
+    Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {}
+
+    Result<void> allocate();
+    Result<void> compile();
+    Result<void> allocateArray(const ArraySpec& spec);
+    void run(const std::vector<LaunchSpec>& launches);
+
+    compute::Device& device_;
+    Plan plan_;
+    std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;
+    std::array<compute::Buffer*, arrayCount> slots_{};  // where the plan has none: a small one that nothing touches
+    std::unique_ptr<compute::Buffer> absent_;
+    std::unique_ptr<compute::Buffer> parameters_;
+    std::vector<std::pair<std::string_view, std::unique_ptr<compute::Kernel>>> kernels_;
+};
+
+}  // namespace spherule::sim

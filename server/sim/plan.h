@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/features.h"
+#include "scene/scene.h"
+#include "sim/grid.h"
+#include "sim/pass.h"
+
+namespace spherule::sim {
+
+// Device arrays. "Per sphere, in slot order" means cell order where there is a grid, id order elsewhere.
+enum class Array : std::uint8_t {
+    Position,     // per sphere, in slot order
+    Velocity,
+    Before,       // velocity before the substep, then after impacts; w = quiet time
+    Id,
+    Bounce,       // restitution by id
+    Obstacles,
+    CellStart,    // per cell and one more: first slot
+    BlockSums,    // of the prefix sum
+    SuperSums,
+    Place,        // of a sphere in its cell
+    Order,
+    Saved,        // state while it is put in cell order
+    SavedId,
+    Anchor,       // position when the lists were built
+    SlotOf,       // by id
+    Pairs,
+    Touching,
+    Span,         // per cell group: first pair, listed, touching
+    Counters,
+    FullLaunches,
+    Launches,
+    SphereParts,  // partial statistics
+    Overlaps,
+    Packed,
+    Count,        // how many arrays there are; not one itself
+};
+
+constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
+
+std::string_view nameOf(Array array);
+
+struct ArraySpec {
+    Array array{};
+    std::uint64_t bytes = 0;
+};
+
+struct LaunchSpec {
+    Pass pass{};
+    std::string_view kernel;                 // file
+    std::vector<Array> slots;
+    std::uint32_t count = 0;                 // invocations
+    std::optional<std::uint32_t> launchRow;  // of the launch table, for launches that only a rebuild needs
+    std::uint32_t phase = 0;
+};
+
+// What a scene requires: made before anything is allocated, and all that is allocated and launched.
+struct Plan {
+    scene::Features features;
+    std::uint32_t spheres = 0;
+    std::uint32_t substeps = 0;
+    Grid grid;
+    std::uint32_t pairCapacity = 0;
+    std::vector<ArraySpec> arrays;
+    std::vector<LaunchSpec> substep;     // in order
+    std::vector<LaunchSpec> statistics;  // on demand
+    std::vector<LaunchSpec> pack;
+    std::vector<std::uint32_t> fullLaunches;  // invocations per row of the launch table
+
+    [[nodiscard]] bool has(Array array) const;
+    [[nodiscard]] std::uint64_t bytesOf(Array array) const;
+    [[nodiscard]] std::uint64_t bytes() const;
+    [[nodiscard]] std::uint32_t groups() const { return grid.all() / 8; }  // cell groups of all colours
+};
+
+// `scene` without its spheres is enough; radii are those of the spheres to simulate. pairCapacity 0: the default.
+struct Radii {
+    double smallest = 0;
+    double largest = 0;
+    double mean = 0;
+};
+Radii radiiOf(const scene::Scene& scene);
+Plan planFor(const scene::Scene& scene, const scene::Features& features, std::uint32_t spheres, const Radii& radii,
+             std::uint32_t pairCapacity = 0);
+
+std::string planText(const scene::Scene& scene, const Plan& plan);
+std::string planJson(const scene::Scene& scene, const Plan& plan);
+
+}  // namespace spherule::sim

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "sim/plan.h"
+
+namespace spherule::sim {
+
+namespace {
+
+struct Row {
+    Pass pass{};
+    std::string_view kernel;
+    std::uint32_t launches = 0;
+    std::uint32_t invocations = 0;
+    bool onRebuild = false;
+};
+
+// Launches of one kernel in a row are one row of the plan.
+std::vector<Row> rowsOf(const Plan& plan) {
+    std::vector<Row> rows;
+    for (const auto* launches : {&plan.substep, &plan.statistics, &plan.pack}) {
+        for (const LaunchSpec& launch : *launches) {
+            if (rows.empty() || rows.back().kernel != launch.kernel)
+                rows.push_back({launch.pass, launch.kernel, 0, launch.count, launch.launchRow.has_value()});
+            ++rows.back().launches;
+        }
+    }
+    return rows;
+}
+
+std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features& has) {
+    return {{"gravity", has.gravity},         {"contacts", has.contacts},
+            {"radii", has.radii},             {"masses", has.masses},
+            {"restitution", has.restitution}, {"restitutions", has.restitutions},
+            {"walls", has.walls},             {"planes", has.planes},
+            {"boxes", has.boxes},             {"sleep", has.sleep}};
+}
+
+double perSphere(const Plan& plan, std::uint64_t bytes) {
+    return plan.spheres == 0 ? 0.0 : static_cast<double>(bytes) / plan.spheres;
+}
+
+std::string_view whenOf(const Row& row) {
+    if (row.pass == Pass::Statistics || row.pass == Pass::Pack) return "on demand";
+    return row.onRebuild ? "on rebuild" : "every substep";
+}
+
+}  // namespace
+
+std::string_view nameOf(Array array) {
+    static constexpr std::array<std::string_view, arrayCount> names = {
+        "position", "velocity",   "before",   "id",       "bounce",       "obstacles",    "cell-start",  "block-sums",
+        "super-sums", "place",    "order",    "saved",    "saved-id",     "anchor",       "slot-of",     "pairs",
+        "touching", "span",       "counters", "full-launches", "launches", "sphere-parts", "overlaps",   "packed",
+    };
+    return names.at(static_cast<std::size_t>(array));
+}
+
+std::string planText(const scene::Scene& scene, const Plan& plan) {
+    std::string text = fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    balanced\n",
+                                   scene.name, plan.spheres, scene.step, plan.substeps);
+    text += "features  ";
+    for (const auto& [name, on] : featureList(plan.features))
+        if (on) text += fmt::format(" {}", name);
+    text += "\n";
+    if (plan.features.contacts)
+        text += fmt::format("grid       {} x {} x {} cells of {:.4g} m, pairs listed up to a gap of {:.4g} m\n",
+                            plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z, plan.grid.cellSize,
+                            plan.grid.margin);
+    text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
+    for (const ArraySpec& spec : plan.arrays)
+        text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));
+    text += fmt::format("{:<16}{:>14}{:>16.1f}\n", "all", plan.bytes(), perSphere(plan, plan.bytes()));
+    text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "invocations", "when");
+    for (const Row& row : rowsOf(plan))
+        text += fmt::format("{:<17}{:<26}{:>9}{:>13}  {}\n", nameOf(row.pass), row.kernel, row.launches,
+                            row.invocations, whenOf(row));
+    return text;
+}
+
+std::string planJson(const scene::Scene& scene, const Plan& plan) {
+    nlohmann::ordered_json json;
+    json["scene"] = scene.name;
+    json["spheres"] = plan.spheres;
+    json["step"] = scene.step;
+    json["substepsPerStep"] = plan.substeps;
+    json["quality"] = "balanced";
+    for (const auto& [name, on] : featureList(plan.features)) json["features"][std::string(name)] = on;
+    json["cells"] = {plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z};
+    json["cellSize"] = static_cast<double>(plan.grid.cellSize);
+    json["margin"] = static_cast<double>(plan.grid.margin);
+    json["arrays"] = nlohmann::ordered_json::array();
+    for (const ArraySpec& spec : plan.arrays)
+        json["arrays"].push_back({{"name", nameOf(spec.array)}, {"bytes", spec.bytes}});
+    json["bytes"] = plan.bytes();
+    json["bytesPerSphere"] = perSphere(plan, plan.bytes());
+    json["passes"] = nlohmann::ordered_json::array();
+    for (const Row& row : rowsOf(plan))
+        json["passes"].push_back({{"pass", nameOf(row.pass)},
+                                  {"kernel", row.kernel},
+                                  {"launches", row.launches},
+                                  {"invocations", row.invocations},
+                                  {"when", whenOf(row)}});
+    return json.dump();
+}
+
+}  // namespace spherule::sim

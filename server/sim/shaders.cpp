@@ -1,0 +1,42 @@
+#include "sim/shaders.h"
+
+#include "embedded/shaders.h"
+
+namespace spherule::sim {
+
+namespace {
+
+class EmbeddedShaders final : public compute::SourceSet {
+  public:
+    [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const override {
+        for (const embedded::File& file : embedded::shaders())
+            if (file.path == name) return file.bytes;
+        return std::nullopt;
+    }
+};
+
+}  // namespace
+
+const compute::SourceSet& shaders() {
+    static const EmbeddedShaders sources;
+    return sources;
+}
+
+std::vector<compute::Define> definesFor(const scene::Features& features) {
+    auto define = [](const char* name, bool on) { return compute::Define{name, on ? "true" : "false"}; };
+    return {
+        define("GRAVITY", features.gravity),
+        define("CONTACTS", features.contacts),
+        define("RADII", features.radii),
+        define("RESTITUTION", features.restitution),
+        define("RESTITUTIONS", features.restitutions),
+        // The velocity before the substep serves both.
+        define("BEFORE", features.restitution || features.sleep),
+        define("WALLS", features.walls),
+        define("PLANES", features.planes),
+        define("BOXES", features.boxes),
+        define("SLEEP", features.sleep),
+    };
+}
+
+}  // namespace spherule::sim

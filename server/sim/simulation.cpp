@@ -1,0 +1,86 @@
+#include "sim/simulation.h"
+
+#include <cmath>
+
+#include "core/log.h"
+#include "sim/parameters.h"
+
+namespace spherule::sim {
+
+Result<std::unique_ptr<Simulation>> Simulation::create(compute::Device& device, scene::Scene scene) {
+    std::unique_ptr<Simulation> simulation(new Simulation(device, std::move(scene)));
+    if (auto done = simulation->reset(); !done) return tl::unexpected(done.error());
+    return simulation;
+}
+
+Result<void> Simulation::adopt(scene::Scene scene, State state) {
+    const Radii radii = radiiOf(scene);
+    auto made = Pipeline::create(device_, planFor(scene, scene::featuresOf(scene), state.count(), radii));
+    if (!made) return tl::unexpected(made.error());
+    scene_ = std::move(scene);
+    radii_ = radii;
+    pipeline_ = std::move(*made);
+    for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
+    pipeline_->upload(state);
+    if (plan().has(Array::Obstacles)) pipeline_->write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene_));
+    if (plan().has(Array::Bounce)) {
+        std::vector<float> bounce;
+        bounce.reserve(scene_.spheres.size());
+        for (const scene::Sphere& sphere : scene_.spheres) bounce.push_back(sphere.restitution);
+        pipeline_->write<float>(Array::Bounce, bounce);
+    }
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    return {};
+}
+
+Result<void> Simulation::reset() {
+    if (auto done = adopt(initial_, stateOf(initial_)); !done) return done;
+    steps_ = 0;
+    time_ = 0;
+    ++generation_;
+    return {};
+}
+
+Result<void> Simulation::step() {
+    for (std::uint32_t k = 0; k < scene_.substeps; ++k) pipeline_->substep();
+    ++steps_;
+    time_ += scene_.step;
+    return guard();
+}
+
+// Once a step: the device is still there, and every cell group has found room for its pairs.
+Result<void> Simulation::guard() {
+    if (auto alive = device_.status(); !alive) return alive;
+    readCounters();
+    if (counters_.unlisted > 0) {
+        const std::uint32_t capacity = std::max(counters_.pairs, plan().pairCapacity) * 2;
+        spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
+        if (auto grown = pipeline_->growPairs(capacity); !grown) {
+            spdlog::warn("{}; those groups go on without lists, slower", grown.error().text());
+            return {};
+        }
+        pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    }
+    return {};
+}
+
+void Simulation::setWireGrid(const v1::WireGrid& grid) {
+    wire_ = grid;
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+}
+
+std::unique_ptr<compute::ReadBack> Simulation::pack() {
+    pipeline_->runPack();
+    return device_.startReadBack(pipeline_->buffer(Array::Packed), plan().bytesOf(Array::Packed));
+}
+
+void Simulation::readCounters() {
+    const auto words = pipeline_->read<std::uint32_t>(Array::Counters);
+    counters_ = {.pairs = words[COUNTER_PAIRS],
+                 .unlisted = words[COUNTER_UNLISTED],
+                 .nonFinite = words[COUNTER_NON_FINITE] > 0,
+                 .firstNonFinite = ~words[COUNTER_FIRST_ID],
+                 .rebuilds = words[COUNTER_REBUILDS]};
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "compute/device.h"
+#include "scene/features.h"
+#include "scene/scene.h"
+#include "sim/pipeline.h"
+#include "sim/plan.h"
+#include "sim/state.h"
+#include "sim/statistics.h"
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::sim {
+
+// Spheres in a scene on a device. Used by the thread that owns the device.
+class Simulation {
+  public:
+    static Result<std::unique_ptr<Simulation>> create(compute::Device& device, scene::Scene scene);
+
+    // One step of scene().step seconds, in scene().substeps substeps.
+    Result<void> step();
+
+    // set, spawn, push, reset and query; Refused, with nothing changed, for what cannot be done.
+    Result<v1::Applied> apply(const v1::Command& command);
+
+    [[nodiscard]] Statistics statistics() { return measure(*pipeline_, scene_); }
+    [[nodiscard]] State snapshot() { return pipeline_->download(); }
+
+    // Positions packed for `setWireGrid`'s grid, on their way to the host; nothing when two are under way already.
+    void setWireGrid(const v1::WireGrid& grid);
+    std::unique_ptr<compute::ReadBack> pack();
+
+    struct Counters {
+        std::uint32_t pairs = 0;     // listed
+        std::uint32_t unlisted = 0;  // cell groups without room for their pairs; served, but slowly
+        bool nonFinite = false;      // some sphere has left the numbers,
+        std::uint32_t firstNonFinite = 0;  // this one of them, by id
+        std::uint32_t rebuilds = 0;  // of the lists, since the last change of the scene
+    };
+    [[nodiscard]] const Counters& counters() const { return counters_; }  // as of the end of the last step
+
+    // Device seconds per Pass since the last call. Waits for the device.
+    [[nodiscard]] std::vector<double> passSeconds() { return device_.takeTimes(); }
+
+    [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
+    [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
+    [[nodiscard]] std::uint32_t count() const { return plan().spheres; }
+    [[nodiscard]] std::uint64_t steps() const { return steps_; }
+    [[nodiscard]] double time() const { return time_; }                 // s simulated
+    [[nodiscard]] std::uint32_t generation() const { return generation_; }  // changes when spheres or obstacles do
+
+  private:
+    Simulation(compute::Device& device, scene::Scene scene) : device_(device), initial_(std::move(scene)) {}
+
+    // Makes arrays and kernels anew for `scene` in `state`; everybody wakes. Nothing changes on failure.
+    Result<void> adopt(scene::Scene scene, State state);
+    Result<void> guard();
+    void readCounters();
+
+    Result<void> set(const v1::Set& set);
+    Result<void> spawn(const v1::Spawn& spawn);
+    Result<std::uint32_t> push(const v1::Push& push);
+    Result<void> reset();
+
+    compute::Device& device_;
+    scene::Scene initial_;
+    scene::Scene scene_;
+    Radii radii_;
+    v1::WireGrid wire_;
+    std::unique_ptr<Pipeline> pipeline_;
+    Counters counters_;
+    std::uint64_t steps_ = 0;
+    double time_ = 0;
+    std::uint32_t generation_ = 0;
+};
+
+v1::Statistics messageOf(const Statistics& statistics);
+
+}  // namespace spherule::sim

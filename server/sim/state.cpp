@@ -1,0 +1,37 @@
+#include "sim/state.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <xxhash.h>
+
+namespace spherule::sim {
+
+State stateOf(const scene::Scene& scene) {
+    State state;
+    state.position.reserve(scene.spheres.size());
+    state.velocity.reserve(scene.spheres.size());
+    const glm::dvec3 centre = scene.bounds.centre();
+    for (const scene::Sphere& sphere : scene.spheres) {
+        const double r = static_cast<double>(sphere.radius);
+        const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * static_cast<double>(sphere.density);
+        state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
+        state.velocity.emplace_back(sphere.velocity, static_cast<float>(1 / mass));
+    }
+    return state;
+}
+
+std::uint64_t hashOf(const State& state) {
+    XXH3_state_t* hash = XXH3_createState();
+    XXH3_64bits_reset(hash);
+    for (std::uint32_t id = 0; id < state.count(); ++id) {
+        XXH3_64bits_update(hash, &id, sizeof id);
+        XXH3_64bits_update(hash, &state.position[id], 3 * sizeof(float));
+        XXH3_64bits_update(hash, &state.velocity[id], 3 * sizeof(float));
+    }
+    const std::uint64_t digest = XXH3_64bits_digest(hash);
+    XXH3_freeState(hash);
+    return digest;
+}
+
+}  // namespace spherule::sim

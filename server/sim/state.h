@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "scene/scene.h"
+
+namespace spherule::sim {
+
+// What the device holds of the spheres, in id order.
+struct State {
+    std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
+    std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass, negative while asleep
+
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size()); }
+};
+
+State stateOf(const scene::Scene& scene);
+
+// Of ids, positions and velocities, bit by bit (XXH3).
+std::uint64_t hashOf(const State& state);
+
+}  // namespace spherule::sim

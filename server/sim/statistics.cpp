@@ -1,0 +1,63 @@
+#include "sim/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace spherule::sim {
+
+namespace {
+
+// Of mass `weighted.w` at the mass-weighted place `weighted`, relative to the bounds' centre.
+double potentialEnergy(const scene::Scene& scene, const glm::dvec4& weighted) {
+    const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
+    const glm::dvec3& g = scene.gravity;
+    const glm::dvec3 lowest(std::copysign(half.x, g.x), std::copysign(half.y, g.y), std::copysign(half.z, g.z));
+    return weighted.w * glm::dot(g, lowest) - glm::dot(g, glm::dvec3(weighted));
+}
+
+void addOverlaps(Statistics& sum, const std::vector<glm::vec4>& groups) {
+    double overlaps = 0;
+    for (const glm::vec4& group : groups) {
+        sum.contacts += static_cast<std::uint64_t>(group.x);
+        overlaps += static_cast<double>(group.y);
+        sum.overlapMax = std::max(sum.overlapMax, static_cast<double>(group.z));
+    }
+    if (sum.contacts > 0) sum.overlapMean = overlaps / static_cast<double>(sum.contacts);
+}
+
+}  // namespace
+
+Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
+    Statistics sum;
+    if (pipeline.plan().spheres == 0) return sum;
+    pipeline.runStatistics();
+    glm::dvec4 weighted{};
+    double squares = 0;
+    double heights = 0;
+    double fastest = 0;
+    for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereParts)) {
+        weighted += glm::dvec4(part.weighted);
+        sum.momentum += glm::dvec3(part.momentum);
+        sum.kineticEnergy += static_cast<double>(part.momentum.w);
+        heights += static_cast<double>(part.heightSum);
+        squares += static_cast<double>(part.speedSquares);
+        fastest = std::max(fastest, static_cast<double>(part.speedSquaredMax));
+        sum.wallOverlapMax = std::max(sum.wallOverlapMax, static_cast<double>(part.wallOverlapMax));
+        sum.sleeping += part.sleeping;
+        sum.outside += part.outside;
+        sum.nonFinite += part.nonFinite;
+    }
+    addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
+    sum.potentialEnergy = potentialEnergy(scene, weighted);
+    sum.speedMax = std::sqrt(fastest);
+    const double finite = pipeline.plan().spheres - sum.nonFinite;
+    if (finite > 0) {
+        sum.speedRms = std::sqrt(squares / finite);
+        sum.meanHeight = heights / finite + 0.5 * (scene.bounds.max.z - scene.bounds.min.z);
+    }
+    return sum;
+}
+
+}  // namespace spherule::sim

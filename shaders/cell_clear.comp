@@ -1,0 +1,10 @@
+// Empties the cells. One more than there are, for the end of the last one.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+
+BUFFER(0, writeonly, uint, cellStart, CellBlock)
+
+KERNEL(params.cells.w + 1u) {
+    cellStart[invocation] = 0u;
+}

@@ -1,0 +1,40 @@
+// Moves every awake sphere along its ballistic arc, exactly: v += g h, x += v h - g h^2 / 2. Never derives a velocity
+// from positions, which float32 would not bear. Asks for new pair lists when a sphere has left its margin.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+
+BUFFER(0, restrict, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, restrict, vec4, before, BeforeBlock)
+BUFFER(3, readonly, vec4, anchor, AnchorBlock)
+BUFFER(4, readonly, uint, id, IdBlock)
+BUFFER(5, coherent, uint, counters, CounterBlock)
+
+KERNEL(params.spheres) {
+    vec4 v = velocity[invocation];
+    if (HAS(SLEEP) && v.w < 0.0f) return;
+    vec4 x = position[invocation];
+    float h = params.substep;
+    if (HAS(BEFORE)) before[invocation] = vec4(vec3(v), before[invocation].w);
+    vec3 moved = vec3(v);
+    if (HAS(GRAVITY)) {
+        vec3 kick = vec3(params.gravity) * h;
+        moved = moved + kick;
+        velocity[invocation] = vec4(moved, v.w);
+        moved = moved - kick * 0.5f;
+    }
+    vec3 to = vec3(x) + moved * h;
+    position[invocation] = vec4(to, x.w);
+    if (!finite3(to)) {
+        // Counted and reported; such a sphere touches nothing, because comparisons with it fail.
+        atomicAdd(counters[COUNTER_NON_FINITE], 1u);
+        atomicMax(counters[COUNTER_FIRST_ID], ~id[invocation]);
+        return;
+    }
+    if (HAS(CONTACTS)) {
+        vec3 since = to - vec3(anchor[invocation]);
+        if (dot3(since, since) > params.rebuildMove * params.rebuildMove) atomicOr(counters[COUNTER_REBUILD], 1u);
+    }
+}

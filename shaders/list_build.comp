@@ -1,0 +1,56 @@
+// Lists the pairs of each group whose gap is below the margin: one walk fills a local array, which is then copied to a
+// stretch of the pair array. A group with more pairs walks a second time; one that finds no room stays unlisted, and the
+// solvers then walk its cells themselves.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, uint, cellStart, CellBlock)
+BUFFER(2, coherent, uint, counters, CounterBlock)
+BUFFER(3, writeonly, uvec2, pairs, PairBlock)
+BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, listed, touching, 0
+
+#define LOCAL_PAIRS 192u
+PRIVATE(uint, found)
+PRIVATE(uint, base)      // where the pairs go; UNLISTED during the first walk
+PRIVATE(uvec2, local[LOCAL_PAIRS])
+
+void visitPair(uint a, uint b) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + params.margin;
+    if (!(dot3(d, d) < reach * reach)) return;
+    if (base != UNLISTED) {
+        pairs[base + found] = uvec2(a, b);
+    } else if (found < LOCAL_PAIRS) {
+        local[found] = uvec2(a, b);
+    }
+    found = found + 1u;
+}
+
+#include "shared/group.h"
+
+KERNEL(params.groups * 8u) {
+    found = 0u;
+    base = UNLISTED;
+    visitGroupNumber(invocation);
+    uint count = found;
+    uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
+    if (count > params.pairCapacity || start > params.pairCapacity - count) {
+        atomicAdd(counters[COUNTER_UNLISTED], 1u);
+        span[invocation] = uvec4(0u, UNLISTED, 0u, 0u);
+        return;
+    }
+    span[invocation] = uvec4(start, count, 0u, 0u);
+    if (count <= LOCAL_PAIRS) {
+        for (uint k = 0u; k < count; ++k) pairs[start + k] = local[k];
+    } else {
+        found = 0u;
+        base = start;
+        visitGroupNumber(invocation);
+    }
+}

@@ -1,0 +1,20 @@
+// Sizes the launches of the rebuild: all of it, or none of it. So the host never waits to know.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+
+BUFFER(0, coherent, uint, counters, CounterBlock)
+BUFFER(1, readonly, uvec4, fullLaunches, FullLaunchBlock)
+BUFFER(2, writeonly, uvec4, launches, LaunchBlock)
+
+KERNEL(1u) {
+    bool rebuild = counters[COUNTER_REBUILD] != 0u;
+    for (uint row = 0u; row < LAUNCH_ROWS; ++row)
+        launches[row] = rebuild ? fullLaunches[row] : uvec4(0u, 1u, 1u, 0u);
+    if (rebuild) {
+        counters[COUNTER_REBUILD] = 0u;
+        counters[COUNTER_PAIRS] = 0u;
+        counters[COUNTER_UNLISTED] = 0u;
+        counters[COUNTER_REBUILDS] = counters[COUNTER_REBUILDS] + 1u;
+    }
+}

@@ -1,0 +1,13 @@
+// Prefix sum, first half: adds up blocks of SCAN_BLOCK values. `phase` is the number of values.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+
+BUFFER(0, readonly, uint, values, ValueBlock)
+BUFFER(1, writeonly, uint, sums, SumBlock)
+
+KERNEL((phase + SCAN_BLOCK - 1u) / SCAN_BLOCK) {
+    uint end = min(phase, (invocation + 1u) * SCAN_BLOCK);
+    uint sum = 0u;
+    for (uint k = invocation * SCAN_BLOCK; k < end; ++k) sum += values[k];
+    sums[invocation] = sum;
+}

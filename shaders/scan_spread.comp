@@ -1,0 +1,16 @@
+// Prefix sum, second half: turns values into exclusive prefix sums, block by block. `phase` is the number of values.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+
+BUFFER(0, restrict, uint, values, ValueBlock)
+BUFFER(1, readonly, uint, sums, SumBlock)
+
+KERNEL((phase + SCAN_BLOCK - 1u) / SCAN_BLOCK) {
+    uint end = min(phase, (invocation + 1u) * SCAN_BLOCK);
+    uint running = sums[invocation];
+    for (uint k = invocation * SCAN_BLOCK; k < end; ++k) {
+        uint value = values[k];
+        values[k] = running;
+        running += value;
+    }
+}

@@ -1,0 +1,14 @@
+// Prefix sum, the turn: the few sums of the last level become exclusive prefix sums. `phase` is their number.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+
+BUFFER(0, restrict, uint, sums, SumBlock)
+
+KERNEL(1u) {
+    uint running = 0u;
+    for (uint k = 0u; k < phase; ++k) {
+        uint value = sums[k];
+        sums[k] = running;
+        running += value;
+    }
+}

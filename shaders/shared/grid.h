@@ -1,0 +1,20 @@
+// The cell grid: a torus, so that memory is bounded wherever the spheres go. Cells per axis are multiples of 4: groups of
+// 2 x 2 x 2 cells then come in 8 colours, and two groups of one colour never touch the same cell.
+
+uint wrapCell(float coordinate, uint cells) {
+    // Far away coordinates are clamped before the conversion, which would be undefined for them; the shift, a multiple of
+    // the cells, keeps the remainder's operands from being negative, which GLSL leaves undefined too.
+    float bounded = min(max(floor(coordinate), -1.0e9f), 1.0e9f);
+    uint shift = (1000000000u / cells + 1u) * cells;
+    return uint(int(bounded) + int(shift)) % cells;
+}
+
+uint cellIndex(uint x, uint y, uint z) {
+    return (z * params.cells.y + y) * params.cells.x + x;
+}
+
+uint cellOf(vec3 position) {
+    if (!finite3(position)) return 0u;
+    vec3 p = position * params.inverseCell;
+    return cellIndex(wrapCell(p.x, params.cells.x), wrapCell(p.y, params.cells.y), wrapCell(p.z, params.cells.z));
+}

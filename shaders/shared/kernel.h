@@ -1,0 +1,28 @@
+// Makes a .comp file both a GLSL compute shader and the body of a C++ struct.
+//
+//   BUFFER(slot, access, type, name, block)  storage buffer `name[]`; access: readonly, writeonly, restrict (both),
+//                                            coherent (atomics); `block` is a second, unused name that GLSL asks for
+//   KERNEL(count) { ... }                    the body; `invocation` runs over 0 .. count - 1
+//   HAS(FEATURE)                             whether the scene requires it: a constant in GLSL, a value in C++
+//   PRIVATE(type, name)                      a variable of the invocation that functions share
+//   INOUT(type)                              a parameter that a function changes
+#ifndef __cplusplus
+
+layout(local_size_x = 64) in;
+layout(location = 0) uniform uint phase;
+
+#define INOUT(type) inout type
+#define PRIVATE(type, name) type name;
+#define HAS(feature) (feature)
+#define BUFFER(slot, access, type, name, block) \
+    layout(std430, binding = slot) access buffer block { type name[]; };
+#define PARAMETERS layout(std140, binding = 0) uniform ParameterBlock { Parameters params; };
+#define KERNEL(count)                                                                            \
+    void kernelBody(uint invocation);                                                            \
+    void main() {                                                                                \
+        uint invocation = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u; \
+        if (invocation < (count)) kernelBody(invocation);                                        \
+    }                                                                                            \
+    void kernelBody(uint invocation)
+
+#endif

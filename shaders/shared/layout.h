@@ -1,0 +1,77 @@
+// What the host and the kernels agree on. Lengths in m, relative to the centre of the bounds; times in s.
+
+// The uniform block, std140: vectors first, then scalars in fours.
+struct Parameters {
+    vec4 gravity;        // xyz in m/s^2; w = its length
+    vec4 wallMin;        // domain walls
+    vec4 wallMax;
+    vec4 wireOrigin;     // of the packed grid; w = 1 / quantum
+    uvec4 cells;         // per axis, multiples of 4; w = all cells
+
+    float substep;       // h
+    float perSubstep;    // 1 / h
+    float inverseCell;   // 1 / cell size
+    float margin;        // pairs are listed up to this gap
+
+    float rebuildMove;   // lists hold until a sphere has moved this far; below margin / 2
+    float radius;        // of every sphere where radii are equal
+    float restitution;   // of every sphere where they are equal
+    float wallRestitution;
+
+    float sleepSpeed;    // m/s
+    float sleepTime;     // s
+    float wakeSpeed;     // m/s
+    float wakeGap;       // m
+
+    uint spheres;
+    uint groups;         // of 2 x 2 x 2 cells, of one colour
+    uint pairCapacity;
+    uint closedFaces;    // bit per face: x- x+ y- y+ z- z+
+
+    uint planes;
+    uint boxes;
+    uint statisticBlocks;
+    uint unused;         // keeps the size a multiple of 16 bytes
+};
+
+// Solid obstacles. A plane: normal and offset; a box: its corners; restitution in the second w.
+struct Obstacle {
+    vec4 a;
+    vec4 b;
+};
+
+// Sums over a block of spheres.
+struct SphereStatistics {
+    vec4 weighted;          // sum of m x; w: sum of m
+    vec4 momentum;          // sum of m v; w: sum of m v^2 / 2
+    float heightSum;        // of z
+    float speedSquares;     // sum of v^2
+    float speedSquaredMax;
+    float wallOverlapMax;   // depth / r
+    uint sleeping;
+    uint outside;
+    uint nonFinite;
+    uint unused;            // keeps the size a multiple of 16 bytes
+};
+
+// Words of the `counters` buffer.
+#define COUNTER_REBUILD 0u      // lists are to be rebuilt
+#define COUNTER_PAIRS 1u        // listed
+#define COUNTER_UNLISTED 2u     // cell groups that found no room for their pairs
+#define COUNTER_NON_FINITE 3u   // spheres that have left the numbers
+#define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
+#define COUNTER_REBUILDS 5u     // since the start
+#define COUNTER_WORDS 8u
+
+// Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, 0).
+#define LAUNCH_SPHERES 0u
+#define LAUNCH_CELLS 1u
+#define LAUNCH_BLOCKS 2u
+#define LAUNCH_SUPERBLOCKS 3u
+#define LAUNCH_ONE 4u
+#define LAUNCH_GROUPS 5u
+#define LAUNCH_ROWS 6u
+
+#define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
+#define UNLISTED 0xffffffffu    // pair count of a group without a list
+#define STATISTIC_BLOCK 256u    // spheres per partial sum

@@ -1,0 +1,58 @@
+// Walls, planes and boxes that a sphere touches or overlaps. The includer defines
+// `void visitWall(vec3 normal, float depth, float wallRestitution)`, which may move the private
+// `wallPoint`, and binds `obstacles`: planes first, then boxes.
+//
+// A sphere within rounding of a wall counts as touching it: after the push it lies there.
+#define WALL_TOLERANCE 2.0e-4f
+
+void visitFace(uint face, vec3 normal, float depth, float radius) {
+    if ((params.closedFaces & (1u << face)) != 0u && depth > -WALL_TOLERANCE * radius)
+        visitWall(normal, depth, params.wallRestitution);
+}
+
+void visitBox(Obstacle box, float radius) {
+    vec3 low = vec3(box.a);
+    vec3 high = vec3(box.b);
+    vec3 nearest = vec3(min(max(wallPoint.x, low.x), high.x), min(max(wallPoint.y, low.y), high.y),
+                        min(max(wallPoint.z, low.z), high.z));
+    vec3 d = wallPoint - nearest;
+    float squared = dot3(d, d);
+    if (!(squared < radius * radius * (1.0f + 2.0f * WALL_TOLERANCE))) return;
+    if (squared > 0.0f) {
+        float distance = sqrt(squared);
+        visitWall(d * (1.0f / distance), radius - distance, box.b.w);
+        return;
+    }
+    // The centre is inside: out through the nearest side.
+    vec3 toLow = wallPoint - low;
+    vec3 toHigh = high - wallPoint;
+    float depth = toLow.x;
+    vec3 normal = vec3(-1.0f, 0.0f, 0.0f);
+    if (toHigh.x < depth) { depth = toHigh.x; normal = vec3(1.0f, 0.0f, 0.0f); }
+    if (toLow.y < depth) { depth = toLow.y; normal = vec3(0.0f, -1.0f, 0.0f); }
+    if (toHigh.y < depth) { depth = toHigh.y; normal = vec3(0.0f, 1.0f, 0.0f); }
+    if (toLow.z < depth) { depth = toLow.z; normal = vec3(0.0f, 0.0f, -1.0f); }
+    if (toHigh.z < depth) { depth = toHigh.z; normal = vec3(0.0f, 0.0f, 1.0f); }
+    visitWall(normal, depth + radius, box.b.w);
+}
+
+void visitWalls(float radius) {
+    if (HAS(WALLS)) {
+        visitFace(0u, vec3(1.0f, 0.0f, 0.0f), params.wallMin.x + radius - wallPoint.x, radius);
+        visitFace(1u, vec3(-1.0f, 0.0f, 0.0f), wallPoint.x + radius - params.wallMax.x, radius);
+        visitFace(2u, vec3(0.0f, 1.0f, 0.0f), params.wallMin.y + radius - wallPoint.y, radius);
+        visitFace(3u, vec3(0.0f, -1.0f, 0.0f), wallPoint.y + radius - params.wallMax.y, radius);
+        visitFace(4u, vec3(0.0f, 0.0f, 1.0f), params.wallMin.z + radius - wallPoint.z, radius);
+        visitFace(5u, vec3(0.0f, 0.0f, -1.0f), wallPoint.z + radius - params.wallMax.z, radius);
+    }
+    if (HAS(PLANES)) {
+        for (uint k = 0u; k < params.planes; ++k) {
+            vec4 plane = obstacles[k].a;
+            float depth = plane.w + radius - dot3(vec3(plane), wallPoint);
+            if (depth > -WALL_TOLERANCE * radius) visitWall(vec3(plane), depth, obstacles[k].b.w);
+        }
+    }
+    if (HAS(BOXES)) {
+        for (uint k = 0u; k < params.boxes; ++k) visitBox(obstacles[params.planes + k], radius);
+    }
+}

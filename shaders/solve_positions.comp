@@ -1,0 +1,83 @@
+// Pushes overlapping spheres apart, pair after pair (Gauss-Seidel), both sides at once, so that momentum is conserved;
+// the push also becomes velocity, which is what carries the weight of a pile. `phase` is the colour of the groups.
+// Mueller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics"; Macklin et al. 2019,
+// "Small Steps in Physics Simulation": one iteration, small substeps.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/contact.h"
+
+BUFFER(0, restrict, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, uint, id, IdBlock)
+BUFFER(3, readonly, uint, cellStart, CellBlock)
+BUFFER(4, restrict, uvec4, span, SpanBlock)
+BUFFER(5, readonly, uvec2, pairs, PairBlock)
+BUFFER(6, writeonly, uvec2, touching, TouchingBlock)
+
+// A sleeper wakes when a neighbour comes or goes faster than the wake speed.
+void wake(uint a, uint b) {
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    float limit = params.wakeSpeed * params.wakeSpeed;
+    if (va.w < 0.0f && vb.w > 0.0f && dot3(vec3(vb), vec3(vb)) > limit) velocity[a] = vec4(vec3(va), -va.w);
+    if (vb.w < 0.0f && va.w > 0.0f && dot3(vec3(va), vec3(va)) > limit) velocity[b] = vec4(vec3(vb), -vb.w);
+}
+
+// True when the pair overlaps.
+bool separate(uint a, uint b) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    float squared = dot3(d, d);
+    float reach = HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius;
+    if (HAS(SLEEP)) {
+        float far = reach + params.wakeGap;
+        if (!(squared < far * far)) return false;
+        wake(a, b);
+    }
+    if (!(squared < reach * reach)) return false;
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    float ma = mobility(va.w);
+    float mb = mobility(vb.w);
+    if (ma + mb == 0.0f) return false;
+    vec4 normal = normalAndDistance(d, squared, id[a], id[b]);
+    vec3 push = vec3(normal) * ((reach - normal.w) / (ma + mb));
+    vec3 kick = push * params.perSubstep;
+    if (ma > 0.0f) {
+        position[a] = vec4(vec3(pa) + push * ma, pa.w);
+        velocity[a] = vec4(vec3(va) + kick * ma, va.w);
+    }
+    if (mb > 0.0f) {
+        position[b] = vec4(vec3(pb) - push * mb, pb.w);
+        velocity[b] = vec4(vec3(vb) - kick * mb, vb.w);
+    }
+    return true;
+}
+
+void visitPair(uint a, uint b) {
+    separate(a, b);
+}
+
+#include "shared/group.h"
+
+KERNEL(params.groups) {
+    uint group = groupOf(phase, invocation);
+    uvec4 mine = span[group];
+    if (mine.y == UNLISTED) {
+        visitGroupNumber(group);
+        return;
+    }
+    uint touched = 0u;
+    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+        uvec2 pair = pairs[k];
+        if (separate(pair.x, pair.y)) {
+            touching[mine.x + touched] = pair;
+            touched = touched + 1u;
+        }
+    }
+    span[group] = uvec4(mine.x, mine.y, touched, 0u);
+}

@@ -1,0 +1,82 @@
+// Gives each touching pair the normal speed that physics allows, pair after pair. Restitution works on running
+// velocities that start from those before the substep: an impact passes from pair to pair as it does in a cradle. The
+// position pass may have added separation speed: it is cut to what the impact, or the pair's own parting, justifies.
+// `phase` is the colour of the groups.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/contact.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, restrict, vec4, before, BeforeBlock)
+BUFFER(3, readonly, uint, id, IdBlock)
+BUFFER(4, readonly, uint, cellStart, CellBlock)
+BUFFER(5, readonly, uvec4, span, SpanBlock)
+BUFFER(6, readonly, uvec2, touching, TouchingBlock)
+BUFFER(7, readonly, float, bounce, BounceBlock)
+
+// Of an unlisted group, pairs this much further apart than their radii count as touching: the push apart leaves them
+// within rounding of it.
+#define TOUCH_TOLERANCE 1.0e-4f
+
+void collide(uint a, uint b, bool known) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    float squared = dot3(d, d);
+    if (!known) {
+        float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) * (1.0f + TOUCH_TOLERANCE);
+        if (!(squared < reach * reach)) return;
+    }
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    float ma = mobility(va.w);
+    float mb = mobility(vb.w);
+    float sum = ma + mb;
+    if (sum == 0.0f) return;
+    vec3 n = vec3(normalAndDistance(d, squared, id[a], id[b]));
+    float least = 0.0f;
+    float most = 0.0f;
+    if (HAS(RESTITUTION)) {
+        vec4 ua = before[a];
+        vec4 ub = before[b];
+        float approach = dot3(vec3(ua) - vec3(ub), n);
+        if (approach < 0.0f) {
+            float e = HAS(RESTITUTIONS) ? min(bounce[id[a]], bounce[id[b]]) : params.restitution;
+            least = -e * approach;
+            most = least;
+            vec3 impulse = n * ((least - approach) / sum);
+            before[a] = vec4(vec3(ua) + impulse * ma, ua.w);
+            before[b] = vec4(vec3(ub) - impulse * mb, ub.w);
+        } else {
+            most = approach;
+        }
+    }
+    float speed = dot3(vec3(va) - vec3(vb), n);
+    float change = min(max(speed, least), most) - speed;
+    vec3 impulse = n * (change / sum);
+    if (ma > 0.0f) velocity[a] = vec4(vec3(va) + impulse * ma, va.w);
+    if (mb > 0.0f) velocity[b] = vec4(vec3(vb) - impulse * mb, vb.w);
+}
+
+void visitPair(uint a, uint b) {
+    collide(a, b, false);
+}
+
+#include "shared/group.h"
+
+KERNEL(params.groups) {
+    uint group = groupOf(phase, invocation);
+    uvec4 mine = span[group];
+    if (mine.y == UNLISTED) {
+        visitGroupNumber(group);
+        return;
+    }
+    for (uint k = mine.x; k < mine.x + mine.z; ++k) {
+        uvec2 pair = touching[k];
+        collide(pair.x, pair.y, true);
+    }
+}

@@ -1,0 +1,14 @@
+// Remembers where the spheres are as the lists are built, and where each id went.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, uint, id, IdBlock)
+BUFFER(2, writeonly, vec4, anchor, AnchorBlock)
+BUFFER(3, writeonly, uint, slotOf, SlotBlock)
+
+KERNEL(params.spheres) {
+    anchor[invocation] = position[invocation];
+    slotOf[id[invocation]] = invocation;
+}

@@ -1,0 +1,44 @@
+// Overlaps of each group's pairs; the host adds up the parts.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, uint, cellStart, CellBlock)
+BUFFER(2, readonly, uvec4, span, SpanBlock)
+BUFFER(3, readonly, uvec2, pairs, PairBlock)
+BUFFER(4, writeonly, vec4, overlaps, OverlapBlock)  // per group: contacts, sum and largest of overlap / r, 0
+
+PRIVATE(float, contacts)
+PRIVATE(float, sum)
+PRIVATE(float, largest)
+
+void visitPair(uint a, uint b) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    float reach = HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius;
+    float squared = dot3(d, d);
+    if (!(squared < reach * reach)) return;
+    float overlap = (reach - sqrt(squared)) / (HAS(RADII) ? min(pa.w, pb.w) : params.radius);
+    contacts = contacts + 1.0f;
+    sum = sum + overlap;
+    largest = max(largest, overlap);
+}
+
+#include "shared/group.h"
+
+KERNEL(params.groups * 8u) {
+    contacts = 0.0f;
+    sum = 0.0f;
+    largest = 0.0f;
+    uvec4 mine = span[invocation];
+    if (mine.y == UNLISTED) {
+        visitGroupNumber(invocation);
+    } else {
+        for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+    }
+    overlaps[invocation] = vec4(contacts, sum, largest, 0.0f);
+}

@@ -1,0 +1,71 @@
+// Partial sums over STATISTIC_BLOCK spheres each, of those with finite states; the host adds up the parts.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
+BUFFER(3, writeonly, SphereStatistics, parts, PartBlock)
+
+PRIVATE(vec3, wallPoint)
+PRIVATE(float, deepest)
+
+void visitWall(vec3 normal, float depth, float wallRestitution) {
+    deepest = max(deepest, depth);
+}
+
+#include "shared/walls.h"
+
+bool outside(vec3 p) {
+    return p.x < params.wallMin.x || p.x > params.wallMax.x || p.y < params.wallMin.y || p.y > params.wallMax.y ||
+           p.z < params.wallMin.z || p.z > params.wallMax.z;
+}
+
+KERNEL(params.statisticBlocks) {
+    uint end = min(params.spheres, (invocation + 1u) * STATISTIC_BLOCK);
+    float energy = 0.0f;
+    vec3 momentum = vec3(0.0f, 0.0f, 0.0f);
+    vec4 weighted = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    float height = 0.0f;
+    float squares = 0.0f;
+    float fastest = 0.0f;
+    float overlap = 0.0f;
+    uint sleeping = 0u;
+    uint left = 0u;
+    uint nonFinite = 0u;
+    for (uint k = invocation * STATISTIC_BLOCK; k < end; ++k) {
+        vec3 x = vec3(position[k]);
+        vec4 v = velocity[k];
+        if (!finite3(x) || !finite3(vec3(v))) {
+            nonFinite += 1u;
+            continue;
+        }
+        float mass = 1.0f / abs(v.w);
+        float squared = dot3(vec3(v), vec3(v));
+        energy += 0.5f * mass * squared;
+        momentum = momentum + vec3(v) * mass;
+        weighted = weighted + vec4(x * mass, mass);
+        height += x.z;
+        squares += squared;
+        fastest = max(fastest, squared);
+        if (v.w < 0.0f) sleeping += 1u;
+        if (outside(x)) left += 1u;
+        float radius = HAS(RADII) ? position[k].w : params.radius;
+        wallPoint = x;
+        deepest = 0.0f;
+        visitWalls(radius);
+        overlap = max(overlap, deepest / radius);
+    }
+    parts[invocation].weighted = weighted;
+    parts[invocation].momentum = vec4(momentum, energy);
+    parts[invocation].heightSum = height;
+    parts[invocation].speedSquares = squares;
+    parts[invocation].speedSquaredMax = fastest;
+    parts[invocation].wallOverlapMax = overlap;
+    parts[invocation].sleeping = sleeping;
+    parts[invocation].outside = left;
+    parts[invocation].nonFinite = nonFinite;
+    parts[invocation].unused = 0u;
+}

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "compute/probe.h"
+
+namespace spherule::compute {
+namespace {
+
+bool mentions(const std::vector<std::string>& hints, const std::string& part) {
+    return std::any_of(hints.begin(), hints.end(), [&](const auto& h) { return h.find(part) != std::string::npos; });
+}
+
+ProbeDevice device(const std::string& choice, const std::string& problem = "") {
+    ProbeDevice result;
+    result.choice = choice;
+    result.problem = problem;
+    return result;
+}
+
+TEST(Probe, ListsTheSoftwareDeviceAndItsLimits) {
+    const auto result = probe("software");
+    ASSERT_TRUE(result.has_value()) << result.error().text();
+    ASSERT_TRUE(result->chosen.has_value()) << result->problem;
+    EXPECT_EQ(result->chosen->kind, "software");
+    ASSERT_TRUE(result->limits.has_value());
+    EXPECT_EQ(result->limits->maxBufferBytes, static_cast<std::int64_t>(result->chosen->maxBufferBytes));
+    EXPECT_GE(result->limits->storageBuffersPerKernel, 8);
+    EXPECT_GE(result->limits->groupsX, 65535);
+    EXPECT_GE(result->limits->groupInvocations, 64);
+    EXPECT_TRUE(std::any_of(result->devices.begin(), result->devices.end(),
+                            [](const auto& d) { return d.choice == "software" && !d.renderer.empty(); }));
+    EXPECT_FALSE(result->vendors.empty());
+}
+
+TEST(Probe, TextAndJsonNameTheRenderer) {
+    const auto result = probe("software").value();
+    const auto text = probeText(result);
+    EXPECT_NE(text.find(result.chosen->renderer), std::string::npos) << text;
+    const auto json = probeJson(result);
+    EXPECT_EQ(json.find('\n'), std::string::npos);
+    EXPECT_NE(json.find("\"renderer\":\"" + result.chosen->renderer + "\""), std::string::npos) << json;
+    EXPECT_NE(json.find("\"limits\":{\"maxBufferBytes\":"), std::string::npos) << json;
+}
+
+TEST(Probe, JsonOfNothingHasEveryKeyAndEscapes) {
+    Probe nothing;
+    nothing.choice = "gpu";
+    nothing.problem = "a \"quoted\" problem\n";
+    EXPECT_EQ(probeJson(nothing),
+              R"({"choice":"gpu","chosen":null,"limits":null,"problem":"a \"quoted\" problem\n","hints":[],)"
+              R"("devices":[],"vendors":[],"clientExtensions":""})");
+}
+
+TEST(Probe, MissingGpuIsAResultWithItsProblem) {
+    const auto result = probe("gpu:99");
+    ASSERT_TRUE(result.has_value());
+    EXPECT_FALSE(result->chosen.has_value());
+    EXPECT_NE(result->problem.find("gpu:99"), std::string::npos);
+    EXPECT_NE(probeText(*result).find(result->problem), std::string::npos);
+}
+
+TEST(Probe, UnknownChoiceIsRefused) {
+    const auto result = probe("fast");
+    ASSERT_FALSE(result.has_value());
+    EXPECT_EQ(result.error().kind, ErrorKind::Input);
+}
+
+TEST(ProbeHints, ContainerWithoutGraphicsIsTold) {
+    detail::HostFacts host;
+    host.nvidiaKernelModule = true;
+    host.nvidiaCapabilities = "compute,utility";
+    EXPECT_TRUE(mentions(detail::hintsFor({}, host), "NVIDIA_DRIVER_CAPABILITIES=compute,utility,graphics"));
+}
+
+TEST(ProbeHints, NvidiaWithoutVendorFileIsTold) {
+    detail::HostFacts host;
+    host.nvidiaKernelModule = true;
+    Probe seen;
+    EXPECT_TRUE(mentions(detail::hintsFor(seen, host), "10_nvidia.json"));
+    seen.vendors.push_back({"10_nvidia.json", "libEGL_nvidia.so.0", "cannot open shared object file"});
+    EXPECT_TRUE(mentions(detail::hintsFor(seen, host), "libEGL_nvidia.so.0 does not open"));
+    seen.vendors.back().problem.clear();
+    EXPECT_TRUE(mentions(detail::hintsFor(seen, host), "MIG"));
+}
+
+TEST(ProbeHints, ClosedRenderNodeIsTold) {
+    detail::HostFacts host;
+    host.closedDrmFiles = {"/dev/dri/renderD128"};
+    EXPECT_TRUE(mentions(detail::hintsFor({}, host), "/dev/dri/renderD128"));
+}
+
+TEST(ProbeHints, MissingSoftwareRendererIsTold) {
+    Probe seen;
+    EXPECT_TRUE(mentions(detail::hintsFor(seen, {}), "libgl1-mesa-dri"));
+    seen.devices.push_back(device("software"));
+    EXPECT_FALSE(mentions(detail::hintsFor(seen, {}), "libgl1-mesa-dri"));
+    seen.devices.back() = device("software", "cannot be initialised");
+    EXPECT_TRUE(mentions(detail::hintsFor(seen, {}), "libgl1-mesa-dri"));
+}
+
+TEST(ProbeHints, HostWithEverythingGetsNone) {
+    Probe seen;
+    seen.devices = {device("gpu:0"), device("software")};
+    EXPECT_TRUE(detail::hintsFor(seen, {}).empty());
+}
+
+}  // namespace
+}  // namespace spherule::compute

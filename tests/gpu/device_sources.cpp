@@ -1,0 +1,64 @@
+#include <array>
+
+#include "compute/source.h"
+#include "device_fixture.h"
+
+namespace spherule::compute {
+namespace {
+
+TEST(KernelSources, LinesKnowWhereTheyCameFrom) {
+    const MapSources sources{{"a.comp", "one\n  # include \"b.h\"  \nthree"}, {"b.h", "inner\n"}};
+    const std::array defines{Define{"F", "2"}};
+    const auto expanded = expandSource(sources, "a.comp", defines);
+    ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+    EXPECT_EQ(expanded->text,
+              "#version 450 core\n#line 1 0\n#define F 2\n"
+              "#line 100001 1\none\n#line 200001 2\ninner\n#line 100003 1\nthree\n");
+    EXPECT_EQ(expanded->files, (std::vector<std::string>{"<defines>", "a.comp", "b.h"}));
+}
+
+TEST(KernelSources, FileIncludedTwiceIsThereTwiceUnderOneIndex) {
+    const MapSources sources{{"a.comp", "#include \"b.h\"\n#include \"b.h\"\n"}, {"b.h", "x\n"}};
+    const auto expanded = expandSource(sources, "a.comp", {});
+    ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+    EXPECT_EQ(expanded->files.size(), 3U);
+    EXPECT_NE(expanded->text.find("#line 200001 2\nx\n#line 100002 1\n#line 200001 2\nx\n"), std::string::npos)
+        << expanded->text;
+}
+
+TEST(KernelSources, OnlyQuotedIncludesAreExpanded) {
+    const MapSources sources{{"a.comp", "#include <glm/glm.hpp>\n// #include \"b.h\"\n#includes \"b.h\"\n"}};
+    const auto expanded = expandSource(sources, "a.comp", {});
+    ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+    EXPECT_NE(expanded->text.find("#include <glm/glm.hpp>\n// #include \"b.h\"\n#includes \"b.h\"\n"),
+              std::string::npos);
+}
+
+TEST(KernelSources, CycleIsRefusedWithItsPath) {
+    const MapSources sources{
+        {"a.comp", "\n#include \"b.h\"\n"}, {"b.h", "#include \"c.h\"\n"}, {"c.h", "\n\n#include \"b.h\"\n"}};
+    const auto expanded = expandSource(sources, "a.comp", {});
+    ASSERT_FALSE(expanded.has_value());
+    EXPECT_EQ(expanded.error().text(), "c.h:3: \"b.h\" includes itself by way of a.comp -> b.h -> c.h");
+}
+
+TEST(KernelSources, MissingFileIsNamedWithTheLineThatAsksForIt) {
+    const MapSources sources{{"a.comp", "\n#include \"lost.h\"\n"}};
+    const auto expanded = expandSource(sources, "a.comp", {});
+    ASSERT_FALSE(expanded.has_value());
+    EXPECT_EQ(expanded.error().where, "a.comp:2");
+    EXPECT_NE(expanded.error().message.find("lost.h"), std::string::npos);
+    EXPECT_FALSE(expandSource(sources, "lost.comp", {}).has_value());
+}
+
+TEST(KernelSources, MessagesOfAllCompilersNameTheFile) {
+    const std::vector<std::string> files{"<defines>", "a.comp", "shared/b.h"};
+    EXPECT_EQ(nameFiles("0:200012(5): error: `x' undeclared\n", files), "shared/b.h:12(5): error: `x' undeclared\n");
+    EXPECT_EQ(nameFiles("1(100007) : error C1008: undefined\n", files), "a.comp:7 : error C1008: undefined\n");
+    EXPECT_EQ(nameFiles("ERROR: 1:100003: 'x' : undeclared\nno place here\n9:900001(1): unknown file\n", files),
+              "a.comp:3: 'x' : undeclared\nno place here\n9:900001(1): unknown file\n");
+    EXPECT_EQ(nameFiles("0:2(9): error: bad define\n", files), "<defines>:2(9): error: bad define\n");
+}
+
+}  // namespace
+}  // namespace spherule::compute

@@ -1,0 +1,142 @@
+#include <random>
+
+#include "owner.h"
+#include "raw_socket.h"
+
+namespace spherule::net {
+namespace {
+
+TEST(BadClients, AreRefusedWithoutTheSubprotocol) {
+    Owner owner;
+    for (const std::string asked : {"", "chat", "spherule.v2", "spherule.v10"}) {
+        const auto client = Client::connect(owner.url(), patience, asked);
+        ASSERT_FALSE(client) << asked;
+        EXPECT_NE(client.error().text().find("HTTP 400"), std::string::npos) << client.error().text();
+        EXPECT_NE(client.error().text().find("must ask for subprotocol spherule.v1"), std::string::npos);
+    }
+    EXPECT_TRUE(Client::connect(owner.url(), patience, "chat, spherule.v1"));
+    EXPECT_EQ(owner.counters().handshakesRefused, 4U);
+}
+
+TEST(BadClients, AreClosedWhenTheySayNoHello) {
+    Options options = quickOptions();
+    options.helloTimeout = 200ms;
+    Owner owner(options);
+    const auto client = connect(owner);
+    const auto end = readToEnd(*client);
+    EXPECT_EQ(end.code, 1008);
+    EXPECT_EQ(end.reason, "no hello came in time");
+    EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::NoHello) == 1; }));
+}
+
+TEST(BadClients, AreClosedWhenTheyDoNotBeginWithHello) {
+    Owner owner;
+    const auto client = connect(owner);
+    v1::ClientMessage message;
+    message.mutable_command()->mutable_pause();
+    ASSERT_TRUE(client->send(message));
+    EXPECT_EQ(readToEnd(*client).code, 1008);
+    EXPECT_TRUE(owner.commands().empty());
+}
+
+TEST(BadClients, AreClosedWhenTheySayHelloTwice) {
+    Owner owner;
+    const auto client = join(owner, 0);
+    ASSERT_TRUE(client->send(helloOf(10)));
+    EXPECT_EQ(readToEnd(*client).code, 1008);
+}
+
+TEST(BadClients, AreClosedWith1009ForAMessageOverTheLimit) {
+    Owner owner;
+    const auto client = join(owner, 0);
+    ASSERT_TRUE(client->sendBytes(std::string(Options().maxMessageBytes + 1, '\0'), Encoding::Binary));
+    EXPECT_EQ(readToEnd(*client).code, 1009);
+    EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::TooBig) == 1; }));
+}
+
+TEST(BadClients, AreClosedWith1007ForBytesThatAreNoMessage) {
+    Owner owner;
+    const auto client = join(owner, 0);
+    ASSERT_TRUE(client->sendBytes("\xff\xff\xff", Encoding::Binary));
+    const auto end = readToEnd(*client);
+    EXPECT_EQ(end.code, 1007);
+    EXPECT_EQ(end.reason, "not a ClientMessage of spherule.v1");
+    EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::Undecodable) == 1; }));
+}
+
+TEST(BadClients, AreClosedWith1007ForTextThatIsNoMessage) {
+    Owner owner;
+    const std::string accented = R"({"command":{"pause":{}, ")" + std::string(200, '\xc3') + R"(": 1}})";
+    for (const std::string text :
+         {"rubbish", R"({"comand":{}})", R"({"command":{"pause":{"for":3}}})", "{", "[]", ""}) {
+        const auto client = join(owner, 0, Encoding::Text);
+        ASSERT_TRUE(client->sendBytes(text, Encoding::Text));
+        const auto end = readToEnd(*client);
+        EXPECT_EQ(end.code, 1007) << text;
+        EXPECT_NE(end.reason.find("not the JSON form"), std::string::npos) << text << ": " << end.reason;
+    }
+    const auto client = join(owner, 0, Encoding::Text);
+    ASSERT_TRUE(client->sendBytes(accented, Encoding::Text));
+    EXPECT_EQ(readToEnd(*client).code, 1007) << "text that is not UTF-8";
+}
+
+TEST(BadClients, GetAReasonCutBetweenCharacters) {
+    Owner owner;
+    const auto client = join(owner, 0, Encoding::Text);
+    std::string name;
+    for (int i = 0; i < 100; ++i) name += "ü";
+    ASSERT_TRUE(client->sendBytes(R"({")" + name + R"(":1})", Encoding::Text));
+    const auto end = readToEnd(*client);
+    EXPECT_EQ(end.code, 1007) << end.reason;
+    EXPECT_GT(end.reason.size(), 100U);
+}
+
+TEST(BadClients, ThatSendGarbageInsteadOfHttpAreAnsweredAndForgotten) {
+    Owner owner;
+    const auto healthy = join(owner, 60);
+    std::mt19937 random(1);
+    for (int i = 0; i < 50; ++i) {
+        std::string garbage(1 + random() % 500, '\0');
+        for (char& c : garbage) c = static_cast<char>(random());
+        const RawSocket socket(owner.server().port());
+        socket.send(garbage + "\r\n\r\n");
+        EXPECT_EQ(socket.readAll().substr(0, 12), "HTTP/1.1 400");
+    }
+    owner.server().publish(stateOf(1, 1, 64));
+    EXPECT_TRUE(next(*healthy).has_frame());
+}
+
+TEST(BadClients, ThatSendGarbageInsteadOfFramesAreClosedAndForgotten) {
+    Owner owner;
+    const auto healthy = join(owner, 60);
+    std::mt19937 random(2);
+    for (int i = 0; i < 50; ++i) {
+        const RawSocket socket(owner.server().port());
+        ASSERT_EQ(socket.openStream().substr(0, 12), "HTTP/1.1 101");
+        std::string garbage(300, '\0');
+        for (char& c : garbage) c = static_cast<char>(random());
+        garbage[0] = static_cast<char>(0xf0);  // reserved bits that mean nothing here
+        socket.send(garbage);
+        const std::string answer = socket.readAll();
+        ASSERT_GE(answer.size(), 4U);
+        EXPECT_EQ(answer.substr(2, 2), "\x03\xea") << "a close frame with 1002";
+    }
+    EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::Protocol) == 50; }));
+    owner.server().publish(stateOf(1, 1, 64));
+    EXPECT_TRUE(next(*healthy).has_frame());
+}
+
+TEST(BadClients, ThatAskForCompressionGetNone) {
+    Owner owner;
+    const RawSocket socket(owner.server().port());
+    socket.send(
+        "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Extensions: permessage-deflate\r\nSec-WebSocket-Protocol: spherule.v1\r\n\r\n");
+    const std::string head = socket.readUntil("\r\n\r\n");
+    EXPECT_EQ(head.substr(0, 12), "HTTP/1.1 101");
+    EXPECT_EQ(head.find("deflate"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace spherule::net

@@ -1,0 +1,119 @@
+#include "net/ctl.h"
+#include "owner.h"
+
+namespace spherule::net {
+namespace {
+
+v1::ClientMessage pauseOf(std::uint64_t id) {
+    v1::ClientMessage message;
+    message.mutable_command()->set_id(id);
+    message.mutable_command()->mutable_pause();
+    return message;
+}
+
+TEST(Commands, AreHandedToTheOwnerAndAnsweredToTheSender) {
+    Owner owner;
+    const auto sender = join(owner, 0);
+    const auto other = join(owner, 0);
+    ASSERT_TRUE(sender->send(pauseOf(99)));
+    const auto answer = next(*sender);
+    EXPECT_EQ(answer.result().id(), 99U);
+    EXPECT_EQ(answer.result().applied().step(), 7U);
+    ASSERT_EQ(owner.commands().size(), 1U);
+    EXPECT_TRUE(owner.commands()[0].has_pause());
+    owner.server().broadcast(eventOf("only this"));
+    EXPECT_EQ(next(*other).event().text(), "only this");
+}
+
+TEST(Commands, AreTakenAsTextToo) {
+    Owner owner;
+    const auto client = join(owner, 0, Encoding::Text);
+    ASSERT_TRUE(client->sendBytes(R"({"command":{"id":5,"set":{"gravity":[0,0,-1.6]}}})", Encoding::Text));
+    EXPECT_EQ(next(*client).result().id(), 5U);
+    ASSERT_EQ(owner.commands().size(), 1U);
+    EXPECT_EQ(owner.commands()[0].set().gravity(2), -1.6);
+}
+
+TEST(Commands, AreRefusedWhenTheOwnersQueueIsFull) {
+    Owner owner;
+    owner.takesCommands = false;
+    const auto client = join(owner, 0);
+    ASSERT_TRUE(client->send(pauseOf(3)));
+    const auto answer = next(*client);
+    EXPECT_EQ(answer.result().id(), 3U);
+    EXPECT_EQ(answer.result().refused().reason(), "the command queue is full");
+}
+
+TEST(Commands, OfANewerClientAreRefusedAndTheSessionGoesOn) {
+    Owner owner;
+    const auto client = join(owner, 0);
+    // A ClientMessage whose command has id 4 and, in the unknown field 100, an empty message.
+    const std::string_view unknown("\x12\x05\x08\x04\xa2\x06\x00", 7);
+    ASSERT_TRUE(client->sendBytes(unknown, Encoding::Binary));
+    const auto answer = next(*client);
+    EXPECT_EQ(answer.result().id(), 4U);
+    EXPECT_EQ(answer.result().refused().reason(), "the command is not known to this server");
+    EXPECT_TRUE(owner.commands().empty());
+    ASSERT_TRUE(client->send(pauseOf(5)));
+    EXPECT_EQ(next(*client).result().applied().step(), 7U);
+}
+
+TEST(Commands, MayBeAsLongAsTheLimitAllows) {
+    Owner owner;
+    const auto client = join(owner, 0);
+    v1::ClientMessage message;
+    message.mutable_command()->set_id(1);
+    const std::size_t frame = 64;  // generously, for everything around the text
+    message.mutable_command()->mutable_load()->mutable_scene()->set_description(
+        std::string(Options().maxMessageBytes - frame, 'x'));
+    ASSERT_TRUE(client->send(message));
+    EXPECT_TRUE(next(*client).result().has_applied());
+}
+
+TEST(Commands, OfASessionThatLeftAreAnsweredIntoTheVoid) {
+    Owner owner;
+    owner.server().reply(12345, v1::CommandResult());
+    const auto client = join(owner, 0);
+    EXPECT_FALSE(client->closed());
+}
+
+TEST(Ctl, SendsOneCommandAndReturnsItsResult) {
+    Owner owner;
+    owner.publishEvery(5ms, 64);
+    const auto result = sendCommand(owner.url(), *commandFrom({"pause"}), patience);
+    ASSERT_TRUE(result) << result.error().text();
+    EXPECT_EQ(resultText(*result), "applied at step 7");
+    ASSERT_EQ(owner.commands().size(), 1U);
+    EXPECT_TRUE(owner.commands()[0].has_pause());
+}
+
+TEST(Ctl, ReturnsARefusalAsAResult) {
+    Owner owner;
+    owner.takesCommands = false;
+    const auto result = sendCommand(owner.url(), *commandFrom({"reset"}), patience);
+    ASSERT_TRUE(result) << result.error().text();
+    EXPECT_EQ(resultText(*result), "refused: the command queue is full");
+}
+
+TEST(Ctl, SaysThatNobodyListens) {
+    std::string url;
+    {
+        const Owner owner;
+        url = owner.url();
+    }
+    const auto result = sendCommand(url, *commandFrom({"reset"}), patience);
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().text().find("cannot be reached"), std::string::npos) << result.error().text();
+}
+
+TEST(Ctl, SaysWhyTheServerClosed) {
+    Owner owner;
+    v1::Command command;
+    command.mutable_load()->mutable_scene()->set_description(std::string(Options().maxMessageBytes, 'x'));
+    const auto result = sendCommand(owner.url(), command, patience);
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().text().find("1009"), std::string::npos) << result.error().text();
+}
+
+}  // namespace
+}  // namespace spherule::net

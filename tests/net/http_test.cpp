@@ -1,0 +1,85 @@
+#include "owner.h"
+#include "raw_socket.h"
+
+namespace spherule::net {
+namespace {
+
+class Http : public testing::Test {
+  protected:
+    // One request on a connection of its own.
+    std::string ask(const std::string& firstLine, const std::string& rest = "\r\n") {
+        const RawSocket socket(owner_.server().port());
+        socket.send(firstLine + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + rest);
+        return socket.readAll();
+    }
+
+    static bool has(const std::string& answer, const std::string& part) {
+        return answer.find(part) != std::string::npos;
+    }
+
+    Owner owner_;
+};
+
+TEST_F(Http, GetIsAnsweredByTheOwner) {
+    const auto answer = ask("GET /healthz?probe=1");
+    EXPECT_EQ(answer.substr(0, 15), "HTTP/1.1 200 OK") << answer;
+    EXPECT_TRUE(has(answer, "Content-Type: text/plain\r\n")) << answer;
+    EXPECT_TRUE(has(answer, "Content-Length: 5\r\n")) << answer;
+    EXPECT_TRUE(answer.ends_with("\r\n\r\nwell\n")) << answer;
+}
+
+TEST_F(Http, HeadIsAnsweredWithoutTheBody) {
+    const auto answer = ask("HEAD /healthz");
+    EXPECT_EQ(answer.substr(0, 15), "HTTP/1.1 200 OK") << answer;
+    EXPECT_TRUE(has(answer, "Content-Length: 5\r\n")) << answer;
+    EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << answer;
+}
+
+TEST_F(Http, AnUnknownPathIs404) {
+    EXPECT_EQ(ask("GET /nowhere").substr(0, 12), "HTTP/1.1 404");
+}
+
+TEST_F(Http, OtherMethodsAre405) {
+    for (const std::string method : {"POST", "PUT", "DELETE", "OPTIONS"}) {
+        const auto answer = ask(method + " /healthz");
+        EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 405") << method;
+        EXPECT_TRUE(has(answer, "Allow: GET, HEAD\r\n")) << answer;
+    }
+}
+
+TEST_F(Http, AConnectionServesSeveralRequests) {
+    const RawSocket socket(owner_.server().port());
+    for (int i = 0; i < 3; ++i) {
+        socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        EXPECT_TRUE(has(socket.readUntil("well\n"), "200 OK"));
+    }
+}
+
+TEST_F(Http, LongHeadersAre431) {
+    const auto answer = ask("GET /healthz", "X: " + std::string(17'000, 'x') + "\r\n\r\n");
+    EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 431") << answer;
+    EXPECT_EQ(ask("GET /healthz", "X: " + std::string(15'000, 'x') + "\r\n\r\n").substr(0, 12), "HTTP/1.1 200");
+}
+
+TEST_F(Http, ALongBodyIs413) {
+    const auto answer = ask("POST /healthz", "Content-Length: 10001\r\n\r\n" + std::string(10'001, 'x'));
+    EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 413") << answer;
+}
+
+TEST_F(Http, TheStreamWithoutAnUpgradeIs400) {
+    const auto answer = ask("GET /ws");
+    EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 400");
+    EXPECT_TRUE(has(answer, "open it as a WebSocket with subprotocol spherule.v1")) << answer;
+}
+
+TEST_F(Http, AnUpgradeWithoutAKeyIs400) {
+    const auto answer = ask("GET /ws",
+                            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                            "Sec-WebSocket-Protocol: spherule.v1\r\n\r\n");
+    EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 400") << answer;
+    EXPECT_TRUE(eventually([&] { return owner_.counters().sessions == 0; }));
+    EXPECT_EQ(owner_.counters().accepted, 0U);
+}
+
+}  // namespace
+}  // namespace spherule::net

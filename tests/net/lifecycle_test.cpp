@@ -1,0 +1,97 @@
+#include <filesystem>
+#include <future>
+
+#include "owner.h"
+#include "raw_socket.h"
+
+namespace spherule::net {
+namespace {
+
+std::ptrdiff_t openFiles() {
+    const std::filesystem::directory_iterator files("/proc/self/fd");
+    return std::distance(begin(files), end(files));
+}
+
+TEST(Lifecycle, ManyClientsComeAndGoWithoutALeak) {
+    Owner owner;
+    owner.publishEvery(5ms, 64);
+    const auto files = openFiles();
+    for (int i = 0; i < 150; ++i) {
+        const auto client = i % 3 == 0 ? connect(owner) : join(owner, 60);
+        if (i % 2 == 0) client->close();
+    }
+    EXPECT_TRUE(eventually([&] { return owner.counters().sessions == 0; }));
+    EXPECT_EQ(owner.server().viewers(), 0U);
+    EXPECT_EQ(owner.counters().accepted, 150U);
+    EXPECT_EQ(owner.counters().closedBy(CloseCause::Left), 150U);
+    EXPECT_TRUE(eventually([&] { return openFiles() == files; }));
+}
+
+TEST(Lifecycle, DrainingSendsWhatIsQueuedThenClosesWith1012) {
+    Owner owner;
+    owner.publishEvery(5ms, 64);
+    const auto viewer = join(owner, 60);
+    const auto silent = connect(owner);
+    auto draining = std::async(std::launch::async, [&owner] {
+        owner.server().broadcast(eventOf("stopping", v1::Event::DRAINING));
+        owner.server().drain();
+    });
+    bool told = false;
+    while (!viewer->closed()) {
+        const auto received = viewer->receive(patience);
+        if (received && *received && (*received)->has_event()) told = true;
+    }
+    EXPECT_TRUE(told);
+    EXPECT_EQ(viewer->closed()->code, 1012);
+    EXPECT_EQ(viewer->closed()->reason, "the server is stopping");
+    EXPECT_EQ(readToEnd(*silent).code, 1012);
+    EXPECT_EQ(draining.wait_for(1s), std::future_status::ready) << "nobody was left to wait for";
+    EXPECT_EQ(owner.counters().closedBy(CloseCause::Drained), 2U);
+    EXPECT_FALSE(Client::connect(owner.url(), patience)) << "it still accepts";
+}
+
+TEST(Lifecycle, DrainingDoesNotWaitForeverForAClientThatDoesNotRead) {
+    Options options = quickOptions();
+    options.drainTimeout = 500ms;
+    Owner owner(options);
+    owner.publishEvery(5ms, 40'000);
+    const auto stalled = join(owner, 60);
+    ASSERT_TRUE(eventually([&] { return owner.counters().framesReplaced > 3; }));
+    const auto begin = std::chrono::steady_clock::now();
+    owner.server().drain();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 1400ms);
+    EXPECT_EQ(owner.counters().sessions, 0U);
+}
+
+TEST(Lifecycle, AServerMayGoWhileClientsAndRequestsAreOpen) {
+    auto owner = std::make_unique<Owner>();
+    owner->publishEvery(5ms, 40'000);
+    const auto viewer = join(*owner, 60);
+    const auto silent = connect(*owner);
+    const RawSocket request(owner->server().port());
+    request.send("GET / HT");
+    owner.reset();
+    EXPECT_EQ(readToEnd(*viewer).code, 1006);
+    EXPECT_EQ(request.readAll(), "");
+}
+
+TEST(Lifecycle, APortInUseIsAnErrorThatSaysSo) {
+    Owner owner;
+    Options options = quickOptions();
+    options.port = owner.server().port();
+    const auto second = startServer(options, {});
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().where, "127.0.0.1:" + std::to_string(options.port));
+    EXPECT_NE(second.error().message.find("Address already in use"), std::string::npos) << second.error().message;
+}
+
+TEST(Lifecycle, AHostThatIsNotOursIsAnError) {
+    Options options = quickOptions();
+    options.host = "192.0.2.1";
+    EXPECT_FALSE(startServer(options, {}));
+    options.host = "no such host";
+    EXPECT_FALSE(startServer(options, {}));
+}
+
+}  // namespace
+}  // namespace spherule::net

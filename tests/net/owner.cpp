@@ -1,0 +1,168 @@
+#include "owner.h"
+
+#include <utility>
+
+namespace spherule::net {
+
+Options quickOptions() {
+    Options options;
+    options.port = 0;
+    options.helloTimeout = 1s;
+    options.drainTimeout = 2s;
+    return options;
+}
+
+frame::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres) {
+    v1::ServerMessage message;
+    message.mutable_scene()->set_epoch(epoch);
+    message.mutable_scene()->set_name("synthetic");
+    message.mutable_scene()->set_count(spheres);
+    return std::make_shared<frame::Message>(std::move(message));
+}
+
+frame::SharedMessage stateOf(std::uint64_t sequence, std::uint32_t epoch, std::uint32_t spheres) {
+    v1::ServerMessage message;
+    v1::Frame& frame = *message.mutable_frame();
+    frame.set_sequence(sequence);
+    frame.set_epoch(epoch);
+    frame.set_step(sequence);
+    frame.set_count(spheres);
+    const std::size_t bytes = std::size_t{6} * ((spheres + 63) / 64 * 64);
+    frame.mutable_states()->mutable_packed16()->set_positions(std::string(bytes, static_cast<char>(sequence)));
+    return std::make_shared<frame::Message>(std::move(message));
+}
+
+frame::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind) {
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(kind);
+    message.mutable_event()->set_text(text);
+    return std::make_shared<frame::Message>(std::move(message));
+}
+
+bool eventually(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (std::chrono::steady_clock::now() < end) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(5ms);
+    }
+    return false;
+}
+
+Owner::Owner(const Options& options) {
+    auto started = startServer(options, handlers());
+    if (!started) throw std::runtime_error(started.error().text());
+    server_ = std::move(*started);
+    setEpoch(1);
+    v1::ServerMessage settings;
+    settings.mutable_settings()->set_substeps(8);
+    server_->setSettings(std::make_shared<frame::Message>(std::move(settings)));
+}
+
+Owner::~Owner() {
+    stopPublishing();
+}
+
+std::string Owner::url() const {
+    return "ws://127.0.0.1:" + std::to_string(server_->port()) + "/ws";
+}
+
+void Owner::publishEvery(std::chrono::milliseconds period, std::uint32_t spheres) {
+    publisher_ = std::jthread([this, period, spheres](const std::stop_token& stop) {
+        for (auto due = std::chrono::steady_clock::now(); !stop.stop_requested(); due += period) {
+            server_->publish(stateOf(++sequence_, epoch_, spheres));
+            std::this_thread::sleep_until(due + period);
+        }
+    });
+}
+
+void Owner::stopPublishing() {
+    publisher_ = {};
+}
+
+void Owner::setEpoch(std::uint32_t epoch) {
+    server_->setScene(factsOf(epoch, 64));
+    epoch_ = epoch;
+}
+
+std::vector<v1::Command> Owner::commands() {
+    const std::lock_guard lock(mutex_);
+    return commands_;
+}
+
+Handlers Owner::handlers() {
+    return {
+        .welcome =
+            [](const v1::Hello& hello) {
+                v1::Welcome welcome;
+                welcome.set_server("fake owner, for " + hello.client());
+                return welcome;
+            },
+        .submit =
+            [this](SessionId session, v1::Command command) {
+                if (!takesCommands) return false;
+                v1::CommandResult result;
+                result.set_id(command.id());
+                result.mutable_applied()->set_step(7);
+                {
+                    const std::lock_guard lock(mutex_);
+                    commands_.push_back(std::move(command));
+                }
+                server_->reply(session, std::move(result));
+                return true;
+            },
+        .get =
+            [](const std::string& path) {
+                if (path == "/healthz") return HttpAnswer{.status = 200, .contentType = "text/plain", .body = "well\n"};
+                return HttpAnswer{.status = 404, .contentType = "text/plain", .body = "nothing at " + path + "\n"};
+            },
+    };
+}
+
+v1::ClientMessage helloOf(std::uint32_t rate) {
+    v1::ClientMessage message;
+    message.mutable_hello()->set_client("a test");
+    message.mutable_hello()->set_rate(rate);
+    return message;
+}
+
+std::unique_ptr<Client> connect(const Owner& owner) {
+    auto client = Client::connect(owner.url(), patience);
+    if (!client) throw std::runtime_error(client.error().text());
+    return std::move(*client);
+}
+
+std::unique_ptr<Client> join(const Owner& owner, std::uint32_t rate, Encoding encoding) {
+    auto client = connect(owner);
+    EXPECT_TRUE(client->send(helloOf(rate), encoding));
+    EXPECT_TRUE(next(*client).has_welcome());
+    EXPECT_TRUE(next(*client).has_scene());
+    EXPECT_TRUE(next(*client).has_settings());
+    return client;
+}
+
+v1::ServerMessage next(Client& client) {
+    auto received = client.receive(patience);
+    if (!received) {
+        ADD_FAILURE() << received.error().text();
+        return {};
+    }
+    if (!*received) {
+        ADD_FAILURE() << "no message came";
+        return {};
+    }
+    return std::move(**received);
+}
+
+CloseFrame readToEnd(Client& client) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!client.closed() && std::chrono::steady_clock::now() < end) {
+        if (!client.receive(100ms)) break;
+    }
+    if (!client.closed()) {
+        ADD_FAILURE() << "the server did not close";
+        return {};
+    }
+    return *client.closed();
+}
+
+}  // namespace spherule::net

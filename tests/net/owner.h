@@ -1,0 +1,79 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "net/client.h"
+#include "net/server.h"
+
+namespace spherule::net {
+
+using namespace std::chrono_literals;
+
+constexpr auto patience = 10s;  // for what must happen; only a failing test waits that long
+
+// Limits short enough for a test that waits for them, long enough for a busy machine.
+Options quickOptions();
+
+frame::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres);
+frame::SharedMessage stateOf(std::uint64_t sequence, std::uint32_t epoch, std::uint32_t spheres);
+frame::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1::Event::WARNING);
+
+// True as soon as `condition` holds; false when patience is over.
+bool eventually(const std::function<bool()>& condition);
+
+// A server on any free port, with an owner that simulates nothing.
+class Owner {
+  public:
+    explicit Owner(const Options& options = quickOptions());
+    ~Owner();
+    Owner(const Owner&) = delete;
+    Owner& operator=(const Owner&) = delete;
+
+    Server& server() { return *server_; }
+    const Counters& counters() { return server_->counters(); }
+    [[nodiscard]] std::string url() const;
+
+    // Publishes states of the current epoch from a thread of its own.
+    void publishEvery(std::chrono::milliseconds period, std::uint32_t spheres);
+    void stopPublishing();
+    [[nodiscard]] std::uint64_t published() const { return sequence_; }
+    void setEpoch(std::uint32_t epoch);
+
+    // What submit answers.
+    std::atomic<bool> takesCommands = true;
+    std::vector<v1::Command> commands();
+
+  private:
+    Handlers handlers();
+
+    std::unique_ptr<Server> server_;
+    std::mutex mutex_;
+    std::vector<v1::Command> commands_;
+    std::atomic<std::uint32_t> epoch_ = 1;
+    std::atomic<std::uint64_t> sequence_ = 0;
+    std::jthread publisher_;
+};
+
+v1::ClientMessage helloOf(std::uint32_t rate);
+
+// Connected, no hello yet.
+std::unique_ptr<Client> connect(const Owner& owner);
+// After welcome, facts and settings.
+std::unique_ptr<Client> join(const Owner& owner, std::uint32_t rate, Encoding encoding = Encoding::Binary);
+
+// The next message; a failed expectation and an empty one when there is none.
+v1::ServerMessage next(Client& client);
+// Reads on until the server closes; the close frame.
+CloseFrame readToEnd(Client& client);
+
+}  // namespace spherule::net

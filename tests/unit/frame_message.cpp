@@ -1,0 +1,28 @@
+#include "frame/message.h"
+
+#include <gtest/gtest.h>
+
+namespace spherule::frame {
+namespace {
+
+v1::ServerMessage stateMessage() {
+    v1::ServerMessage message;
+    message.mutable_frame()->set_sim_time(0.5);
+    message.mutable_frame()->mutable_states()->mutable_packed16()->set_positions(std::string("\x01\x02\xff", 3));
+    return message;
+}
+
+TEST(Message, CarriesTheSameContentInBinary) {
+    const Message message(stateMessage());
+    v1::ServerMessage parsed;
+    ASSERT_TRUE(parsed.ParseFromString(message.binary()));
+    EXPECT_EQ(parsed.SerializeAsString(), stateMessage().SerializeAsString());
+}
+
+TEST(Message, HasLowerCamelNamesAndBase64InJson) {
+    EXPECT_EQ(Message(stateMessage()).json(),
+              R"({"frame":{"simTime":0.5,"states":{"packed16":{"positions":"AQL/"}}}})");
+}
+
+}  // namespace
+}  // namespace spherule::frame

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+class SceneCsv : public ::testing::Test {
+  protected:
+    Result<Scene> loaded(const std::string& csv, const std::string& more = "") {
+        (void)folder_.write("balls.csv", csv);
+        return load(folder_.write("scene.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [
+            {"csv": {"file": "balls.csv"})" + more + "}]}"),
+                    "software");
+    }
+
+    // The refusal from the name of the CSV file on.
+    std::string refusal(const std::string& csv, const std::string& more = "") {
+        const auto scene = loaded(csv, more);
+        if (scene) return "accepted";
+        EXPECT_NE(scene.error().where.find("scene.json: groups[0].csv.file"), std::string::npos) << scene.error().where;
+        const std::string& text = scene.error().message;
+        return text.substr(std::min(text.size(), text.find("balls.csv:")));
+    }
+
+    Folder folder_;
+};
+
+constexpr const char* radius = R"(, "radius": {"constant": 0.1}, "velocity": [0, 0, 2])";
+
+TEST_F(SceneCsv, GivesPositionsNextToTheSceneFile) {
+    const auto scene = loaded("x,y,z\n0.2,0.3,0.4\n0.5, 6e-1 ,0.5\r\n", radius);
+    ASSERT_TRUE(scene) << scene.error().text();
+    ASSERT_EQ(scene->spheres.size(), 2U);
+    EXPECT_EQ(scene->spheres[0].position, glm::dvec3(0.2, 0.3, 0.4));
+    EXPECT_EQ(scene->spheres[1].position, glm::dvec3(0.5, 0.6, 0.5));
+    EXPECT_EQ(scene->spheres[1].velocity, glm::vec3(0, 0, 2));
+    EXPECT_EQ(scene->spheres[1].radius, 0.1F);
+}
+
+TEST_F(SceneCsv, GivesVelocitiesAndRadii) {
+    const auto scene = loaded("x,y,z,vx,vy,vz,radius\n0.2,0.3,0.4,1,2,3,0.05", radius);
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_EQ(scene->spheres.at(0).velocity, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene->spheres[0].radius, 0.05F);
+    const auto noVelocity = loaded("x,y,z,radius\n0.2,0.3,0.4,0.05");
+    ASSERT_TRUE(noVelocity) << noVelocity.error().text();
+    EXPECT_EQ(noVelocity->spheres.at(0).radius, 0.05F);
+}
+
+TEST_F(SceneCsv, MayHoldNoSpheres) {
+    EXPECT_TRUE(loaded("x,y,z,radius\n"));
+}
+
+TEST_F(SceneCsv, TellsTheLineAndColumnOfAnError) {
+    EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,0.4,0.1\n0.2,abc,0.4,0.1\n"),
+              "balls.csv:3:5: y is \"abc\", must be a number");
+    EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,nan,0.1\n"), "balls.csv:2:9: z is nan, must be a finite number");
+    EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,0.4,0\n"), "balls.csv:2:13: radius is 0, must be positive");
+    EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,0.4\n"),
+              "balls.csv:2:12: the line must have 4 numbers, as the header has names");
+    EXPECT_EQ(refusal("x,y,z\n0.2,0.3,0.4,5\n", radius),
+              "balls.csv:2:12: the line must have 3 numbers, as the header has names");
+    EXPECT_EQ(refusal("x,y,z\n0.2,,0.4\n", radius), "balls.csv:2:5: y is \"\", must be a number");
+    EXPECT_EQ(refusal("x,y,z\n1e999,0,0\n", radius), "balls.csv:2:1: x is \"1e999\", must be a number");
+}
+
+TEST_F(SceneCsv, TellsTheLineOfASphereWithoutAPlace) {
+    EXPECT_EQ(refusal("x,y,z,radius\n0.5,0.5,0.5,0.1\n0.5,0.5,3,0.1\n"),
+              "balls.csv:3:1: the sphere at (0.5, 0.5, 3) with radius 0.1 reaches z = 3.1, outside the bounds, which "
+              "are 0 to 1");
+}
+
+TEST_F(SceneCsv, NeedsAKnownHeader) {
+    EXPECT_EQ(refusal("a,b,c\n"), "balls.csv:1:1: the header is \"a,b,c\", must be x,y,z[,vx,vy,vz][,radius]");
+    EXPECT_EQ(refusal(""), "balls.csv:0:1: the header is \"\", must be x,y,z[,vx,vy,vz][,radius]");
+}
+
+TEST_F(SceneCsv, NeedsARadiusFromSomewhere) {
+    const auto scene = loaded("x,y,z\n0.5,0.5,0.5\n");
+    ASSERT_FALSE(scene);
+    EXPECT_TRUE(scene.error().where.ends_with("scene.json: groups[0].radius")) << scene.error().where;
+}
+
+TEST_F(SceneCsv, MustExist) {
+    const auto scene = load(folder_.write("scene.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [
+        {"csv": {"file": "none.csv"}}]})"),
+                            "software");
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().text().find("none.csv\", which is not a readable file"), std::string::npos)
+        << scene.error().text();
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "scene/occupancy.h"
+#include "scene/random.h"
+#include "scene/surroundings.h"
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+std::string fill(const std::string& more, const std::string& radius) {
+    return group(R"("fill": {"min": [0, 0, 0], "max": [1, 1, 1], )" + more + R"(}, "radius": )" + radius);
+}
+
+std::size_t overlapsIn(const Scene& scene) {
+    std::size_t count = 0;
+    const auto& spheres = scene.spheres;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const double reach = static_cast<double>(spheres[i].radius) + static_cast<double>(spheres[j].radius);
+            if (glm::distance(spheres[i].position, spheres[j].position) < reach) ++count;
+        }
+    }
+    return count;
+}
+
+TEST(SceneFill, PlacesItsCountWithoutOverlaps) {
+    const Scene scene = sceneWith(fill(R"("count": 1500)", R"({"constant": 0.03})"));
+    EXPECT_EQ(scene.spheres.size(), 1500U);
+    EXPECT_EQ(overlapsIn(scene), 0U);
+}
+
+TEST(SceneFill, MixesVeryDifferentRadiiWithoutOverlaps) {
+    const Scene scene = sceneWith(fill(R"("count": 800)", R"({"uniform": {"min": 0.002, "max": 0.06}})"));
+    EXPECT_EQ(scene.spheres.size(), 800U);
+    EXPECT_EQ(overlapsIn(scene), 0U);
+}
+
+TEST(SceneFill, KeepsRadiiInTheOrderDrawn) {
+    // Large ones are placed first; that must not show in the ids.
+    const Scene scene = sceneWith(fill(R"("count": 100)", R"({"uniform": {"min": 0.01, "max": 0.05}})"));
+    const auto rises = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
+    const auto falls = [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; };
+    EXPECT_FALSE(std::is_sorted(scene.spheres.begin(), scene.spheres.end(), rises));
+    EXPECT_FALSE(std::is_sorted(scene.spheres.begin(), scene.spheres.end(), falls));
+}
+
+TEST(SceneFill, KeepsClearOfEarlierGroupsAndObstacles) {
+    const Scene scene = sceneWith(R"(
+        "obstacles": [{"box": {"min": [0.4, 0, 0], "max": [0.6, 1, 1]}},
+                      {"plane": {"point": [0, 0, 0.2], "normal": [0, 0, 1]}}],
+        "groups": [{"list": {"spheres": [{"position": [0.2, 0.5, 0.6], "radius": 0.2}]}},
+                   {"fill": {"min": [0, 0, 0], "max": [1, 1, 1], "count": 500}, "radius": {"constant": 0.02}}])");
+    EXPECT_EQ(scene.spheres.size(), 501U);
+    EXPECT_EQ(overlapsIn(scene), 0U);
+    for (const Sphere& s : scene.spheres) {
+        EXPECT_FALSE(obstacleAt(scene.obstacles, s.position, static_cast<double>(s.radius)));
+    }
+}
+
+TEST(SceneFill, FollowsItsSeed) {
+    const auto first = [](const std::string& seed, const Overrides& overrides = {}) {
+        return sceneWith(fill(R"("count": 5, "seed": )" + seed, R"({"constant": 0.03})"), overrides)
+            .spheres[4]
+            .position;
+    };
+    EXPECT_EQ(first("1"), first("1"));
+    EXPECT_NE(first("1"), first("2"));
+    EXPECT_EQ(first("1", {.seed = 2}), first("2"));
+}
+
+TEST(SceneFill, GivesUpWhenThereIsNoRoom) {
+    const std::string text = refusalOf(fill(R"("count": 5000)", R"({"constant": 0.05})"));
+    EXPECT_EQ(text.substr(0, 79), "groups[0].fill.count: asks for 5000 spheres, but no free place was found after ")
+        << text;
+}
+
+TEST(SceneFill, RefusesWhatCannotBe) {
+    EXPECT_EQ(refusalOf(fill(R"("seed": 1)", R"({"constant": 0.05})")),
+              "groups[0].fill.count: is 0 or missing, must be at least 1");
+    EXPECT_EQ(refusalOf(fill(R"("count": 1)", R"({"constant": 0.6})")),
+              "groups[0].fill: is 1 m wide between min and max, too narrow for a radius of 0.6 m");
+    EXPECT_NE(
+        refusalOf(group(R"("fill": {"min": [0,0,0], "max": [9,1,1], "count": 100}, "radius": {"constant": 0.05})"))
+            .find("groups[0].fill: puts a sphere at"),
+        std::string::npos);
+}
+
+TEST(SceneFill, OccupancyAgreesWithAllPairs) {
+    Random random(3);
+    Occupancy occupancy(10, 0.15);  // far too few and too small: slower, with the same answers
+    std::vector<std::pair<glm::dvec3, double>> taken;
+    int free = 0;
+    for (int i = 0; i < 3000; ++i) {
+        glm::dvec3 p{};
+        for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(-1, 1);
+        const double r = i % 3 == 0 ? 0.2 : i % 3 == 1 ? 0.01 : 0.0007;
+        const bool expected = std::none_of(taken.begin(), taken.end(),
+                                           [&](const auto& t) { return glm::distance(t.first, p) < t.second + r; });
+        ASSERT_EQ(occupancy.isFree(p, r), expected) << i;
+        if (!expected) continue;
+        occupancy.add(p, r);
+        taken.emplace_back(p, r);
+        ++free;
+    }
+    EXPECT_GT(free, 500);
+    EXPECT_LT(free, 2900);
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

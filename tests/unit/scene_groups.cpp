@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+TEST(SceneGroups, ListSpheresTakeWhatTheyDoNotSayFromTheGroup) {
+    const Scene scene = sceneWith(R"("restitution": 0.3, "groups": [
+        {"name": "a", "colour": "#102030", "velocity": [1, 2, 3], "density": 500, "radius": {"constant": 0.1},
+         "list": {"spheres": [{"position": [0.2, 0.3, 0.4]},
+                              {"position": [0.6, 0.7, 0.8], "velocity": [0, 0, 1], "radius": 0.05}]}},
+        {"name": "b", "restitution": 0.9, "list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.2}]}}])");
+    ASSERT_EQ(scene.spheres.size(), 3U);
+    const auto& [first, second, third] = std::tie(scene.spheres[0], scene.spheres[1], scene.spheres[2]);
+    EXPECT_EQ(first.position, glm::dvec3(0.2, 0.3, 0.4));
+    EXPECT_EQ(first.velocity, glm::vec3(1, 2, 3));
+    EXPECT_EQ(first.radius, 0.1F);
+    EXPECT_EQ(first.density, 500.0F);
+    EXPECT_EQ(first.restitution, 0.3F);
+    EXPECT_EQ(second.velocity, glm::vec3(0, 0, 1));
+    EXPECT_EQ(second.radius, 0.05F);
+    EXPECT_EQ(third.density, 1000.0F);
+    EXPECT_EQ(third.restitution, 0.9F);
+    ASSERT_EQ(scene.groups.size(), 2U);
+    EXPECT_EQ(scene.groups[0].name, "a");
+    EXPECT_EQ(scene.groups[0].colour, "#102030");
+    EXPECT_EQ(scene.groups[0].count, 2U);
+    EXPECT_EQ(scene.groups[1].first, 2U);
+    EXPECT_EQ(scene.groups[1].count, 1U);
+}
+
+TEST(SceneGroups, OverlapsBetweenSpheresAreAllowed) {
+    EXPECT_EQ(refusalOf(group(R"("radius": {"constant": 0.1}, "list": {"spheres": [
+        {"position": [0.5, 0.5, 0.5]}, {"position": [0.5, 0.5, 0.5]}]})")),
+              "accepted");
+}
+
+TEST(SceneGroups, AnEmptyListIsAccepted) {
+    EXPECT_EQ(refusalOf(group(R"("list": {})")), "accepted");
+}
+
+TEST(SceneGroups, NeedASource) {
+    EXPECT_EQ(refusalOf(group(R"("radius": {"constant": 0.1})")),
+              "groups[0]: has no spheres, must have one of list, lattice, fill, csv");
+}
+
+TEST(SceneGroups, NeedARadiusWhereTheSourceGivesNone) {
+    const std::string missing = "groups[0].radius: is missing; give a constant, a uniform or a normal radius";
+    EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})")), missing);
+    EXPECT_EQ(refusalOf(group(R"("fill": {"min": [0,0,0], "max": [1,1,1], "count": 1})")), missing);
+    EXPECT_EQ(refusalOf(group(R"("lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.5})")), missing);
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "radius": {})")),
+              "groups[0].radius: is empty, must be one of constant, uniform, normal");
+}
+
+TEST(SceneGroups, RadiiArePositive) {
+    const auto withRadius = [](const std::string& radius) {
+        return refusalOf(group(R"("list": {}, "radius": )" + radius));
+    };
+    EXPECT_EQ(withRadius(R"({"constant": 0})"), "groups[0].radius.constant: is 0, must be positive");
+    EXPECT_EQ(withRadius(R"({"constant": -0.1})"), "groups[0].radius.constant: is -0.1, must be positive");
+    EXPECT_EQ(withRadius(R"({"constant": 1e-9})"), "groups[0].radius.constant: is 1e-09, must be 1e-06 to 1000000 m");
+    EXPECT_EQ(withRadius(R"({"uniform": {"min": 0.2, "max": 0.1}})"),
+              "groups[0].radius.uniform.max: is 0.1, must be above min, 0.2");
+    EXPECT_EQ(withRadius(R"({"uniform": {"max": 0.1}})"), "groups[0].radius.uniform.min: is 0, must be positive");
+    EXPECT_EQ(withRadius(R"({"normal": {"min": 0.1, "max": 0.2, "mean": 0.3, "deviation": 0.01}})"),
+              "groups[0].radius.normal.mean: is 0.3, must be 0.1 to 0.2 (min to max)");
+    EXPECT_EQ(withRadius(R"({"normal": {"min": 0.1, "max": 0.2, "mean": 0.15, "deviation": 0}})"),
+              "groups[0].radius.normal.deviation: is 0, must be positive");
+    EXPECT_EQ(withRadius(R"({"normal": {"min": 0.25, "max": 0.5, "mean": 0.3, "deviation": 5}})"),
+              "groups[0].radius.normal.deviation: is 5, must be at most 0.25 (max - min; for a wider one use uniform)");
+    EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": -1}]})")),
+              "groups[0].list.spheres[0].radius: is -1, must be positive");
+}
+
+TEST(SceneGroups, DensityIsPositive) {
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "density": 0)")), "groups[0].density: is 0, must be positive");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "density": -3)")), "groups[0].density: is -3, must be positive");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "density": 1e12)")),
+              "groups[0].density: is 1000000000000, must be 1e-06 to 1000000000 kg/m^3");
+}
+
+TEST(SceneGroups, SphereVectorsAreChecked) {
+    EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0, 0], "radius": 0.1}]})")),
+              "groups[0].list.spheres[0].position: has 2 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, "NaN"], "radius": 0.1}]})")),
+              "groups[0].list.spheres[0].position[2]: is nan, must be a finite number");
+    EXPECT_EQ(
+        refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "velocity": [1], "radius": 0.1}]})")),
+        "groups[0].list.spheres[0].velocity: has 1 number, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "velocity": [1, 2])")),
+              "groups[0].velocity: has 2 numbers, must have three: x, y, z");
+}
+
+TEST(SceneGroups, TogetherAreLimitedInNumber) {
+    const std::string text = refusalOf(R"("groups": [
+        {"list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]}, "radius": {"constant": 0.001}},
+        {"fill": {"min": [0,0,0], "max": [1,1,1], "count": 16000000}, "radius": {"constant": 0.001}}])");
+    EXPECT_EQ(text,
+              "groups[1].fill.count: asks for 16000000 spheres, but a scene holds at most 16000000 and has room for "
+              "15999999");
+}
+
+TEST(SceneGroups, AnInlineSceneMayNotNameFiles) {
+    EXPECT_EQ(
+        refusalOf(group(R"("csv": {"file": "/etc/passwd"})")),
+        "groups[0].csv: names the file \"/etc/passwd\", but only a scene file may name files; give the spheres as a "
+        "list");
+}
+
+TEST(SceneGroups, ASpawnedGroupKeepsToTheScene) {
+    const Scene scene =
+        sceneWith(R"("restitution": 0.7, "obstacles": [{"plane": {"point": [0, 0, 0.3], "normal": [0, 0, 1]}}])");
+    const auto spawned = [&](const std::string& members) {
+        return buildGroup(parsed(object(group(members))).groups(0), scene);
+    };
+    const auto good = spawned(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.1}]})");
+    ASSERT_TRUE(good) << good.error().text();
+    EXPECT_EQ(good->size(), 1U);
+    EXPECT_EQ(good->front().restitution, 0.7F);
+    EXPECT_EQ(spawned(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.2], "radius": 0.1}]})").error().text(),
+              "group.list.spheres[0]: is at (0.5, 0.5, 0.2) with radius 0.1 and reaches into obstacles[0]");
+    EXPECT_NE(spawned(R"("csv": {"file": "x.csv"})").error().text().find("only a scene file may name files"),
+              std::string::npos);
+    EXPECT_EQ(
+        spawned(R"("radius": {"constant": 1e-6}, "list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})").error().where,
+        "group.radius");
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

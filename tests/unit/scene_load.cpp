@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+std::string refusalOfFile(const Folder& folder, const std::string& json) {
+    const auto scene = load(folder.write("falling.json", json), "software");
+    if (scene) return "accepted";
+    const std::string text = scene.error().text();
+    return text.substr(text.find("falling.json"));
+}
+
+TEST(SceneLoad, EveryNamedSceneLoads) {
+    for (const std::string& name : names()) {
+        const auto scene = load(name, "software");
+        ASSERT_TRUE(scene) << scene.error().text();
+        EXPECT_EQ(scene->name, name == "box" ? "box-4k" : name);
+        EXPECT_FALSE(scene->description.empty()) << name;
+        EXPECT_FALSE(scene->spheres.empty()) << name;
+        for (const Group& group : scene->groups) EXPECT_FALSE(group.colour.empty()) << name;
+    }
+}
+
+TEST(SceneLoad, NamesAreSortedAndHoldTheExamples) {
+    const std::vector<std::string> expected{"billiards", "bounce",    "box",        "box-10k",
+                                            "box-4k",    "box-50k",   "cradle",     "cradle-touching",
+                                            "pour",      "stress-1m", "two-spheres"};
+    EXPECT_EQ(names(), expected);
+}
+
+TEST(SceneLoad, BoxDependsOnTheDevice) {
+    EXPECT_EQ(load("box", "gpu")->spheres.size(), 50'000U);
+    EXPECT_EQ(load("box", "cpu")->spheres.size(), 10'000U);
+    EXPECT_EQ(load("box", "software")->spheres.size(), 4'000U);
+}
+
+TEST(SceneLoad, AMillionSpheresLoadInSeconds) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto scene = load("stress-1m", "software");
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->spheres.size(), 1'000'000U);
+    EXPECT_LT(seconds.count(), 10);
+}
+
+TEST(SceneLoad, CradlesAreWhatTheirNamesSay) {
+    const Scene apart = *load("cradle", "cpu");
+    const Scene touching = *load("cradle-touching", "cpu");
+    for (std::size_t i = 1; i < 5; ++i) {
+        EXPECT_NEAR(apart.spheres[i].position.x - apart.spheres[i - 1].position.x, 1.01 * 0.125, 1e-12);
+        EXPECT_EQ(touching.spheres[i].position.x - touching.spheres[i - 1].position.x, 0.125);
+    }
+    EXPECT_EQ(apart.spheres[0].velocity, glm::vec3(1, 0, 0));
+    EXPECT_EQ(apart.spheres[4].velocity, glm::vec3(0));
+}
+
+TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
+    EXPECT_EQ(
+        load("bux", "gpu").error().text(),
+        "\"bux\": is not the name of a scene; there are billiards, bounce, box, box-10k, box-4k, box-50k, cradle, "
+        "cradle-touching, pour, stress-1m, two-spheres. A file is named with its ending, .json");
+}
+
+TEST(SceneLoad, MissingFilesAreRefused) {
+    EXPECT_EQ(load("nowhere/x.json", "gpu").error().text(), "nowhere/x.json: there is no such file");
+    EXPECT_EQ(load("./nothing", "gpu").error().text(), "./nothing: there is no such file");
+    EXPECT_EQ(load("/tmp", "gpu").error().text(), "/tmp: cannot be read as a file");
+}
+
+TEST(SceneLoad, AFileWithoutANameIsNamedAfterItself) {
+    const Folder folder;
+    const auto scene = load(folder.write("quiet.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}})"), "gpu");
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_EQ(scene->name, "quiet");
+}
+
+TEST(SceneLoad, ErrorsCarryFileAndFieldPath) {
+    const Folder folder;
+    EXPECT_EQ(
+        refusalOfFile(folder, R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"list": {}}, {"list": {}},
+        {"lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": -0.1}, "radius": {"constant": 0.1}}]})"),
+        "falling.json: groups[2].lattice.spacing: is -0.1, must be positive");
+}
+
+TEST(SceneLoad, UnknownFieldsAreNamed) {
+    const Folder folder;
+    EXPECT_EQ(refusalOfFile(folder, R"({"gravitation": 1})"), "falling.json: gravitation: is not a field of a scene");
+    EXPECT_EQ(refusalOfFile(folder, R"({"groups": [{"lattice": {"spacin": 1}}]})"),
+              "falling.json: groups[0].lattice.spacin: is not a field of a scene");
+}
+
+TEST(SceneLoad, WrongTypesAreNamed) {
+    const Folder folder;
+    EXPECT_EQ(refusalOfFile(folder, R"({"groups": [{"lattice": {"count": -1}}]})"),
+              "falling.json: groups[0].lattice.count: invalid value -1 for type TYPE_UINT32");
+    EXPECT_EQ(refusalOfFile(folder, R"({"sphereContacts": 1})"),
+              "falling.json: sphereContacts: invalid value 1 for type TYPE_BOOL");
+    EXPECT_EQ(refusalOfFile(folder, "[1]"), "falling.json: Root element must be a message.");
+    EXPECT_EQ(refusalOfFile(folder, R"({"bounds": {"open": ["TOP"]}})"),
+              "falling.json: bounds.open[0]: invalid value \"TOP\" for type type.googleapis.com/spherule.v1.Face");
+}
+
+TEST(SceneLoad, SyntaxErrorsCarryLineAndColumn) {
+    const Folder folder;
+    EXPECT_EQ(refusalOfFile(folder, "{\n  \"gravity\": [1, 2, 3\n  \"bounds\": {}\n}"),
+              "falling.json:3:3: is not JSON: Expected , or ] after array value.");
+    EXPECT_EQ(refusalOfFile(folder, "{\n  \"gravity\": [1, NaN]}"),
+              "falling.json:2:18: is not JSON: Unexpected token.");
+    EXPECT_EQ(refusalOfFile(folder, "{\n"),
+              "falling.json:2:1: is not JSON: Unexpected end of string. Expected an object key or }.");
+}
+
+TEST(SceneLoad, ASyntaxErrorWhoseTextOccursTwiceHasNoLine) {
+    const std::string row = std::string(30, ' ') + "{\"a\" 1}" + std::string(30, ' ') + ",";
+    const Folder folder;
+    EXPECT_EQ(refusalOfFile(folder, "{\"groups\": [" + row + row + "]}"),
+              "falling.json: is not JSON: Expected : between key:value pair.");
+}
+
+TEST(SceneLoad, SleepCanBeTurnedOff) {
+    EXPECT_TRUE(load("bounce", "gpu")->sleep.enabled);
+    EXPECT_FALSE(load("bounce", "gpu", {.noSleep = true})->sleep.enabled);
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/radii.h"
+#include "scene/random.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+constexpr int draws = 200'000;
+
+TEST(SceneRandom, IsTheSameEverywhere) {
+    // The values are fixed by the C++ standard (mt19937_64) and IEEE 754 alone; other ones move every seeded scene.
+    Random random(1);
+    EXPECT_EQ(random.uniform(), Random(1).uniform());
+    EXPECT_NE(random.uniform(), Random(2).uniform());
+    EXPECT_NE(Random(1, 0).uniform(), Random(1, 1).uniform());
+    EXPECT_DOUBLE_EQ(Random(1).uniform(), 0.44149167444625148);
+    EXPECT_DOUBLE_EQ(Random(1).normal(), 0.96852829754777836);
+}
+
+TEST(SceneRandom, UniformFillsItsRange) {
+    Random random(5);
+    double sum = 0;
+    double low = 9;
+    double high = 0;
+    for (int i = 0; i < draws; ++i) {
+        const double value = random.uniform(2, 4);
+        sum += value;
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    EXPECT_NEAR(sum / draws, 3, 0.005);
+    EXPECT_GE(low, 2);
+    EXPECT_LT(low, 2.001);
+    EXPECT_LT(high, 4);
+    EXPECT_GT(high, 3.999);
+}
+
+TEST(SceneRandom, NormalHasItsMomentsAndTails) {
+    Random random(6);
+    double sum = 0;
+    double squares = 0;
+    double fourths = 0;
+    int beyondTwo = 0;
+    for (int i = 0; i < draws; ++i) {
+        const double value = random.normal();
+        sum += value;
+        squares += value * value;
+        fourths += value * value * value * value;
+        if (std::abs(value) > 2) ++beyondTwo;
+    }
+    EXPECT_NEAR(sum / draws, 0, 0.01);
+    EXPECT_NEAR(squares / draws, 1, 0.015);
+    EXPECT_NEAR(fourths / draws, 3, 0.1);
+    EXPECT_NEAR(static_cast<double>(beyondTwo) / draws, std::erfc(std::sqrt(2.0)), 0.0015);
+}
+
+TEST(SceneRadii, StayWithinTheirLimits) {
+    const Radii uniform{.min = 0.1, .max = 0.2, .bell = {}};
+    const Radii normal{.min = 0.1, .max = 0.2, .bell = Radii::Bell{0.12, 0.02}};
+    Random random(7);
+    double uniformSum = 0;
+    double normalSum = 0;
+    for (int i = 0; i < draws; ++i) {
+        const float u = uniform.draw(random);
+        const float n = normal.draw(random);
+        ASSERT_GE(std::min(u, n), 0.1F);
+        ASSERT_LE(std::max(u, n), 0.2F);
+        uniformSum += static_cast<double>(u);
+        normalSum += static_cast<double>(n);
+    }
+    EXPECT_NEAR(uniformSum / draws, 0.15, 0.0005);
+    // The mean of a normal cut one deviation below and four above: 0.12 + 0.02 phi(1) / Phi(1).
+    EXPECT_NEAR(normalSum / draws, 0.12 + 0.02 * 0.24197 / 0.84134, 0.0005);
+}
+
+TEST(SceneRadii, AConstantDrawsNothing) {
+    Random random(8);
+    const Radii constant{.min = 0.1, .max = 0.1, .bell = {}};
+    EXPECT_EQ(constant.draw(random), 0.1F);
+    EXPECT_EQ(random.uniform(), Random(8).uniform());
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+std::string refusalOfBounds(const std::string& bounds, const std::string& more = "") {
+    const auto scene = build(parsed(object(R"("bounds": )" + object(bounds) + more)));
+    return scene ? "accepted" : scene.error().text();
+}
+
+std::string ballAt(const std::string& position, const std::string& radius = "0.1") {
+    return group(R"("list": {"spheres": [{"position": )" + position + R"(, "radius": )" + radius + "}]}");
+}
+
+TEST(SceneBounds, AreRequired) {
+    EXPECT_EQ(build(v1::Scene()).error().text(), "bounds: are missing; give min and max");
+}
+
+TEST(SceneBounds, HaveMinBelowMax) {
+    EXPECT_EQ(refusalOfBounds(R"("min": [0, 0, 0], "max": [1, 0, 1])"),
+              "bounds.max[1]: is 0, must be above min, which is 0");
+    EXPECT_EQ(refusalOfBounds(R"("min": [0, 0, 2], "max": [1, 1, 1])"),
+              "bounds.max[2]: is 1, must be above min, which is 2");
+    EXPECT_EQ(refusalOfBounds(R"("max": [1, 1, 1])"), "bounds.min: has 0 numbers, must have three: x, y, z");
+}
+
+TEST(SceneBounds, OpenFacesAreNamed) {
+    const Scene scene = *build(parsed(R"({"bounds": {"min": [0,0,0], "max": [1,1,1], "open": ["Z_MAX", "X_MIN"]}})"));
+    EXPECT_EQ(scene.bounds.open, (std::array<bool, 6>{true, false, false, false, false, true}));
+    EXPECT_EQ(refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "open": ["Z_MAX", 9])"),
+              "bounds.open[1]: is 9, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX");
+    EXPECT_EQ(refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "open": ["FACE_UNSPECIFIED"])"),
+              "bounds.open[0]: is 0, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX");
+}
+
+TEST(SceneBounds, RestitutionIsTheScenesUnlessGiven) {
+    EXPECT_EQ(sceneWith(R"("restitution": 0.3)").bounds.restitution, 0.3);
+    const Scene own =
+        *build(parsed(R"({"bounds": {"min": [0,0,0], "max": [1,1,1], "restitution": 0.9}, "restitution": 0.3})"));
+    EXPECT_EQ(own.bounds.restitution, 0.9);
+    EXPECT_EQ(refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "restitution": 2)"),
+              "bounds.restitution: is 2, must be 0 to 1");
+}
+
+TEST(SceneBounds, HoldEverySphereOnEveryFace) {
+    EXPECT_EQ(
+        refusalOf(ballAt("[0.05, 0.5, 0.5]")),
+        "groups[0].list.spheres[0]: is at (0.05, 0.5, 0.5) with radius 0.1 and reaches x = -0.05, outside the bounds, "
+        "which are 0 to 1");
+    for (const std::string outside : {"[0.95, 0.5, 0.5]", "[0.5, 0.05, 0.5]", "[0.5, 0.95, 0.5]", "[0.5, 0.5, 0.05]",
+                                      "[0.5, 0.5, 0.95]", "[5, 0.5, 0.5]"}) {
+        EXPECT_NE(refusalOf(ballAt(outside)).find("outside the bounds"), std::string::npos) << outside;
+    }
+}
+
+TEST(SceneBounds, HoldEverySphereBehindOpenFacesToo) {
+    const std::string text =
+        refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "open": ["Z_MAX"])", ", " + ballAt("[0.5, 0.5, 0.95]"));
+    EXPECT_NE(text.find("reaches z = 1.05, outside the bounds, which are 0 to 1"), std::string::npos) << text;
+}
+
+TEST(SceneBounds, MayBeTouched) {
+    for (const std::string corner : {"[0.1, 0.1, 0.1]", "[0.9, 0.9, 0.9]"})
+        EXPECT_EQ(refusalOf(ballAt(corner)), "accepted");
+}
+
+TEST(SceneBounds, AreNoLargerThanFloat32Resolves) {
+    // Half of 2000 m over 2^23 is 1.19e-4 m; a ten-thousandth of 1 m is less, of 1.2 m more.
+    const std::string bounds = R"("min": [-1000, 0, 0], "max": [1000, 10, 10])";
+    EXPECT_EQ(refusalOfBounds(bounds, ", " + ballAt("[5, 5, 5]", "1.2")), "accepted");
+    EXPECT_EQ(
+        refusalOfBounds(bounds, ", " + ballAt("[5, 5, 5]", "1")),
+        "bounds: have a longest side of 2000 m, in which float32 resolves 0.000119 m, but the smallest radius of 1 m "
+        "needs 0.0001 m; make them at most 1677.72 m long or the spheres larger");
+}
+
+TEST(SceneObstacles, PlanesHaveUnitNormals) {
+    const Scene scene = sceneWith(R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 3, 4]}}])");
+    const auto& plane = std::get<Plane>(scene.obstacles.at(0).shape);
+    EXPECT_NEAR(glm::distance(plane.normal, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
+    EXPECT_EQ(scene.obstacles[0].restitution, 0.5);
+    EXPECT_EQ(refusalOf(R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 0]}}])"),
+              "obstacles[0].plane.normal: is (0, 0, 0), must not be zero");
+}
+
+TEST(SceneObstacles, AreChecked) {
+    EXPECT_EQ(refusalOf(R"("obstacles": [{}])"), "obstacles[0]: has no shape, must be a plane or a box");
+    EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,0]}}])"),
+              "obstacles[0].box.max[2]: is 0, must be above min, which is 0");
+    EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "restitution": 2}])"),
+              "obstacles[0].restitution: is 2, must be 0 to 1");
+    EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "colour": "x"}])"),
+              R"(obstacles[0].colour: is "x", must be #rrggbb in hexadecimal)");
+}
+
+TEST(SceneObstacles, AreLimitedInNumber) {
+    std::string list = R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})";
+    const std::string one = list;
+    for (unsigned i = 0; i < maxObstacles; ++i) list += "," + one;
+    EXPECT_EQ(refusalOf("\"obstacles\": [" + list + "]"), "obstacles: has 1001 entries, must have at most 1000");
+}
+
+TEST(SceneObstacles, TakeNoSphereInside) {
+    const std::string box = R"("obstacles": [{"plane": {"point": [0,0,0], "normal": [0,0,1]}},
+                                             {"box": {"min": [0.4, 0.4, 0.4], "max": [0.6, 0.6, 0.6]}}], )";
+    EXPECT_EQ(refusalOf(box + ballAt("[0.5, 0.5, 0.69]")),
+              "groups[0].list.spheres[0]: is at (0.5, 0.5, 0.69) with radius 0.1 and reaches into obstacles[1]");
+    EXPECT_NE(refusalOf(box + ballAt("[0.5, 0.5, 0.5]")).find("reaches into obstacles[1]"), std::string::npos);
+    EXPECT_EQ(refusalOf(box + ballAt("[0.5, 0.5, 0.7]")), "accepted") << "resting on the box";
+    EXPECT_EQ(refusalOf(box + ballAt("[0.66, 0.66, 0.66]")), "accepted")
+        << "clear of the corner, not of its faces' planes";
+    EXPECT_EQ(refusalOf(box + ballAt("[0.2, 0.2, 0.1]")), "accepted") << "resting on the plane";
+}
+
+TEST(SceneObstacles, APlaneIsSolidBehind) {
+    const std::string plane = R"("obstacles": [{"plane": {"point": [0, 0, 0.5], "normal": [0, 0, 1]}}], )";
+    EXPECT_NE(refusalOf(plane + ballAt("[0.5, 0.5, 0.3]")).find("reaches into obstacles[0]"), std::string::npos);
+    EXPECT_EQ(refusalOf(plane + ballAt("[0.5, 0.5, 0.6]")), "accepted");
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

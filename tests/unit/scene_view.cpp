@@ -1,0 +1,93 @@
+#include "scene/view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+#include "scene/features.h"
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+// The largest distance of a corner of the bounds from the picture's middle, 1 at its edge.
+double reachInPicture(const Camera& camera, const Bounds& bounds, double aspect) {
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const double slope = std::tan(0.5 * glm::radians(camera.fieldOfView));
+    double reach = 0;
+    for (const double x : {bounds.min.x, bounds.max.x}) {
+        for (const double y : {bounds.min.y, bounds.max.y}) {
+            for (const double z : {bounds.min.z, bounds.max.z}) {
+                const glm::dvec3 p = glm::dvec3(x, y, z) - camera.eye;
+                const double depth = slope * glm::dot(p, forward);
+                EXPECT_GT(depth, 0);
+                reach = std::max(
+                    {reach, std::abs(glm::dot(p, right)) / (depth * aspect), std::abs(glm::dot(p, up)) / depth});
+            }
+        }
+    }
+    return reach;
+}
+
+TEST(SceneView, TheDefaultCameraFramesTheBounds) {
+    for (const Box& box : {Box{{0, 0, 0}, {1, 1, 1}}, Box{{-10, 5, 0}, {30, 6, 0.5}}, Box{{0, 0, -7}, {0.1, 0.1, 3}}}) {
+        Bounds bounds;
+        bounds.min = box.min;
+        bounds.max = box.max;
+        for (const double fieldOfView : {20.0, 45.0, 100.0}) {
+            const double reach = reachInPicture(framing(bounds, fieldOfView), bounds, 1.5);
+            EXPECT_LT(reach, 1);
+            EXPECT_GT(reach, 0.8);
+        }
+    }
+}
+
+TEST(SceneView, AGivenCameraIsTaken) {
+    const Scene scene = sceneWith(R"("camera": {"eye": [1, 2, 3], "target": [4, 5, 6], "fieldOfView": 60})");
+    EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.camera.target, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(scene.camera.fieldOfView, 60);
+}
+
+TEST(SceneView, CamerasAreChecked) {
+    EXPECT_EQ(refusalOf(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})"),
+              "camera.target: is where the eye is; move one of them");
+    EXPECT_EQ(refusalOf(R"("camera": {"eye": [1]})"), "camera.eye: has 1 number, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(R"("camera": {"fieldOfView": 200})"), "camera.fieldOfView: is 200, must be 1 to 150 degrees");
+}
+
+// From the floor of the bounds to the highest sphere; without walls, just the spheres.
+Bounds contentsOf(const Scene& scene) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Bounds contents;
+    contents.min = glm::dvec3(infinity);
+    contents.max = glm::dvec3(-infinity);
+    for (const Sphere& s : scene.spheres) {
+        contents.min = glm::min(contents.min, s.position - static_cast<double>(s.radius));
+        contents.max = glm::max(contents.max, s.position + static_cast<double>(s.radius));
+    }
+    if (!featuresOf(scene).walls) return contents;
+    const double top = contents.max.z;
+    contents.min = scene.bounds.min;
+    contents.max = scene.bounds.max;
+    contents.max.z = top;
+    return contents;
+}
+
+TEST(SceneView, ExampleScenesAreSeenWhole) {
+    for (const std::string& name : names()) {
+        const Scene scene = *load(name, "software");
+        const double reach = reachInPicture(scene.camera, contentsOf(scene), 16.0 / 9);
+        EXPECT_LT(reach, 1) << name;
+        EXPECT_GT(reach, 0.35) << name;
+    }
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing
