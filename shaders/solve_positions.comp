@@ -16,14 +16,19 @@ BUFFER(3, readonly, uint, cellStart, CellBlock)
 BUFFER(4, restrict, uvec4, span, SpanBlock)
 BUFFER(5, readonly, uvec2, pairs, PairBlock)
 BUFFER(6, writeonly, uvec2, touching, TouchingBlock)
+BUFFER(7, readonly, vec4, before, BeforeBlock)
 
-// A sleeper wakes when a neighbour comes or goes faster than the wake speed.
+bool fast(vec4 v) {
+    return dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
+}
+
+// A sleeper wakes when a neighbour comes or goes faster than the wake speed; by its velocity before the substep, because
+// the present one holds the kicks of unfinished pushes.
 void wake(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    float limit = params.wakeSpeed * params.wakeSpeed;
-    if (va.w < 0.0f && vb.w > 0.0f && dot3(vec3(vb), vec3(vb)) > limit) velocity[a] = vec4(vec3(va), -va.w);
-    if (vb.w < 0.0f && va.w > 0.0f && dot3(vec3(va), vec3(va)) > limit) velocity[b] = vec4(vec3(vb), -vb.w);
+    if (va.w < 0.0f && vb.w > 0.0f && fast(before[b])) velocity[a] = vec4(vec3(va), -va.w);
+    if (vb.w < 0.0f && va.w > 0.0f && fast(before[a])) velocity[b] = vec4(vec3(vb), -vb.w);
 }
 
 // True when the pair overlaps.

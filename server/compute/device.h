@@ -79,9 +79,10 @@ class Device {
     virtual Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes) = 0;
 
     // Compiles `file` with the defines; an error carries the compiler's text with file and line. A kernel has a local
-    // size of 64, storage buffers bound at their slot, at most one uniform block (binding 0), and may have the uniforms
-    // `phase` and `invocations` (its count; 0xffffffff when launched indirectly: then it reads the count itself). Its
-    // index is gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64.
+    // size of 64 (or of 1, to measure what that costs), storage buffers bound at their slot, at most one uniform block
+    // (binding 0), and may have the uniforms `phase` and `invocations` (its count; 0xffffffff when launched indirectly:
+    // then it reads the count itself). Its index is
+    // gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size.
     virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                          std::span<const Define> defines) = 0;
 

@@ -1,28 +1,28 @@
-#include <boost/json.hpp>
+#include <nlohmann/json.hpp>
 
 #include "compute/probe.h"
 
 namespace spherule::compute {
 namespace {
 
-namespace json = boost::json;
+using Json = nlohmann::ordered_json;
 
-json::value jsonOf(const ProbeVendor& vendor) {
+Json jsonOf(const ProbeVendor& vendor) {
     return {{"file", vendor.file}, {"library", vendor.library}, {"problem", vendor.problem}};
 }
 
-json::value jsonOf(const ProbeDevice& device) {
+Json jsonOf(const ProbeDevice& device) {
     return {{"choice", device.choice},         {"index", device.index},     {"name", device.name},
             {"extensions", device.extensions}, {"drmFile", device.drmFile}, {"vendor", device.vendor},
             {"renderer", device.renderer},     {"problem", device.problem}};
 }
 
-json::value jsonOf(const DeviceInfo& info) {
+Json jsonOf(const DeviceInfo& info) {
     return {{"kind", info.kind},       {"renderer", info.renderer}, {"vendor", info.vendor},
             {"version", info.version}, {"reason", info.reason},     {"robust", info.robust}};
 }
 
-json::value jsonOf(const Limits& limits) {
+Json jsonOf(const Limits& limits) {
     return {{"maxBufferBytes", limits.maxBufferBytes},
             {"storageBuffersPerKernel", limits.storageBuffersPerKernel},
             {"storageBindings", limits.storageBindings},
@@ -35,13 +35,13 @@ json::value jsonOf(const Limits& limits) {
 }
 
 template <class T>
-json::value jsonOf(const std::optional<T>& value) {
-    return value ? jsonOf(*value) : json::value(nullptr);
+Json jsonOf(const std::optional<T>& value) {
+    return value ? jsonOf(*value) : Json(nullptr);
 }
 
 template <class T>
-json::array arrayOf(const std::vector<T>& values) {
-    json::array array;
+Json arrayOf(const std::vector<T>& values) {
+    Json array = Json::array();
     for (const auto& value : values) array.push_back(jsonOf(value));
     return array;
 }
@@ -49,14 +49,15 @@ json::array arrayOf(const std::vector<T>& values) {
 }  // namespace
 
 std::string probeJson(const Probe& probe) {
-    return json::serialize(json::object{{"choice", probe.choice},
-                                        {"chosen", jsonOf(probe.chosen)},
-                                        {"limits", jsonOf(probe.limits)},
-                                        {"problem", probe.problem},
-                                        {"hints", json::array(probe.hints.begin(), probe.hints.end())},
-                                        {"devices", arrayOf(probe.devices)},
-                                        {"vendors", arrayOf(probe.vendors)},
-                                        {"clientExtensions", probe.clientExtensions}});
+    const Json json = {{"choice", probe.choice},
+                       {"chosen", jsonOf(probe.chosen)},
+                       {"limits", jsonOf(probe.limits)},
+                       {"problem", probe.problem},
+                       {"hints", probe.hints},
+                       {"devices", arrayOf(probe.devices)},
+                       {"vendors", arrayOf(probe.vendors)},
+                       {"clientExtensions", probe.clientExtensions}};
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace spherule::compute

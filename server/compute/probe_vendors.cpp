@@ -7,7 +7,7 @@
 #include <iterator>
 #include <sstream>
 
-#include <boost/json.hpp>
+#include <nlohmann/json.hpp>
 
 #include "compute/probe.h"
 
@@ -46,15 +46,13 @@ ProbeVendor describe(const fs::path& file) {
     vendor.file = file.string();
     std::ifstream in(file);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    boost::json::error_code notJson;
-    const auto parsed = boost::json::parse(text, notJson);
-    boost::json::error_code missing;
-    const auto* const path = notJson ? nullptr : parsed.find_pointer("/ICD/library_path", missing);
-    if (path == nullptr || !path->is_string()) {
+    const auto parsed = nlohmann::json::parse(text, nullptr, false);
+    const nlohmann::json::json_pointer path("/ICD/library_path");
+    if (parsed.is_discarded() || !parsed.contains(path) || !parsed.at(path).is_string()) {
         vendor.problem = "cannot be read, or is no vendor file: it has no ICD.library_path";
         return vendor;
     }
-    vendor.library = std::string(path->get_string());
+    vendor.library = parsed.at(path).get<std::string>();
     if (void* const library = dlopen(vendor.library.c_str(), RTLD_LAZY | RTLD_LOCAL)) {
         dlclose(library);
     } else {

@@ -69,7 +69,7 @@ class Expander {
             return fail(ErrorKind::Input, from, fmt::format("there is no kernel source \"{}\"; check its name", file));
         }
         open_.emplace_back(file);
-        const auto result = appendLines(file, *text, indexOf(file));
+        auto result = appendLines(file, *text, indexOf(file));
         open_.pop_back();
         return result;
     }

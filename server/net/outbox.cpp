@@ -14,10 +14,7 @@ void Outbox::setRate(std::uint32_t rate) {
 
 bool Outbox::push(frame::SharedMessage message) {
     if (reliable_.size() >= capacity_) return false;
-    if (message->content().has_scene()) {
-        epoch_ = message->content().scene().epoch();
-        if (frame_ && !frameIsDescribed()) dropFrame();
-    }
+    if (message->content().has_scene()) epoch_ = message->content().scene().epoch();
     reliable_.push_back(std::move(message));
     return true;
 }

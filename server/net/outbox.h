@@ -21,7 +21,7 @@ class Outbox {
 
     void setRate(std::uint32_t rate);
 
-    // False when the lane is full. Scene facts throw away a frame of another epoch.
+    // False when the lane is full.
     [[nodiscard]] bool push(frame::SharedMessage message);
     // True when it replaced a frame that was due.
     bool offer(frame::SharedMessage frame, Clock::time_point now);

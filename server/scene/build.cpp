@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "scene/group.h"
+#include "scene/occupancy.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
 
@@ -104,10 +105,31 @@ Result<Scene> build(const v1::Scene& message, const Overrides& overrides) {
     return buildIn(std::nullopt, message, overrides);
 }
 
+namespace {
+
+// Refuses the first of `added` that overlaps one of `taken`.
+void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector<Sphere>& taken) {
+    double largest = 0;
+    for (const std::vector<Sphere>* spheres : {&added, &taken})
+        for (const Sphere& sphere : *spheres) largest = std::max(largest, static_cast<double>(sphere.radius));
+    Occupancy occupied(taken.size(), largest);
+    for (const Sphere& sphere : taken) occupied.add(sphere.position, static_cast<double>(sphere.radius));
+    for (std::size_t k = 0; k < added.size() && check.ok(); ++k) {
+        const glm::dvec3& p = added[k].position;
+        if (!occupied.isFree(p, static_cast<double>(added[k].radius)))
+            check.refuse("group", fmt::format("sphere {} at {:g} {:g} {:g} overlaps one that is there already", k, p.x,
+                                              p.y, p.z));
+    }
+}
+
+}  // namespace
+
 Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene) {
     Check check;
     const std::size_t room = maxSpheres - std::min<std::size_t>(maxSpheres, scene.spheres.size());
-    std::vector<Sphere> spheres = readGroup(check, group, scene, {.field = "group", .room = room});
+    std::vector<Sphere> spheres =
+        readGroup(check, group, scene, {.field = "group", .taken = scene.spheres, .room = room});
+    if (check.ok()) checkFree(check, spheres, scene.spheres);
     if (check.ok() && !spheres.empty()) checkResolution(check, scene.bounds, smallestRadiusOf(spheres), "group.radius");
     if (!check.ok()) return check.error();
     return spheres;

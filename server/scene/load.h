@@ -30,8 +30,8 @@ Result<Scene> load(const std::string& source, std::string_view deviceKind, const
 // An inline scene, as a client sends it: may not name files. Errors carry the field path.
 Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {});
 
-// Spheres for a Spawn command, to be added to `scene`: inside its bounds and clear of its obstacles. Places taken by
-// other spheres are the caller's to check.
+// Spheres for a Spawn command, to be added to `scene`: inside its bounds, clear of its obstacles and of the spheres it
+// has (where they are now; a fill finds places between them). Error paths start with "group".
 Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene);
 
 // Three finite numbers, or the error for `field`.

@@ -63,7 +63,7 @@ struct Camera {
 
 struct Sleep {
     bool enabled = true;
-    double speed = 0.01;  // m/s
+    double speed = 0.02;  // m/s
     double time = 0.5;    // s
 };
 

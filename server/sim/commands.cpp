@@ -12,6 +12,7 @@ namespace spherule::sim {
 namespace {
 
 constexpr double mostGravity = 1e6;  // m/s^2
+constexpr double farthest = 1e9;     // m
 
 Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
     if (set.gravity().empty()) return {};
@@ -92,8 +93,11 @@ Result<void> Simulation::spawn(const v1::Spawn& spawn) {
     State state = snapshot();
     scene::Scene grown = scene_;
     const glm::dvec3 centre = grown.bounds.centre();
-    for (std::uint32_t id = 0; id < state.count(); ++id)
-        grown.spheres[id].position = glm::dvec3(state.position[id]) + centre;
+    for (std::uint32_t id = 0; id < state.count(); ++id) {
+        const glm::dvec3 now = glm::dvec3(state.position[id]);
+        // One that has left the numbers, or the world, is in nobody's way.
+        if (glm::dot(now, now) < farthest * farthest) grown.spheres[id].position = now + centre;
+    }
 
     auto added = scene::buildGroup(spawn.group(), grown);
     if (!added) return tl::unexpected(added.error());

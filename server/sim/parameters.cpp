@@ -14,9 +14,8 @@ constexpr double rebuildShare = 0.45;
 
 void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan, const Radii& radii) {
     const double g = glm::length(scene.gravity);
-    const double h = scene.step / scene.substeps;
-    // A neighbour that is carried has gained g h when the pairs are solved; twice that is a neighbour on its way.
-    const double wake = 3 * scene.sleep.speed + 2 * g * h;
+    // Well above what lets a sphere fall asleep, or the two would take turns.
+    const double wake = 3 * scene.sleep.speed;
     // Far enough for a support that falls away to reach the wake speed before it is out of sight.
     double gap = 0.02 * radii.smallest;
     if (g > 0) gap = std::max(gap, wake * wake / g);

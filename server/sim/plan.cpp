@@ -111,7 +111,7 @@ void planSubstep(Plan& plan) {
         planGrid(plan);
         for (std::uint32_t colour = 0; colour < 8; ++colour)
             add.always(Pass::Positions, "solve_positions.comp",
-                       {Position, Velocity, Id, CellStart, Span, Pairs, Touching}, groupsPerColour, colour);
+                       {Position, Velocity, Id, CellStart, Span, Pairs, Touching, Before}, groupsPerColour, colour);
     }
     if (obstructed)
         add.always(Pass::WallPositions, "walls_positions.comp", {Position, Velocity, Before, Obstacles, Id, Bounce}, n);

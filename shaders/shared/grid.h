@@ -13,8 +13,8 @@ uint cellIndex(uint x, uint y, uint z) {
     return (z * params.cells.y + y) * params.cells.x + x;
 }
 
-uint cellOf(vec3 position) {
-    if (!finite3(position)) return 0u;
-    vec3 p = position * params.inverseCell;
+uint cellOf(vec3 point) {
+    if (!finite3(point)) return 0u;
+    vec3 p = point * params.inverseCell;
     return cellIndex(wrapCell(p.x, params.cells.x), wrapCell(p.y, params.cells.y), wrapCell(p.z, params.cells.z));
 }

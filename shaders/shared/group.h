@@ -13,11 +13,11 @@ void visitRow(uint first, uint last, uint x, uint y, uint z) {
     if (x > 0u && x + 1u < nx) {
         visitRange(first, last, cellStart[row + x - 1u], cellStart[row + x + 2u]);
     } else {
-        uint before = x == 0u ? nx - 1u : x - 1u;
-        uint after = x + 1u == nx ? 0u : x + 1u;
-        visitRange(first, last, cellStart[row + before], cellStart[row + before + 1u]);
+        uint west = x == 0u ? nx - 1u : x - 1u;
+        uint east = x + 1u == nx ? 0u : x + 1u;
+        visitRange(first, last, cellStart[row + west], cellStart[row + west + 1u]);
         visitRange(first, last, cellStart[row + x], cellStart[row + x + 1u]);
-        visitRange(first, last, cellStart[row + after], cellStart[row + after + 1u]);
+        visitRange(first, last, cellStart[row + east], cellStart[row + east + 1u]);
     }
 }
 

@@ -8,7 +8,10 @@
 //   INOUT(type)                              a parameter that a function changes
 #ifndef __cplusplus
 
-layout(local_size_x = 64) in;
+#ifndef LOCAL_SIZE
+#define LOCAL_SIZE 64
+#endif
+layout(local_size_x = LOCAL_SIZE) in;
 layout(location = 0) uniform uint phase;
 
 #define INOUT(type) inout type
@@ -20,7 +23,8 @@ layout(location = 0) uniform uint phase;
 #define KERNEL(count)                                                                            \
     void kernelBody(uint invocation);                                                            \
     void main() {                                                                                \
-        uint invocation = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u; \
+        uint row = gl_NumWorkGroups.x * uint(LOCAL_SIZE);                                        \
+        uint invocation = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * row;               \
         if (invocation < (count)) kernelBody(invocation);                                        \
     }                                                                                            \
     void kernelBody(uint invocation)

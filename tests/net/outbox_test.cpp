@@ -56,7 +56,7 @@ TEST(Outbox, HoldsAStateBackUntilItsRateAllowsIt) {
     EXPECT_EQ(outbox.next(*outbox.frameDue())->content().frame().sequence(), 3U);
 }
 
-TEST(Outbox, DropsTheStateOfAnOldScene) {
+TEST(Outbox, NeverSendsTheStateOfAnOldScene) {
     Outbox outbox(2, 60);
     describe(outbox, 1);
     outbox.offer(stateOf(1, 1, 64), start);

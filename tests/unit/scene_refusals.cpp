@@ -14,7 +14,7 @@ TEST(SceneRefusals, AnEmptySceneWithBoundsIsAccepted) {
     EXPECT_EQ(scene.step, 1.0 / 60);
     EXPECT_EQ(scene.substeps, 8U);
     EXPECT_TRUE(scene.sleep.enabled);
-    EXPECT_EQ(scene.sleep.speed, 0.01);
+    EXPECT_EQ(scene.sleep.speed, 0.02);
     EXPECT_EQ(scene.sleep.time, 0.5);
     EXPECT_TRUE(scene.sphereContacts);
 }

@@ -42,7 +42,7 @@ void bindBuffers(State& state, const GlKernel& kernel, const Launch& launch) {
 }
 
 // Rows of equal length, so that the last one wastes little.
-void dispatch(std::uint32_t count) {
+void dispatch(std::uint32_t count, std::uint32_t groupSize) {
     const std::uint32_t groups = count / groupSize + (count % groupSize != 0 ? 1 : 0);
     const std::uint32_t rows = (groups + maxGroupsX - 1) / maxGroupsX;
     glDispatchCompute((groups + rows - 1) / rows, rows, 1);
@@ -139,7 +139,7 @@ void GlDevice::launch(const Launch& launch) {
     } else {
         if (launch.count == 0) return;
         kernel.setUniforms(launch.phase, launch.count);
-        dispatch(launch.count);
+        dispatch(launch.count, kernel.groupSize());
     }
     state.afterLaunch();
 }

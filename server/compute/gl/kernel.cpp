@@ -99,11 +99,12 @@ Result<void> GlKernel::build(const std::string& text, std::span<const std::strin
 Result<void> GlKernel::reflect() {
     std::array<GLint, 3> size{};
     glGetProgramiv(program_, GL_COMPUTE_WORK_GROUP_SIZE, size.data());
-    if (size != std::array<GLint, 3>{groupSize, 1, 1}) {
+    if ((size[0] != 64 && size[0] != 1) || size[1] != 1 || size[2] != 1) {
         return fail(ErrorKind::Input, name_,
-                    fmt::format("has a local size of {} x {} x {}; kernels have {} x 1 x 1", size[0], size[1], size[2],
-                                groupSize));
+                    fmt::format("has a local size of {} x {} x {}; kernels have 64 x 1 x 1, or 1 x 1 x 1", size[0],
+                                size[1], size[2]));
     }
+    groupSize_ = static_cast<std::uint32_t>(size[0]);
     phase_.find(program_, "phase");
     invocations_.find(program_, "invocations");
 

@@ -10,8 +10,6 @@
 
 namespace spherule::compute::gl {
 
-constexpr std::uint32_t groupSize = 64;  // invocations per group, as shaders/shared/kernel.h declares
-
 // A compiled compute program and what it wants bound.
 class GlKernel final : public Kernel {
   public:
@@ -29,6 +27,7 @@ class GlKernel final : public Kernel {
     [[nodiscard]] GLuint program() const { return program_; }
     [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
     [[nodiscard]] bool wantsParameters() const { return wantsParameters_; }
+    [[nodiscard]] std::uint32_t groupSize() const { return groupSize_; }  // invocations per group
 
     // Sets `phase` and `invocations` where the kernel uses them.
     void setUniforms(std::uint32_t phase, std::uint32_t invocations) const;
@@ -55,6 +54,7 @@ class GlKernel final : public Kernel {
     GLuint program_ = 0;
     std::vector<Slot> slots_;
     bool wantsParameters_ = false;
+    std::uint32_t groupSize_ = 0;
     mutable Uniform phase_, invocations_;  // caches of what GL holds
 };
 

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# run.sh [ARGUMENTS]: from a clone on Debian 12 to a served page. Installs the packages that are missing, builds, and
+# starts `spherule serve ARGUMENTS`; without arguments the page is at http://127.0.0.1:8080/.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+"$root/deploy/install_packages.sh" build run
+(
+    cd "$root"
+    cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=OFF
+    cmake --build --preset release -j "$(nproc)"
+)
+exec "$root/build/release/spherule" serve "$@"

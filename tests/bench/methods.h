@@ -1,0 +1,32 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "baseline.h"
+
+namespace spherule::bench {
+
+// Every sphere against every other, one invocation per sphere.
+Result<std::unique_ptr<Baseline>> bruteForce(const Setting& setting);
+
+// A grid over the domain with `slots` places per cell, filled by one atomic counter per cell.
+struct SlotsGrid {
+    glm::uvec3 cells{};
+    std::uint32_t slots = 0;       // per cell
+    std::uint32_t localSize = 64;  // 64 or 1
+};
+Result<std::unique_ptr<Baseline>> slotsGrid(const Setting& setting, const SlotsGrid& grid);
+
+// 8 x 8 x 8 cells with room for every sphere in each, one invocation per group.
+SlotsGrid studentGrid(const Setting& setting);
+
+// Cells as wide as a sphere, 64 slots in each.
+SlotsGrid fineGrid(const Setting& setting, std::uint32_t localSize);
+
+// Sort along x by counting (65,536 keys: count, prefix sum, scatter of the state), then walk the order both ways.
+Result<std::unique_ptr<Baseline>> sweepAndPrune(const Setting& setting);
+
+// The simulation's own substep.
+std::unique_ptr<Method> ours(sim::Simulation& simulation);
+
+}  // namespace spherule::bench

@@ -1,0 +1,56 @@
+#include "recipe.h"
+
+#include <cmath>
+#include <random>
+
+#include "scene/load.h"
+
+namespace spherule::bench {
+
+namespace {
+
+constexpr double height = 4;  // m, of the box
+
+void set(google::protobuf::RepeatedField<double>* field, glm::dvec3 value) {
+    for (int axis = 0; axis < 3; ++axis) field->Add(value[axis]);
+}
+
+}  // namespace
+
+Result<scene::Scene> box(std::uint32_t spheres) {
+    const double width = 2 * radius * std::sqrt(static_cast<double>(spheres) / layers);
+    v1::Scene message;
+    message.set_name("box");
+    message.set_restitution(0.5);
+    message.set_substeps(substeps);
+    set(message.mutable_bounds()->mutable_min(), {0, 0, 0});
+    set(message.mutable_bounds()->mutable_max(), {width, width, height});
+    message.mutable_bounds()->add_open(v1::Z_MAX);
+    v1::Group& group = *message.add_groups();
+    group.mutable_radius()->set_constant(radius);
+    v1::Lattice& lattice = *group.mutable_lattice();
+    set(lattice.mutable_min(), {0, 0, 0});
+    set(lattice.mutable_max(), {width, width, height});
+    lattice.set_spacing(2.2 * radius);
+    lattice.set_jitter(0.1 * radius);
+    lattice.set_count(spheres);
+    lattice.set_seed(1);
+    return scene::build(message, {.noSleep = true});
+}
+
+sim::State packed(const scene::Scene& scene) {
+    sim::State state = sim::stateOf(scene);
+    const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
+    const auto across = static_cast<std::uint32_t>(std::floor(extent.x / (2 * radius) + 1e-9));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> jitter(-0.01 * radius, 0.01 * radius);
+    for (std::uint32_t k = 0; k < state.count(); ++k) {
+        const glm::dvec3 place(k % across, k / across % across, k / (across * across));
+        glm::dvec3 at = 2 * radius * place + glm::dvec3(jitter(random), jitter(random), jitter(random));
+        at -= glm::dvec3(radius * (across - 1), radius * (across - 1), 0.5 * extent.z - radius);
+        state.position[k] = glm::vec4(glm::vec3(at), radius);
+    }
+    return state;
+}
+
+}  // namespace spherule::bench

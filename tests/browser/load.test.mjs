@@ -1,0 +1,81 @@
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { control, launch, open, when } from "./support/browser.mjs";
+import { serve } from "./support/server.mjs";
+
+let server;
+let browser;
+before(async () => {
+  server = await serve("billiards");
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+test("the page loads, connects and says what it shows", async () => {
+  const page = await open(browser, server.url);
+  assert.equal(await page.textContent(control("scene-name")), "billiards");
+  assert.equal(await page.textContent(control("connection")), "connected");
+  await when(page, () => document.querySelector('[data-testid="status-spheres"]').textContent === "16");
+  assert.match(await page.textContent(control("status-renderer")), /llvmpipe|software/i);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("nothing is fetched from anywhere else", async () => {
+  const page = await open(browser, server.url);
+  const elsewhere = page.requested.filter((url) => new URL(url).origin !== new URL(server.url).origin);
+  assert.deepEqual(elsewhere, []);
+  await page.close();
+});
+
+test("states keep coming and time goes on", async () => {
+  const page = await open(browser, server.url);
+  const before = await page.evaluate(() => ({ frames: spherule.frames, time: spherule.simTime }));
+  await when(page, (then) => spherule.frames > then.frames + 3 && spherule.simTime > then.time, before);
+  await page.close();
+});
+
+for (const [width, height] of [
+  [1280, 720],
+  [1920, 1080],
+  [390, 844],
+]) {
+  test(`nothing on the page covers anything else at ${width} x ${height}`, async () => {
+    const page = await open(browser, server.url, { size: [width, height] });
+    if (width < 700) assert.equal(await page.isVisible(control("panel")), false);
+    const boxes = await page.evaluate(() =>
+      Array.from(document.querySelectorAll("#page > *, .facts > *, header > *"))
+        .filter((element) => !element.matches(".facts, header, .toasts, dialog"))
+        .map((element) => ({ name: element.className || element.tagName, ...element.getBoundingClientRect().toJSON() }))
+        .filter((box) => box.width > 0 && box.height > 0),
+    );
+    assert.ok(boxes.length >= 5);
+    for (const box of boxes) {
+      assert.ok(box.left >= 0 && box.top >= 0 && box.right <= width && box.bottom <= height, `${box.name} is cut off`);
+      for (const other of boxes) {
+        const apart =
+          box === other || box.right <= other.left || other.right <= box.left || box.bottom <= other.top || other.bottom <= box.top;
+        assert.ok(apart, `${box.name} and ${other.name} overlap`);
+      }
+    }
+    await page.close();
+  });
+}
+
+test("a lost graphics context comes back with its picture", async () => {
+  const page = await open(browser, server.url);
+  await page.evaluate(() => {
+    window.loss = document.querySelector("canvas").getContext("webgl2").getExtension("WEBGL_lose_context");
+    window.loss.loseContext();
+  });
+  await when(page, () => spherule.picture.contextLost);
+  await page.evaluate(() => window.loss.restoreContext());
+  await when(page, () => !spherule.picture.contextLost);
+  const drawn = await page.evaluate(() => spherule.picture.drawn);
+  await when(page, (then) => spherule.picture.drawn > then + 1, drawn);
+  assert.deepEqual(page.faults, []);
+  await page.close();
+});

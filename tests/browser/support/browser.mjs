@@ -1,0 +1,56 @@
+// Chromium with WebGL in software, and pages of it that remember what went wrong in them.
+import { chromium } from "playwright-core";
+
+export const patience = 90_000; // ms; software rendering on a busy machine takes its time
+
+export async function launch() {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--disable-background-networking"],
+  });
+}
+
+/** Opens the page and waits for its first state. `picture`: what the page calls the quality of its picture. */
+export async function open(browser, url, { size = [960, 540], picture = "light", colour = "", ...context } = {}) {
+  const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, ...context });
+  page.setDefaultTimeout(patience);
+  page.faults = [];
+  page.requested = [];
+  page.on("console", (message) => message.type() === "error" && page.faults.push(message.text()));
+  page.on("pageerror", (error) => page.faults.push(error.message));
+  page.on("request", (request) => page.requested.push(request.url()));
+  const address = new URL(url);
+  address.searchParams.set("picture", picture);
+  if (colour) address.searchParams.set("colour", colour);
+  await page.goto(address.href);
+  await when(page, () => window.spherule?.frames > 0);
+  return page;
+}
+
+export const control = (id) => `[data-testid="${id}"]`;
+
+/** Waits until the function is true in the page; it sees `argument`. */
+export async function when(page, condition, argument) {
+  await page.waitForFunction(condition, argument, { timeout: patience, polling: 100 });
+}
+
+/** Pauses from the page and waits until no newer state comes. */
+export async function pause(page) {
+  if (!(await page.evaluate(() => window.spherule.paused))) await page.click(control("pause"));
+  await when(page, () => {
+    const { paused, results, step } = window.spherule;
+    const last = results.filter((result) => result.what === "Pause").at(-1);
+    return paused && (!last || step >= last.step);
+  });
+}
+
+/** Waits until the picture shows the newest state: two pictures later nothing is drawn any more. */
+export async function settled(page) {
+  await page.evaluate(async () => {
+    let drawn = -1;
+    while (drawn !== window.spherule.picture.drawn) {
+      drawn = window.spherule.picture.drawn;
+      await new Promise((resolve) => setTimeout(resolve, 1500));
+    }
+  });
+}

@@ -1,0 +1,37 @@
+// The real server, started for a test on a port of its own.
+import { spawn, execFile } from "node:child_process";
+
+const binary = process.env.SPHERULE ?? "build/release/spherule";
+
+/** Serves the scene; `port` 0 takes a free one. */
+export async function serve(scene, port = 0) {
+  const child = spawn(binary, ["serve", scene, "--device", "software", "--listen", `127.0.0.1:${port}`], {
+    stdio: ["ignore", "pipe", "pipe"],
+  });
+  let said = "";
+  child.stderr.on("data", (data) => (said += data));
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  const url = await new Promise((resolve, reject) => {
+    child.stdout.on("data", (data) => {
+      said += data;
+      const address = /open (http:\S+)/.exec(said)?.[1];
+      if (address) resolve(address);
+    });
+    void ended.then((code) => reject(new Error(`the server ended with ${code}:\n${said}`)));
+  });
+  return {
+    url,
+    port: Number(new URL(url).port),
+    /** Gives a command as a shell would; returns what ctl printed, or throws when it was refused. */
+    ctl(...words) {
+      const socket = url.replace("http:", "ws:") + "ws";
+      return new Promise((resolve, reject) => {
+        execFile(binary, ["ctl", socket, ...words], (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
+      });
+    },
+    async stop() {
+      child.kill("SIGTERM");
+      return ended;
+    },
+  };
+}

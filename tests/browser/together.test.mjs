@@ -1,0 +1,52 @@
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { control, launch, open, pause, when } from "./support/browser.mjs";
+import { serve } from "./support/server.mjs";
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser?.close());
+
+test("two pages see the same world", async () => {
+  const server = await serve("billiards");
+  const one = await open(browser, server.url);
+  const two = await open(browser, server.url);
+  await pause(one);
+  await when(two, () => document.querySelector('[data-testid="pause"]').dataset.paused === "true");
+  const state = (page) => page.evaluate(() => JSON.stringify([spherule.epoch, spherule.positions([...Array(spherule.count).keys()])]));
+  await when(two, (step) => spherule.step === step, await one.evaluate(() => spherule.step));
+  assert.equal(await state(two), await state(one));
+  await two.selectOption(control("gravity-preset"), "Sideways");
+  await when(one, () => document.querySelector('[data-testid="gravity-preset"]').value === "Sideways");
+  await one.close();
+  await two.close();
+  await server.stop();
+});
+
+test("the page finds a restarted server by itself and shows its world", async () => {
+  const first = await serve("billiards");
+  const page = await open(browser, first.url);
+  await first.stop();
+  await when(page, () => spherule.connection === "waiting");
+  await when(page, () => /offline/.test(document.querySelector('[data-testid="connection"]').textContent));
+  const frames = await page.evaluate(() => spherule.frames);
+  const second = await serve("bounce", first.port);
+  await when(page, (then) => spherule.connection === "open" && spherule.scene === "bounce" && spherule.frames > then + 2, frames);
+  assert.equal(await page.evaluate(() => spherule.count), 1);
+  await page.click(control("pause"));
+  await when(page, () => spherule.paused);
+  await page.close();
+  await second.stop();
+});
+
+test("a command given without a connection is said to be lost", async () => {
+  const server = await serve("bounce");
+  const page = await open(browser, server.url);
+  await server.stop();
+  await when(page, () => spherule.connection !== "open");
+  await page.click(control("reset"));
+  await when(page, () => spherule.results.at(-1)?.outcome === "lost");
+  await page.close();
+});

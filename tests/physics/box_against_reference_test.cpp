@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "scene/random.h"
+#include "support.h"
+
+// Two hundred spheres of 5 cm in a box of half a metre, on the device and in the reference. Both do the same to every
+// pair, but in another order, so that they differ by what is left of the overlaps.
+namespace spherule::physics {
+namespace {
+
+constexpr double side = 0.5;  // m
+
+scene::Scene boxOf200() {
+    scene::Scene scene = closedBox(2);
+    scene.bounds.min = {-side / 2, -side / 2, -1};
+    scene.bounds.max = {side / 2, side / 2, 1};
+    scene::Random random(11);
+    for (int k = 0; k < 200; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = static_cast<float>(random.uniform(0.04, 0.05));
+        const glm::dvec3 place{k % 4, k / 4 % 4, k / 16};
+        sphere.position = 0.115 * (place - glm::dvec3(1.5, 1.5, 0)) - glm::dvec3(0, 0, 0.93);
+        for (int axis = 0; axis < 3; ++axis) sphere.position[axis] += random.uniform(-0.005, 0.005);
+        scene.spheres.push_back(sphere);
+    }
+    setRestitution(scene, 0.5);
+    return scene;
+}
+
+struct Figures {
+    double meanHeight = 0;  // m over the floor
+    double energy = 0;      // J, zero at the floor
+    double contacts = 0;
+};
+
+Figures figuresOf(const reference::World& world, double floor) {
+    Figures figures;
+    for (std::size_t i = 0; i < world.spheres.size(); ++i) {
+        const reference::Sphere& a = world.spheres[i];
+        const double height = a.x.z - floor;
+        figures.meanHeight += height / static_cast<double>(world.spheres.size());
+        figures.energy += (glm::dot(a.v, a.v) / 2 + earth * height) / a.inverseMass;
+        for (std::size_t j = i + 1; j < world.spheres.size(); ++j) {
+            const reference::Sphere& b = world.spheres[j];
+            if (glm::length(a.x - b.x) < a.radius + b.radius) ++figures.contacts;
+        }
+    }
+    return figures;
+}
+
+void add(Figures& sum, const Figures& figures) {
+    sum.meanHeight += figures.meanHeight;
+    sum.energy += figures.energy;
+    sum.contacts += figures.contacts;
+}
+
+TEST(BoxAgainstReference, OneSubstepFromEachOfAHundredStatesDiffersByLessThanTheLargestOverlap) {
+    const scene::Scene scene = boxOf200();
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.5);
+    double worst = 0;
+    for (int record = 0; record < 100; ++record) {
+        SCOPED_TRACE(record);
+        run(*simulation, 4 * scene.step);
+        reference::World world = referenceOf(scene, simulation->snapshot());
+        world.substep(scene.step);
+        run(*simulation, scene.step);
+        const sim::State state = simulation->snapshot();
+        double difference = 0;
+        for (std::uint32_t id = 0; id < state.count(); ++id)
+            difference = std::max(difference, glm::length(positionOf(state, id) - world.spheres[id].x));
+        ASSERT_GT(world.touchingPairs(), 100U);
+        EXPECT_LT(difference, world.largestOverlap());
+        worst = std::max(worst, difference / world.largestOverlap());
+    }
+    RecordProperty("worstOfLargestOverlap", std::to_string(worst));
+}
+
+// From the same state, half a second each; averages over that time.
+void expectTheSameHalfSecond(double from) {
+    const scene::Scene scene = boxOf200();
+    const auto simulation = simulate(scene);
+    run(*simulation, from);
+    reference::World world = referenceOf(scene, simulation->snapshot());
+    const double floor = scene.bounds.min.z - scene.bounds.centre().z;
+    Figures device;
+    Figures reference;
+    const int steps = 240;
+    for (int k = 0; k < steps; ++k) {
+        run(*simulation, scene.step);
+        world.substep(scene.step);
+        add(device, figuresOf(referenceOf(scene, simulation->snapshot()), floor));
+        add(reference, figuresOf(world, floor));
+    }
+    EXPECT_NEAR(device.meanHeight, reference.meanHeight, 0.03 * reference.meanHeight);
+    EXPECT_NEAR(device.energy, reference.energy, 0.03 * reference.energy);
+    EXPECT_NEAR(device.contacts, reference.contacts, 0.03 * reference.contacts);
+    testing::Test::RecordProperty("meanHeight", std::to_string(device.meanHeight / reference.meanHeight));
+    testing::Test::RecordProperty("energy", std::to_string(device.energy / reference.energy));
+    testing::Test::RecordProperty("contacts", std::to_string(device.contacts / reference.contacts));
+    testing::Test::RecordProperty("contactsPerState", std::to_string(device.contacts / steps));
+}
+
+TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeWhileItCollapses) {
+    expectTheSameHalfSecond(0.1);
+}
+
+TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeOnceItHasSettled) {
+    expectTheSameHalfSecond(1);
+}
+
+}  // namespace
+}  // namespace spherule::physics

@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+TEST(Cradle, TheLastBallLeavesWithTheSpeedPutIn) {
+    const auto simulation = simulate(named("cradle"));
+    const double speed = velocityOf(simulation->snapshot(), 0).x;
+    run(*simulation, 0.5);
+    const sim::State state = simulation->snapshot();
+    EXPECT_GE(velocityOf(state, 4).x, 0.99 * speed);
+    EXPECT_LE(velocityOf(state, 4).x, 1.001 * speed);
+    for (std::uint32_t id = 0; id < 4; ++id) EXPECT_LT(glm::length(velocityOf(state, id)), 0.01 * speed) << id;
+}
+
+// What becomes of it depends on the contact law; docs/accuracy.md says what this one makes of it.
+TEST(Cradle, TouchingBallsKeepTheirMomentumAndGainNoEnergy) {
+    const auto simulation = simulate(named("cradle-touching"));
+    const sim::State before = simulation->snapshot();
+    run(*simulation, 0.5);
+    const sim::State after = simulation->snapshot();
+    ASSERT_TRUE(allFinite(after));
+    EXPECT_LT(glm::length(momentumOf(after) - momentumOf(before)), 1e-5 * momentumScale(before));
+    double energy = 0;
+    for (std::uint32_t id = 0; id < 5; ++id) {
+        const glm::dvec3 v = velocityOf(after, id);
+        energy += glm::dot(v, v);
+        RecordProperty("speed" + std::to_string(id), std::to_string(v.x));
+    }
+    EXPECT_LT(energy, 1.001);
+}
+
+}  // namespace
+}  // namespace spherule::physics

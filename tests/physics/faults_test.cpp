@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+// A cube of touching spheres, all of them in contact with their neighbours.
+scene::Scene block(int perSide) {
+    scene::Scene scene = closedBox(1);
+    for (int k = 0; k < perSide * perSide * perSide; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = 0.05F;
+        const glm::dvec3 place{k % perSide, k / perSide % perSide, k / perSide / perSide};
+        sphere.position = 0.0999 * place - glm::dvec3(0.4, 0.4, 0.45);
+        scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+class NonFinite : public testing::TestWithParam<glm::vec4> {};
+
+TEST_P(NonFinite, ASphereIsCountedAndLeavesItsNeighboursAlone) {
+    constexpr std::uint32_t id = 62;  // in the middle of 5 x 5 x 5
+    const auto simulation = simulate(block(5));
+    run(*simulation, 0.1);
+    ASSERT_FALSE(simulation->counters().nonFinite);
+    sim::Pipeline& pipeline = simulation->pipeline();
+    const std::uint32_t slot = pipeline.read<std::uint32_t>(sim::Array::SlotOf).at(id);
+    const glm::vec4 bad = GetParam();
+    pipeline.write<glm::vec4>(sim::Array::Velocity, std::span(&bad, 1), slot);
+    run(*simulation, simulation->scene().step);
+    EXPECT_TRUE(simulation->counters().nonFinite);
+    EXPECT_EQ(simulation->counters().firstNonFinite, id);
+    run(*simulation, 0.5);
+    EXPECT_TRUE(simulation->counters().nonFinite);
+    const sim::Statistics statistics = simulation->statistics();
+    EXPECT_EQ(statistics.nonFinite, 1U);
+    EXPECT_LT(statistics.speedMax, 10);
+    EXPECT_EQ(statistics.outside, 0U);
+    sim::State state = simulation->snapshot();
+    state.position.erase(state.position.begin() + id);
+    state.velocity.erase(state.velocity.begin() + id);
+    EXPECT_TRUE(allFinite(state));
+}
+
+INSTANTIATE_TEST_SUITE_P(Velocity, NonFinite,
+                         testing::Values(glm::vec4(nan, 0, 0, 1), glm::vec4(0, 0, infinity, 1),
+                                         glm::vec4(0, -infinity, 0, 1), glm::vec4(nan, nan, nan, nan)));
+
+TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
+    scene::Scene scene = closedBox(2);
+    scene::Sphere sphere;
+    sphere.radius = 0.02F;
+    scene.spheres.assign(3000, sphere);
+    const auto simulation = simulate(scene);
+    run(*simulation, scene.step);
+    EXPECT_GT(simulation->counters().unlisted, 0U);
+    ASSERT_TRUE(allFinite(simulation->snapshot()));
+    run(*simulation, 19 * scene.step);
+    const sim::State state = simulation->snapshot();
+    EXPECT_TRUE(allFinite(state));
+    EXPECT_FALSE(simulation->counters().nonFinite);
+    EXPECT_EQ(simulation->statistics().outside, 0U);
+    for (std::uint32_t id = 1; id < state.count(); ++id) ASSERT_NE(positionOf(state, id), positionOf(state, id - 1));
+}
+
+TEST(Crowd, TwoSpheresInOnePointComeApartWithoutASpeed) {
+    scene::Scene scene = openSpace(2);
+    scene.spheres.resize(2);
+    for (scene::Sphere& sphere : scene.spheres) sphere.radius = 0.05F;
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.1);
+    const sim::State state = simulation->snapshot();
+    ASSERT_TRUE(allFinite(state));
+    EXPECT_NEAR(glm::length(positionOf(state, 0) - positionOf(state, 1)), 0.1, 1e-4);
+    EXPECT_LT(glm::length(velocityOf(state, 0)), 1e-3);
+}
+
+}  // namespace
+}  // namespace spherule::physics

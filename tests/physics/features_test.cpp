@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/plan.h"
+#include "support.h"
+
+// What a scene does not need is neither allocated nor dispatched.
+namespace spherule::physics {
+namespace {
+
+using sim::Array;
+using sim::Pass;
+
+sim::Plan planOf(const scene::Scene& scene) {
+    return sim::planFor(scene, scene::featuresOf(scene), static_cast<std::uint32_t>(scene.spheres.size()),
+                        sim::radiiOf(scene));
+}
+
+bool dispatches(const sim::Plan& plan, Pass pass) {
+    return std::ranges::any_of(plan.substep, [pass](const sim::LaunchSpec& launch) { return launch.pass == pass; });
+}
+
+// Sixty-four spheres with everything that a scene can ask for.
+scene::Scene everything() {
+    scene::Scene scene = closedBox(10);
+    scene.sleep.enabled = true;
+    scene.obstacles.push_back({scene::Plane{{0, 0, -4}, {0, 0, 1}}, 0.5, ""});
+    scene.obstacles.push_back({scene::Box{{1, 1, 1}, {2, 2, 2}}, 0.5, ""});
+    for (int k = 0; k < 64; ++k) {
+        scene::Sphere sphere;
+        sphere.position = {k % 8 - 4, k / 8 - 4, 0};
+        sphere.radius = 0.05F + 0.001F * static_cast<float>(k);
+        sphere.restitution = 0.01F * static_cast<float>(k);
+        scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+scene::Scene dust() {
+    scene::Scene scene = openSpace(10);
+    scene.sphereContacts = false;
+    scene.spheres = everything().spheres;
+    for (scene::Sphere& sphere : scene.spheres) sphere.radius = 0.05F;
+    setRestitution(scene, 0);
+    return scene;
+}
+
+TEST(Plan, OfEverythingHasEveryPass) {
+    const sim::Plan plan = planOf(everything());
+    for (const Pass pass : {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Positions, Pass::WallPositions,
+                            Pass::Velocities, Pass::WallVelocities, Pass::Sleep})
+        EXPECT_TRUE(dispatches(plan, pass)) << nameOf(pass);
+    for (std::size_t k = 0; k < sim::arrayCount; ++k)
+        EXPECT_TRUE(plan.has(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
+}
+
+TEST(Plan, OfDustInEmptySpaceIntegratesAndNothingElse) {
+    const sim::Plan plan = planOf(dust());
+    ASSERT_EQ(plan.substep.size(), 1U);
+    EXPECT_EQ(plan.substep[0].pass, Pass::Integrate);
+    for (const Array needed :
+         {Array::Position, Array::Velocity, Array::Id, Array::Counters, Array::SphereParts, Array::Packed})
+        EXPECT_TRUE(plan.has(needed)) << nameOf(needed);
+    EXPECT_EQ(plan.arrays.size(), 6U);
+    EXPECT_LT(plan.bytes(), planOf(everything()).bytes() / 4);
+}
+
+TEST(Plan, WithoutContactsHasNoGridAndNoLists) {
+    scene::Scene scene = everything();
+    scene.sphereContacts = false;
+    const sim::Plan plan = planOf(scene);
+    for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::Positions, Pass::Velocities})
+        EXPECT_FALSE(dispatches(plan, pass)) << nameOf(pass);
+    for (const Array array : {Array::CellStart, Array::Pairs, Array::Touching, Array::Order, Array::Saved})
+        EXPECT_FALSE(plan.has(array)) << nameOf(array);
+    EXPECT_TRUE(dispatches(plan, Pass::WallPositions));
+    EXPECT_LT(plan.bytes(), planOf(everything()).bytes());
+}
+
+TEST(Plan, WithoutSleepHasNoSleepPass) {
+    scene::Scene scene = everything();
+    scene.sleep.enabled = false;
+    EXPECT_FALSE(dispatches(planOf(scene), Pass::Sleep));
+    setRestitution(scene, 0);
+    EXPECT_FALSE(planOf(scene).has(Array::Before)) << "only sleep and bounces ask for the velocity before";
+    EXPECT_LT(planOf(scene).bytes(), planOf(everything()).bytes());
+}
+
+TEST(Plan, OfOneRestitutionHasNoArrayOfThem) {
+    scene::Scene scene = everything();
+    setRestitution(scene, 0.5);
+    EXPECT_TRUE(planOf(everything()).has(Array::Bounce));
+    EXPECT_FALSE(planOf(scene).has(Array::Bounce));
+}
+
+TEST(Plan, WithoutWallsHasNoWallPass) {
+    scene::Scene scene = everything();
+    scene.bounds.open.fill(true);
+    scene.obstacles.clear();
+    const sim::Plan plan = planOf(scene);
+    EXPECT_FALSE(dispatches(plan, Pass::WallPositions));
+    EXPECT_FALSE(dispatches(plan, Pass::WallVelocities));
+    EXPECT_FALSE(plan.has(Array::Obstacles));
+    scene.bounds.open[scene::ZMin] = false;
+    EXPECT_TRUE(dispatches(planOf(scene), Pass::WallPositions));
+    EXPECT_FALSE(planOf(scene).has(Array::Obstacles)) << "faces are no obstacles";
+}
+
+TEST(Plan, SaysWhichKernelsNeedNotKnowOfGravityOrRadii) {
+    EXPECT_TRUE(planOf(everything()).features.gravity);
+    EXPECT_TRUE(planOf(everything()).features.radii);
+    EXPECT_FALSE(planOf(dust()).features.gravity);
+    EXPECT_FALSE(planOf(dust()).features.radii);
+}
+
+// The device holds what the plan says, and runs what it says.
+TEST(Plan, IsWhatTheSimulationAllocatesAndTimes) {
+    const auto simulation = simulate(dust());
+    EXPECT_EQ(simulation->plan().bytes(), planOf(dust()).bytes());
+    EXPECT_TRUE(simulation->pipeline().read<std::uint32_t>(Array::Pairs).empty());
+    run(*simulation, 0.1);
+    const std::vector<double> seconds = simulation->passSeconds();
+    EXPECT_GT(seconds.at(static_cast<std::size_t>(Pass::Integrate)), 0);
+    for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::Positions, Pass::Velocities, Pass::Sleep})
+        if (static_cast<std::size_t>(pass) < seconds.size()) {
+            EXPECT_EQ(seconds[static_cast<std::size_t>(pass)], 0) << nameOf(pass);
+        }
+}
+
+}  // namespace
+}  // namespace spherule::physics

@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "support.h"
+
+// |e_got - e| <= 0.01, whatever meets.
+namespace spherule::physics {
+namespace {
+
+constexpr double tolerance = 0.01;
+
+class Restitution : public testing::TestWithParam<double> {};
+
+struct Meeting {
+    const char* name;
+    scene::Sphere a;
+    scene::Sphere b;
+};
+
+// Along x, each meeting in a lane of its own.
+const std::vector<Meeting> meetings{
+    {"equal", {{-0.3, 0, 0}, {1, 0, 0}, 0.05F}, {{0.3, 0, 0}, {-1, 0, 0}, 0.05F}},
+    {"one at rest", {{-0.3, 0, 0}, {2, 0, 0}, 0.05F}, {{0, 0, 0}, {}, 0.05F}},
+    {"slow", {{-0.06, 0, 0}, {0.05F, 0, 0}, 0.05F}, {{0.05, 0, 0}, {}, 0.05F}},
+    {"unequal masses", {{-0.3, 0, 0}, {1, 0, 0}, 0.05F, 20000}, {{0.3, 0, 0}, {-1, 0, 0}, 0.05F, 1000}},
+    {"unequal radii", {{-0.3, 0, 0}, {1, 0, 0}, 0.09F}, {{0.3, 0, 0}, {-1, 0, 0}, 0.03F}},
+    {"oblique", {{-0.3, 0.03, 0.02}, {1.2F, 0, 0}, 0.05F}, {{0.3, 0, 0}, {-1, 0.05F, 0}, 0.05F}},
+    {"oblique, all unequal",
+     {{-0.3, 0.04, -0.01}, {0.7F, 0, 0}, 0.04F, 7800},
+     {{0.3, 0, 0}, {-1.1F, 0, 0.02F}, 0.08F, 500}},
+};
+
+scene::Scene lanes(double restitution) {
+    scene::Scene scene = openSpace(8);
+    double lane = -2;
+    for (const Meeting& meeting : meetings) {
+        for (scene::Sphere sphere : {meeting.a, meeting.b}) {
+            sphere.position.y += lane;
+            scene.spheres.push_back(sphere);
+        }
+        lane += 0.5;
+    }
+    setRestitution(scene, restitution);
+    return scene;
+}
+
+// Speed of parting over speed of approach along the line on which the two acted on each other.
+double measured(const sim::State& before, const sim::State& after, std::uint32_t a, std::uint32_t b) {
+    const glm::dvec3 change = velocityOf(after, a) - velocityOf(before, a);
+    EXPECT_GT(glm::length(change), 1e-3) << "they never met";
+    const glm::dvec3 n = glm::normalize(change);
+    return -glm::dot(velocityOf(after, a) - velocityOf(after, b), n) /
+           glm::dot(velocityOf(before, a) - velocityOf(before, b), n);
+}
+
+TEST_P(Restitution, IsThatOfTheSceneForEveryKindOfPair) {
+    const auto simulation = simulate(lanes(GetParam()));
+    const sim::State before = simulation->snapshot();
+    run(*simulation, 0.5);
+    const sim::State after = simulation->snapshot();
+    for (std::uint32_t k = 0; k < meetings.size(); ++k) {
+        SCOPED_TRACE(meetings[k].name);
+        EXPECT_NEAR(measured(before, after, 2 * k, 2 * k + 1), GetParam(), tolerance);
+        const glm::dvec3 drift =
+            massOf(before, 2 * k) * (velocityOf(after, 2 * k) - velocityOf(before, 2 * k)) +
+            massOf(before, 2 * k + 1) * (velocityOf(after, 2 * k + 1) - velocityOf(before, 2 * k + 1));
+        EXPECT_LT(glm::length(drift), 1e-5 * massOf(before, 2 * k) * glm::length(velocityOf(before, 2 * k)));
+    }
+}
+
+TEST_P(Restitution, HoldsWhereEverySphereIsTheSame) {
+    scene::Scene scene = named("two-spheres");
+    setRestitution(scene, GetParam());
+    const auto simulation = simulate(scene);
+    const sim::State before = simulation->snapshot();
+    run(*simulation, 0.6);
+    EXPECT_NEAR(measured(before, simulation->snapshot(), 0, 1), GetParam(), tolerance);
+}
+
+TEST_P(Restitution, HoldsAtWallsPlanesAndBoxes) {
+    scene::Scene scene = openSpace(4);
+    scene.bounds.open[scene::ZMin] = false;
+    const glm::dvec3 slope = glm::normalize(glm::dvec3(1, 0, 2));
+    scene.obstacles.push_back({scene::Plane{{-1.5, 0, -1.2}, slope}, 0, ""});
+    scene.obstacles.push_back({scene::Box{{1, -0.5, -1.6}, {1.4, 0.5, -1.2}}, 0, ""});
+    scene.spheres = {{{0.2, 0, -1.6}, {0.5F, 0.3F, -2}, 0.05F},
+                     {{-1.5, 0, -0.8}, {0, 0.3F, -2}, 0.07F},
+                     {{1.2, 0, -0.8}, {0.1F, 0, -2}, 0.05F}};
+    setRestitution(scene, GetParam());
+    const auto simulation = simulate(scene);
+    const sim::State before = simulation->snapshot();
+    run(*simulation, 0.4);
+    const sim::State after = simulation->snapshot();
+    const glm::dvec3 normals[] = {{0, 0, 1}, slope, {0, 0, 1}};
+    for (std::uint32_t id = 0; id < 3; ++id) {
+        SCOPED_TRACE(id);
+        const glm::dvec3 in = velocityOf(before, id);
+        const glm::dvec3 out = velocityOf(after, id);
+        EXPECT_NEAR(-glm::dot(out, normals[id]) / glm::dot(in, normals[id]), GetParam(), tolerance);
+        const glm::dvec3 change = out - in;
+        EXPECT_LT(glm::length(change - glm::dot(change, normals[id]) * normals[id]), 1e-5) << "there is no friction";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Restitution, testing::Values(0.0, 0.5, 0.9, 1.0));
+
+TEST(Restitution, APairTakesTheSmallerOfItsTwo) {
+    scene::Scene scene = lanes(0.9);
+    for (std::size_t k = 0; k < scene.spheres.size(); k += 2) scene.spheres[k + (k / 2) % 2].restitution = 0.3F;
+    const auto simulation = simulate(scene);
+    const sim::State before = simulation->snapshot();
+    run(*simulation, 0.5);
+    const sim::State after = simulation->snapshot();
+    for (std::uint32_t k = 0; k < meetings.size(); ++k) {
+        SCOPED_TRACE(meetings[k].name);
+        EXPECT_NEAR(measured(before, after, 2 * k, 2 * k + 1), 0.3, tolerance);
+    }
+}
+
+}  // namespace
+}  // namespace spherule::physics

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+constexpr double threshold = 0.01;  // m/s
+constexpr double quietTime = 0.5;   // s
+
+// Steps of 1/60 s, as scenes have them, with sleep on.
+scene::Scene sleepyBox(double side) {
+    scene::Scene scene = closedBox(side);
+    scene.step = 1.0 / 60;
+    scene.substeps = 8;
+    scene.sleep = {true, threshold, quietTime};
+    return scene;
+}
+
+scene::Sphere at(glm::dvec3 position) {
+    scene::Sphere sphere;
+    sphere.position = position;
+    sphere.radius = 0.05F;
+    sphere.restitution = 0.3F;
+    return sphere;
+}
+
+std::uint32_t sleepers(const sim::State& state) {
+    std::uint32_t count = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id)
+        if (asleep(state, id)) ++count;
+    return count;
+}
+
+void push(sim::Simulation& simulation, std::uint32_t id, glm::dvec3 velocity) {
+    const double mass = massOf(simulation.snapshot(), id);
+    v1::Command command;
+    command.mutable_push()->set_sphere(id);
+    for (int axis = 0; axis < 3; ++axis) command.mutable_push()->add_impulse(mass * velocity[axis]);
+    ASSERT_TRUE(simulation.apply(command));
+}
+
+// A column of balls, one exactly on top of the other, all asleep.
+std::unique_ptr<sim::Simulation> sleepingColumn(int height) {
+    scene::Scene scene = sleepyBox(2);
+    for (int k = 0; k < height; ++k) scene.spheres.push_back(at({0, 0, -0.95 + 0.1 * k}));
+    auto simulation = simulate(scene);
+    run(*simulation, 3);
+    EXPECT_EQ(sleepers(simulation->snapshot()), simulation->count());
+    return simulation;
+}
+
+// A heap comes to rest; every step is watched.
+TEST(Sleep, TakesOnlyWhatHasBeenSlowForLongAndHoldsItExactlyStill) {
+    scene::Scene scene = sleepyBox(2);
+    for (int k = 0; k < 100; ++k) {
+        const glm::dvec3 place{k % 10, k / 10, 0};
+        scene.spheres.push_back(at(0.17 * (place - glm::dvec3(4.5, 4.5, 0)) - glm::dvec3(0, 0, 0.94 - 0.002 * k)));
+    }
+    for (int k = 0; k < 9; ++k) scene.spheres.push_back(at({0.1 * (k % 3) - 0.07, 0.1 * (k / 3) - 0.07, -0.5}));
+    const auto simulation = simulate(scene);
+    const auto quietSteps = static_cast<int>(quietTime / scene.step) - 1;
+    const auto twoSeconds = std::lround(2 / scene.step);
+    std::vector<int> slowFor(scene.spheres.size());  // steps
+    std::vector<int> asleepFor(scene.spheres.size());
+    std::vector<glm::dvec3> restingPlace(scene.spheres.size());
+    int transitions = 0;
+    int longSleepers = 0;
+    for (int step = 0; step < 360; ++step) {
+        run(*simulation, scene.step);
+        const sim::State state = simulation->snapshot();
+        for (std::uint32_t id = 0; id < state.count(); ++id) {
+            if (asleep(state, id)) {
+                if (asleepFor[id]++ == 0) {
+                    ++transitions;
+                    restingPlace[id] = positionOf(state, id);
+                    EXPECT_GE(slowFor[id], quietSteps) << "sphere " << id << " in step " << step;
+                }
+                EXPECT_EQ(positionOf(state, id), restingPlace[id]) << "sphere " << id << " moved in its sleep";
+                EXPECT_EQ(velocityOf(state, id), glm::dvec3(0)) << id;
+                if (asleepFor[id] == twoSeconds) ++longSleepers;
+            } else {
+                asleepFor[id] = 0;
+            }
+            slowFor[id] = glm::length(velocityOf(state, id)) <= threshold ? slowFor[id] + 1 : 0;
+        }
+    }
+    EXPECT_GT(transitions, 50);
+    EXPECT_GT(longSleepers, 50);
+    EXPECT_EQ(simulation->statistics().sleeping, sleepers(simulation->snapshot()));
+    RecordProperty("transitions", transitions);
+    RecordProperty("asleepForTwoSeconds", longSleepers);
+}
+
+TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
+    for (const double g : {earth, 0.1, 0.01}) {
+        SCOPED_TRACE(g);
+        scene::Scene scene = sleepyBox(20);
+        scene.gravity = {0, 0, -g};
+        scene.spheres.push_back(at({0, 0, 0}));
+        const double up = g;  // at the top after one second
+        scene.spheres[0].velocity = {0, 0, static_cast<float>(up)};
+        const auto simulation = simulate(scene);
+        for (int step = 0; step < 120; ++step) {
+            run(*simulation, scene.step);
+            ASSERT_EQ(sleepers(simulation->snapshot()), 0U) << "in step " << step;
+        }
+        EXPECT_NEAR(positionOf(simulation->snapshot(), 0).z, 0, 1e-4 * g);
+    }
+}
+
+TEST(Sleep, EndsWhenASphereIsHit) {
+    scene::Scene scene = sleepyBox(2);
+    scene.spheres = {at({0, 0, -0.95}), at({0.1, 0, -0.95}), at({-0.8, 0, -0.95})};
+    const auto simulation = simulate(scene);
+    run(*simulation, 1.5);
+    ASSERT_EQ(sleepers(simulation->snapshot()), 3U);
+    const sim::State before = simulation->snapshot();
+    push(*simulation, 2, {3, 0, 0});
+    run(*simulation, 0.5);
+    const sim::State after = simulation->snapshot();
+    EXPECT_GT(positionOf(after, 0).x, positionOf(before, 0).x + 0.01);
+    EXPECT_GT(positionOf(after, 1).x, positionOf(before, 1).x + 0.1) << "the blow goes through the first to the second";
+    EXPECT_FALSE(asleep(after, 1));
+}
+
+TEST(Sleep, EndsWhenASlowSphereArrives) {
+    scene::Scene scene = sleepyBox(2);
+    scene.spheres = {at({0, 0, -0.95}), at({-0.3, 0, -0.95})};
+    const auto simulation = simulate(scene);
+    run(*simulation, 1.5);
+    ASSERT_EQ(sleepers(simulation->snapshot()), 2U);
+    push(*simulation, 1, {0.2, 0, 0});
+    run(*simulation, 1.5);
+    const sim::State state = simulation->snapshot();
+    EXPECT_NEAR(velocityOf(state, 0).x + velocityOf(state, 1).x, 0.2, 0.002) << "momentum has gone into a sleeper";
+}
+
+TEST(Sleep, EndsWhenTheSupportIsRemoved) {
+    const auto simulation = sleepingColumn(4);
+    push(*simulation, 0, {4, 0, 0});
+    run(*simulation, 1);
+    const sim::State state = simulation->snapshot();
+    EXPECT_LT(positionOf(state, 1).z, -0.85 - 0.04);
+    for (std::uint32_t id = 1; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.04) << id;
+}
+
+TEST(Sleep, EndsWhenGravityChanges) {
+    const auto simulation = sleepingColumn(3);
+    v1::Command command;
+    for (const double component : {0.0, 0.0, 2.0}) command.mutable_set()->add_gravity(component);
+    ASSERT_TRUE(simulation->apply(command));
+    run(*simulation, 0.5);
+    const sim::State state = simulation->snapshot();
+    for (std::uint32_t id = 0; id < 3; ++id) {
+        EXPECT_FALSE(asleep(state, id));
+        EXPECT_GT(positionOf(state, id).z, -0.95 + 0.1 * id + 0.2);
+    }
+}
+
+}  // namespace
+}  // namespace spherule::physics

@@ -1,0 +1,124 @@
+#include "support.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+#include <glm/geometric.hpp>
+
+namespace spherule::physics {
+
+std::unique_ptr<compute::Device> openTestDevice() {
+    const char* const choice = std::getenv("SPHERULE_TEST_DEVICE");
+    auto device = compute::openDevice(choice == nullptr ? "software" : choice);
+    if (!device) throw std::runtime_error(device.error().text());
+    return std::move(*device);
+}
+
+compute::Device& device() {
+    static const std::unique_ptr<compute::Device> only = openTestDevice();
+    return *only;
+}
+
+scene::Scene named(const std::string& name, const scene::Overrides& overrides) {
+    auto scene = scene::load(name, "software", overrides);
+    if (!scene) throw std::runtime_error(scene.error().text());
+    return std::move(*scene);
+}
+
+scene::Scene openSpace(double side) {
+    scene::Scene scene;
+    scene.bounds.min = glm::dvec3(-side / 2);
+    scene.bounds.max = glm::dvec3(side / 2);
+    scene.bounds.open.fill(true);
+    scene.step = 1.0 / 480;
+    scene.substeps = 1;
+    scene.sleep.enabled = false;
+    return scene;
+}
+
+scene::Scene closedBox(double side) {
+    scene::Scene scene = openSpace(side);
+    scene.bounds.open.fill(false);
+    scene.gravity = {0, 0, -earth};
+    return scene;
+}
+
+void setRestitution(scene::Scene& scene, double restitution) {
+    scene.restitution = restitution;
+    scene.bounds.restitution = restitution;
+    for (scene::Obstacle& obstacle : scene.obstacles) obstacle.restitution = restitution;
+    for (scene::Sphere& sphere : scene.spheres) sphere.restitution = static_cast<float>(restitution);
+}
+
+std::unique_ptr<sim::Simulation> simulate(scene::Scene scene) {
+    auto simulation = sim::Simulation::create(device(), std::move(scene));
+    if (!simulation) throw std::runtime_error(simulation.error().text());
+    return std::move(*simulation);
+}
+
+void run(sim::Simulation& simulation, double seconds) {
+    const auto steps = std::lround(seconds / simulation.scene().step);
+    for (long k = 0; k < steps; ++k)
+        if (auto done = simulation.step(); !done) throw std::runtime_error(done.error().text());
+}
+
+reference::World referenceOf(const scene::Scene& scene, const sim::State& state) {
+    reference::World world;
+    world.gravity = scene.gravity;
+    const glm::dvec3 centre = scene.bounds.centre();
+    for (unsigned face = 0; face < 6; ++face) {
+        if (scene.bounds.open[face]) continue;
+        glm::dvec3 normal{};
+        normal[static_cast<int>(face / 2)] = face % 2 == 0 ? 1 : -1;
+        world.walls.push_back(
+            {(face % 2 == 0 ? scene.bounds.min : scene.bounds.max) - centre, normal, scene.bounds.restitution});
+    }
+    for (const scene::Obstacle& obstacle : scene.obstacles) {
+        const auto& plane = std::get<scene::Plane>(obstacle.shape);
+        world.walls.push_back({plane.point - centre, plane.normal, obstacle.restitution});
+    }
+    for (std::uint32_t id = 0; id < state.count(); ++id)
+        world.spheres.push_back({positionOf(state, id), velocityOf(state, id),
+                                 static_cast<double>(state.position[id].w), 1 / massOf(state, id),
+                                 static_cast<double>(scene.spheres[id].restitution)});
+    return world;
+}
+
+glm::dvec3 positionOf(const sim::State& state, std::uint32_t id) {
+    return glm::dvec3(state.position[id]);
+}
+
+glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id) {
+    return glm::dvec3(state.velocity[id]);
+}
+
+double massOf(const sim::State& state, std::uint32_t id) {
+    return 1 / std::abs(static_cast<double>(state.velocity[id].w));
+}
+
+bool asleep(const sim::State& state, std::uint32_t id) {
+    return state.velocity[id].w < 0;
+}
+
+bool allFinite(const sim::State& state) {
+    for (std::uint32_t id = 0; id < state.count(); ++id) {
+        const glm::dvec3 sum = positionOf(state, id) + velocityOf(state, id);
+        if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
+    }
+    return true;
+}
+
+glm::dvec3 momentumOf(const sim::State& state) {
+    glm::dvec3 sum{};
+    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * velocityOf(state, id);
+    return sum;
+}
+
+double momentumScale(const sim::State& state) {
+    double sum = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * glm::length(velocityOf(state, id));
+    return sum;
+}
+
+}  // namespace spherule::physics

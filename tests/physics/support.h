@@ -1,0 +1,52 @@
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+#include "compute/device.h"
+#include "reference.h"
+#include "scene/load.h"
+#include "scene/scene.h"
+#include "sim/simulation.h"
+
+namespace spherule::physics {
+
+// The device of these tests: Mesa's software renderer, which every machine has, or what SPHERULE_TEST_DEVICE names.
+std::unique_ptr<compute::Device> openTestDevice();
+compute::Device& device();  // one for all tests
+
+// A scene that comes with the program.
+scene::Scene named(const std::string& name, const scene::Overrides& overrides = {});
+
+// A cube of `side` m around the origin: all faces open, no gravity, no sleep, every step one substep of 1/480 s.
+scene::Scene openSpace(double side);
+
+// The same with closed faces and, downwards, the earth's gravity.
+scene::Scene closedBox(double side);
+
+void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
+
+constexpr double earth = 9.81;  // m/s^2
+
+// Ends the test with the reason when the scene cannot be simulated.
+std::unique_ptr<sim::Simulation> simulate(scene::Scene scene);
+
+void run(sim::Simulation& simulation, double seconds);
+
+// The reference in the state of a simulation: closed faces and planes are its walls, lengths are relative to the
+// bounds' centre.
+reference::World referenceOf(const scene::Scene& scene, const sim::State& state);
+
+// Figures of a state, in double.
+glm::dvec3 positionOf(const sim::State& state, std::uint32_t id);
+glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id);
+double massOf(const sim::State& state, std::uint32_t id);
+bool asleep(const sim::State& state, std::uint32_t id);
+bool allFinite(const sim::State& state);
+glm::dvec3 momentumOf(const sim::State& state);
+double momentumScale(const sim::State& state);  // sum of m |v|
+
+}  // namespace spherule::physics

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Everything that must pass: installs what is missing, builds, checks the formatting and runs the tests.
+#
+#   ./tests/run.sh                  all tests but the benchmarks
+#   ./tests/run.sh --label unit     only those with this label; may be given several times
+#   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
+#
+# The last line sums it up. Exits 1 when anything failed.
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build=build/release
+jobs=$(nproc)
+
+labels=()
+tidy=
+while [[ $# -gt 0 ]]; do
+    case $1 in
+        --label) labels+=("${2:?--label needs a name}"); shift 2 ;;
+        --tidy) tidy=1; shift ;;
+        -h | --help) sed -n '2,8s/^# \?//p' "$0"; exit 0 ;;
+        *) echo "unknown option $1; see $0 --help" >&2; exit 2 ;;
+    esac
+done
+
+durations=()
+failed=()
+
+# phase NAME COMMAND...: runs the command and notes how long it took and whether it failed.
+phase() {
+    local name=$1 start=$SECONDS
+    shift
+    echo "== $name"
+    "$@" || failed+=("$name")
+    durations+=("$name $((SECONDS - start)) s")
+}
+
+summary() {
+    local verdict="all passed"
+    [[ ${#failed[@]} -eq 0 ]] || verdict="FAILED: $(printf '%s, ' "${failed[@]}" | sed 's/, $//')"
+    echo "== spherule: $verdict ($(printf '%s, ' "${durations[@]}" | sed 's/, $//'))"
+    [[ ${#failed[@]} -eq 0 ]]
+}
+
+# Without these there is nothing to test.
+needed() {
+    phase "$@"
+    if [[ ${#failed[@]} -gt 0 ]]; then
+        summary || exit 1
+    fi
+}
+
+check_format() {
+    find server tests \( -name node_modules -prune \) -o \( -name '*.cpp' -o -name '*.h' \) -print0 |
+        xargs -0 clang-format --dry-run -Werror
+}
+
+run_tests() {
+    local chosen=()
+    [[ ${#labels[@]} -eq 0 ]] || chosen=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
+    ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error -LE '^bench$' "${chosen[@]}"
+}
+
+run_tidy() {
+    run-clang-tidy -p "$build" -quiet -j "$jobs" "^$PWD/server/.*\.cpp\$" | grep -vE '^(clang-tidy|[0-9]+ warnings)'
+    return "${PIPESTATUS[0]}"
+}
+
+needed packages ./deploy/install_packages.sh build run test
+needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
+needed build cmake --build --preset release -j "$jobs"
+phase format check_format
+if [[ -n $tidy ]]; then
+    phase tidy run_tidy
+else
+    phase tests run_tests
+fi
+summary

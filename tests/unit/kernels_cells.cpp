@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "kernels_support.h"
+
+namespace spherule::kernels {
+namespace {
+
+// Spheres in cells of 1 m on a torus of 4 x 4 x 4 cells.
+struct Cells {
+    explicit Cells(std::vector<vec4> positions) : position(std::move(positions)) {
+        parameters.spheres = static_cast<uint>(position.size());
+        parameters.cells = uvec4(4, 4, 4, 64);
+        parameters.inverseCell = 1;
+        id.resize(position.size());
+        std::iota(id.begin(), id.end(), 0U);
+        std::shuffle(id.begin(), id.end(), std::mt19937(2));
+        start.resize(65);
+        place.resize(position.size());
+        order.resize(position.size());
+    }
+
+    void sort() {
+        const Launch how{.parameters = &parameters, .features = allFeatures};
+        launch("cell_clear", {start}, how);
+        launch("cell_count", {position, start, place}, how);
+        prefixSum(start);
+        launch("cell_scatter", {position, start, place, order}, how);
+        launch("cell_order", {start, order, id}, how);
+    }
+
+    std::vector<uint> idsOf(uint cell) const {
+        std::vector<uint> ids;
+        for (uint k = start[cell]; k < start[cell + 1]; ++k) ids.push_back(id[order[k]]);
+        return ids;
+    }
+
+    layout::Parameters parameters{};
+    std::vector<vec4> position;
+    std::vector<uint> id, start, place, order;
+};
+
+TEST(KernelsAsCpp, SpheresOfACrowdedCellComeInIdOrder) {
+    Cells cells(std::vector<vec4>(1000, vec4(0.5F, 0.5F, 0.5F, 0.1F)));
+    cells.sort();
+    std::vector<uint> wanted(1000);
+    std::iota(wanted.begin(), wanted.end(), 0U);
+    EXPECT_EQ(cells.idsOf(0), wanted);
+}
+
+TEST(KernelsAsCpp, EverySphereIsInTheCellOfItsPlaceOnTheTorus) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> coordinate(-9, 9);
+    std::vector<vec4> positions(500);
+    for (vec4& p : positions) p = vec4(coordinate(random), coordinate(random), coordinate(random), 0.1F);
+    Cells cells(positions);
+    cells.sort();
+    EXPECT_EQ(cells.start.back(), 500U);
+    for (uint cell = 0; cell < 64; ++cell) {
+        const auto ids = cells.idsOf(cell);
+        EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+        for (uint k = cells.start[cell]; k < cells.start[cell + 1]; ++k) {
+            const vec4 p = positions[cells.order[k]];
+            const auto wrap = [](float x) { return (static_cast<int>(std::floor(x)) % 4 + 4) % 4; };
+            EXPECT_EQ(cell, static_cast<uint>((wrap(p.z) * 4 + wrap(p.y)) * 4 + wrap(p.x)));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace spherule::kernels

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""kernels_glsl.py SHADERS GLSLANG: every kernel in SHADERS must be GLSL 4.5 to the reference compiler GLSLANG, with all
+features, with none, and with each of its features alone."""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+INCLUDE = re.compile(r'^#include "([^"]+)"$')
+FEATURE = re.compile(r"\bHAS\((?!feature\b)(\w+)\)")
+
+
+def expand(root, name):
+    """The lines of a file with its includes in place, each with the file and line it came from."""
+    for number, line in enumerate((root / name).read_text(encoding="utf-8").splitlines(), 1):
+        included = INCLUDE.match(line)
+        if included:
+            yield from expand(root, included.group(1))
+        else:
+            yield f"{name}:{number}", line
+
+
+def variants(lines):
+    features = sorted({name for _, line in lines for name in FEATURE.findall(line)})
+    yield "all features", dict.fromkeys(features, True)
+    if features:
+        yield "no feature", dict.fromkeys(features, False)
+    if len(features) > 1:
+        for alone in features:
+            yield f"{alone} alone", {name: name == alone for name in features}
+
+
+def messages(output, prologue, lines):
+    """The compiler's messages, with our file and line in place of those of the expanded text."""
+    def place(match):
+        line = int(match.group(1)) - prologue - 1
+        return f"{lines[line][0]}:" if 0 <= line < len(lines) else match.group(0)
+    return [re.sub(r"\S+\.comp:(\d+):|0:(\d+):", lambda m: place(re.match(r".*?:?(\d+):$", m.group(0))), text)
+            for text in output.splitlines() if "ERROR" in text or "WARNING" in text]
+
+
+def main():
+    root, compiler = Path(sys.argv[1]), sys.argv[2]
+    kernels = sorted(path.name for path in root.glob("*.comp"))
+    tried = 0
+    failures = []
+    with tempfile.TemporaryDirectory() as folder:
+        for kernel in kernels:
+            lines = list(expand(root, kernel))
+            for title, features in variants(lines):
+                head = ["#version 450 core"] + [f"#define {n} {str(on).lower()}" for n, on in features.items()]
+                path = Path(folder) / kernel
+                path.write_text("\n".join(head + [line for _, line in lines]) + "\n", encoding="utf-8")
+                result = subprocess.run([compiler, str(path)], capture_output=True, text=True, check=False)
+                tried += 1
+                if result.returncode != 0 or "WARNING" in result.stdout:
+                    failures.append(f"{kernel} ({title}):")
+                    failures += messages(result.stdout + result.stderr, len(head), lines)
+    print("\n".join(failures))
+    print(f"{len(kernels)} kernels, {tried} variants, {'refused' if failures else 'all accepted'}")
+    return 1 if failures or not kernels else 0
+
+
+sys.exit(main())

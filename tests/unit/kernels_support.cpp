@@ -1,0 +1,44 @@
+#include "kernels_support.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "all_kernels.h"
+
+namespace spherule::kernels {
+
+namespace {
+
+uint blocksOf(std::size_t values) {
+    return static_cast<uint>((values + SCAN_BLOCK - 1) / SCAN_BLOCK);
+}
+
+}  // namespace
+
+void launch(std::string_view kernel, std::initializer_list<Slot> slots, const Launch& how) {
+    std::vector<void*> pointers;
+    for (const Slot& slot : slots) pointers.push_back(slot.data);
+    const auto* const found = std::ranges::find(allKernels, kernel, &Entry::name);
+    if (found == std::end(allKernels)) throw std::out_of_range(std::string(kernel));
+    found->run({.slots = pointers, .parameters = how.parameters, .phase = how.phase, .features = how.features});
+}
+
+std::vector<std::string_view> kernelNames() {
+    std::vector<std::string_view> names;
+    for (const Entry& entry : allKernels) names.push_back(entry.name);
+    return names;
+}
+
+void prefixSum(std::vector<uint>& values) {
+    std::vector<uint> sums(blocksOf(values.size()));
+    std::vector<uint> superSums(blocksOf(sums.size()));
+    const auto count = [](const std::vector<uint>& v) { return Launch{.phase = static_cast<uint>(v.size())}; };
+    launch("scan_reduce", {values, sums}, count(values));
+    launch("scan_reduce", {sums, superSums}, count(sums));
+    launch("scan_top", {superSums}, count(superSums));
+    launch("scan_spread", {sums, superSums}, count(sums));
+    launch("scan_spread", {values, sums}, count(values));
+}
+
+}  // namespace spherule::kernels

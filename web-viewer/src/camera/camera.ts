@@ -1,0 +1,82 @@
+import type { Facts } from "../scene/facts";
+import { approached, framing, near, orbited, panned, poseFrom, zoomed } from "./orbit";
+import type { Pose } from "./orbit";
+import { viewOf } from "./view";
+import type { Insets, View } from "./view";
+
+const turn = 0.006; // radians per pixel
+const ease = 70; // ms to close most of the gap to where the hand has led
+
+/** The camera that the hand leads: movements go to a goal, the picture follows smoothly. */
+export class Camera {
+  pose: Pose = { target: [0, 0, 0], distance: 5, azimuth: -1, elevation: 0.4 };
+  insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
+  private goal: Pose = this.pose;
+  private home: Pose = this.pose;
+  private fieldOfView = 45;
+  private extent = 10; // m: no place of the scene is farther from another
+  private size: [number, number] = [1, 1];
+  private current: View = viewOf(this.pose, 45, 1, 1, this.insets, 10);
+
+  /** Takes the scene's camera, or one that sees its bounds; stays where it is when the scene only changed a little. */
+  look(facts: Facts, stay: boolean): void {
+    this.fieldOfView = facts.fieldOfView;
+    this.extent = Math.hypot(facts.max[0] - facts.min[0], facts.max[1] - facts.min[1], facts.max[2] - facts.min[2]);
+    const { eye, target } = facts;
+    this.home = eye && target ? poseFrom(eye, target) : framing(facts.min, facts.max, facts.fieldOfView);
+    if (!stay) this.pose = this.goal = this.home;
+  }
+
+  reset(): void {
+    this.goal = this.home;
+  }
+
+  /** Looks along an axis, from as far as now. */
+  along(azimuth: number, elevation: number): void {
+    this.goal = { ...this.home, distance: this.goal.distance, azimuth, elevation };
+  }
+
+  resize(width: number, height: number): void {
+    this.size = [Math.max(1, width), Math.max(1, height)];
+  }
+
+  orbit(dx: number, dy: number): void {
+    this.goal = orbited(this.goal, -dx * turn, dy * turn);
+  }
+
+  pan(dx: number, dy: number): void {
+    const metres = this.metresPerPixel();
+    this.goal = panned(this.goal, -dx * metres, dy * metres);
+  }
+
+  /** Zooms towards a place of the picture; without one, towards the target. */
+  zoom(factor: number, x?: number, y?: number): void {
+    const metres = this.metresPerPixel();
+    const { top, right, bottom, left } = this.insets;
+    const dx = x === undefined ? 0 : x - (this.size[0] + left - right) / 2;
+    const dy = y === undefined ? 0 : y - (this.size[1] + top - bottom) / 2;
+    this.goal = zoomed(this.goal, factor, dx * metres, -dy * metres, [0.01 * this.extent, 8 * this.extent]);
+  }
+
+  /** Moves on by `elapsed` ms; false when it stands still. */
+  advance(elapsed: number): boolean {
+    if (this.pose === this.goal) return false;
+    this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, 1 - Math.exp(-elapsed / ease));
+    return true;
+  }
+
+  view(): View {
+    const reach = 3 * this.extent + Math.hypot(...this.pose.target.map((t, i) => t - (this.home.target[i] ?? 0)));
+    this.current = viewOf(this.pose, this.fieldOfView, this.size[0], this.size[1], this.insets, reach);
+    return this.current;
+  }
+
+  /** The view that was drawn last. */
+  get last(): View {
+    return this.current;
+  }
+
+  private metresPerPixel(): number {
+    return (2 * this.goal.distance * this.current.halfTangent) / this.size[1];
+  }
+}

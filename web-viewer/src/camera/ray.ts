@@ -1,0 +1,51 @@
+import { vec3, vec4 } from "gl-matrix";
+import { shownPosition } from "../scene/positions";
+import { radiusOf } from "../scene/facts";
+import type { Facts, Vec3 } from "../scene/facts";
+import type { Shown } from "../scene/states";
+import type { View } from "./view";
+
+export interface Ray {
+  origin: Vec3; // m
+  direction: Vec3; // unit length
+}
+
+/** The ray from the eye through a place of the picture, in CSS pixels from its upper left corner. */
+export function rayThrough(view: View, x: number, y: number): Ray {
+  const clip = vec4.fromValues((2 * x) / view.width - 1, 1 - (2 * y) / view.height, 1, 1);
+  vec4.transformMat4(clip, clip, view.inverse);
+  const far = [clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]] as Vec3;
+  const direction = vec3.normalize([0, 0, 0], vec3.subtract([0, 0, 0], far, view.eye)) as Vec3;
+  return { origin: view.eye, direction };
+}
+
+/** Where a point lies in the picture, in CSS pixels; undefined behind the eye. */
+export function project(view: View, point: Vec3): [number, number] | undefined {
+  const clip = vec4.transformMat4(vec4.create(), [...point, 1], view.viewProjection);
+  if (clip[3] <= 0) return undefined;
+  return [(0.5 + (0.5 * clip[0]) / clip[3]) * view.width, (0.5 - (0.5 * clip[1]) / clip[3]) * view.height];
+}
+
+/** The distance along the ray at which it enters the sphere; Infinity where it does not. */
+export function enter(ray: Ray, centre: Vec3, radius: number): number {
+  const to = vec3.subtract([0, 0, 0], centre, ray.origin);
+  const along = vec3.dot(to, ray.direction);
+  const half = radius * radius - (vec3.squaredLength(to) - along * along);
+  if (half < 0 || along < 0) return Infinity;
+  return along - Math.sqrt(half);
+}
+
+/** The id of the first sphere that the ray meets, as drawn. */
+export function pick(facts: Facts, shown: Shown, ray: Ray): number | undefined {
+  let nearest = Infinity;
+  let found: number | undefined;
+  const count = Math.min(shown.from.count, shown.to.count);
+  for (let id = 0; id < count; id++) {
+    const distance = enter(ray, shownPosition(facts, shown, id), radiusOf(facts, id));
+    if (distance < nearest) {
+      nearest = distance;
+      found = id;
+    }
+  }
+  return found;
+}

@@ -1,0 +1,45 @@
+import { mat4 } from "gl-matrix";
+import { eyeOf, viewMatrix } from "./orbit";
+import type { Pose } from "./orbit";
+import type { Vec3 } from "../scene/facts";
+
+/** Parts of the picture that the page's own elements cover, in CSS pixels. */
+export interface Insets {
+  top: number;
+  right: number;
+  bottom: number;
+  left: number;
+}
+
+export interface View {
+  eye: Vec3;
+  view: mat4;
+  projection: mat4;
+  viewProjection: mat4;
+  inverse: mat4; // of viewProjection
+  width: number; // CSS pixels
+  height: number;
+  halfTangent: number; // tangent of half the vertical angle of view
+  near: number;
+  far: number;
+}
+
+/** Makes the matrices. The pose's target lands in the middle of what the insets leave free. */
+export function viewOf(pose: Pose, fieldOfView: number, width: number, height: number, insets: Insets, reach: number): View {
+  const free = {
+    width: Math.max(1, width - insets.left - insets.right),
+    height: Math.max(1, height - insets.top - insets.bottom),
+  };
+  // The angle belongs to the shorter side of the free part, so that a phone held upright sees as much as a desktop.
+  const scale = height / Math.min(free.height, free.width);
+  const halfTangent = Math.tan((fieldOfView * Math.PI) / 360) * scale;
+  const near = Math.max(pose.distance * 0.01, pose.distance - reach);
+  const far = pose.distance + reach;
+  const projection = mat4.perspective(mat4.create(), 2 * Math.atan(halfTangent), width / height, near, far);
+  projection[8] -= (insets.left - insets.right) / width;
+  projection[9] -= (insets.bottom - insets.top) / height;
+  const view = viewMatrix(pose);
+  const viewProjection = mat4.multiply(mat4.create(), projection, view);
+  const inverse = mat4.invert(mat4.create(), viewProjection) ?? mat4.create();
+  return { eye: eyeOf(pose), view, projection, viewProjection, inverse, width, height, halfTangent, near, far };
+}

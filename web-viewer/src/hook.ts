@@ -1,0 +1,118 @@
+import { project } from "./camera/ray";
+import type { Pose } from "./camera/orbit";
+import type { Report } from "./connection/commands";
+import type { Facts, Vec3 } from "./scene/facts";
+import { positionOf } from "./scene/positions";
+import type { Viewer } from "./viewer";
+
+/**
+ * `window.spherule`: what tests and curious people may rely on. Elements are found by their `data-testid`; the
+ * simulation is told what to do through the page's controls or the server's own protocol, not from here.
+ */
+export interface Hook {
+  /** "connecting", "open" or "waiting" (for the next attempt). */
+  readonly connection: string;
+  /** Size of the canvas in its own pixels, pictures drawn since the page was loaded. */
+  readonly picture: { width: number; height: number; drawn: number; contextLost: boolean };
+  /** Of the newest state; -1 where there is none. */
+  readonly step: number;
+  readonly simTime: number; // s
+  readonly epoch: number;
+  readonly count: number;
+  readonly paused: boolean;
+  /** States taken since the page was loaded, and those that newer ones replaced on their way. */
+  readonly frames: number;
+  readonly skipped: number;
+  readonly scene: string;
+  readonly facts: Facts | undefined;
+  readonly settings: { gravity: number[]; restitution: number; substeps: number; speed: number; paused: boolean } | undefined;
+  readonly camera: Pose & { eye: Vec3 };
+  /** Answers to this page's commands, the newest last, at most 50. */
+  readonly results: { what: string; outcome: string; step: number | undefined; words: string }[];
+  /** In the newest state, in metres, with its step; off by at most half a quantum of the wire grid per axis. */
+  positions(ids: number[]): { step: number; positions: Vec3[] } | undefined;
+  /** The sphere that is seen at this place of the page, in CSS pixels. */
+  at(x: number, y: number): number | undefined;
+  /** Where a place in metres lies on the page, in CSS pixels; undefined behind the eye. */
+  project(place: Vec3): [number, number] | undefined;
+}
+
+declare global {
+  interface Window {
+    spherule: Hook;
+  }
+}
+
+const kept = 50;
+
+export class Reports {
+  readonly list: Report[] = [];
+
+  add(report: Report): void {
+    this.list.push(report);
+    this.list.splice(0, this.list.length - kept);
+  }
+}
+
+export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Hook {
+  return {
+    get connection() {
+      return session.link;
+    },
+    get picture() {
+      const { width, height } = stage.canvas;
+      return { width, height, drawn: stage.drawn, contextLost: stage.contextLost };
+    },
+    get step() {
+      return session.states.newest?.step ?? -1;
+    },
+    get simTime() {
+      return session.states.newest?.simTime ?? 0;
+    },
+    get epoch() {
+      return session.facts?.epoch ?? -1;
+    },
+    get count() {
+      return session.facts?.count ?? 0;
+    },
+    get paused() {
+      return session.paused;
+    },
+    get frames() {
+      return session.frames;
+    },
+    get skipped() {
+      return session.skipped;
+    },
+    get scene() {
+      return session.facts?.name ?? "";
+    },
+    get facts() {
+      return session.facts;
+    },
+    get settings() {
+      if (!session.settings) return undefined;
+      const { gravity, restitution, substeps, speed, paused } = session.settings;
+      return { gravity, restitution, substeps, speed, paused };
+    },
+    get camera() {
+      return { ...camera.pose, eye: camera.last.eye };
+    },
+    get results() {
+      return reports.list.map(({ what, outcome, words }) => ({
+        what,
+        outcome: outcome.case ?? "unknown",
+        step: outcome.case === "applied" ? Number(outcome.value.step) : undefined,
+        words,
+      }));
+    },
+    positions(ids) {
+      const state = session.states.newest;
+      const facts = session.facts;
+      if (!state || !facts) return undefined;
+      return { step: state.step, positions: ids.map((id) => positionOf(facts, state, id)) };
+    },
+    at: (x, y) => seenAt(x, y),
+    project: (place) => project(camera.last, place),
+  };
+}

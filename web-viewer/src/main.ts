@@ -1,0 +1,39 @@
+import { modeList } from "./colour/modes";
+import { hookFor } from "./hook";
+import { Viewer } from "./viewer";
+
+/** Starting choices may be given in the address: ?colour=group&picture=full&theme=dark */
+function chosen<T extends string>(name: string, allowed: readonly T[]): T | undefined {
+  const asked = new URLSearchParams(location.search).get(name);
+  return allowed.find((value) => value === asked);
+}
+
+function start(): void {
+  const canvas = document.querySelector<HTMLCanvasElement>("#picture");
+  const place = document.querySelector<HTMLElement>("#page");
+  if (!canvas || !place) throw new Error("The page lacks its canvas.");
+  const mode = chosen("colour", modeList);
+  const viewer = new Viewer(canvas, place, {
+    mode: mode ?? "speed",
+    modeChosen: mode !== undefined,
+    quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
+    theme: chosen("theme", ["light", "dark"]) ?? "light",
+    push: false,
+    impulse: 1,
+  });
+  window.spherule = hookFor(viewer);
+  const url = new URL("ws", location.href);
+  url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  url.search = "";
+  viewer.start(url.href);
+}
+
+try {
+  start();
+} catch (error) {
+  const notice = document.createElement("p");
+  notice.className = "failure";
+  notice.textContent = error instanceof Error ? error.message : String(error);
+  document.body.append(notice);
+  throw error;
+}

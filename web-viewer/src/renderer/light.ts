@@ -1,0 +1,48 @@
+import { mat4, vec3 } from "gl-matrix";
+import { centreOf } from "../scene/facts";
+import type { Facts, Vec3 } from "../scene/facts";
+
+export interface Light {
+  direction: Vec3; // to the light, unit length
+  right: Vec3; // across the shadow map
+  up: Vec3;
+  clip: mat4; // world to the shadow map's clip space
+  map: mat4; // world to the shadow map, 0..1
+}
+
+const height = 0.95; // radians above the horizon
+const aside = 0.85; // radians to the left of the scene's own camera
+
+/** A far light that stands to the left of the scene's camera, with a shadow map that covers the bounds. */
+export function lightFor(facts: Facts): Light {
+  const azimuth = cameraAzimuth(facts) - aside;
+  const direction: Vec3 = [Math.cos(azimuth) * Math.cos(height), Math.sin(azimuth) * Math.cos(height), Math.sin(height)];
+  const right = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], [0, 0, 1], direction)) as Vec3;
+  const up = vec3.cross([0, 0, 0], direction, right) as Vec3;
+  const centre = centreOf(facts);
+  const half = [0, 0, 0];
+  for (const corner of corners(facts)) {
+    const from = vec3.subtract([0, 0, 0], corner, centre);
+    [right, up, direction].forEach((axis, i) => {
+      half[i] = Math.max(half[i] ?? 0, Math.abs(vec3.dot(from, axis)));
+    });
+  }
+  const [x = 1, y = 1, z = 1] = half.map((value) => value * 1.03 + 1e-3);
+  const view = mat4.lookAt(mat4.create(), vec3.add([0, 0, 0], centre, direction), centre, up);
+  const clip = mat4.multiply(mat4.create(), mat4.ortho(mat4.create(), -x, x, -y, y, 1 - z, 1 + z), view);
+  const map = mat4.fromTranslation(mat4.create(), [0.5, 0.5, 0.5]);
+  mat4.scale(map, map, [0.5, 0.5, 0.5]);
+  mat4.multiply(map, map, clip);
+  return { direction, right, up, clip, map };
+}
+
+function cameraAzimuth(facts: Facts): number {
+  const { eye, target } = facts;
+  if (!eye || !target) return -1.05;
+  return Math.atan2(eye[1] - target[1], eye[0] - target[0]);
+}
+
+function corners(facts: Facts): Vec3[] {
+  const { min, max } = facts;
+  return Array.from({ length: 8 }, (_, i) => [0, 1, 2].map((axis) => ((i >> axis) & 1 ? max : min)[axis]) as Vec3);
+}

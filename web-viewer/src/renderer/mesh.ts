@@ -1,0 +1,40 @@
+import { slot } from "./program";
+import { vertexFloats } from "./shapes";
+import type { Vertices } from "./shapes";
+
+/** Vertices on the device. */
+export class Mesh {
+  private readonly array: WebGLVertexArrayObject;
+  private readonly buffer: WebGLBuffer;
+  private count = 0;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.array = gl.createVertexArray();
+    this.buffer = gl.createBuffer();
+    gl.bindVertexArray(this.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    const stride = 4 * vertexFloats;
+    for (const [name, size, offset] of [
+      ["a_place", 3, 0],
+      ["a_normal", 3, 12],
+      ["a_colour", 4, 24],
+    ] as const) {
+      gl.enableVertexAttribArray(slot(name));
+      gl.vertexAttribPointer(slot(name), size, gl.FLOAT, false, stride, offset);
+    }
+    gl.bindVertexArray(null);
+  }
+
+  set(vertices: Vertices): void {
+    this.count = vertices.length / vertexFloats;
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffer);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, new Float32Array(vertices), this.gl.STATIC_DRAW);
+  }
+
+  draw(mode: number = this.gl.TRIANGLES): void {
+    if (this.count === 0) return;
+    this.gl.bindVertexArray(this.array);
+    this.gl.drawArrays(mode, 0, this.count);
+    this.gl.bindVertexArray(null);
+  }
+}

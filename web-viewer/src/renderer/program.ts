@@ -1,0 +1,51 @@
+/** A linked program with its uniforms by name. */
+export interface Program {
+  use(): void;
+  at(uniform: string): WebGLUniformLocation | null;
+}
+
+/** Attribute slots are the same in all programs, so that one vertex array serves several of them. */
+const attributes = ["a_from", "a_to", "a_radius", "a_group", "a_place", "a_normal", "a_colour"] as const;
+export type Attribute = (typeof attributes)[number];
+
+export function slot(attribute: Attribute): number {
+  return attributes.indexOf(attribute);
+}
+
+export const frameBinding = 0; // of the uniform block Frame
+
+/** Compiles and links; throws with the compiler's words. Sources are parts that follow each other. */
+export function program(gl: WebGL2RenderingContext, vertex: string[], fragment: string[], defines: string[] = []): Program {
+  const linked = gl.createProgram();
+  const head = ["#version 300 es", "precision highp float;", "precision highp int;", ...defines.map((d) => `#define ${d}`)];
+  for (const [type, parts] of [
+    [gl.VERTEX_SHADER, vertex],
+    [gl.FRAGMENT_SHADER, fragment],
+  ] as const) {
+    const shader = gl.createShader(type);
+    if (!shader) throw new Error("no shader: the WebGL context is lost");
+    gl.shaderSource(shader, [...head, ...parts].join("\n"));
+    gl.compileShader(shader);
+    gl.attachShader(linked, shader);
+  }
+  attributes.forEach((name, index) => gl.bindAttribLocation(linked, index, name));
+  gl.linkProgram(linked);
+  if (!gl.getProgramParameter(linked, gl.LINK_STATUS) && !gl.isContextLost()) {
+    const logs = (gl.getAttachedShaders(linked) ?? []).map((shader) => gl.getShaderInfoLog(shader) ?? "");
+    throw new Error(`shader: ${[gl.getProgramInfoLog(linked), ...logs].join("\n").trim()}`);
+  }
+  const block = gl.getUniformBlockIndex(linked, "Frame");
+  if (block !== gl.INVALID_INDEX) gl.uniformBlockBinding(linked, block, frameBinding);
+  const locations = new Map<string, WebGLUniformLocation | null>();
+  return {
+    use: () => gl.useProgram(linked),
+    at(uniform) {
+      let location = locations.get(uniform);
+      if (location === undefined) {
+        location = gl.getUniformLocation(linked, uniform);
+        locations.set(uniform, location);
+      }
+      return location;
+    },
+  };
+}

@@ -1,0 +1,103 @@
+import { modes } from "../colour/modes";
+import { centreOf } from "../scene/facts";
+import type { Facts } from "../scene/facts";
+import type { Shown } from "../scene/states";
+import type { Paint } from "./picture";
+import { program } from "./program";
+import type { Program } from "./program";
+import type { Quality } from "./quality";
+import type { ShadowMap } from "./shadow";
+import type { SphereData } from "./spheres";
+import type { Surroundings } from "./surroundings";
+import background from "./shaders/background.frag.glsl";
+import colour from "./shaders/colour.glsl";
+import floorFragment from "./shaders/floor.frag.glsl";
+import frame from "./shaders/frame.glsl";
+import light from "./shaders/light.glsl";
+import lineFragment from "./shaders/line.frag.glsl";
+import place from "./shaders/place.glsl";
+import screen from "./shaders/screen.vert.glsl";
+import solidFragment from "./shaders/solid.frag.glsl";
+import solidVertex from "./shaders/solid.vert.glsl";
+import sphereFragment from "./shaders/spheres.frag.glsl";
+import sphereVertex from "./shaders/spheres.vert.glsl";
+
+/** Draws what can be seen: background, floor, obstacles, spheres, then what is translucent. */
+export class ScenePass {
+  private readonly background: Program;
+  private readonly floor: Program;
+  private readonly solids: Program;
+  private readonly spheres: Program;
+  private readonly lines: Program;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly quality: Quality,
+  ) {
+    const soft = quality.softShadow ? ["SOFT_SHADOW"] : [];
+    const coverage = quality.samples > 0 ? ["COVERAGE"] : [];
+    this.background = program(gl, [screen], [frame, light, background]);
+    this.floor = program(gl, [solidVertex], [frame, light, floorFragment], soft);
+    this.solids = program(gl, [solidVertex], [frame, light, solidFragment], soft);
+    this.spheres = program(gl, [frame, place, colour, sphereVertex], [frame, light, sphereFragment], [...soft, ...coverage]);
+    this.lines = program(gl, [solidVertex], [frame, light, lineFragment]);
+  }
+
+  draw(facts: Facts, shown: Shown | undefined, paint: Paint, around: Surroundings, data: SphereData, shadow: ShadowMap): void {
+    const { gl } = this;
+    gl.depthMask(false);
+    this.background.use();
+    shadow.bind(this.background, 0);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.depthMask(true);
+
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.enable(gl.CULL_FACE);
+    this.prepare(this.floor, paint, shadow);
+    gl.uniform4f(this.floor.at("u_bounds"), facts.min[0], facts.min[1], facts.max[0], facts.max[1]);
+    gl.uniform1f(this.floor.at("u_ruler"), around.ruler);
+    gl.uniform1f(this.floor.at("u_fade"), around.fade);
+    around.floor.draw();
+    gl.disable(gl.CULL_FACE);
+    gl.disable(gl.BLEND);
+
+    this.prepare(this.solids, paint, shadow);
+    around.solids.draw();
+    if (shown) this.drawSpheres(facts, shown, paint, data, shadow);
+
+    gl.enable(gl.BLEND);
+    gl.depthMask(false);
+    this.prepare(this.solids, paint, shadow);
+    around.veils.draw();
+    this.prepare(this.lines, paint, shadow);
+    around.edges.draw(gl.LINES);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+  }
+
+  private drawSpheres(facts: Facts, shown: Shown, paint: Paint, data: SphereData, shadow: ShadowMap): void {
+    const { gl, spheres } = this;
+    spheres.use();
+    shadow.bind(spheres, 0);
+    const time = shown.to.simTime - shown.from.simTime;
+    gl.uniform1i(spheres.at("u_mode"), modes[paint.mode]);
+    gl.uniform3fv(spheres.at("u_ramp"), paint.ramp.flat());
+    gl.uniform2fv(spheres.at("u_range"), paint.range);
+    gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
+    gl.uniform3fv(spheres.at("u_cellCentre"), centreOf(facts));
+    gl.uniform1f(spheres.at("u_cellSize"), facts.cellSize);
+    gl.uniform3iv(spheres.at("u_cells"), facts.cells.map((n) => Math.max(1, n)));
+    gl.uniform1i(spheres.at("u_selected"), paint.selected ?? -1);
+    const smooth = this.quality.samples > 0;
+    if (smooth) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    data.draw(spheres, shown.mix);
+    if (smooth) gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+  }
+
+  private prepare(used: Program, paint: Paint, shadow: ShadowMap): void {
+    used.use();
+    shadow.bind(used, 0);
+    this.gl.uniformMatrix4fv(used.at("u_matrix"), false, paint.view.viewProjection);
+  }
+}

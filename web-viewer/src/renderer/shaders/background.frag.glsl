@@ -1,0 +1,8 @@
+in vec2 v_at;
+out vec4 o_colour;
+
+void main() {
+    vec2 off = v_at - vec2(0.5, 0.55);
+    vec3 colour = mix(backgroundBottom.rgb, backgroundTop.rgb, smoothstep(0.0, 1.0, v_at.y));
+    o_colour = vec4(encode(colour * (1.0 - 0.16 * dot(off, off))), 1.0);
+}

@@ -1,0 +1,44 @@
+in vec4 a_group;
+
+uniform int u_mode;             // as in colour/modes.ts
+uniform vec3 u_ramp[6];         // sRGB
+uniform vec2 u_range;
+uniform float u_inverseTime;    // 1/s, of the time between the two states; 0: unknown
+uniform vec3 u_cellCentre;      // m
+uniform float u_cellSize;       // m; 0: no grid
+uniform ivec3 u_cells;
+
+vec3 rampAt(float at) {
+    float scaled = clamp(at, 0.0, 1.0) * 5.0;
+    int index = min(int(scaled), 4);
+    return mix(u_ramp[index], u_ramp[index + 1], scaled - float(index));
+}
+
+uint scrambled(uint x) {
+    x ^= x >> 16; x *= 0x7feb352du;
+    x ^= x >> 15; x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+// Neighbouring cells differ in hue at random and in lightness by parity.
+vec3 cellColour(vec3 place) {
+    if (u_cellSize <= 0.0) return vec3(0.62, 0.66, 0.70);
+    ivec3 cell = ivec3(floor((place - u_cellCentre) / u_cellSize));
+    cell = ((cell % u_cells) + u_cells) % u_cells;
+    uint hash = scrambled(uint(cell.x + u_cells.x * (cell.y + u_cells.y * cell.z)));
+    float hue = float(hash & 1023u) * (6.2831853 / 1024.0);
+    float lightness = 0.60 + 0.10 * float((cell.x + cell.y + cell.z) & 1);
+    return vec3(lightness) + 0.17 * vec3(cos(hue), cos(hue - 2.0944), cos(hue + 2.0944));
+}
+
+vec3 colourNow(vec3 place, float radius) {
+    float span = max(u_range.y - u_range.x, 1e-12);
+    if (u_mode == 0) {
+        float speed = length(vec3(a_to) - vec3(a_from)) * u_quantum * u_inverseTime;
+        return rampAt((speed - u_range.x) / span);
+    }
+    if (u_mode == 1) return rampAt((radius - u_range.x) / span);
+    if (u_mode == 2) return rampAt((float(gl_InstanceID) - u_range.x) / span);
+    if (u_mode == 3) return cellColour(place);
+    return a_group.rgb;
+}

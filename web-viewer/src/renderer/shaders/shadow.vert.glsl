@@ -1,0 +1,11 @@
+// Spheres as discs through their centres, facing the light: a sphere then never shades its own lit side.
+uniform mat4 u_light;
+uniform vec3 u_right;
+uniform vec3 u_up;
+
+out vec2 v_corner;
+
+void main() {
+    v_corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    gl_Position = u_light * vec4(centreNow() + a_radius * (v_corner.x * u_right + v_corner.y * u_up), 1.0);
+}

@@ -1,0 +1,105 @@
+import type { State } from "../connection/messages";
+import type { Facts } from "../scene/facts";
+import type { Shown } from "../scene/states";
+import { capacity } from "../scene/timeline";
+import { slot } from "./program";
+import type { Attribute, Program } from "./program";
+
+interface Resident {
+  buffer: WebGLBuffer;
+  state: State | undefined;
+  used: number;
+}
+
+/** The spheres' data on the device: states as they came, uint16; radius and group colour once per scene. */
+export class SphereData {
+  count = 0;
+  private readonly array: WebGLVertexArrayObject;
+  private readonly residents: Resident[];
+  private readonly radii: WebGLBuffer;
+  private readonly colours: WebGLBuffer;
+  private facts: Facts | undefined;
+  private turn = 0;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.array = gl.createVertexArray();
+    this.residents = Array.from({ length: capacity }, () => ({ buffer: gl.createBuffer(), state: undefined, used: 0 }));
+    this.radii = gl.createBuffer();
+    this.colours = gl.createBuffer();
+  }
+
+  setFacts(facts: Facts): void {
+    const { gl } = this;
+    this.facts = facts;
+    gl.bindVertexArray(this.array);
+    if (facts.radii) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.radii);
+      gl.bufferData(gl.ARRAY_BUFFER, facts.radii, gl.STATIC_DRAW);
+      this.perInstance("a_radius");
+      gl.vertexAttribPointer(slot("a_radius"), 1, gl.FLOAT, false, 4, 0);
+    } else {
+      gl.disableVertexAttribArray(slot("a_radius"));
+    }
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.colours);
+    gl.bufferData(gl.ARRAY_BUFFER, colours(facts), gl.STATIC_DRAW);
+    this.perInstance("a_group");
+    gl.vertexAttribPointer(slot("a_group"), 4, gl.UNSIGNED_BYTE, true, 4, 0);
+    gl.bindVertexArray(null);
+  }
+
+  /** Makes these states the ones that are drawn, uploading those that are new. */
+  show(shown: Shown): void {
+    const { gl } = this;
+    this.count = Math.min(shown.from.count, shown.to.count, this.facts?.count ?? 0);
+    gl.bindVertexArray(this.array);
+    for (const [name, state] of [
+      ["a_from", shown.from],
+      ["a_to", shown.to],
+    ] as const) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.resident(state));
+      this.perInstance(name);
+      gl.vertexAttribIPointer(slot(name), 3, gl.UNSIGNED_SHORT, 6, 0);
+    }
+    gl.bindVertexArray(null);
+  }
+
+  /** One instanced draw of all spheres with a program that includes shaders/place.glsl. */
+  draw(program: Program, mix: number): void {
+    const { gl, facts } = this;
+    if (!facts || this.count === 0) return;
+    gl.uniform3fv(program.at("u_origin"), facts.origin);
+    gl.uniform1f(program.at("u_quantum"), facts.quantum);
+    gl.uniform1f(program.at("u_mix"), mix);
+    gl.vertexAttrib1f(slot("a_radius"), facts.radius);
+    gl.bindVertexArray(this.array);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+    gl.bindVertexArray(null);
+  }
+
+  private resident(state: State): WebGLBuffer {
+    this.turn += 1;
+    let place = this.residents.find((resident) => resident.state === state);
+    if (!place) {
+      place = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
+      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, place.buffer);
+      this.gl.bufferData(this.gl.ARRAY_BUFFER, state.positions, this.gl.STREAM_DRAW);
+      place.state = state;
+    }
+    place.used = this.turn;
+    return place.buffer;
+  }
+
+  private perInstance(name: Attribute): void {
+    this.gl.enableVertexAttribArray(slot(name));
+    this.gl.vertexAttribDivisor(slot(name), 1);
+  }
+}
+
+function colours(facts: Facts): Uint8Array {
+  const bytes = new Uint8Array(4 * facts.count).fill(160);
+  for (const group of facts.groups) {
+    const [r, g, b] = group.colour.map((part) => Math.round(255 * part)) as [number, number, number];
+    for (let id = group.first; id < Math.min(facts.count, group.first + group.count); id++) bytes.set([r, g, b, 255], 4 * id);
+  }
+  return bytes;
+}

@@ -1,0 +1,40 @@
+const gap = "\u202f"; // narrow and not broken
+
+/** 12 345 */
+export function count(value: number): string {
+  return Math.round(value)
+    .toString()
+    .replace(/\B(?=(\d{3})+(?!\d))/g, gap);
+}
+
+/** Three significant digits without a tail of zeros; powers of ten where numbers get unwieldy. */
+export function figure(value: number): string {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e5) return count(value);
+  if (size < 1e-3) return value.toExponential(1).replace("e-", "e−").replace(/^-/, "−");
+  const digits = Math.max(0, 2 - Math.floor(Math.log10(size)));
+  return value.toFixed(Math.min(4, digits)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "").replace("-", "−");
+}
+
+/** A length in the unit that reads best. */
+export function length(metres: number): string {
+  const size = Math.abs(metres);
+  if (size >= 1 || size === 0) return `${figure(metres)} m`;
+  if (size >= 0.01) return `${figure(metres * 100)} cm`;
+  return `${figure(metres * 1000)} mm`;
+}
+
+export function seconds(value: number): string {
+  return `${value.toFixed(value < 1000 ? 2 : 0)} s`;
+}
+
+export function bytesPerSecond(value: number): string {
+  if (value >= 1e5) return `${(value / 1e6).toFixed(value < 1e7 ? 2 : 1)} MB/s`;
+  return `${(value / 1e3).toFixed(0)} kB/s`;
+}
+
+export function vector(values: readonly number[], digits = 2): string {
+  return values.map((value) => value.toFixed(digits).replace("-", "−")).join("  ");
+}

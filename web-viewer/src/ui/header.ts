@@ -1,0 +1,45 @@
+import type { Session } from "../scene/session";
+import { h, setText } from "./dom";
+
+/** Which world this is, and whether the page hears from it. */
+export class Header {
+  private readonly scene = h("h1", { "data-testid": "scene-name" }, "Spherule");
+  private readonly description = h("p", { "data-testid": "scene-description" });
+  private readonly dot = h("i");
+  private readonly words = h("span", { "data-testid": "connection" });
+  private readonly link: HTMLButtonElement;
+  readonly element: HTMLElement;
+
+  constructor(
+    private readonly session: Session,
+    retry: () => void,
+  ) {
+    this.link = h("button", { class: "link", type: "button", "data-testid": "retry", click: retry }, this.dot, this.words);
+    const brand = h("div", { class: "brand" }, h("span", { class: "mark" }), "Spherule", this.link);
+    this.element = h("header", {}, brand, this.scene, this.description);
+  }
+
+  update(now: number, contextLost: boolean): void {
+    const { session } = this;
+    const state = contextLost ? "lost" : session.link;
+    this.link.dataset.state = state;
+    this.link.title = state === "waiting" ? `${session.linkReason}; click to try now` : "";
+    setText(this.words, this.wordsFor(state, now));
+    if (!session.facts) return;
+    setText(this.scene, session.facts.name);
+    setText(this.description, session.facts.description);
+  }
+
+  private wordsFor(state: string, now: number): string {
+    switch (state) {
+      case "lost":
+        return "graphics lost, waiting for the browser";
+      case "open":
+        return this.session.facts ? "connected" : "waiting for the scene";
+      case "connecting":
+        return "connecting";
+      default:
+        return `offline, trying again in ${Math.max(0, Math.ceil((this.session.retryAt - now) / 1000))} s`;
+    }
+  }
+}

@@ -1,0 +1,32 @@
+import { h } from "./dom";
+import type { Key } from "./keys";
+
+const gestures: [string, string][] = [
+  ["drag · one finger", "orbit"],
+  ["right or shift + drag · two fingers", "move"],
+  ["wheel · pinch", "zoom to that place"],
+  ["click · tap", "select a sphere, or push it in push mode"],
+];
+
+/** Keys and gestures, over the page. */
+export class Help {
+  readonly element: HTMLDialogElement;
+
+  constructor(keys: Key[]) {
+    const list = (rows: [string, string][]): HTMLElement =>
+      h("dl", {}, ...rows.flatMap(([term, text]) => [h("dt", {}, term), h("dd", {}, text)]));
+    this.element = h(
+      "dialog",
+      { class: "help", "data-testid": "help-overlay", "aria-label": "Keys and gestures", click: () => this.element.close() },
+      h("h2", {}, "Gestures"),
+      list(gestures),
+      h("h2", {}, "Keys"),
+      list(keys.filter((key) => key.shown).map((key) => [key.shown, key.says])),
+    );
+  }
+
+  toggle(): void {
+    if (this.element.open) this.element.close();
+    else this.element.showModal();
+  }
+}

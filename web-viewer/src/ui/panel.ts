@@ -1,0 +1,160 @@
+import GUI from "lil-gui";
+import type { Controller, OptionController } from "lil-gui";
+import type { Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import { modeFor, modeList, modeNames } from "../colour/modes";
+import type { Mode } from "../colour/modes";
+import type { Commands } from "../connection/commands";
+import type { QualityChoice } from "../renderer/quality";
+import type { ThemeName } from "../renderer/theme";
+import type { Facts } from "../scene/facts";
+import { dropFor, impulseFor } from "./amounts";
+import { presetOf, presets } from "./gravity";
+import { StatisticsTable } from "./statistics";
+
+/** What the panel holds that only the page uses. */
+export interface Choices {
+  mode: Mode;
+  modeChosen: boolean; // false: the scene decides
+  quality: QualityChoice;
+  theme: ThemeName;
+  push: boolean;
+  impulse: number; // N s
+}
+
+export interface PanelActions {
+  themed(theme: ThemeName): void;
+  qualityChosen(quality: QualityChoice): void;
+}
+
+/** The controls at the side. Commands go out when a control is let go; what the server settled on comes back. */
+export class Panel {
+  readonly element: HTMLElement;
+  private readonly gui: GUI;
+  private readonly statistics = new StatisticsTable();
+  private readonly world = { scene: "", gravity: "Earth", x: 0, y: 0, z: 0, restitution: 0.5, substeps: 1, speed: 1 };
+  private readonly drop = { count: 200, radius: 0.05 };
+  private readonly scene: OptionController;
+  private facts: Facts | undefined;
+
+  constructor(
+    private readonly commands: Commands,
+    readonly choices: Choices,
+    private readonly actions: PanelActions,
+  ) {
+    this.gui = new GUI({ autoPlace: false, injectStyles: false, title: "Controls", width: 288 });
+    this.element = this.gui.domElement;
+    this.element.dataset.testid = "panel";
+    this.scene = tag("scene", this.gui.add(this.world, "scene", [""]).name("Scene")) as OptionController;
+    this.scene.onFinishChange((name: string) => void commands.load(name));
+    this.addWorld();
+    this.addDrop();
+    this.addPush();
+    this.addLook();
+    this.addStatistics();
+  }
+
+  offer(welcome: Welcome): void {
+    this.scene.options(welcome.scenes);
+  }
+
+  setFacts(facts: Facts): void {
+    const another = facts.name !== this.facts?.name;
+    this.facts = facts;
+    this.world.scene = facts.name;
+    if (another) {
+      const [low, high] = facts.radiusRange;
+      this.drop.radius = Number(((low + high) / 2 || 0.05).toPrecision(3));
+      this.choices.impulse = impulseFor(this.drop.radius);
+      if (!this.choices.modeChosen) this.choices.mode = modeFor(facts.groups);
+    }
+    this.refresh();
+  }
+
+  settle(settings: Settings): void {
+    const [x = 0, y = 0, z = 0] = settings.gravity;
+    const { restitution, substeps, speed } = settings;
+    Object.assign(this.world, { x, y, z, gravity: presetOf([x, y, z]), restitution, substeps, speed });
+    this.refresh();
+  }
+
+  refresh(): void {
+    for (const controller of this.gui.controllersRecursive()) controller.updateDisplay();
+  }
+
+  colourBy(mode: Mode): void {
+    this.choices.mode = mode;
+    this.choices.modeChosen = true;
+    this.refresh();
+  }
+
+  async query(): Promise<void> {
+    const statistics = await this.commands.query();
+    if (statistics) this.statistics.show(statistics);
+  }
+
+  dropNow(): void {
+    if (this.facts) void this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
+  }
+
+  private addWorld(): void {
+    const { world, commands } = this;
+    const folder = this.gui.addFolder("World");
+    const setGravity = (): void => void commands.set("Gravity", { gravity: [world.x, world.y, world.z] });
+    tag("gravity-preset", folder.add(world, "gravity", [...Object.keys(presets), "Own"]).name("Gravity, m/s²")).onFinishChange((name: string) => {
+      const preset = presets[name];
+      if (!preset) return;
+      [world.x, world.y, world.z] = preset;
+      setGravity();
+    });
+    for (const axis of ["x", "y", "z"] as const) {
+      tag(`gravity-${axis}`, folder.add(world, axis).step(0.01).decimals(2).name(axis)).onFinishChange(setGravity);
+    }
+    tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
+      (restitution: number) => void commands.set("Restitution", { restitution }),
+    );
+    tag("substeps", folder.add(world, "substeps", 1, 64, 1).name("Substeps")).onFinishChange(
+      (substeps: number) => void commands.set("Substeps", { substeps }),
+    );
+    tag("speed", folder.add(world, "speed", 0.05, 4, 0.05).name("Speed, ×")).onFinishChange(
+      (speed: number) => void commands.set("Speed", { speed }),
+    );
+  }
+
+  private addDrop(): void {
+    const folder = this.gui.addFolder("Drop spheres");
+    tag("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"));
+    tag("drop-radius", folder.add(this.drop, "radius").min(1e-4).decimals(4).name("Radius, m"));
+    tag("drop", folder.add({ act: () => this.dropNow() }, "act").name("Drop"));
+  }
+
+  private addPush(): void {
+    const folder = this.gui.addFolder("Push");
+    tag("push", folder.add(this.choices, "push").name("Click pushes"));
+    tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s"));
+  }
+
+  private addLook(): void {
+    const folder = this.gui.addFolder("Look");
+    const names = Object.fromEntries(modeList.map((mode) => [modeNames[mode], mode]));
+    tag("colour", folder.add(this.choices, "mode", names).name("Colour by")).onChange((mode: Mode) => this.colourBy(mode));
+    tag("quality", folder.add(this.choices, "quality", { Automatic: "auto", Full: "full", Light: "light" }).name("Picture")).onChange(
+      (quality: QualityChoice) => this.actions.qualityChosen(quality),
+    );
+    tag("theme", folder.add(this.choices, "theme", { Light: "light", Dark: "dark" }).name("Theme")).onChange((theme: ThemeName) =>
+      this.actions.themed(theme),
+    );
+  }
+
+  private addStatistics(): void {
+    const folder = this.gui.addFolder("Statistics");
+    tag("query", folder.add({ act: () => void this.query() }, "act").name("Measure now"));
+    folder.$children.append(this.statistics.element);
+  }
+}
+
+/** Marks a control, so that a test finds it whatever the panel's markup. */
+function tag<C extends Controller>(id: string, controller: C): C {
+  controller.domElement.dataset.control = id;
+  controller.domElement.querySelector("input:not([type=range]), select, button")?.setAttribute("data-testid", id);
+  return controller;
+}

@@ -1,0 +1,27 @@
+import { h } from "./dom";
+
+export type Tone = "good" | "bad" | "plain";
+
+const stays = { good: 2200, plain: 4000, bad: 7000 }; // ms
+const most = 3;
+
+/** Short messages that go away by themselves. */
+export class Toasts {
+  readonly element = h("div", { class: "toasts", "data-testid": "toasts", role: "status", "aria-live": "polite" });
+
+  show(title: string, text: string, tone: Tone): void {
+    const toast = h(
+      "div",
+      { class: `toast ${tone}`, "data-testid": "toast", "data-tone": tone },
+      h("strong", {}, title),
+      h("span", {}, text),
+    );
+    toast.addEventListener("click", () => toast.remove());
+    this.element.append(toast);
+    while (this.element.childElementCount > most) this.element.firstElementChild?.remove();
+    setTimeout(() => {
+      toast.classList.add("leaving");
+      setTimeout(() => toast.remove(), 300);
+    }, stays[tone]);
+  }
+}

@@ -1,0 +1,133 @@
+import { Camera } from "./camera/camera";
+import { listen } from "./camera/gestures";
+import { pick, rayThrough } from "./camera/ray";
+import { AutoRange } from "./colour/range";
+import { Commands } from "./connection/commands";
+import { Link } from "./connection/link";
+import { Reports } from "./hook";
+import { paletteFor } from "./renderer/palette";
+import { Stage } from "./renderer/stage";
+import { highSpeed } from "./scene/positions";
+import { Session } from "./scene/session";
+import type { Shown } from "./scene/states";
+import { Clock, sharedNow } from "./clock";
+import { Page } from "./ui/page";
+import type { Choices } from "./ui/panel";
+
+/** Joins the parts: what comes from the server goes to the picture and the page, what the person does goes back. */
+export class Viewer {
+  readonly camera = new Camera();
+  readonly reports = new Reports();
+  readonly session: Session;
+  readonly stage: Stage;
+  private readonly commands: Commands;
+  private readonly page: Page;
+  private readonly link: Link;
+  private readonly speeds = new AutoRange(0.1);
+  private readonly clock = new Clock();
+  private drawn = ""; // what the canvas shows
+  private measured = -1; // step whose speeds the range knows
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    place: HTMLElement,
+    private readonly choices: Choices,
+  ) {
+    this.stage = new Stage(canvas, choices.quality, () => (this.drawn = ""));
+    this.link = new Link(new Worker("worker.js"), (message) => this.session.take(message));
+    this.session = new Session((state) => this.link.recycle(state.positions), {
+      welcomed: (welcome) => this.page.panel.offer(welcome),
+      sceneChanged: (facts, before) => {
+        const same = facts.name === before?.name;
+        this.camera.look(facts, same);
+        this.stage.setFacts(facts);
+        if (!same) this.speeds.reset();
+        if (!same || facts.count < before.count) this.page.inspector.select(undefined);
+        this.page.panel.setFacts(facts);
+        this.drawn = "";
+      },
+      settled: (settings) => this.page.panel.settle(settings),
+      happened: (event) => this.page.toasts.show("Server", event.text, "plain"),
+      broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
+    });
+    this.commands = new Commands(this.link, (report) => {
+      this.reports.add(report);
+      this.page.toasts.show(report.what, report.words, report.outcome.case === "applied" ? "good" : "bad");
+    });
+    this.page = new Page(place, this.session, this.commands, this.speeds, choices, {
+      retry: () => this.link.retry(),
+      themed: (theme) => this.stage.setTheme(theme),
+      qualityChosen: (quality) => this.stage.choose(quality),
+      camera: this.camera,
+    });
+    this.stage.setTheme(choices.theme);
+    this.listen(canvas);
+  }
+
+  start(url: string): void {
+    this.link.connect(url);
+    const resized = (): void => {
+      this.camera.resize(window.innerWidth, window.innerHeight);
+      this.stage.resize(window.innerWidth, window.innerHeight);
+      this.drawn = "";
+    };
+    window.addEventListener("resize", resized);
+    resized();
+    const tick = (now: number): void => {
+      this.tick(now);
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  /** The sphere that is seen at a place of the page. */
+  readonly seenAt = (x: number, y: number): number | undefined => {
+    const { facts, states } = this.session;
+    const shown = states.shown(sharedNow());
+    return facts && shown && pick(facts, shown, rayThrough(this.camera.last, x, y));
+  };
+
+  private tick(now: number): void {
+    const { session, camera, choices } = this;
+    const wall = performance.timeOrigin + now;
+    this.clock.tick(now);
+    const shown = session.states.shown(wall);
+    this.measure(shown, now);
+    camera.insets = this.page.insets();
+    camera.advance(this.clock.elapsed);
+    const paint = {
+      view: camera.view(),
+      ...paletteFor(choices.mode, session.facts, this.speeds.high),
+      selected: this.page.inspector.selected,
+      dim: session.staleness(wall),
+    };
+    const looks = [...paint.view.viewProjection, paint.mode, paint.range, paint.selected, paint.dim, choices.theme, choices.quality];
+    const wanted = `${shown?.from.sequence} ${shown?.to.sequence} ${shown?.mix} ${looks.join(" ")}`;
+    if (wanted !== this.drawn && this.stage.draw(shown, paint, this.clock.sinceDrawn)) {
+      this.drawn = wanted;
+      this.clock.drew();
+    }
+    this.page.update(wall, shown, this.clock.picturesPerSecond, this.stage.contextLost);
+  }
+
+  private measure(shown: Shown | undefined, now: number): void {
+    const { facts } = this.session;
+    if (!facts || !shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
+    this.measured = shown.to.sequence;
+    this.speeds.update(highSpeed(facts, shown.from, shown.to), now);
+  }
+
+  private listen(canvas: HTMLCanvasElement): void {
+    const { camera, choices } = this;
+    listen(canvas, {
+      orbit: (dx, dy) => camera.orbit(dx, dy),
+      pan: (dx, dy) => camera.pan(dx, dy),
+      zoom: (factor, x, y) => camera.zoom(factor, x, y),
+      click: (x, y) => {
+        const sphere = this.seenAt(x, y);
+        if (choices.push) void this.commands.push(rayThrough(camera.last, x, y), sphere, choices.impulse);
+        else this.page.inspector.select(sphere);
+      },
+    });
+  }
+}

@@ -1,0 +1,98 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { approached, eyeOf, framing, orbited, panned, poseFrom, zoomed } from "../src/camera/orbit";
+import { enter, project, rayThrough } from "../src/camera/ray";
+import { viewOf } from "../src/camera/view";
+import type { Vec3 } from "../src/scene/facts";
+
+const none = { top: 0, right: 0, bottom: 0, left: 0 };
+
+function close(actual: readonly number[], expected: readonly number[], within = 1e-6): void {
+  assert.equal(actual.length, expected.length);
+  actual.forEach((value, i) => assert.ok(Math.abs(value - (expected[i] ?? NaN)) < within, `${actual} is not ${expected}`));
+}
+
+test("a pose made from an eye has that eye", () => {
+  const eye: Vec3 = [3, -4, 2];
+  close(eyeOf(poseFrom(eye, [1, 1, 0.5])), eye);
+});
+
+test("looking straight down still has an up", () => {
+  const pose = poseFrom([0, 0, 5], [0, 0, 0]);
+  const view = viewOf(pose, 45, 100, 100, none, 20);
+  for (const value of view.viewProjection) assert.ok(Number.isFinite(value));
+});
+
+test("orbiting keeps the distance and stops at the poles", () => {
+  const pose = orbited(poseFrom([5, 0, 0], [0, 0, 0]), 1, 10);
+  assert.ok(Math.abs(Math.hypot(...eyeOf(pose)) - 5) < 1e-9);
+  assert.ok(pose.elevation < Math.PI / 2);
+});
+
+test("panning moves the target across the picture", () => {
+  const pose = poseFrom([0, -5, 0], [0, 0, 0]);
+  close(panned(pose, 2, 3).target, [2, 0, 3]);
+});
+
+test("zooming keeps the place under the pointer", () => {
+  const pose = poseFrom([0, -10, 0], [0, 0, 0]);
+  const before = viewOf(pose, 45, 800, 600, none, 40);
+  const [x, y] = project(before, [2, 0, 1]) ?? [0, 0];
+  const after = viewOf(zoomed(pose, 0.5, 2, 1, [0.1, 100]), 45, 800, 600, none, 40);
+  close(project(after, [2, 0, 1]) ?? [], [x, y], 1e-2);
+});
+
+test("zooming stops at its limits", () => {
+  const pose = poseFrom([0, -10, 0], [0, 0, 0]);
+  assert.equal(zoomed(pose, 1e-9, 0, 0, [0.5, 100]).distance, 0.5);
+  assert.equal(zoomed(pose, 1e9, 0, 0, [0.5, 100]).distance, 100);
+});
+
+test("a ray through a projected point meets it", () => {
+  const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), 45, 1280, 720, { top: 0, right: 300, bottom: 80, left: 0 }, 30);
+  const point: Vec3 = [0.5, 0.7, 0.2];
+  const [x, y] = project(view, point) ?? [0, 0];
+  const ray = rayThrough(view, x, y);
+  const distance = Math.hypot(...point.map((value, i) => value - (view.eye[i] ?? 0)));
+  close(ray.direction.map((part, i) => (view.eye[i] ?? 0) + part * distance), point, 1e-4);
+});
+
+test("the target lands in the middle of what the page leaves free", () => {
+  const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), 45, 1280, 720, { top: 20, right: 300, bottom: 100, left: 0 }, 30);
+  close(project(view, [0, 0, 1]) ?? [], [490, 320], 1e-2);
+});
+
+test("an upright picture sees as much to the sides as a wide one does up and down", () => {
+  const pose = poseFrom([0, -10, 0], [0, 0, 0]);
+  const wide = viewOf(pose, 45, 900, 400, none, 40);
+  const upright = viewOf(pose, 45, 400, 900, none, 40);
+  const up = 200 - (project(wide, [0, 0, 2])?.[1] ?? 0);
+  const aside = (project(upright, [2, 0, 0])?.[0] ?? 0) - 200;
+  assert.ok(Math.abs(up - aside) < 1e-3, `${up} ${aside}`);
+});
+
+test("what is behind the eye is nowhere in the picture", () => {
+  const view = viewOf(poseFrom([0, -10, 0], [0, 0, 0]), 45, 100, 100, none, 40);
+  assert.equal(project(view, [0, -20, 0]), undefined);
+});
+
+test("framing shows every corner of the bounds", () => {
+  const [min, max]: [Vec3, Vec3] = [[-2, -1, 0], [3, 1, 4]];
+  const view = viewOf(framing(min, max, 45), 45, 1000, 1000, none, 60);
+  for (let i = 0; i < 8; i++) {
+    const [x, y] = project(view, [(i & 1 ? max : min)[0], (i & 2 ? max : min)[1], (i & 4 ? max : min)[2]]) ?? [-1, -1];
+    assert.ok(x > 0 && x < 1000 && y > 0 && y < 1000, `${x} ${y}`);
+  }
+});
+
+test("a ray enters a sphere at its near side and misses what is beside or behind it", () => {
+  const ray = { origin: [0, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
+  assert.equal(enter(ray, [5, 0, 0], 1), 4);
+  assert.equal(enter(ray, [5, 1.01, 0], 1), Infinity);
+  assert.equal(enter(ray, [-5, 0, 0], 1), Infinity);
+});
+
+test("approaching takes the short way around", () => {
+  const [from, to] = [poseFrom([-5, 1, 0], [0, 0, 0]), poseFrom([-5, -1, 0], [0, 0, 0])];
+  assert.ok(eyeOf(approached(from, to, 0.5))[0] < -5);
+});
