@@ -1,18 +1,25 @@
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "core/log.h"
 
-int main(int argc, char** argv) {
-    using namespace spherule::app;
+namespace spherule::app {
+
+namespace {
+
+int runCommand(int argc, char** argv) {
     CLI::App app("Spherule simulates very many spheres and shows them live in a browser.", "spherule");
     app.set_version_flag("--version", SPHERULE_VERSION);
     app.require_subcommand(1);
     app.footer(exitCodesText);
     bool verbose = false;
     app.add_flag("-v,--verbose", verbose, "log more");
-    app.parse_complete_callback([&verbose] { spherule::startLog(verbose); });
+    app.parse_complete_callback([&verbose] { startLog(verbose); });
 
     int exitCode = exitDone;
     addServe(app, exitCode);
@@ -26,4 +33,18 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? exitDone : exitInput;
     }
     return exitCode;
+}
+
+}  // namespace
+
+}  // namespace spherule::app
+
+int main(int argc, char** argv) {
+    try {
+        return spherule::app::runCommand(argc, argv);
+    } catch (const std::exception& error) {
+        // Out of memory, most likely: all that is expected to go wrong comes as a result.
+        std::fprintf(stderr, "spherule: %s\n", error.what());
+        return EXIT_FAILURE;
+    }
 }

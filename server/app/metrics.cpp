@@ -29,7 +29,8 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     Families& to = *families_;
     const auto count = [](const net::Counters::Count& value) { return static_cast<double>(value.load()); };
 
-    to.gauge("spherule_device_info", "The device, as labels", 1, {{"device", live.device}, {"renderer", live.renderer}});
+    to.gauge("spherule_device_info", "The device, as labels", 1,
+             {{"device", live.device}, {"renderer", live.renderer}});
     to.gauge("spherule_spheres", "Spheres in the scene", live.spheres);
     to.gauge("spherule_sleeping_spheres", "Spheres asleep, while somebody watches", live.status.sleeping());
     to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while somebody watches", live.status.outside());

@@ -19,7 +19,9 @@ void Pacer::setSpeed(double speed) {
     due_ = Clock::now();
 }
 
-Pacer::Clock::duration Pacer::untilDue(Clock::time_point now) const { return std::max(due_ - now, Clock::duration{}); }
+Pacer::Clock::duration Pacer::untilDue(Clock::time_point now) const {
+    return std::max(due_ - now, Clock::duration{});
+}
 
 void Pacer::stepped(Clock::time_point now) {
     const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(step_ / speed_));
@@ -39,6 +41,8 @@ double Pacer::stepsPerSecond(Clock::time_point now) const {
     return span > 0 ? static_cast<double>(recent_.size() - 1) / span : 0;
 }
 
-double Pacer::realTimeFactor(Clock::time_point now) const { return stepsPerSecond(now) * step_; }
+double Pacer::realTimeFactor(Clock::time_point now) const {
+    return stepsPerSecond(now) * step_;
+}
 
 }  // namespace spherule::app

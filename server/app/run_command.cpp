@@ -28,7 +28,9 @@ struct RunOptions {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // A line on the terminal that is rewritten a few times a second; silent elsewhere.
 class Progress {

@@ -10,9 +10,8 @@ Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const
     std::unique_ptr<Runtime> runtime(new Runtime());
     std::promise<Result<void>> ready;
     auto opened = ready.get_future();
-    runtime->simulation_ = std::jthread([self = runtime.get(), scene, &ready](const std::stop_token& stop) {
-        self->simulate(stop, scene, ready);
-    });
+    runtime->simulation_ = std::jthread(
+        [self = runtime.get(), scene, &ready](const std::stop_token& stop) { self->simulate(stop, scene, ready); });
     const Result<void> world = opened.get();
     Result<std::unique_ptr<net::Server>> server = tl::unexpected(Error{});
     if (world) server = net::startServer(listen, runtime->handlers());
@@ -70,21 +69,22 @@ Outlets Runtime::outlets() {
 }
 
 net::Handlers Runtime::handlers() {
-    return {.welcome =
-                [this](const v1::Hello&) {
-                    const LiveReport live = live_.read();
-                    v1::Welcome welcome;
-                    welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
-                    welcome.set_device(live.device);
-                    welcome.set_renderer(live.renderer);
-                    for (const std::string& name : scene::names()) welcome.add_scenes(name);
-                    return welcome;
-                },
-            .submit =
-                [this](net::SessionId session, v1::Command command) {
-                    return requests_.push({session, std::move(command)});
-                },
-            .get = [this](const std::string& path) { return site_.get(path, server_->counters()); }};
+    return {
+        .welcome =
+            [this](const v1::Hello&) {
+                const LiveReport live = live_.read();
+                v1::Welcome welcome;
+                welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
+                welcome.set_device(live.device);
+                welcome.set_renderer(live.renderer);
+                for (const std::string& name : scene::names()) welcome.add_scenes(name);
+                return welcome;
+            },
+        .submit =
+            [this](net::SessionId session, v1::Command command) {
+                return requests_.push({session, std::move(command)});
+            },
+        .get = [this](const std::string& path, const net::Counters& counters) { return site_.get(path, counters); }};
 }
 
 std::optional<Error> Runtime::failure() const {

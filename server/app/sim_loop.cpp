@@ -97,8 +97,9 @@ void SimLoop::stopAtNonFinite() {
     v1::Event& event = *message.mutable_event();
     event.set_kind(v1::Event::NON_FINITE);
     event.set_step(world_.simulation().steps());
-    event.set_text(fmt::format("sphere {} has no finite position any more, at step {}; paused. Reset, or use more substeps.",
-                               counters.firstNonFinite, world_.simulation().steps()));
+    event.set_text(
+        fmt::format("sphere {} has no finite position any more, at step {}; paused. Reset, or use more substeps.",
+                    counters.firstNonFinite, world_.simulation().steps()));
     spdlog::error("{}", event.text());
     outlets_.event(share(std::move(message)));
     announce();

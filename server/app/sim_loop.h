@@ -67,7 +67,7 @@ class SimLoop {
     std::uint64_t sequence_ = 0;
     std::uint32_t epoch_ = 0;
     bool watched_ = false;
-    bool stale_ = true;      // the viewers' picture is older than the world
+    bool stale_ = true;  // the viewers' picture is older than the world
     bool nonFinite_ = false;
 };
 

@@ -46,9 +46,13 @@ void World::refreshFacts() {
     ++epoch_;
 }
 
-v1::ServerMessage World::facts() const { return factsMessage(*simulation_, grid_, epoch_); }
+v1::ServerMessage World::facts() const {
+    return factsMessage(*simulation_, grid_, epoch_);
+}
 
-v1::ServerMessage World::settings() const { return settingsMessage(simulation_->scene(), pacer_.speed(), paused_); }
+v1::ServerMessage World::settings() const {
+    return settingsMessage(simulation_->scene(), pacer_.speed(), paused_);
+}
 
 Result<void> World::step() {
     if (pendingSteps_ > 0) --pendingSteps_;

@@ -36,8 +36,8 @@ class World {
     [[nodiscard]] Pacer& pacer() { return pacer_; }
 
   private:
-    World(std::unique_ptr<compute::Device> device, scene::Overrides overrides)
-        : device_(std::move(device)), overrides_(std::move(overrides)) {}
+    World(std::unique_ptr<compute::Device> device, const scene::Overrides& overrides)
+        : device_(std::move(device)), overrides_(overrides) {}
 
     Result<v1::Applied> applied() const;
     Result<v1::Applied> load(const v1::LoadScene& load);

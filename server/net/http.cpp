@@ -21,7 +21,7 @@ namespace http = beast::http;
 
 namespace {
 
-constexpr std::uint32_t headerLimit = 16 * 1024;
+constexpr std::uint32_t headerLimit = 16U * 1024U;
 constexpr std::uint64_t bodyLimit = 10'000;
 constexpr std::chrono::seconds timeLimit{30};  // for a request, and for its answer
 constexpr std::chrono::seconds goodbyeLimit{2};
@@ -65,7 +65,7 @@ void HttpConnection::onRead(ErrorCode error) {
         return refuse(request, 405, "only GET and HEAD are answered here");
     }
     if (path.empty() || path.front() != '/') return refuse(request, 400, "the target must be a path");
-    answer(request, context_.handlers.get(path));
+    answer(request, context_.handlers.get(path, context_.counters));
 }
 
 void HttpConnection::onUpgrade(Request request) {

@@ -38,7 +38,8 @@ struct HttpAnswer {
 struct Handlers {
     std::function<v1::Welcome(const v1::Hello&)> welcome;
     std::function<bool(SessionId, v1::Command)> submit;      // false: the queue is full
-    std::function<HttpAnswer(const std::string& path)> get;  // status 404 where there is nothing
+    // status 404 where there is nothing; `counters` are the server's.
+    std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;
 };
 
 class Server {

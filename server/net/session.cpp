@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t defaultRate = 30;
 constexpr std::uint32_t highestRate = 60;
-constexpr std::size_t keptBuffer = 64 * 1024;  // a larger one is given back after the message
+constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is given back after the message
 
 }  // namespace
 

@@ -14,7 +14,7 @@ bool differ(const std::vector<Sphere>& spheres, auto quantity) {
 
 // Mass up to a factor that all spheres share.
 double massScale(const Sphere& sphere) {
-    const double radius = static_cast<double>(sphere.radius);
+    const auto radius = static_cast<double>(sphere.radius);
     return static_cast<double>(sphere.density) * radius * radius * radius;
 }
 

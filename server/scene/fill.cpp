@@ -39,7 +39,7 @@ bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector
     const std::uint64_t budget = occupancy.work() + std::max(workAtLeast, workPerSphere * spheres.size());
     std::uint64_t work = 0;
     for (const std::uint32_t i : byFallingRadius(spheres)) {
-        const double radius = static_cast<double>(spheres[i].radius);
+        const auto radius = static_cast<double>(spheres[i].radius);
         do {
             work += 1 + obstacles.size();
             if (work + occupancy.work() > budget) return false;

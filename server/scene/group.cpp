@@ -77,7 +77,7 @@ void refuseSphere(Check& check, const v1::Group& message, const std::string& sou
 void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, const std::string& source,
                  const std::vector<Sphere>& spheres) {
     for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const double radius = static_cast<double>(spheres[i].radius);
+        const auto radius = static_cast<double>(spheres[i].radius);
         std::optional<std::string> reason = whyOutside(scene.bounds, spheres[i].position, radius);
         if (const auto hit = obstacleAt(scene.obstacles, spheres[i].position, radius); !reason && hit) {
             reason = fmt::format("reaches into {}", at("obstacles", *hit));

@@ -27,7 +27,13 @@ double Random::uniform(double low, double high) {
 bool Random::withProbabilityOfExpMinus(double t) {
     // The chance of a falling run t > u1 > u2 > ... of length n is t^n / n!, so an even length has the chance exp(-t).
     bool even = true;
-    for (double last = t; (t = uniform()) < last; last = t) even = !even;
+    double last = t;
+    double next = uniform();
+    while (next < last) {
+        even = !even;
+        last = next;
+        next = uniform();
+    }
     return even;
 }
 

@@ -19,8 +19,8 @@ Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
     auto gravity = scene::vectorOf(set.gravity(), "gravity");
     if (!gravity) return tl::unexpected(gravity.error());
     if (!(glm::length(*gravity) <= mostGravity))
-        return fail(ErrorKind::Refused, "gravity", fmt::format("is {:g} m/s^2 long, at most {:g} is allowed",
-                                                               glm::length(*gravity), mostGravity));
+        return fail(ErrorKind::Refused, "gravity",
+                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*gravity), mostGravity));
     scene.gravity = *gravity;
     return {};
 }
@@ -102,8 +102,8 @@ Result<void> Simulation::spawn(const v1::Spawn& spawn) {
     auto added = scene::buildGroup(spawn.group(), grown);
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
-    grown.groups.push_back({spawn.group().name(), state.count(), static_cast<std::uint32_t>(added->size()),
-                            spawn.group().colour()});
+    grown.groups.push_back(
+        {spawn.group().name(), state.count(), static_cast<std::uint32_t>(added->size()), spawn.group().colour()});
     scene::Scene addition = scene_;
     addition.spheres = *added;
     const State fresh = stateOf(addition);

@@ -8,8 +8,8 @@ namespace spherule::sim {
 
 namespace {
 
-// Lists hold until a sphere has moved this share of the margin: two may approach each other, and the position pass moves
-// them a little further before the next check.
+// Lists hold until a sphere has moved this share of the margin: two may approach each other, and the position pass
+// moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
 void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan, const Radii& radii) {

@@ -12,7 +12,7 @@ std::optional<std::uint32_t> firstHit(const State& state, glm::dvec3 origin, glm
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 to = glm::dvec3(state.position[id]) - origin;
-        const double r = static_cast<double>(state.position[id].w);
+        const auto r = static_cast<double>(state.position[id].w);
         const double along = glm::dot(to, direction);
         const double discriminant = r * r - (glm::dot(to, to) - along * along);
         if (!(discriminant >= 0)) continue;

@@ -60,7 +60,8 @@ Result<void> Pipeline::compile() {
     const std::vector<compute::Define> defines = definesFor(plan_.features);
     for (const auto* launches : {&plan_.substep, &plan_.statistics, &plan_.pack}) {
         for (const LaunchSpec& launch : *launches) {
-            if (std::ranges::any_of(kernels_, [&](const auto& known) { return known.first == launch.kernel; })) continue;
+            if (std::ranges::any_of(kernels_, [&](const auto& known) { return known.first == launch.kernel; }))
+                continue;
             auto kernel = device_.createKernel(shaders(), launch.kernel, defines);
             if (!kernel) return tl::unexpected(kernel.error());
             kernels_.emplace_back(launch.kernel, std::move(*kernel));

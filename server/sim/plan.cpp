@@ -14,7 +14,9 @@ constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t spheresPerBlock = 64;
 constexpr std::uint64_t packedBlockBytes = 384;
 
-std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) { return (values + block - 1) / block; }
+std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
+    return (values + block - 1) / block;
+}
 
 // Adds arrays and launches in the order in which a substep goes.
 class Planner {
@@ -150,7 +152,9 @@ void planOnDemand(Plan& plan) {
 
 }  // namespace
 
-bool Plan::has(Array array) const { return bytesOf(array) > 0; }
+bool Plan::has(Array array) const {
+    return bytesOf(array) > 0;
+}
 
 std::uint64_t Plan::bytesOf(Array array) const {
     for (const ArraySpec& spec : arrays)
@@ -167,7 +171,7 @@ Radii radiiOf(const scene::Scene& scene) {
     if (scene.spheres.empty()) return {0.05, 0.05, 0.05};
     Radii radii{1e30, 0, 0};
     for (const scene::Sphere& sphere : scene.spheres) {
-        const double r = static_cast<double>(sphere.radius);
+        const auto r = static_cast<double>(sphere.radius);
         radii.smallest = std::min(radii.smallest, r);
         radii.largest = std::max(radii.largest, r);
         radii.mean += r / static_cast<double>(scene.spheres.size());

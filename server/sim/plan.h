@@ -16,31 +16,31 @@ namespace spherule::sim {
 
 // Device arrays. "Per sphere, in slot order" means cell order where there is a grid, id order elsewhere.
 enum class Array : std::uint8_t {
-    Position,     // per sphere, in slot order
+    Position,  // per sphere, in slot order
     Velocity,
-    Before,       // velocity before the substep, then after impacts; w = quiet time
+    Before,  // velocity before the substep, then after impacts; w = quiet time
     Id,
-    Bounce,       // restitution by id
+    Bounce,  // restitution by id
     Obstacles,
-    CellStart,    // per cell and one more: first slot
-    BlockSums,    // of the prefix sum
+    CellStart,  // per cell and one more: first slot
+    BlockSums,  // of the prefix sum
     SuperSums,
-    Place,        // of a sphere in its cell
+    Place,  // of a sphere in its cell
     Order,
-    Saved,        // state while it is put in cell order
+    Saved,  // state while it is put in cell order
     SavedId,
-    Anchor,       // position when the lists were built
-    SlotOf,       // by id
+    Anchor,  // position when the lists were built
+    SlotOf,  // by id
     Pairs,
     Touching,
-    Span,         // per cell group: first pair, listed, touching
+    Span,  // per cell group: first pair, listed, touching
     Counters,
     FullLaunches,
     Launches,
     SphereParts,  // partial statistics
     Overlaps,
     Packed,
-    Count,        // how many arrays there are; not one itself
+    Count,  // how many arrays there are; not one itself
 };
 
 constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
@@ -54,7 +54,7 @@ struct ArraySpec {
 
 struct LaunchSpec {
     Pass pass{};
-    std::string_view kernel;                 // file
+    std::string_view kernel;  // file
     std::vector<Array> slots;
     std::uint32_t count = 0;                 // invocations
     std::optional<std::uint32_t> launchRow;  // of the launch table, for launches that only a rebuild needs

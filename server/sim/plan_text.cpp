@@ -29,11 +29,10 @@ std::vector<Row> rowsOf(const Plan& plan) {
 }
 
 std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features& has) {
-    return {{"gravity", has.gravity},         {"contacts", has.contacts},
-            {"radii", has.radii},             {"masses", has.masses},
-            {"restitution", has.restitution}, {"restitutions", has.restitutions},
-            {"walls", has.walls},             {"planes", has.planes},
-            {"boxes", has.boxes},             {"sleep", has.sleep}};
+    return {{"gravity", has.gravity}, {"contacts", has.contacts},       {"radii", has.radii},
+            {"masses", has.masses},   {"restitution", has.restitution}, {"restitutions", has.restitutions},
+            {"walls", has.walls},     {"planes", has.planes},           {"boxes", has.boxes},
+            {"sleep", has.sleep}};
 }
 
 double perSphere(const Plan& plan, std::uint64_t bytes) {
@@ -49,24 +48,26 @@ std::string_view whenOf(const Row& row) {
 
 std::string_view nameOf(Array array) {
     static constexpr std::array<std::string_view, arrayCount> names = {
-        "position", "velocity",   "before",   "id",       "bounce",       "obstacles",    "cell-start",  "block-sums",
-        "super-sums", "place",    "order",    "saved",    "saved-id",     "anchor",       "slot-of",     "pairs",
-        "touching", "span",       "counters", "full-launches", "launches", "sphere-parts", "overlaps",   "packed",
+        "position",   "velocity",      "before",     "id",           "bounce",   "obstacles",
+        "cell-start", "block-sums",    "super-sums", "place",        "order",    "saved",
+        "saved-id",   "anchor",        "slot-of",    "pairs",        "touching", "span",
+        "counters",   "full-launches", "launches",   "sphere-parts", "overlaps", "packed",
     };
     return names.at(static_cast<std::size_t>(array));
 }
 
 std::string planText(const scene::Scene& scene, const Plan& plan) {
-    std::string text = fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    balanced\n",
-                                   scene.name, plan.spheres, scene.step, plan.substeps);
+    std::string text =
+        fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    balanced\n", scene.name,
+                    plan.spheres, scene.step, plan.substeps);
     text += "features  ";
     for (const auto& [name, on] : featureList(plan.features))
         if (on) text += fmt::format(" {}", name);
     text += "\n";
     if (plan.features.contacts)
-        text += fmt::format("grid       {} x {} x {} cells of {:.4g} m, pairs listed up to a gap of {:.4g} m\n",
-                            plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z, plan.grid.cellSize,
-                            plan.grid.margin);
+        text +=
+            fmt::format("grid       {} x {} x {} cells of {:.4g} m, pairs listed up to a gap of {:.4g} m\n",
+                        plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z, plan.grid.cellSize, plan.grid.margin);
     text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
     for (const ArraySpec& spec : plan.arrays)
         text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));

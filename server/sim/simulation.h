@@ -35,11 +35,11 @@ class Simulation {
     std::unique_ptr<compute::ReadBack> pack();
 
     struct Counters {
-        std::uint32_t pairs = 0;     // listed
-        std::uint32_t unlisted = 0;  // cell groups without room for their pairs; served, but slowly
-        bool nonFinite = false;      // some sphere has left the numbers,
+        std::uint32_t pairs = 0;           // listed
+        std::uint32_t unlisted = 0;        // cell groups without room for their pairs; served, but slowly
+        bool nonFinite = false;            // some sphere has left the numbers,
         std::uint32_t firstNonFinite = 0;  // this one of them, by id
-        std::uint32_t rebuilds = 0;  // of the lists, since the last change of the scene
+        std::uint32_t rebuilds = 0;        // of the lists, since the last change of the scene
     };
     [[nodiscard]] const Counters& counters() const { return counters_; }  // as of the end of the last step
 
@@ -51,7 +51,7 @@ class Simulation {
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return plan().spheres; }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
-    [[nodiscard]] double time() const { return time_; }                 // s simulated
+    [[nodiscard]] double time() const { return time_; }                     // s simulated
     [[nodiscard]] std::uint32_t generation() const { return generation_; }  // changes when spheres or obstacles do
 
   private:

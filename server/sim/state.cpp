@@ -13,7 +13,7 @@ State stateOf(const scene::Scene& scene) {
     state.velocity.reserve(scene.spheres.size());
     const glm::dvec3 centre = scene.bounds.centre();
     for (const scene::Sphere& sphere : scene.spheres) {
-        const double r = static_cast<double>(sphere.radius);
+        const auto r = static_cast<double>(sphere.radius);
         const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * static_cast<double>(sphere.density);
         state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
         state.velocity.emplace_back(sphere.velocity, static_cast<float>(1 / mass));

@@ -16,12 +16,12 @@ struct Statistics {
     double potentialEnergy = 0;  // zero at the lowest corner of the bounds
     glm::dvec3 momentum{};
     std::uint64_t contacts = 0;
-    double overlapMean = 0;      // over overlapping pairs
+    double overlapMean = 0;  // over overlapping pairs
     double overlapMax = 0;
     double wallOverlapMax = 0;
     double speedMax = 0;
     double speedRms = 0;
-    double meanHeight = 0;       // z above the bounds' floor
+    double meanHeight = 0;  // z above the bounds' floor
     std::uint32_t sleeping = 0;
     std::uint32_t outside = 0;
     std::uint32_t nonFinite = 0;

@@ -115,6 +115,13 @@ void Baseline::substep() {
     ++substeps_;
 }
 
+std::vector<glm::vec4> Baseline::positions() {
+    std::vector<glm::vec4> values(setting_.parameters.spheres);
+    const unsigned half = state_ == State::PingPong ? substeps_ % 2 : 0;
+    setting_.device.download(*position_[half], 0, std::as_writable_bytes(std::span(values)));
+    return values;
+}
+
 std::vector<std::uint32_t> Baseline::tally() {
     std::vector<std::uint32_t> words(TALLY_WORDS);
     setting_.device.download(*tally_, 0, std::as_writable_bytes(std::span(words)));

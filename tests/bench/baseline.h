@@ -35,8 +35,9 @@ class Baseline final : public Method {
     void substep() override;
     std::string note() override;
 
-    std::uint64_t contacts();    // since the upload, each counted once
-    std::uint32_t overflowed();  // spheres that found their cell full, summed over the substeps
+    std::vector<glm::vec4> positions();  // w = radius, in any order
+    std::uint64_t contacts();            // since the upload, each counted once
+    std::uint32_t overflowed();          // spheres that found their cell full, summed over the substeps
 
   private:
     struct Stage {

@@ -86,5 +86,22 @@ TEST_F(Contacts, AGridThatTheDeviceHasNoRoomForIsRefusedWithItsSize) {
     EXPECT_NE(method.error().text().find("MiB"), std::string::npos) << method.error().text();
 }
 
+TEST(MeanOverlap, IsTheMeanOverPairsThatOverlap) {
+    const std::vector<glm::vec4> positions = {{0, 0, 0, 1}, {1.5, 0, 0, 1}, {9, 0, 0, 1}, {9, 1.9, 0, 1}, {9, 0, 2, 1}};
+    EXPECT_NEAR(meanOverlap(positions), 0.3, 1e-6);
+}
+
+TEST(PackedSpheres, LieInsideTheBoxAndBarelyTouch) {
+    const scene::Scene scene = box(3000).value();
+    const sim::State state = packed(scene);
+    const glm::vec3 half = 0.5F * glm::vec3(scene.bounds.max - scene.bounds.min);
+    for (const glm::vec4& sphere : state.position) {
+        for (int axis = 0; axis < 3; ++axis)
+            ASSERT_LE(std::abs(sphere[axis]) + sphere.w, half[axis] + 0.02F * sphere.w);
+    }
+    EXPECT_GT(meanOverlap(state.position), 0);
+    EXPECT_LT(meanOverlap(state.position), 0.02);
+}
+
 }  // namespace
 }  // namespace spherule::bench

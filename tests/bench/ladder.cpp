@@ -16,67 +16,112 @@ namespace {
 const std::string falling = "Ours by pass, falling";
 const std::string dense = "Ours by pass, dense";
 const std::string perSphere = "wall per sphere";
+const std::string perSphereFastest = "wall per sphere, fastest round";
 
-void measure(compute::Device& device, sim::Simulation& simulation, const std::string& table, unsigned rounds,
-             Figures& figures) {
-    const sim::State from = simulation.snapshot();
-    const std::unique_ptr<Method> method = ours(simulation);
-    timeSubsteps(device, *method, from, 2);
+struct Rung {
+    std::unique_ptr<sim::Simulation> simulation;
+    std::unique_ptr<Method> method;
+    sim::State state;
+    unsigned every = 1;                         // takes part in each so many rounds
+    std::vector<double> wall{};                 // s per substep, one for each round
+    std::vector<std::vector<double>> passes{};  // the same by pass, on the device's clock
+};
 
-    std::vector<double> wall;
-    std::vector<std::vector<double>> passes(sim::passCount);
-    for (unsigned round = 0; round < rounds; ++round) {
-        device.takeTimes();
-        wall.push_back(timeSubsteps(device, *method, from, mostSubsteps) / mostSubsteps);
-        const std::vector<double> times = device.takeTimes();
-        for (std::size_t pass = 0; pass < times.size(); ++pass) passes.at(pass).push_back(times[pass] / mostSubsteps);
-    }
-
-    const std::uint32_t n = simulation.count();
-    double all = 0;
-    for (unsigned pass = 0; pass < sim::passCount; ++pass) {
-        const double seconds = median(passes[pass]);
-        if (seconds == 0) continue;  // not in this scene's plan
-        all += seconds;
-        figures.push_back({table, n, std::string(sim::nameOf(static_cast<sim::Pass>(pass))), seconds * 1e3, "ms", ""});
-    }
-    const double seconds = median(wall);
-    figures.push_back({table, n, "all passes", all * 1e3, "ms", ""});
-    figures.push_back({table, n, "wall", seconds * 1e3, "ms", method->note()});
-    figures.push_back({table, n, perSphere, seconds / n * 1e9, "ns", ""});
-    spdlog::info("{} spheres, {}: {:.3f} ms", n, table, seconds * 1e3);
-    simulation.pipeline().upload(from);
-}
-
-}  // namespace
-
-Result<void> climb(compute::Device& device, std::uint32_t spheres, unsigned steps, unsigned rounds, Figures& figures) {
+Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres, unsigned steps) {
     auto scene = box(spheres);
     if (!scene) return tl::unexpected(scene.error());
     auto made = sim::Simulation::create(device, std::move(*scene));
     if (!made) return tl::unexpected(made.error());
-    sim::Simulation& simulation = **made;
     for (unsigned step = 0; step < steps; ++step)
-        if (auto done = simulation.step(); !done) return done;
-    measure(device, simulation, falling, rounds, figures);
+        if (auto done = (*made)->step(); !done) return tl::unexpected(done.error());
+    Rung rung{.simulation = std::move(*made), .method = nullptr, .state = {}};
+    rung.method = ours(*rung.simulation);
+    rung.state = rung.simulation->snapshot();
+    return rung;
+}
+
+Result<void> letGoDense(Rung& rung) {
+    sim::Simulation& simulation = *rung.simulation;
     simulation.pipeline().upload(packed(simulation.scene()));
     if (auto done = simulation.step(); !done) return done;
-    measure(device, simulation, dense, rounds, figures);
+    rung.state = simulation.snapshot();
+    return {};
+}
+
+void runRound(compute::Device& device, Rung& rung) {
+    device.takeTimes();
+    rung.wall.push_back(timeSubsteps(device, *rung.method, rung.state, mostSubsteps) / mostSubsteps);
+    std::vector<double> times = device.takeTimes();
+    times.resize(sim::passCount);
+    for (std::size_t pass = 0; pass < times.size(); ++pass) rung.passes[pass].push_back(times[pass] / mostSubsteps);
+}
+
+void report(Rung& rung, const std::string& table, Figures& figures) {
+    const std::uint32_t n = rung.simulation->count();
+    double all = 0;
+    for (unsigned pass = 0; pass < sim::passCount; ++pass) {
+        const double seconds = median(rung.passes[pass]);
+        if (seconds == 0) continue;  // not in this scene's plan
+        all += seconds;
+        figures.push_back({table, n, std::string(sim::nameOf(static_cast<sim::Pass>(pass))), seconds * 1e3, "ms", ""});
+    }
+    const double seconds = median(rung.wall);
+    figures.push_back({table, n, "all passes", all * 1e3, "ms", ""});
+    figures.push_back({table, n, "wall", seconds * 1e3, "ms", rung.method->note()});
+    figures.push_back({table, n, perSphere, seconds / n * 1e9, "ns", ""});
+    figures.push_back({table, n, perSphereFastest, std::ranges::min(rung.wall) / n * 1e9, "ns", ""});
+    spdlog::info("{}: {} spheres {:.3f} ms", table, n, seconds * 1e3);
+}
+
+void measure(compute::Device& device, std::span<Rung> rungs, const std::string& table, unsigned rounds,
+             Figures& figures) {
+    for (Rung& rung : rungs) {
+        rung.wall.clear();
+        rung.passes.assign(sim::passCount, {});
+        const double seconds = timeSubsteps(device, *rung.method, rung.state, mostSubsteps);
+        rung.every = seconds > 4 ? 4 : seconds > 1 ? 2 : 1;
+    }
+    for (unsigned round = 0; round < rounds; ++round)
+        for (Rung& rung : rungs)
+            if (round % rung.every == 0) runRound(device, rung);
+    for (Rung& rung : rungs) report(rung, table, figures);
+}
+
+double spread(const Figures& figures, const std::string& table, const std::string& what) {
+    double smallest = 1e300;
+    double largest = 0;
+    for (const Figure& figure : figures) {
+        if (figure.table != table || figure.what != what) continue;
+        smallest = std::min(smallest, *figure.value);
+        largest = std::max(largest, *figure.value);
+    }
+    return largest / smallest;
+}
+
+}  // namespace
+
+Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned steps, unsigned rounds,
+                   Figures& figures) {
+    std::vector<Rung> rungs;
+    for (const std::uint32_t size : sizes) {
+        auto rung = rungFor(device, size, steps);
+        if (!rung) return tl::unexpected(rung.error());
+        rungs.push_back(std::move(*rung));
+    }
+    measure(device, rungs, falling, rounds, figures);
+    for (Rung& rung : rungs)
+        if (auto done = letGoDense(rung); !done) return done;
+    measure(device, rungs, dense, rounds, figures);
     return device.status();
 }
 
 std::string spreadOf(const Figures& figures) {
     std::vector<std::string> parts;
     for (const std::string& table : {falling, dense}) {
-        double smallest = 1e300;
-        double largest = 0;
-        for (const Figure& figure : figures) {
-            if (figure.table != table || figure.what != perSphere) continue;
-            smallest = std::min(smallest, *figure.value);
-            largest = std::max(largest, *figure.value);
-        }
-        if (largest > 0)
-            parts.push_back(fmt::format("{} {:.2f}", table == falling ? "falling" : "dense", largest / smallest));
+        const double medians = spread(figures, table, perSphere);
+        if (medians == 0) continue;
+        parts.push_back(fmt::format("{} {:.2f} (fastest rounds {:.2f})", table == falling ? "falling" : "dense",
+                                    medians, spread(figures, table, perSphereFastest)));
     }
     if (parts.empty()) return {};
     return fmt::format("Cost per sphere, largest over smallest of the ladder: {}", fmt::join(parts, ", "));

@@ -42,20 +42,20 @@ Result<bench::Figures> measure(compute::Device& device, const Options& options) 
     bench::Effort effort;
     Sizes sizes = options.sizes;
     Sizes ladder = options.ladder;
+    std::erase(sizes, 0U);
+    std::erase(ladder, 0U);
     if (options.quick) {
         moments = {.falling = 0.1, .settled = 0.2};
         effort = {.rounds = 2, .roundSeconds = 0.01};
-        sizes = {500, 1000};
-        ladder = {500, 2000};
+        if (!sizes.empty()) sizes = {500, 1000};
+        if (!ladder.empty()) ladder = {500, 2000};
     }
-    std::erase(sizes, 0U);
-    std::erase(ladder, 0U);
     for (const std::uint32_t size : sizes)
         if (auto done = bench::compare(device, size, moments, effort, figures); !done)
             return tl::unexpected(done.error());
     const unsigned steps = options.quick ? 1 : 6;
-    for (const std::uint32_t size : ladder)
-        if (auto done = bench::climb(device, size, steps, options.quick ? 1 : 3, figures); !done)
+    if (!ladder.empty())
+        if (auto done = bench::climb(device, ladder, steps, options.quick ? 1 : 12, figures); !done)
             return tl::unexpected(done.error());
     return figures;
 }

@@ -1,6 +1,8 @@
 #include "recipe.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "scene/load.h"
@@ -51,6 +53,22 @@ sim::State packed(const scene::Scene& scene) {
         state.position[k] = glm::vec4(glm::vec3(at), radius);
     }
     return state;
+}
+
+double meanOverlap(std::vector<glm::vec4> positions) {
+    std::ranges::sort(positions, {}, &glm::vec4::x);
+    double sum = 0;
+    std::uint64_t pairs = 0;
+    for (std::size_t a = 0; a < positions.size(); ++a) {
+        const float reach = 2 * positions[a].w;
+        for (std::size_t b = a + 1; b < positions.size() && positions[b].x - positions[a].x < reach; ++b) {
+            const float distance = glm::distance(glm::vec3(positions[a]), glm::vec3(positions[b]));
+            if (!(distance < reach)) continue;
+            sum += static_cast<double>((reach - distance) / positions[a].w);
+            ++pairs;
+        }
+    }
+    return pairs == 0 ? 0 : sum / static_cast<double>(pairs);
 }
 
 }  // namespace spherule::bench

@@ -18,4 +18,7 @@ Result<scene::Scene> box(std::uint32_t spheres);
 // of 0.01 r: as dense as a bed at once.
 sim::State packed(const scene::Scene& scene);
 
+// Mean overlap of the overlapping pairs of equal spheres (w = radius), as a share of the radius.
+double meanOverlap(std::vector<glm::vec4> positions);
+
 }  // namespace spherule::bench

@@ -7,7 +7,8 @@ namespace spherule::bench {
 
 namespace {
 
-constexpr double slow = 2;  // s per substep
+constexpr double slow = 2;       // s per substep
+constexpr double verySlow = 30;  // s
 
 struct Lane {
     Method* method = nullptr;
@@ -23,6 +24,10 @@ Lane laneFor(compute::Device& device, Method& method, const sim::State& state, c
     if (estimate < 1) estimate = timeSubsteps(device, method, state, method.period()) / method.period();
     Lane lane;
     lane.method = &method;
+    if (estimate > verySlow) {
+        lane.seconds.push_back(estimate);
+        return lane;
+    }
     lane.rounds = estimate > slow ? std::min(effort.rounds, 3U) : effort.rounds;
     const double fitting = std::clamp(effort.roundSeconds / estimate, 1.0, double{mostSubsteps});
     lane.substeps = std::max(static_cast<unsigned>(fitting), method.period());
@@ -48,7 +53,7 @@ double timeSubsteps(compute::Device& device, Method& method, const sim::State& s
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::vector<double> race(compute::Device& device, std::span<Method* const> methods, const sim::State& state,
+std::vector<Timing> race(compute::Device& device, std::span<Method* const> methods, const sim::State& state,
                          const Effort& effort) {
     std::vector<Lane> lanes;
     for (Method* method : methods) lanes.push_back(laneFor(device, *method, state, effort));
@@ -61,9 +66,10 @@ std::vector<double> race(compute::Device& device, std::span<Method* const> metho
             lane.seconds.push_back(seconds / (lane.uploads * lane.substeps));
         }
     }
-    std::vector<double> medians;
-    for (const Lane& lane : lanes) medians.push_back(median(lane.seconds));
-    return medians;
+    std::vector<Timing> timings;
+    for (const Lane& lane : lanes)
+        timings.push_back({median(lane.seconds), static_cast<unsigned>(lane.seconds.size())});
+    return timings;
 }
 
 }  // namespace spherule::bench

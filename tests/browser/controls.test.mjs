@@ -85,6 +85,7 @@ test("a refused command says why", async () => {
 
 test("a click in push mode moves the sphere that was clicked, away from the eye", async () => {
   await page.click(control("reset"));
+  await answer("Reset");
   await pause(page);
   await page.check(control("push"));
   const before = await serverSays(page);

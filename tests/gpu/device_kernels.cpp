@@ -78,6 +78,27 @@ TEST_F(DeviceTest, KernelThatNeedsNeitherPhaseNorCountRuns) {
     EXPECT_EQ(contents(*values), (std::vector<std::uint32_t>{1, 1, 0}));
 }
 
+TEST_F(DeviceTest, KernelWithOneInvocationPerGroupRunsOnceForEachOfTheCount) {
+    constexpr std::uint32_t count = 70000;  // more groups than a row of them has
+    const MapSources sources{{"single.comp", R"(
+        layout(local_size_x = 1) in;
+        layout(location = 1) uniform uint invocations;
+        layout(std430, binding = 0) buffer Values { uint values[]; };
+        void main() {
+            uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x;
+            if (i < invocations) values[i] += i + 1u;
+        })"}};
+    const auto single = device_->createKernel(sources, "single.comp", {});
+    ASSERT_TRUE(single.has_value()) << single.error().text();
+    const auto values = buffer((count + 1) * 4);
+    launch(**single, count, {values.get()});
+    const auto got = contents(*values);
+    std::uint32_t wrong = 0;
+    for (std::uint32_t i = 0; i < count; ++i) wrong += got[i] == i + 1 ? 0 : 1;
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_EQ(got[count], 0U);
+}
+
 TEST_F(DeviceTest, KernelsThatBreakTheConventionsAreRefused) {
     const std::array<std::pair<const char*, const char*>, 4> cases{{
         {"layout(local_size_x = 32) in;\nvoid main() {}", "local size of 32 x 1 x 1"},

@@ -111,7 +111,7 @@ Handlers Owner::handlers() {
                 return true;
             },
         .get =
-            [](const std::string& path) {
+            [](const std::string& path, const Counters&) {
                 if (path == "/healthz") return HttpAnswer{.status = 200, .contentType = "text/plain", .body = "well\n"};
                 return HttpAnswer{.status = 404, .contentType = "text/plain", .body = "nothing at " + path + "\n"};
             },

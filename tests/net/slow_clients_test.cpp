@@ -76,7 +76,7 @@ TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
     const auto begin = std::chrono::steady_clock::now();
     std::size_t received = 0;
     while (received < frameBytes) {
-        const std::string some = slow.readSome(32 * 1024);
+        const std::string some = slow.readSome(std::size_t{32} * 1024);
         ASSERT_FALSE(some.empty()) << "dropped after " << received << " bytes";
         received += some.size();
         std::this_thread::sleep_for(25ms);

@@ -30,7 +30,7 @@ void World::substep(double h) {
     const auto bounces = [](const auto& thing) { return thing.restitution > 0; };
     anythingBounces_ = std::ranges::any_of(spheres, bounces) || std::ranges::any_of(walls, bounces);
     fly(h);
-    separatePairs(h);
+    if (contacts) separatePairs(h);
     separateFromWalls(h);
     bouncePairs();
     bounceFromWalls();
@@ -67,7 +67,7 @@ void World::separateFromWalls(double h) {
     for (std::size_t i = 0; i < spheres.size(); ++i) {
         for (const Wall& wall : walls) {
             const double depth = depthIn(wall, spheres[i]);
-            if (depth <= 0) continue;
+            if (depth <= -atWall * spheres[i].radius) continue;
             largestOverlap_ = std::max(largestOverlap_, depth);
             hitWall(i, wall, depth, h);
         }
@@ -81,11 +81,12 @@ void World::hitWall(std::size_t i, const Wall& wall, double depth, double h) {
     const double before = glm::dot(u_[i], wall.normal);
     const double gap = std::max(0.0, -depth - (before * h + pull * h * h / 2));
     const double impact = std::sqrt(std::max(0.0, before * before - 2 * pull * gap));
-    u_[i] += wall.normal * (e * impact - before);
+    if (depth > 0 || before < 0) u_[i] += wall.normal * (e * impact - before);
 
-    sphere.x += wall.normal * depth;
+    const double push = std::max(depth, 0.0);
+    sphere.x += wall.normal * push;
     const double speed = glm::dot(sphere.v, wall.normal);
-    const double raised = std::max(speed, std::min(speed + depth / h, 0.0));
+    const double raised = std::max(speed, std::min(speed + push / h, 0.0));
     sphere.v += wall.normal * (raised - speed);
 }
 

@@ -30,6 +30,7 @@ class World {
     std::vector<Sphere> spheres;
     std::vector<Wall> walls;
     glm::dvec3 gravity{};
+    bool contacts = true;  // of spheres with each other
 
     // Advances by h seconds.
     void substep(double h);

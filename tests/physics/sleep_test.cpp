@@ -54,14 +54,14 @@ std::unique_ptr<sim::Simulation> sleepingColumn(int height) {
     return simulation;
 }
 
-// A heap comes to rest; every step is watched.
+// A hundred balls come to rest on the floor, twenty more on top of some of them; every step is watched.
 TEST(Sleep, TakesOnlyWhatHasBeenSlowForLongAndHoldsItExactlyStill) {
     scene::Scene scene = sleepyBox(2);
     for (int k = 0; k < 100; ++k) {
         const glm::dvec3 place{k % 10, k / 10, 0};
         scene.spheres.push_back(at(0.17 * (place - glm::dvec3(4.5, 4.5, 0)) - glm::dvec3(0, 0, 0.94 - 0.002 * k)));
     }
-    for (int k = 0; k < 9; ++k) scene.spheres.push_back(at({0.1 * (k % 3) - 0.07, 0.1 * (k / 3) - 0.07, -0.5}));
+    for (int k = 0; k < 20; ++k) scene.spheres.push_back(at(scene.spheres[k].position + glm::dvec3(0, 0, 0.3)));
     const auto simulation = simulate(scene);
     const auto quietSteps = static_cast<int>(quietTime / scene.step) - 1;
     const auto twoSeconds = std::lround(2 / scene.step);

@@ -66,6 +66,7 @@ void run(sim::Simulation& simulation, double seconds) {
 reference::World referenceOf(const scene::Scene& scene, const sim::State& state) {
     reference::World world;
     world.gravity = scene.gravity;
+    world.contacts = scene.sphereContacts;
     const glm::dvec3 centre = scene.bounds.centre();
     for (unsigned face = 0; face < 6; ++face) {
         if (scene.bounds.open[face]) continue;
@@ -83,6 +84,12 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
                                  static_cast<double>(state.position[id].w), 1 / massOf(state, id),
                                  static_cast<double>(scene.spheres[id].restitution)});
     return world;
+}
+
+std::uint64_t touchingPairs(sim::Simulation& simulation) {
+    std::uint64_t sum = 0;
+    for (const glm::uvec4& group : simulation.pipeline().read<glm::uvec4>(sim::Array::Span)) sum += group.z;
+    return sum;
 }
 
 glm::dvec3 positionOf(const sim::State& state, std::uint32_t id) {

@@ -40,6 +40,9 @@ void run(sim::Simulation& simulation, double seconds);
 // bounds' centre.
 reference::World referenceOf(const scene::Scene& scene, const sim::State& state);
 
+// Pairs that overlapped in the last substep and were pushed apart.
+std::uint64_t touchingPairs(sim::Simulation& simulation);
+
 // Figures of a state, in double.
 glm::dvec3 positionOf(const sim::State& state, std::uint32_t id);
 glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id);

@@ -4,6 +4,7 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -47,6 +48,9 @@ inline float floor(float x) {
 }
 inline float sqrt(float x) {
     return std::sqrt(x);
+}
+inline uint floatBitsToUint(float x) {
+    return std::bit_cast<uint>(x);
 }
 
 inline uint atomicAdd(uint& memory, uint value) {

@@ -1,5 +1,6 @@
 // Chromium with WebGL in software, and pages of it that remember what went wrong in them.
 import { chromium } from "playwright-core";
+import { serverSays } from "./raw.mjs";
 
 export const patience = 90_000; // ms; software rendering on a busy machine takes its time
 
@@ -10,7 +11,7 @@ export async function launch() {
   });
 }
 
-/** Opens the page and waits for its first state. `picture`: what the page calls the quality of its picture. */
+/** Opens the page and waits until it has a state and says what it shows. `picture`: what the page calls the quality of its picture. */
 export async function open(browser, url, { size = [960, 540], picture = "light", colour = "", ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, ...context });
   page.setDefaultTimeout(patience);
@@ -23,7 +24,11 @@ export async function open(browser, url, { size = [960, 540], picture = "light",
   address.searchParams.set("picture", picture);
   if (colour) address.searchParams.set("colour", colour);
   await page.goto(address.href);
-  await when(page, () => window.spherule?.frames > 0);
+  await when(page, () => {
+    const title = document.querySelector('[data-testid="scene-name"]');
+    const legend = document.querySelector('[data-testid="legend"]');
+    return window.spherule?.frames > 0 && title.textContent === spherule.scene && !legend.hidden;
+  });
   return page;
 }
 
@@ -34,22 +39,20 @@ export async function when(page, condition, argument) {
   await page.waitForFunction(condition, argument, { timeout: patience, polling: 100 });
 }
 
-/** Pauses from the page and waits until no newer state comes. */
+/** Pauses from the page and waits until it has the state at which the world stands. */
 export async function pause(page) {
-  if (!(await page.evaluate(() => window.spherule.paused))) await page.click(control("pause"));
-  await when(page, () => {
-    const { paused, results, step } = window.spherule;
-    const last = results.filter((result) => result.what === "Pause").at(-1);
-    return paused && (!last || step >= last.step);
-  });
+  if (!(await page.evaluate(() => spherule.paused))) await page.click(control("pause"));
+  await when(page, () => spherule.paused);
+  const { step } = await serverSays(page);
+  await when(page, (stands) => spherule.step === stands, step);
 }
 
 /** Waits until the picture shows the newest state: two pictures later nothing is drawn any more. */
 export async function settled(page) {
   await page.evaluate(async () => {
     let drawn = -1;
-    while (drawn !== window.spherule.picture.drawn) {
-      drawn = window.spherule.picture.drawn;
+    while (drawn !== spherule.picture.drawn) {
+      drawn = spherule.picture.drawn;
       await new Promise((resolve) => setTimeout(resolve, 1500));
     }
   });

@@ -73,7 +73,10 @@ export class Panel {
   settle(settings: Settings): void {
     const [x = 0, y = 0, z = 0] = settings.gravity;
     const { restitution, substeps, speed } = settings;
-    Object.assign(this.world, { x, y, z, gravity: presetOf([x, y, z]), restitution, substeps, speed });
+    const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, substeps, speed };
+    const edited = this.edited();
+    if (edited) delete (settled as Partial<typeof settled>)[edited as keyof typeof settled];
+    Object.assign(this.world, settled);
     this.refresh();
   }
 
@@ -90,6 +93,13 @@ export class Panel {
   async query(): Promise<void> {
     const statistics = await this.commands.query();
     if (statistics) this.statistics.show(statistics);
+  }
+
+  /** The setting that is being typed or dragged just now: what others set must not slip under the hand. */
+  private edited(): string | undefined {
+    const held = this.element.querySelector(".lil-slider.lil-active") ?? document.activeElement;
+    const control = held?.matches("input:not([type=checkbox]), .lil-slider") && held.closest<HTMLElement>("[data-control]");
+    return control ? control.dataset.control?.replace("gravity-", "") : undefined;
   }
 
   dropNow(): void {

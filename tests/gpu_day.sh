@@ -1,0 +1,213 @@
+#!/usr/bin/env bash
+# An hour on a GPU host, without debugging: carries what was built here to a host that has a GPU driver and nothing else.
+#
+#   gpu_day.sh bundle DIR [BUILD]          gathers BUILD (default: build/release) in DIR, relocatable, below 60 MB
+#   gpu_day.sh run DIR OUT [OPTIONS]       probe, GPU tests and benchmarks of the bundle in DIR; report and tables in OUT
+#       --device NAME      as spherule takes it (default: gpu)
+#       --quick            the GPU tests alone and short benchmarks: shows that everything works, measures nothing
+#       --only PART        probe, tests or bench; may be given several times (default: all)
+#
+# The bundle holds this script, so on the host it is `DIR/gpu_day.sh run DIR OUT`. No command runs for over 10 minutes;
+# OUT receives at most 8 files, and what several runs find is added up there. Exits 1 when a command failed; the others
+# run all the same.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+limit=590  # seconds, of each command
+
+usage() {
+    sed -n '2,13s/^# \?//p' "${BASH_SOURCE[0]}"
+    exit "$1"
+}
+
+# Libraries that must be the host's own: those of its C library, and those that belong to a driver.
+host_library='^(ld-linux.*|linux-vdso|lib(c|m|dl|pthread|rt|resolv|util)\.so|lib(EGL|GLX|GL)_.*|libgbm|libdrm.*|libLLVM.*)'
+
+copy_libraries() {
+    local into=$1 name path
+    shift
+    ldd "$@" | awk '$2 == "=>" && $3 ~ /^\// { print $1, $3 }' | sort -u | while read -r name path; do
+        [[ $name =~ $host_library ]] && continue
+        case $name in
+            # Only for hosts that have none or an older one: drivers may need a newer one than ours.
+            libstdc++.so.* | libgcc_s.so.*) cp -L "$path" "$into/lib-cxx/$name" ;;
+            *) cp -L "$path" "$into/lib/$name" ;;
+        esac
+    done
+}
+
+# EGL's dispatch library is opened at run time, so ldd does not know of it.
+copy_glvnd() {
+    local name path
+    for name in libEGL.so.1 libGLdispatch.so.0 libOpenGL.so.0; do
+        path=$(/sbin/ldconfig -p | awk -v name="$name" '$1 == name && /x86-64|AArch64/ { print $NF; exit }')
+        [[ -n $path ]] && cp -L "$path" "$1/lib-glvnd/$name"
+    done
+    [[ -f $1/lib-glvnd/libEGL.so.1 && -f $1/lib-glvnd/libGLdispatch.so.0 ]] ||
+        { echo "libEGL.so.1 and libGLdispatch.so.0 are not installed here (package libegl1)" >&2; exit 1; }
+}
+
+write_launcher() {
+    cat >"$1/with_libraries" <<'LAUNCHER'
+#!/bin/sh
+# with_libraries PROGRAM [ARGUMENTS]: runs a program of this folder with the libraries beside it.
+here=$(cd "$(dirname "$0")" && pwd)
+path=$here/lib
+
+host() { /sbin/ldconfig -p 2>/dev/null | awk -v name="$1" '$1 == name { print $NF; exit }'; }
+newest() { grep -ao 'GLIBCXX_3\.4\.[0-9]*' "$1" | cut -d. -f3 | sort -n | tail -n 1; }
+
+theirs=$(host libstdc++.so.6)
+if [ -z "$theirs" ] || [ "$(newest "$theirs")" -lt "$(newest "$here/lib-cxx/libstdc++.so.6")" ]; then
+    path=$path:$here/lib-cxx
+fi
+[ -n "$(host libEGL.so.1)" ] || path=$path:$here/lib-glvnd
+
+# A driver that is installed without its vendor file, as in some containers.
+if [ -z "${__EGL_VENDOR_LIBRARY_FILENAMES-}" ] && [ -n "$(host libEGL_nvidia.so.0)" ] &&
+    ! ls /etc/glvnd/egl_vendor.d/*nvidia* /usr/share/glvnd/egl_vendor.d/*nvidia* >/dev/null 2>&1; then
+    export __EGL_VENDOR_LIBRARY_FILENAMES="$here/lib-glvnd/nvidia.json"
+    for mesa in /usr/share/glvnd/egl_vendor.d/*mesa*; do
+        [ -f "$mesa" ] && __EGL_VENDOR_LIBRARY_FILENAMES=$__EGL_VENDOR_LIBRARY_FILENAMES:$mesa
+    done
+fi
+
+export LD_LIBRARY_PATH="$path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+program=$1
+shift
+exec "$here/bin/$program" "$@"
+LAUNCHER
+    chmod +x "$1/with_libraries"
+    printf '%s\n' '{"file_format_version": "1.0.0", "ICD": {"library_path": "libEGL_nvidia.so.0"}}' \
+        >"$1/lib-glvnd/nvidia.json"
+}
+
+# Lines "LABEL PROGRAM" of the tests that run on the device that SPHERULE_TEST_DEVICE names.
+device_tests() {
+    local label
+    for label in gpu physics; do
+        ctest --test-dir "$1" -L "^$label\$" --show-only=json-v1 |
+            python3 -c 'import json, sys; print("\n".join({t["command"][0] for t in json.load(sys.stdin)["tests"]}))' |
+            sed "/./s/^/$label /"
+    done | sort
+}
+
+bundle() {
+    local dir=$1 build=${2:-$here/../build/release} programs=() tests=() program size
+    if [[ -d $dir && ! -x $dir/with_libraries && -n $(ls -A "$dir") ]]; then
+        echo "$dir is not empty and no bundle; please name another folder" >&2
+        exit 1
+    fi
+    for program in spherule spherule_bench; do
+        [[ -x $build/$program ]] || { echo "$build/$program is not built; ./tests/run.sh builds it" >&2; exit 1; }
+        programs+=("$build/$program")
+    done
+    mkdir -p "$dir"
+    device_tests "$build" >"$dir/tests.list"
+    mapfile -t tests < <(cut -d' ' -f2 "$dir/tests.list")
+    [[ ${#tests[@]} -gt 0 ]] || { echo "$build has no tests for a device; ./tests/run.sh builds them" >&2; exit 1; }
+    rm -rf "${dir:?}"/{bin,lib,lib-cxx,lib-glvnd}
+    mkdir -p "$dir"/{bin,lib,lib-cxx,lib-glvnd}
+    install -s "${programs[@]}" "${tests[@]}" "$dir/bin/"
+    sed -i 's| .*/| |' "$dir/tests.list"
+    copy_libraries "$dir" "${programs[@]}" "${tests[@]}"
+    copy_glvnd "$dir"
+    write_launcher "$dir"
+    cp "${BASH_SOURCE[0]}" "$dir/gpu_day.sh"
+    size=$(du -sm --apparent-size "$dir" | cut -f1)
+    echo "$dir: $size MB, $((${#programs[@]} + ${#tests[@]})) programs"
+    [[ $size -lt 60 ]] || { echo "larger than the 60 MB that a bundle may have" >&2; exit 1; }
+}
+
+# step TITLE LOG COMMAND...: appends what the command says to OUT/LOG and the outcome to the report.
+step() {
+    local title=$1 log=$2 start=$SECONDS code=0 outcome
+    shift 2
+    printf '\n$ %s\n' "$(basename "$1") ${*:2}" >>"$out/$log"
+    timeout --kill-after=5 "$limit" "$@" >>"$out/$log" 2>&1 || code=$?
+    case $code in
+        0) outcome="done" ;;
+        124) outcome="STOPPED after $limit s" ;;
+        *) outcome="FAILED with exit code $code" ;;
+    esac
+    echo "| $title | $outcome | $((SECONDS - start)) s | \`$log\` |" | tee -a "$out/report.md"
+    [[ $code -eq 0 ]] || failed=1
+}
+
+run_probe() {
+    step "probe" probe.txt "$launch" spherule probe --device "$device"
+}
+
+run_tests() {
+    local label test
+    while read -r label test; do
+        [[ -z $quick || $label == gpu ]] || continue
+        SPHERULE_TEST_DEVICE=$device step "$test" tests.txt "$launch" "$test" --gtest_brief=1
+    done <"$dir/tests.list"
+}
+
+# True when the last two runs in the log ended in the same state, bit for bit.
+same_state() {
+    local hashes
+    hashes=$(grep -o '"stateHash":"[0-9a-f]*"' "$1" | tail -n 2)
+    echo "$hashes"
+    [[ $(wc -l <<<"$hashes") -eq 2 && $(sort -u <<<"$hashes" | wc -l) -eq 1 ]]
+}
+
+run_bench() {
+    local pace=() duration=2s scene=box-50k
+    [[ -z $quick ]] || { pace=(--quick); duration=0.1s; scene=box-4k; }
+    for _ in 1 2; do
+        step "$scene for $duration" bench.txt "$launch" spherule run "$scene" --for "$duration" --json --device "$device"
+    done
+    step "same bits from both" bench.txt "$dir/gpu_day.sh" same_state "$out/bench.txt"
+    step "methods compared" bench.txt "$launch" spherule_bench --device "$device" --ladder 0 "${pace[@]}" \
+        --csv "$out/compare.csv" --markdown "$out/compare.md"
+    step "passes over sizes" bench.txt "$launch" spherule_bench --device "$device" --sizes 0 "${pace[@]}" \
+        --csv "$out/ladder.csv" --markdown "$out/ladder.md"
+}
+
+run() {
+    [[ -x $dir/with_libraries ]] || { echo "$dir is no bundle; $0 bundle $dir makes one" >&2; exit 2; }
+    if [[ ! -f $out/report.md ]]; then
+        {
+            echo "# Device \`$device\`, $(date -u +%Y-%m-%d)"
+            echo
+            sed -n 's/^model name\s*: /Processor: /p' /proc/cpuinfo | head -n 1
+            echo
+            echo "| what | outcome | time | where |"
+            echo "|---|---|---|---|"
+        } >"$out/report.md"
+    fi
+    local part
+    for part in "${parts[@]}"; do "run_$part"; done
+}
+
+[[ $# -ge 2 ]] || usage 2
+case $1 in
+    bundle) bundle "${@:2}" ;;
+    same_state) same_state "$2" ;;
+    run)
+        [[ $# -ge 3 ]] || usage 2
+        mkdir -p "$3"
+        dir=$(cd "$2" && pwd) out=$(cd "$3" && pwd)
+        launch=$dir/with_libraries device=gpu quick='' parts=() failed=0
+        shift 3
+        while [[ $# -gt 0 ]]; do
+            case $1 in
+                --device) device=${2:?--device needs a name}; shift 2 ;;
+                --quick) quick=1; shift ;;
+                --only)
+                    [[ ${2-} =~ ^(probe|tests|bench)$ ]] || usage 2
+                    parts+=("$2")
+                    shift 2
+                    ;;
+                *) usage 2 ;;
+            esac
+        done
+        [[ ${#parts[@]} -gt 0 ]] || parts=(probe tests bench)
+        run
+        exit "$failed"
+        ;;
+    *) usage 2 ;;
+esac
