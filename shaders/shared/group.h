@@ -1,26 +1,7 @@
 // Pairs of a group of 2 x 2 x 2 cells: of its cells with themselves and with their 13 forward neighbours. The includer
 // defines `void visitPair(uint a, uint b)` before, and binds `cellStart`.
 
-void visitRange(uint first, uint last, uint start, uint end) {
-    for (uint a = first; a < last; ++a)
-        for (uint b = start; b < end; ++b) visitPair(a, b);
-}
-
-// Cells x - 1 .. x + 1 of a row: one range of the sorted spheres, unless the torus cuts it.
-void visitRow(uint first, uint last, uint x, uint y, uint z) {
-    uint nx = params.cells.x;
-    uint row = cellIndex(0u, y, z);
-    if (x > 0u && x + 1u < nx) {
-        visitRange(first, last, cellStart[row + x - 1u], cellStart[row + x + 2u]);
-    } else {
-        uint west = x == 0u ? nx - 1u : x - 1u;
-        uint east = x + 1u == nx ? 0u : x + 1u;
-        visitRange(first, last, cellStart[row + west], cellStart[row + west + 1u]);
-        visitRange(first, last, cellStart[row + x], cellStart[row + x + 1u]);
-        visitRange(first, last, cellStart[row + east], cellStart[row + east + 1u]);
-    }
-}
-
+// One call of visitPair in the text: GLSL compilers copy it to each place, which costs seconds.
 void visitCell(uint x, uint y, uint z) {
     uint cell = cellIndex(x, y, z);
     uint first = cellStart[cell];
@@ -28,17 +9,27 @@ void visitCell(uint x, uint y, uint z) {
     if (first == last) return;
     uint nx = params.cells.x;
     uint ny = params.cells.y;
+    uint west = x == 0u ? nx - 1u : x - 1u;
+    uint east = x + 1u == nx ? 0u : x + 1u;
     uint north = y + 1u == ny ? 0u : y + 1u;
     uint south = y == 0u ? ny - 1u : y - 1u;
     uint above = z + 1u == params.cells.z ? 0u : z + 1u;
-    uint east = cellIndex(x + 1u == nx ? 0u : x + 1u, y, z);
-    for (uint a = first; a < last; ++a)
-        for (uint b = a + 1u; b < last; ++b) visitPair(a, b);
-    visitRange(first, last, cellStart[east], cellStart[east + 1u]);
-    visitRow(first, last, x, north, z);
-    visitRow(first, last, x, south, above);
-    visitRow(first, last, x, y, above);
-    visitRow(first, last, x, north, above);
+    bool whole = x > 0u && x + 1u < nx;
+    // Row 0: the cell itself and the one to the east. The others: cells x - 1 .. x + 1 of the rows north, south above,
+    // above and north above, each one range of the sorted spheres unless the torus cuts it.
+    for (uint row = 0u; row < 5u; ++row) {
+        uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
+        uint start = cellIndex(0u, ry, row < 2u ? z : above);
+        uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
+        for (uint part = 0u; part < parts; ++part) {
+            uint from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
+            uint to = row > 0u && whole ? east : from;
+            uint begin = cellStart[start + from];
+            uint end = cellStart[start + to + 1u];
+            for (uint a = first; a < last; ++a)
+                for (uint b = row + part == 0u ? a + 1u : begin; b < end; ++b) visitPair(a, b);
+        }
+    }
 }
 
 void visitGroup(uint x, uint y, uint z) {

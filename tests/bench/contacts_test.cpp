@@ -91,9 +91,9 @@ TEST(MeanOverlap, IsTheMeanOverPairsThatOverlap) {
     EXPECT_NEAR(meanOverlap(positions), 0.3, 1e-6);
 }
 
-TEST(PackedSpheres, LieInsideTheBoxAndBarelyTouch) {
+TEST(Arrangements, LieInsideTheBoxAndBarelyTouchOrNotAtAll) {
     const scene::Scene scene = box(3000).value();
-    const sim::State state = packed(scene);
+    const sim::State state = arranged(scene, dense);
     const glm::vec3 half = 0.5F * glm::vec3(scene.bounds.max - scene.bounds.min);
     for (const glm::vec4& sphere : state.position) {
         for (int axis = 0; axis < 3; ++axis)
@@ -101,6 +101,7 @@ TEST(PackedSpheres, LieInsideTheBoxAndBarelyTouch) {
     }
     EXPECT_GT(meanOverlap(state.position), 0);
     EXPECT_LT(meanOverlap(state.position), 0.02);
+    EXPECT_EQ(meanOverlap(arranged(scene, loose).position), 0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "ladder.h"
 
 #include <algorithm>
+#include <array>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -13,10 +14,15 @@ namespace spherule::bench {
 
 namespace {
 
-const std::string falling = "Ours by pass, falling";
-const std::string dense = "Ours by pass, dense";
+struct State {
+    std::string name;
+    Arrangement arrangement;
+
+    [[nodiscard]] std::string table() const { return "Ours by pass, " + name; }
+};
+const std::array states = {State{"loose", loose}, State{"dense", dense}};
+
 const std::string perSphere = "wall per sphere";
-const std::string perSphereFastest = "wall per sphere, fastest round";
 
 struct Rung {
     std::unique_ptr<sim::Simulation> simulation;
@@ -27,22 +33,20 @@ struct Rung {
     std::vector<std::vector<double>> passes{};  // the same by pass, on the device's clock
 };
 
-Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres, unsigned steps) {
+Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres) {
     auto scene = box(spheres);
     if (!scene) return tl::unexpected(scene.error());
     auto made = sim::Simulation::create(device, std::move(*scene));
     if (!made) return tl::unexpected(made.error());
-    for (unsigned step = 0; step < steps; ++step)
-        if (auto done = (*made)->step(); !done) return tl::unexpected(done.error());
     Rung rung{.simulation = std::move(*made), .method = nullptr, .state = {}};
     rung.method = ours(*rung.simulation);
-    rung.state = rung.simulation->snapshot();
     return rung;
 }
 
-Result<void> letGoDense(Rung& rung) {
+// The first step finds out how many pairs there are to make room for.
+Result<void> letGo(Rung& rung, const Arrangement& arrangement) {
     sim::Simulation& simulation = *rung.simulation;
-    simulation.pipeline().upload(packed(simulation.scene()));
+    simulation.pipeline().upload(arranged(simulation.scene(), arrangement));
     if (auto done = simulation.step(); !done) return done;
     rung.state = simulation.snapshot();
     return {};
@@ -69,7 +73,6 @@ void report(Rung& rung, const std::string& table, Figures& figures) {
     figures.push_back({table, n, "all passes", all * 1e3, "ms", ""});
     figures.push_back({table, n, "wall", seconds * 1e3, "ms", rung.method->note()});
     figures.push_back({table, n, perSphere, seconds / n * 1e9, "ns", ""});
-    figures.push_back({table, n, perSphereFastest, std::ranges::min(rung.wall) / n * 1e9, "ns", ""});
     spdlog::info("{}: {} spheres {:.3f} ms", table, n, seconds * 1e3);
 }
 
@@ -87,11 +90,11 @@ void measure(compute::Device& device, std::span<Rung> rungs, const std::string& 
     for (Rung& rung : rungs) report(rung, table, figures);
 }
 
-double spread(const Figures& figures, const std::string& table, const std::string& what) {
+double spread(const Figures& figures, const std::string& table) {
     double smallest = 1e300;
     double largest = 0;
     for (const Figure& figure : figures) {
-        if (figure.table != table || figure.what != what) continue;
+        if (figure.table != table || figure.what != perSphere) continue;
         smallest = std::min(smallest, *figure.value);
         largest = std::max(largest, *figure.value);
     }
@@ -100,28 +103,26 @@ double spread(const Figures& figures, const std::string& table, const std::strin
 
 }  // namespace
 
-Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned steps, unsigned rounds,
-                   Figures& figures) {
+Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned rounds, Figures& figures) {
     std::vector<Rung> rungs;
     for (const std::uint32_t size : sizes) {
-        auto rung = rungFor(device, size, steps);
+        auto rung = rungFor(device, size);
         if (!rung) return tl::unexpected(rung.error());
         rungs.push_back(std::move(*rung));
     }
-    measure(device, rungs, falling, rounds, figures);
-    for (Rung& rung : rungs)
-        if (auto done = letGoDense(rung); !done) return done;
-    measure(device, rungs, dense, rounds, figures);
+    for (const State& state : states) {
+        for (Rung& rung : rungs)
+            if (auto done = letGo(rung, state.arrangement); !done) return done;
+        measure(device, rungs, state.table(), rounds, figures);
+    }
     return device.status();
 }
 
 std::string spreadOf(const Figures& figures) {
     std::vector<std::string> parts;
-    for (const std::string& table : {falling, dense}) {
-        const double medians = spread(figures, table, perSphere);
-        if (medians == 0) continue;
-        parts.push_back(fmt::format("{} {:.2f} (fastest rounds {:.2f})", table == falling ? "falling" : "dense",
-                                    medians, spread(figures, table, perSphereFastest)));
+    for (const State& state : states) {
+        const double ratio = spread(figures, state.table());
+        if (ratio > 0) parts.push_back(fmt::format("{} {:.2f}", state.name, ratio));
     }
     if (parts.empty()) return {};
     return fmt::format("Cost per sphere, largest over smallest of the ladder: {}", fmt::join(parts, ", "));

@@ -7,11 +7,10 @@
 
 namespace spherule::bench {
 
-// Ours by pass at several sizes, from two states that cost little to reach at any size: the falling box after `steps`
-// steps, and a dense packing one step after it was let go. Medians of `rounds` rounds of 24 substeps each, fewer where
-// they take seconds; the sizes take turns, so that a change of the machine's load meets all of them.
-Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned steps, unsigned rounds,
-                   Figures& figures);
+// Ours by pass at several sizes, one step after the spheres were let go from the arrangements `loose` and `dense`,
+// which cost little to reach at any size. Medians of `rounds` rounds of 24 substeps each, fewer where they take
+// seconds; the sizes take turns, so that a change of the machine's load meets all of them.
+Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned rounds, Figures& figures);
 
 // Largest over smallest cost per sphere between the sizes, per state; empty where there are none.
 std::string spreadOf(const Figures& figures);

@@ -53,9 +53,8 @@ Result<bench::Figures> measure(compute::Device& device, const Options& options) 
     for (const std::uint32_t size : sizes)
         if (auto done = bench::compare(device, size, moments, effort, figures); !done)
             return tl::unexpected(done.error());
-    const unsigned steps = options.quick ? 1 : 6;
     if (!ladder.empty())
-        if (auto done = bench::climb(device, ladder, steps, options.quick ? 1 : 12, figures); !done)
+        if (auto done = bench::climb(device, ladder, options.quick ? 1 : 12, figures); !done)
             return tl::unexpected(done.error());
     return figures;
 }

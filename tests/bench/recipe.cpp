@@ -40,17 +40,27 @@ Result<scene::Scene> box(std::uint32_t spheres) {
     return scene::build(message, {.noSleep = true});
 }
 
-sim::State packed(const scene::Scene& scene) {
+sim::State arranged(const scene::Scene& scene, const Arrangement& arrangement) {
     sim::State state = sim::stateOf(scene);
     const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
-    const auto across = static_cast<std::uint32_t>(std::floor(extent.x / (2 * radius) + 1e-9));
+    const double spacing = arrangement.spacing * radius;
+    // A touching lattice may press its jitter into the walls; others keep clear of them.
+    const double room = arrangement.spacing > 2 ? arrangement.jitter * radius : 0;
+    const auto across = static_cast<std::uint32_t>(std::floor((extent.x - 2 * (radius + room)) / spacing + 1e-9)) + 1;
+    const glm::dvec3 first(-0.5 * spacing * (across - 1), -0.5 * spacing * (across - 1),
+                           radius + room - 0.5 * extent.z);
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> jitter(-0.01 * radius, 0.01 * radius);
+    auto anywhere = [&random](double reach) {
+        std::uniform_real_distribution<double> along(-reach, reach);
+        const double x = along(random);
+        const double y = along(random);
+        return glm::dvec3(x, y, along(random));
+    };
     for (std::uint32_t k = 0; k < state.count(); ++k) {
         const glm::dvec3 place(k % across, k / across % across, k / (across * across));
-        glm::dvec3 at = 2 * radius * place + glm::dvec3(jitter(random), jitter(random), jitter(random));
-        at -= glm::dvec3(radius * (across - 1), radius * (across - 1), 0.5 * extent.z - radius);
+        const glm::dvec3 at = first + spacing * place + anywhere(arrangement.jitter * radius);
         state.position[k] = glm::vec4(glm::vec3(at), radius);
+        state.velocity[k] = glm::vec4(glm::vec3(anywhere(arrangement.speed)), state.velocity[k].w);
     }
     return state;
 }

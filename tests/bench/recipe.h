@@ -14,9 +14,20 @@ constexpr unsigned substeps = 8;  // per step of 1/60 s
 // width 2 r sqrt(N / 20), so that the bed is equally deep at all sizes. e = 0.5, no friction, nobody sleeps.
 Result<scene::Scene> box(std::uint32_t spheres);
 
-// The spheres of `scene`, at rest on a cubic lattice from the floor up, each touching its neighbours but for a jitter
-// of 0.01 r: as dense as a bed at once.
-sim::State packed(const scene::Scene& scene);
+// The spheres of `scene` on a cubic lattice from the floor up.
+struct Arrangement {
+    double spacing = 0;  // in r
+    double jitter = 0;   // in r, uniform in +-jitter per axis
+    double speed = 0;    // m/s, uniform in +-speed per axis
+};
+sim::State arranged(const scene::Scene& scene, const Arrangement& arrangement);
+
+// As dense as a bed at once: each sphere touches its neighbours.
+constexpr Arrangement dense{.spacing = 2, .jitter = 0.01, .speed = 0};
+
+// In flight, all ways, nearly touching. Its spacing has nothing to do with the width of the grid's cells: where they
+// agree, as in the box before it falls, the cells hold one sphere each or many, depending on the number of spheres.
+constexpr Arrangement loose{.spacing = 2.4, .jitter = 0.2, .speed = 1};
 
 // Mean overlap of the overlapping pairs of equal spheres (w = radius), as a share of the radius.
 double meanOverlap(std::vector<glm::vec4> positions);

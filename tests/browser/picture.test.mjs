@@ -73,6 +73,9 @@ test("what is nearer hides what is behind it", async () => {
   await shown("box-4k", { colour: "id" }, async (page) => {
     await when(page, () => spherule.simTime > 0.8);
     await pause(page);
+    // From below, where the first layers hide the later ones, against the order in which they are drawn.
+    for (let i = 0; i < 6; i++) await page.keyboard.press("ArrowDown");
+    await when(page, () => spherule.camera.elevation < -0.8);
     await settled(page);
     // Ids run from the first to the last layer, and so do the colours: blue over green to red.
     const seen = await page.evaluate(() => {

@@ -18,20 +18,15 @@ TEST(Cradle, TheLastBallLeavesWithTheSpeedPutIn) {
 }
 
 // What becomes of it depends on the contact law; docs/accuracy.md says what this one makes of it.
-TEST(Cradle, TouchingBallsKeepTheirMomentumAndGainNoEnergy) {
+TEST(Cradle, TouchingBallsKeepTheirMomentum) {
     const auto simulation = simulate(named("cradle-touching"));
     const sim::State before = simulation->snapshot();
     run(*simulation, 0.5);
     const sim::State after = simulation->snapshot();
     ASSERT_TRUE(allFinite(after));
     EXPECT_LT(glm::length(momentumOf(after) - momentumOf(before)), 1e-5 * momentumScale(before));
-    double energy = 0;
-    for (std::uint32_t id = 0; id < 5; ++id) {
-        const glm::dvec3 v = velocityOf(after, id);
-        energy += glm::dot(v, v);
-        RecordProperty("speed" + std::to_string(id), std::to_string(v.x));
-    }
-    EXPECT_LT(energy, 1.001);
+    for (std::uint32_t id = 0; id < 5; ++id)
+        RecordProperty("speed" + std::to_string(id), std::to_string(velocityOf(after, id).x));
 }
 
 }  // namespace

@@ -64,13 +64,16 @@ TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
     run(*simulation, scene.step);
     EXPECT_GT(simulation->counters().unlisted, 0U);
     ASSERT_TRUE(allFinite(simulation->snapshot()));
-    run(*simulation, 19 * scene.step);
-    const sim::State state = simulation->snapshot();
-    EXPECT_TRUE(allFinite(state));
-    EXPECT_FALSE(simulation->counters().nonFinite);
-    EXPECT_EQ(simulation->statistics().outside, 0U);
-    unsigned same=0; for (std::uint32_t id = 1; id < state.count(); ++id) same+=positionOf(state, id)==positionOf(state, id - 1); std::printf("same %u\n",same); {const sim::Statistics st=simulation->statistics(); std::printf("contacts %lu mean %g max %g speed %g height %g\n",st.contacts,st.overlapMean,st.overlapMax,st.speedMax,st.meanHeight);} for(int k=0;k<10;k++){run(*simulation,0.1);const sim::Statistics st=simulation->statistics(); std::printf("contacts %lu mean %g max %g speed %g height %g out %u pairs %u unl %u\n",st.contacts,st.overlapMean,st.overlapMax,st.speedMax,st.meanHeight,st.outside,simulation->counters().pairs,simulation->counters().unlisted);}
-    for (std::uint32_t id = 1; id < state.count(); ++id) ASSERT_NE(positionOf(state, id), positionOf(state, id - 1));
+    for (int k = 0; k < 240; ++k) {
+        run(*simulation, scene.step);
+        ASSERT_FALSE(simulation->counters().nonFinite);
+    }
+    EXPECT_EQ(simulation->counters().unlisted, 0U) << "there was room to make";
+    const sim::Statistics statistics = simulation->statistics();
+    EXPECT_EQ(statistics.nonFinite, 0U);
+    EXPECT_EQ(statistics.outside, 0U);
+    EXPECT_LT(statistics.overlapMax, 1.9) << "some have stayed where they were";
+    EXPECT_TRUE(allFinite(simulation->snapshot()));
 }
 
 TEST(Crowd, TwoSpheresInOnePointComeApartWithoutASpeed) {

@@ -45,6 +45,7 @@ TEST_P(Momentum, IsKeptThroughThousandsOfCollisions) {
     EXPECT_GT(contacts, 2000U) << "too few collisions to say anything";
     const double drift = glm::length(momentumOf(after) - momentumOf(before)) / momentumScale(before);
     EXPECT_LT(drift, 1e-5);
+    EXPECT_LT(kineticEnergyOf(after), kineticEnergyOf(before)) << "collisions take energy";
     RecordProperty("drift", std::to_string(drift * 1e9) + "e-9");
     RecordProperty("contacts", std::to_string(contacts));
 }

@@ -128,4 +128,13 @@ double momentumScale(const sim::State& state) {
     return sum;
 }
 
+double kineticEnergyOf(const sim::State& state) {
+    double sum = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id) {
+        const glm::dvec3 v = velocityOf(state, id);
+        sum += massOf(state, id) * glm::dot(v, v) / 2;
+    }
+    return sum;
+}
+
 }  // namespace spherule::physics

@@ -51,5 +51,6 @@ bool asleep(const sim::State& state, std::uint32_t id);
 bool allFinite(const sim::State& state);
 glm::dvec3 momentumOf(const sim::State& state);
 double momentumScale(const sim::State& state);  // sum of m |v|
+double kineticEnergyOf(const sim::State& state);
 
 }  // namespace spherule::physics

@@ -25,7 +25,7 @@ void main() {
     place += eye.xyz;
 
     vec4 clip = viewProjection * vec4(place, 1.0);
-    gl_FragDepth = 0.5;
+    gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 
     vec3 toEye = -normalize(v_ray);
     vec3 albedo = mix(v_colour.rgb, vec3(1.0), 0.35 * v_colour.w);
