@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { control, launch, open, pause, when } from "./support/browser.mjs";
 import { serverSays } from "./support/raw.mjs";
-import { serve } from "./support/server.mjs";
+import { serve, stopAll } from "./support/server.mjs";
 
 let server;
 let browser;
@@ -14,7 +14,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  await server?.stop();
+  await stopAll();
 });
 
 /** Waits for the answer to the newest command and returns it. */

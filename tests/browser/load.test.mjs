@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { control, launch, open, when } from "./support/browser.mjs";
-import { serve } from "./support/server.mjs";
+import { serve, stopAll } from "./support/server.mjs";
 
 let server;
 let browser;
@@ -11,7 +11,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  await server?.stop();
+  await stopAll();
 });
 
 test("the page loads, connects and says what it shows", async () => {

@@ -3,13 +3,16 @@ import { after, before, test } from "node:test";
 import { control, launch, open, pause, settled, when } from "./support/browser.mjs";
 import { pictureOf, vividness } from "./support/picture.mjs";
 import { serverSays } from "./support/raw.mjs";
-import { serve } from "./support/server.mjs";
+import { serve, stopAll } from "./support/server.mjs";
 
 let browser;
 before(async () => {
   browser = await launch();
 });
-after(() => browser?.close());
+after(async () => {
+  await browser?.close();
+  await stopAll();
+});
 
 async function shown(scene, options, body) {
   const server = await serve(scene);

@@ -1,13 +1,16 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { control, launch, open, pause, when } from "./support/browser.mjs";
-import { serve } from "./support/server.mjs";
+import { serve, stopAll } from "./support/server.mjs";
 
 let browser;
 before(async () => {
   browser = await launch();
 });
-after(() => browser?.close());
+after(async () => {
+  await browser?.close();
+  await stopAll();
+});
 
 test("two pages see the same world", async () => {
   const server = await serve("billiards");

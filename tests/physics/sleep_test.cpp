@@ -9,31 +9,12 @@
 namespace spherule::physics {
 namespace {
 
-constexpr double threshold = 0.01;  // m/s
-constexpr double quietTime = 0.5;   // s
-
-// Steps of 1/60 s, as scenes have them, with sleep on.
-scene::Scene sleepyBox(double side) {
-    scene::Scene scene = closedBox(side);
-    scene.step = 1.0 / 60;
-    scene.substeps = 8;
-    scene.sleep = {true, threshold, quietTime};
-    return scene;
-}
-
 scene::Sphere at(glm::dvec3 position) {
     scene::Sphere sphere;
     sphere.position = position;
     sphere.radius = 0.05F;
     sphere.restitution = 0.3F;
     return sphere;
-}
-
-std::uint32_t sleepers(const sim::State& state) {
-    std::uint32_t count = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id)
-        if (asleep(state, id)) ++count;
-    return count;
 }
 
 void push(sim::Simulation& simulation, std::uint32_t id, glm::dvec3 velocity) {
@@ -52,48 +33,6 @@ std::unique_ptr<sim::Simulation> sleepingColumn(int height) {
     run(*simulation, 3);
     EXPECT_EQ(sleepers(simulation->snapshot()), simulation->count());
     return simulation;
-}
-
-// A hundred balls come to rest on the floor, twenty more on top of some of them; every step is watched.
-TEST(Sleep, TakesOnlyWhatHasBeenSlowForLongAndHoldsItExactlyStill) {
-    scene::Scene scene = sleepyBox(2);
-    for (int k = 0; k < 100; ++k) {
-        const glm::dvec3 place{k % 10, k / 10, 0};
-        scene.spheres.push_back(at(0.17 * (place - glm::dvec3(4.5, 4.5, 0)) - glm::dvec3(0, 0, 0.94 - 0.002 * k)));
-    }
-    for (int k = 0; k < 20; ++k) scene.spheres.push_back(at(scene.spheres[k].position + glm::dvec3(0, 0, 0.3)));
-    const auto simulation = simulate(scene);
-    const auto quietSteps = static_cast<int>(quietTime / scene.step) - 1;
-    const auto twoSeconds = std::lround(2 / scene.step);
-    std::vector<int> slowFor(scene.spheres.size());  // steps
-    std::vector<int> asleepFor(scene.spheres.size());
-    std::vector<glm::dvec3> restingPlace(scene.spheres.size());
-    int transitions = 0;
-    int longSleepers = 0;
-    for (int step = 0; step < 360; ++step) {
-        run(*simulation, scene.step);
-        const sim::State state = simulation->snapshot();
-        for (std::uint32_t id = 0; id < state.count(); ++id) {
-            if (asleep(state, id)) {
-                if (asleepFor[id]++ == 0) {
-                    ++transitions;
-                    restingPlace[id] = positionOf(state, id);
-                    EXPECT_GE(slowFor[id], quietSteps) << "sphere " << id << " in step " << step;
-                }
-                EXPECT_EQ(positionOf(state, id), restingPlace[id]) << "sphere " << id << " moved in its sleep";
-                EXPECT_EQ(velocityOf(state, id), glm::dvec3(0)) << id;
-                if (asleepFor[id] == twoSeconds) ++longSleepers;
-            } else {
-                asleepFor[id] = 0;
-            }
-            slowFor[id] = glm::length(velocityOf(state, id)) <= threshold ? slowFor[id] + 1 : 0;
-        }
-    }
-    EXPECT_GT(transitions, 50);
-    EXPECT_GT(longSleepers, 50);
-    EXPECT_EQ(simulation->statistics().sleeping, sleepers(simulation->snapshot()));
-    RecordProperty("transitions", transitions);
-    RecordProperty("asleepForTwoSeconds", longSleepers);
 }
 
 TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {

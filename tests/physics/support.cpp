@@ -44,6 +44,14 @@ scene::Scene closedBox(double side) {
     return scene;
 }
 
+scene::Scene sleepyBox(double side) {
+    scene::Scene scene = closedBox(side);
+    scene.step = 1.0 / 60;
+    scene.substeps = 8;
+    scene.sleep.enabled = true;
+    return scene;
+}
+
 void setRestitution(scene::Scene& scene, double restitution) {
     scene.restitution = restitution;
     scene.bounds.restitution = restitution;
@@ -106,6 +114,13 @@ double massOf(const sim::State& state, std::uint32_t id) {
 
 bool asleep(const sim::State& state, std::uint32_t id) {
     return state.velocity[id].w < 0;
+}
+
+std::uint32_t sleepers(const sim::State& state) {
+    std::uint32_t count = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id)
+        if (asleep(state, id)) ++count;
+    return count;
 }
 
 bool allFinite(const sim::State& state) {

@@ -27,6 +27,9 @@ scene::Scene openSpace(double side);
 // The same with closed faces and, downwards, the earth's gravity.
 scene::Scene closedBox(double side);
 
+// The same in steps of 1/60 s, eight substeps each, with sleep.
+scene::Scene sleepyBox(double side);
+
 void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
 
 constexpr double earth = 9.81;  // m/s^2
@@ -48,6 +51,7 @@ glm::dvec3 positionOf(const sim::State& state, std::uint32_t id);
 glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id);
 double massOf(const sim::State& state, std::uint32_t id);
 bool asleep(const sim::State& state, std::uint32_t id);
+std::uint32_t sleepers(const sim::State& state);
 bool allFinite(const sim::State& state);
 glm::dvec3 momentumOf(const sim::State& state);
 double momentumScale(const sim::State& state);  // sum of m |v|

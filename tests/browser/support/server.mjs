@@ -3,6 +3,13 @@ import { spawn, execFile } from "node:child_process";
 
 const binary = process.env.SPHERULE ?? "build/release/spherule";
 
+const running = new Set();
+
+/** Ends what a failed test left behind; its file would wait for it otherwise. */
+export async function stopAll() {
+  await Promise.all([...running].map((server) => server.stop()));
+}
+
 /** Serves the scene; `port` 0 takes a free one. */
 export async function serve(scene, port = 0) {
   const child = spawn(binary, ["serve", scene, "--device", "software", "--listen", `127.0.0.1:${port}`], {
@@ -19,7 +26,7 @@ export async function serve(scene, port = 0) {
     });
     void ended.then((code) => reject(new Error(`the server ended with ${code}:\n${said}`)));
   });
-  return {
+  const server = {
     url,
     port: Number(new URL(url).port),
     /** Gives a command as a shell would; returns what ctl printed, or throws when it was refused. */
@@ -30,8 +37,11 @@ export async function serve(scene, port = 0) {
       });
     },
     async stop() {
+      running.delete(server);
       child.kill("SIGTERM");
       return ended;
     },
   };
+  running.add(server);
+  return server;
 }

@@ -1,0 +1,14 @@
+// What a client may send: the first byte chooses between a binary and a text frame.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "net/decode.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace spherule;
+    if (size == 0) return 0;
+    const std::string_view bytes(reinterpret_cast<const char*>(data + 1), size - 1);
+    (void)net::decodeClientMessage(bytes, (data[0] & 1U) != 0 ? net::Encoding::Text : net::Encoding::Binary);
+    return 0;
+}

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+constexpr double watched = 2;  // s that a sleeper is to stay exactly where it is
+
+// Looks at every sphere after every step: who falls asleep must have been slower than the threshold all through the
+// sleep time, and a sleeper does not move by a bit.
+class Watch {
+  public:
+    explicit Watch(const scene::Scene& scene)
+        : threshold_(scene.sleep.speed),
+          quietSteps_(static_cast<int>(scene.sleep.time / scene.step) - 1),
+          watchedSteps_(static_cast<int>(std::lround(watched / scene.step))),
+          spheres_(scene.spheres.size()) {}
+
+    void look(const sim::State& state) {
+        for (std::uint32_t id = 0; id < state.count(); ++id) {
+            if (asleep(state, id)) {
+                lookAtSleeper(state, id);
+            } else {
+                spheres_[id].asleepFor = 0;
+            }
+            const bool slow = glm::length(velocityOf(state, id)) <= threshold_;
+            spheres_[id].slowFor = slow ? spheres_[id].slowFor + 1 : 0;
+        }
+    }
+
+    int fellAsleep = 0;
+    int tooFast = 0;
+    int moved = 0;
+    int sleptLong = 0;  // for all of the watched time
+
+  private:
+    struct Seen {
+        int slowFor = 0;  // steps
+        int asleepFor = 0;
+        glm::dvec3 place{};
+    };
+
+    void lookAtSleeper(const sim::State& state, std::uint32_t id) {
+        Seen& seen = spheres_[id];
+        if (seen.asleepFor++ == 0) {
+            ++fellAsleep;
+            if (seen.slowFor < quietSteps_) ++tooFast;
+            seen.place = positionOf(state, id);
+        }
+        if (positionOf(state, id) != seen.place || velocityOf(state, id) != glm::dvec3(0)) ++moved;
+        if (seen.asleepFor == watchedSteps_) ++sleptLong;
+    }
+
+    double threshold_;
+    int quietSteps_;
+    int watchedSteps_;
+    std::vector<Seen> spheres_;
+};
+
+Watch watch(sim::Simulation& simulation, double seconds) {
+    Watch watch(simulation.scene());
+    const auto steps = std::lround(seconds / simulation.scene().step);
+    for (long k = 0; k < steps; ++k) {
+        run(simulation, simulation.scene().step);
+        watch.look(simulation.snapshot());
+    }
+    return watch;
+}
+
+// A hundred balls fall on the floor one by one, twenty more on top of some of them.
+TEST(SleepWatch, BallsOnTheFloorAllFallAsleepAndStayExactlyWhereTheyAre) {
+    scene::Scene scene = sleepyBox(2);
+    scene::Sphere ball;
+    ball.radius = 0.05F;
+    ball.restitution = 0.3F;
+    for (int k = 0; k < 100; ++k) {
+        ball.position = {0.17 * (k % 10 - 4.5), 0.17 * (k / 10 - 4.5), -0.94 + 0.002 * k};
+        scene.spheres.push_back(ball);
+    }
+    for (std::size_t k = 0; k < 20; ++k) {
+        ball.position = scene.spheres[k].position + glm::dvec3(0, 0, 0.3);
+        scene.spheres.push_back(ball);
+    }
+    const auto simulation = simulate(scene);
+    const Watch seen = watch(*simulation, 4);
+    EXPECT_EQ(seen.tooFast, 0);
+    EXPECT_EQ(seen.moved, 0);
+    EXPECT_GE(seen.fellAsleep, 120);
+    EXPECT_EQ(seen.sleptLong, 120);
+    EXPECT_EQ(simulation->statistics().sleeping, 120U);
+}
+
+// A bed without friction is never quite still: few fall asleep, and those rightly.
+TEST(SleepWatch, InABedNothingFastFallsAsleepAndNoSleeperMoves) {
+    const auto simulation = simulate(named("box-4k"));
+    const Watch seen = watch(*simulation, 5);
+    EXPECT_EQ(seen.tooFast, 0);
+    EXPECT_EQ(seen.moved, 0);
+    EXPECT_GT(seen.fellAsleep, 100);
+    const sim::State state = simulation->snapshot();
+    EXPECT_EQ(simulation->statistics().sleeping, sleepers(state));
+    RecordProperty("asleepPercent", std::to_string(100.0 * sleepers(state) / state.count()));
+    RecordProperty("fellAsleep", seen.fellAsleep);
+    RecordProperty("sleptForTwoSeconds", seen.sleptLong);
+}
+
+}  // namespace
+}  // namespace spherule::physics
