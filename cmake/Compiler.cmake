@@ -5,6 +5,6 @@ target_compile_options(spherule_options INTERFACE
   -Wall -Wextra -Werror -Wpedantic -Wshadow -Wnon-virtual-dtor -Wdouble-promotion -ffp-contract=off)
 target_compile_definitions(spherule_options INTERFACE SPHERULE_VERSION="${PROJECT_VERSION}")
 if(SPHERULE_SANITIZE)
-  add_compile_options(-fsanitize=${SPHERULE_SANITIZE} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${SPHERULE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SPHERULE_SANITIZE})
 endif()

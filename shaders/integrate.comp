@@ -35,6 +35,9 @@ KERNEL(params.spheres) {
     }
     if (HAS(CONTACTS)) {
         vec3 since = to - vec3(anchor[invocation]);
-        if (dot3(since, since) > params.rebuildMove * params.rebuildMove) atomicOr(counters[COUNTER_REBUILD], 1u);
+        if (dot3(since, since) > params.rebuildMove * params.rebuildMove) {
+            atomicOr(counters[COUNTER_REBUILD], 1u);
+            if (HAS(SLEEP)) before[invocation] = vec4(vec3(v), CREPT);
+        }
     }
 }

@@ -18,8 +18,9 @@ KERNEL(params.spheres) {
         vec3 carried = vec3(v) - vec3(u) - pull;
         quiet = quiet && dot3(carried, carried) > 0.25f * dot3(pull, pull);
     }
-    float spent = quiet ? u.w + params.substep : 0.0f;
+    float spent = quiet ? max(u.w, 0.0f) + params.substep : 0.0f;
     bool asleep = spent >= params.sleepTime;
-    before[invocation] = vec4(vec3(u), asleep ? 0.0f : spent);
+    // A sleeper has no velocity before the substep either: its neighbours bounce off what stands still.
+    before[invocation] = asleep ? vec4(0.0f, 0.0f, 0.0f, 0.0f) : vec4(vec3(u), spent);
     if (asleep) velocity[invocation] = vec4(0.0f, 0.0f, 0.0f, -v.w);
 }

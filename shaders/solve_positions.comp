@@ -18,17 +18,18 @@ BUFFER(5, readonly, uvec2, pairs, PairBlock)
 BUFFER(6, writeonly, uvec2, touching, TouchingBlock)
 BUFFER(7, readonly, vec4, before, BeforeBlock)
 
-bool fast(vec4 v) {
-    return dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
+bool wakes(vec4 v) {
+    return v.w == CREPT || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
 // A sleeper wakes when a neighbour comes or goes faster than the wake speed; by its velocity before the substep, because
-// the present one holds the kicks of unfinished pushes.
+// the present one holds the kicks of unfinished pushes. A slower one wakes it too once it has crept far enough that it
+// may carry the sleeper no longer.
 void wake(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    if (va.w < 0.0f && vb.w > 0.0f && fast(before[b])) velocity[a] = vec4(vec3(va), -va.w);
-    if (vb.w < 0.0f && va.w > 0.0f && fast(before[a])) velocity[b] = vec4(vec3(vb), -vb.w);
+    if (va.w < 0.0f && vb.w > 0.0f && wakes(before[b])) velocity[a] = vec4(vec3(va), -va.w);
+    if (vb.w < 0.0f && va.w > 0.0f && wakes(before[a])) velocity[b] = vec4(vec3(vb), -vb.w);
 }
 
 // True when the pair overlaps.

@@ -39,21 +39,19 @@ void collide(uint a, uint b, bool known) {
     if (sum == 0.0f) return;
     vec3 n = vec3(normalAndDistance(d, squared, id[a], id[b]));
     float least = 0.0f;
-    float most = 0.0f;
-    if (HAS(RESTITUTION)) {
-        vec4 ua = before[a];
-        vec4 ub = before[b];
-        float approach = dot3(vec3(ua) - vec3(ub), n);
-        if (approach < 0.0f) {
+    vec4 ua = before[a];
+    vec4 ub = before[b];
+    float approach = dot3(vec3(ua) - vec3(ub), n);
+    float most = approach;
+    if (approach < 0.0f) {
+        if (HAS(RESTITUTION)) {
             float e = HAS(RESTITUTIONS) ? min(bounce[id[a]], bounce[id[b]]) : params.restitution;
             least = -e * approach;
-            most = least;
-            vec3 impulse = n * ((least - approach) / sum);
-            before[a] = vec4(vec3(ua) + impulse * ma, ua.w);
-            before[b] = vec4(vec3(ub) - impulse * mb, ub.w);
-        } else {
-            most = approach;
         }
+        most = least;
+        vec3 impulse = n * ((least - approach) / sum);
+        before[a] = vec4(vec3(ua) + impulse * ma, ua.w);
+        before[b] = vec4(vec3(ub) - impulse * mb, ub.w);
     }
     float speed = dot3(vec3(va) - vec3(vb), n);
     float change = min(max(speed, least), most) - speed;

@@ -5,6 +5,8 @@
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 
+#include <algorithm>
+
 #include "sim/pass.h"
 
 namespace spherule::app {
@@ -38,6 +40,7 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", live.status.real_time_factor());
     to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(live.steps));
     to.gauge("spherule_simulated_seconds", "Simulated time since the scene began", live.simSeconds);
+    to.gauge("spherule_list_rebuilds", "Rebuilds of the pair lists since the scene last changed", live.rebuilds);
     to.counter("spherule_states_produced_total", "State frames produced", static_cast<double>(live.framesProduced));
     for (std::size_t pass = 0; pass < live.passSeconds.size(); ++pass)
         to.counter("spherule_pass_seconds_total", "Device time per pass", live.passSeconds[pass],
@@ -48,6 +51,8 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     to.counter("spherule_handshakes_refused_total", "WebSocket handshakes refused", count(net.handshakesRefused));
     to.counter("spherule_http_requests_total", "HTTP requests answered", count(net.httpRequests));
     to.counter("spherule_commands_total", "Commands received", count(net.commands));
+    to.counter("spherule_commands_refused_total", "Commands refused before they reached the simulation",
+               count(net.commandsRefused));
     to.counter("spherule_frames_sent_total", "State frames sent, over all sessions", count(net.framesSent));
     to.counter("spherule_frames_replaced_total", "State frames that newer ones replaced", count(net.framesReplaced));
     to.counter("spherule_bytes_sent_total", "Payload bytes sent", count(net.bytesSent));

@@ -6,7 +6,7 @@
 namespace spherule::app {
 
 // Decides when the next step is due, and measures how fast the simulation really goes. When the machine cannot keep up,
-// simulated time slows down; it never tries to catch up. One thread.
+// simulated time slows down: no more than a few late steps are made up for. One thread.
 class Pacer {
   public:
     using Clock = std::chrono::steady_clock;

@@ -27,6 +27,7 @@ struct RunOptions {
 };
 
 using Clock = std::chrono::steady_clock;
+constexpr double mostSteps = 1e12;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -86,6 +87,7 @@ Result<void> run(const RunOptions& options) {
     if (!duration) return tl::unexpected(duration.error());
     const auto every = options.every.empty() ? Result<double>(0.0) : secondsOf(options.every, "--every");
     if (!every) return tl::unexpected(every.error());
+    if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
     if (!options.every.empty() && options.dump.empty())
         return fail(ErrorKind::Input, "--every", "says how often to dump; name the file with --dump");
 
@@ -93,6 +95,9 @@ Result<void> run(const RunOptions& options) {
     if (!device) return tl::unexpected(device.error());
     auto loaded = scene::load(options.scene.scene, (*device)->info().kind, options.scene.overrides);
     if (!loaded) return tl::unexpected(loaded.error());
+    if (!(*duration / loaded->step <= mostSteps))
+        return fail(ErrorKind::Input, "--for",
+                    fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
     auto simulation = sim::Simulation::create(**device, std::move(*loaded));
     if (!simulation) return tl::unexpected(simulation.error());
     std::optional<Dump> dump;

@@ -43,7 +43,7 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
 }  // namespace
 
 std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times) {
-    return reportOf(device, simulation, times).dump();
+    return reportOf(device, simulation, times).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times) {

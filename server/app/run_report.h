@@ -9,7 +9,7 @@ namespace spherule::app {
 
 struct RunTimes {
     double wallSeconds = 0;
-    double deviceSeconds = 0;  // time between the first and the last command on the device
+    double deviceSeconds = 0;  // sum of the passes
 };
 
 // The line that `run --json` prints: every key, always.

@@ -7,8 +7,8 @@
 namespace spherule::app {
 
 Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const net::Options& listen) {
+    std::promise<Result<void>> ready;  // outlives the thread that keeps it
     std::unique_ptr<Runtime> runtime(new Runtime());
-    std::promise<Result<void>> ready;
     auto opened = ready.get_future();
     runtime->simulation_ = std::jthread(
         [self = runtime.get(), scene, &ready](const std::stop_token& stop) { self->simulate(stop, scene, ready); });
@@ -51,7 +51,13 @@ void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, s
     listening_.get_future().wait();
     if (stop.stop_requested()) return;
     SimLoop loop(**world, requests_, live_, outlets());
-    if (auto ended = loop.run(stop); !ended) {
+    Result<void> ended;
+    try {
+        ended = loop.run(stop);
+    } catch (const std::exception& error) {
+        ended = fail(ErrorKind::DeviceLost, "simulation", std::string("ended: ") + error.what());
+    }
+    if (!ended) {
         failure_ = ended.error();
         failed_ = true;
         live_.update([](LiveReport& report) { report.state = "failed"; });
@@ -65,7 +71,8 @@ Outlets Runtime::outlets() {
             .state = [this](Encoder::Packed state) { encoder_->put(std::move(state)); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },
-            .rate = [this] { return server_->rate(); }};
+            .rate = [this] { return server_->rate(); },
+            .joins = [this] { return server_->joins(); }};
 }
 
 net::Handlers Runtime::handlers() {
@@ -93,13 +100,19 @@ std::optional<Error> Runtime::failure() const {
 }
 
 void Runtime::drain() {
-    simulation_.request_stop();
-    if (simulation_.joinable()) simulation_.join();
     live_.update([](LiveReport& report) { report.state = "draining"; });
     v1::ServerMessage message;
     message.mutable_event()->set_kind(v1::Event::DRAINING);
     message.mutable_event()->set_text("The server is stopping.");
     server_->broadcast(std::make_shared<const frame::Message>(std::move(message)));
+    simulation_.request_stop();
+    if (simulation_.joinable()) simulation_.join();
+    while (auto request = requests_.tryPop()) {
+        v1::CommandResult result;
+        result.set_id(request->command.id());
+        result.mutable_refused()->set_reason("the server is stopping");
+        server_->reply(request->session, std::move(result));
+    }
     server_->drain();
 }
 

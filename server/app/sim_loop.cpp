@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "core/log.h"
 
@@ -15,6 +16,7 @@ constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then wai
 constexpr auto copyWait = 1ms;
 constexpr auto reportEvery = 500ms;
 constexpr int commandsPerStep = 32;
+constexpr std::size_t mostPending = 2;  // copies that a device has under way at once
 
 frame::SharedMessage share(v1::ServerMessage message) {
     return std::make_shared<const frame::Message>(std::move(message));
@@ -56,11 +58,15 @@ Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
 void SimLoop::serve(const Request& request) {
     v1::CommandResult result;
     result.set_id(request.command.id());
-    if (auto applied = world_.apply(request.command)) {
-        *result.mutable_applied() = std::move(*applied);
-    } else {
-        result.mutable_refused()->set_field(applied.error().where);
-        result.mutable_refused()->set_reason(applied.error().message);
+    try {
+        if (auto applied = world_.apply(request.command)) {
+            *result.mutable_applied() = std::move(*applied);
+        } else {
+            result.mutable_refused()->set_field(applied.error().where);
+            result.mutable_refused()->set_reason(applied.error().message);
+        }
+    } catch (const std::bad_alloc&) {
+        result.mutable_refused()->set_reason("there is not enough memory for this");
     }
     if (!request.command.has_query() && result.has_applied()) announce();
     outlets_.reply(request.session, std::move(result));
@@ -72,12 +78,16 @@ void SimLoop::announce() {
         epoch_ = world_.epoch();
         pending_.clear();
         nonFinite_ = false;
+        measured_ = {};
         outlets_.scene(share(world_.facts()));
     }
-    outlets_.settings(share(world_.settings()));
+    v1::ServerMessage settings = world_.settings();
+    if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
+        settings_ = std::move(bytes);
+        outlets_.settings(share(std::move(settings)));
+    }
     stale_ = true;
     nextState_ = {};
-    nextReport_ = {};
 }
 
 Result<void> SimLoop::step() {
@@ -107,10 +117,13 @@ void SimLoop::stopAtNonFinite() {
 
 // Nothing is packed, copied or encoded while nobody watches.
 void SimLoop::produce(Pacer::Clock::time_point now) {
-    const bool watched = outlets_.viewers() > 0;
-    if (watched && !watched_) stale_ = true;
-    watched_ = watched;
-    if (!watched || !stale_ || now < nextState_ || world_.simulation().count() == 0) return;
+    watched_ = outlets_.viewers() > 0;
+    if (const std::uint64_t joins = outlets_.joins(); joins != joins_) {
+        joins_ = joins;
+        stale_ = true;  // whoever came wants to see the world, paused or not
+    }
+    if (!watched_ || !stale_ || pending_.size() >= mostPending || now < nextState_ || world_.simulation().count() == 0)
+        return;
     auto copy = world_.simulation().pack();
     if (!copy) return;
     Pending next;
@@ -162,7 +175,7 @@ void SimLoop::report() {
     if (watched_) measured_ = world_.simulation().statistics();
     const auto times = world_.simulation().passSeconds();
     live_.update([&](LiveReport& report) {
-        report.state = world_.paused() ? "paused" : "running";
+        if (report.state != "draining") report.state = world_.paused() ? "paused" : "running";
         report.scene = world_.simulation().scene().name;
         report.spheres = world_.simulation().count();
         report.steps = world_.simulation().steps();
@@ -170,7 +183,7 @@ void SimLoop::report() {
         report.rebuilds = world_.simulation().counters().rebuilds;
         report.framesProduced = sequence_;
         report.status = status(now);
-        report.passSeconds.resize(times.size());
+        report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));
         for (std::size_t pass = 0; pass < times.size(); ++pass) report.passSeconds[pass] += times[pass];
     });
 }

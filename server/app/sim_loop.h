@@ -28,10 +28,11 @@ struct Outlets {
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;
     std::function<std::uint32_t()> viewers;
     std::function<std::uint32_t()> rate;
+    std::function<std::uint64_t()> joins;
 };
 
-// What the simulation thread does: commands, steps, states. It waits for a command or for the next step, never for the
-// network or for a copy.
+// What the simulation thread does: commands, steps, states. It waits for a command, for the next step or for the device
+// to end one, never for the network or for the copy of a state.
 class SimLoop {
   public:
     SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, Outlets outlets);
@@ -66,6 +67,8 @@ class SimLoop {
     sim::Statistics measured_;  // of the last report while somebody watched
     std::uint64_t sequence_ = 0;
     std::uint32_t epoch_ = 0;
+    std::string settings_;  // as last sent
+    std::uint64_t joins_ = 0;
     bool watched_ = false;
     bool stale_ = true;  // the viewers' picture is older than the world
     bool nonFinite_ = false;

@@ -15,6 +15,12 @@ constexpr double slowest = 0.001;
 constexpr double fastest = 1000;
 constexpr std::uint32_t mostSteps = 100'000;
 
+Result<void> checkSpeed(double speed) {
+    if (speed >= slowest && speed <= fastest) return {};
+    return fail(ErrorKind::Refused, "set.speed",
+                fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<World>> World::open(const std::string& deviceChoice, const std::string& scene,
@@ -33,6 +39,7 @@ Result<void> World::adopt(scene::Scene scene) {
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
     pacer_.setStep(simulation_->scene().step);
+    pacer_.resume(Pacer::Clock::now());
     pendingSteps_ = 0;
     refreshFacts();
     return {};
@@ -72,6 +79,7 @@ Result<v1::Applied> World::apply(const v1::Command& command) {
             return applied();
         case v1::Command::kResume:
             paused_ = false;
+            pendingSteps_ = 0;
             pacer_.resume(Pacer::Clock::now());
             return applied();
         case v1::Command::kStep:
@@ -81,9 +89,13 @@ Result<v1::Applied> World::apply(const v1::Command& command) {
         default:
             break;
     }
-    if (command.has_set() && command.set().has_speed())
-        if (auto done = setSpeed(command.set().speed()); !done) return done;
+    const bool paced = command.has_set() && command.set().has_speed();
+    if (paced)
+        if (auto right = checkSpeed(command.set().speed()); !right) return tl::unexpected(right.error());
     auto done = simulation_->apply(command);
+    if (!done) return done;
+    if (paced) pacer_.setSpeed(command.set().speed());
+    if (command.has_reset()) pendingSteps_ = 0;
     if (simulation_->generation() != generation_) refreshFacts();
     return done;
 }
@@ -94,14 +106,6 @@ Result<v1::Applied> World::stepBy(std::uint32_t count) {
     paused_ = true;
     pendingSteps_ = count;
     pacer_.resume(Pacer::Clock::now());
-    return applied();
-}
-
-Result<v1::Applied> World::setSpeed(double speed) {
-    if (!(speed >= slowest && speed <= fastest))
-        return fail(ErrorKind::Refused, "set.speed",
-                    fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
-    pacer_.setSpeed(speed);
     return applied();
 }
 

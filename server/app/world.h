@@ -41,7 +41,6 @@ class World {
 
     Result<v1::Applied> applied() const;
     Result<v1::Applied> load(const v1::LoadScene& load);
-    Result<v1::Applied> setSpeed(double speed);
     Result<v1::Applied> stepBy(std::uint32_t count);
     Result<void> adopt(scene::Scene scene);
     void refreshFacts();

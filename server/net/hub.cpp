@@ -27,6 +27,7 @@ void Hub::join(SessionId id, std::uint32_t rate) {
     entry.joined = true;
     entry.rate = rate;
     countViewers();
+    if (rate > 0) ++joins_;
     if (scene_) entry.session->send(scene_);
     if (settings_) entry.session->send(settings_);
     if (rate > 0 && latest_) entry.session->offer(latest_);

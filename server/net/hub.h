@@ -38,6 +38,7 @@ class Hub {
     void sendTo(SessionId id, frame::SharedMessage message);
 
     [[nodiscard]] std::uint32_t viewers() const { return viewers_; }
+    [[nodiscard]] std::uint64_t joins() const { return joins_; }
     [[nodiscard]] std::uint32_t rate() const { return rate_; }
 
     // Closes what is open and whatever comes later.
@@ -64,6 +65,7 @@ class Hub {
     frame::SharedMessage settings_;
     frame::SharedMessage latest_;  // kept only while somebody watches: later it would be old
     std::atomic<std::uint32_t> viewers_ = 0;
+    std::atomic<std::uint64_t> joins_ = 0;
     std::atomic<std::uint32_t> rate_ = 0;
 };
 

@@ -49,6 +49,7 @@ class RunningServer final : public Server {
         context_.hub.sendTo(session, std::make_shared<frame::Message>(std::move(message)));
     }
 
+    [[nodiscard]] std::uint64_t joins() const override { return context_.hub.joins(); }
     [[nodiscard]] std::uint32_t viewers() const override { return context_.hub.viewers(); }
     [[nodiscard]] std::uint32_t rate() const override { return context_.hub.rate(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }

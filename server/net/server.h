@@ -37,7 +37,7 @@ struct HttpAnswer {
 // in by the server.
 struct Handlers {
     std::function<v1::Welcome(const v1::Hello&)> welcome;
-    std::function<bool(SessionId, v1::Command)> submit;      // false: the queue is full
+    std::function<bool(SessionId, v1::Command)> submit;  // false: the queue is full
     // status 404 where there is nothing; `counters` are the server's.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;
 };
@@ -59,6 +59,7 @@ class Server {
     virtual void reply(SessionId session, v1::CommandResult result) = 0;
 
     [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want states
+    [[nodiscard]] virtual std::uint64_t joins() const = 0;    // such sessions ever: each wants to see a state
     [[nodiscard]] virtual std::uint32_t rate() const = 0;     // highest state rate that one of them wants, 1/s
 
     // Stops accepting, closes sessions with 1012 after what is queued, waits up to drainTimeout.

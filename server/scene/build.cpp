@@ -85,7 +85,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     scene.description = message.description();
     scene.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
     if (message.has_restitution()) scene.restitution = check.within(message.restitution(), 0, 1, "restitution");
-    if (message.has_step()) scene.step = check.upTo(message.step(), 1, "step", " s");
+    if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
     if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
     scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
     if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");

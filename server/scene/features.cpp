@@ -12,12 +12,6 @@ bool differ(const std::vector<Sphere>& spheres, auto quantity) {
                        [&](const Sphere& s) { return quantity(s) != quantity(spheres.front()); });
 }
 
-// Mass up to a factor that all spheres share.
-double massScale(const Sphere& sphere) {
-    const auto radius = static_cast<double>(sphere.radius);
-    return static_cast<double>(sphere.density) * radius * radius * radius;
-}
-
 bool bounces(const Scene& scene) {
     const auto any = [](const auto& list) {
         return std::any_of(list.begin(), list.end(), [](const auto& item) { return item.restitution > 0; });
@@ -39,13 +33,13 @@ Features featuresOf(const Scene& scene) {
         .gravity = glm::length(scene.gravity) > 0,
         .contacts = scene.sphereContacts,
         .radii = differ(scene.spheres, [](const Sphere& s) { return s.radius; }),
-        .masses = differ(scene.spheres, massScale),
         .restitution = bounces(scene),
         .restitutions = differ(scene.spheres, [](const Sphere& s) { return s.restitution; }),
         .walls = !std::all_of(open.begin(), open.end(), [](bool face) { return face; }),
         .planes = has<Plane>(scene),
         .boxes = has<Box>(scene),
-        .sleep = scene.sleep.enabled,
+        // Without gravity nothing rests: what is slow only drifts.
+        .sleep = scene.sleep.enabled && glm::length(scene.gravity) > 0,
     };
 }
 

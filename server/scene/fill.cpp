@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "scene/occupancy.h"
@@ -16,6 +17,8 @@ namespace {
 // what 0.3 needs keeps an impossible wish from taking forever.
 constexpr std::uint64_t workPerSphere = 2'000;
 constexpr std::uint64_t workAtLeast = 10'000'000;
+constexpr std::uint64_t workAtMost = 4'000'000'000;  // some tens of seconds
+constexpr double jammed = 0.38;
 
 // Large ones first: they find no place later. Equal radii keep their order.
 std::vector<std::uint32_t> byFallingRadius(const std::vector<Sphere>& spheres) {
@@ -36,7 +39,7 @@ glm::dvec3 drawPlace(Random& random, const Box& region, double radius) {
 
 bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector<Obstacle>& obstacles,
               Occupancy& occupancy, Random& random, std::size_t& placed) {
-    const std::uint64_t budget = occupancy.work() + std::max(workAtLeast, workPerSphere * spheres.size());
+    const std::uint64_t budget = occupancy.work() + std::clamp(workPerSphere * spheres.size(), workAtLeast, workAtMost);
     std::uint64_t work = 0;
     for (const std::uint32_t i : byFallingRadius(spheres)) {
         const auto radius = static_cast<double>(spheres[i].radius);
@@ -64,6 +67,14 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
     if (const double narrowest = std::min({side.x, side.y, side.z}); narrowest < 2 * radii.max) {
         check.refuse(input.field, fmt::format("is {} m wide between min and max, too narrow for a radius of {} m",
                                               narrowest, radii.max));
+        return {};
+    }
+
+    const double least = fill.count() * 4.0 / 3 * std::numbers::pi * std::pow(radii.min, 3);
+    if (least > jammed * side.x * side.y * side.z) {
+        check.refuse(countField, fmt::format("asks for {} spheres, at least {:.3g} of the volume between min and max; "
+                                             "random places without overlaps end at {}",
+                                             fill.count(), least / (side.x * side.y * side.z), jammed));
         return {};
     }
 

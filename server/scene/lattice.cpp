@@ -42,7 +42,8 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
     const Places places = placesIn(region, spacing, radii.max + jitter);
     const double wanted = lattice.has_count() ? lattice.count() : places.total();
     const std::string field = lattice.has_count() ? at(input.field, "count") : input.field;
-    if (wanted > places.total() || (wanted == 0 && !lattice.has_count())) {
+    // Not "wanted > total": where one axis has no place and another endless ones, the total is no number.
+    if (!(wanted <= places.total()) || (wanted == 0 && !lattice.has_count())) {
         check.refuse(field,
                      fmt::format("asks for {:.0f} spheres, but {:.0f} x {:.0f} x {:.0f} fit between min and max "
                                  "at a spacing of {} m",

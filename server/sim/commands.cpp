@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/load.h"
+#include "sim/parameters.h"
 #include "sim/picking.h"
 #include "sim/simulation.h"
 
@@ -83,10 +84,19 @@ Result<v1::Applied> Simulation::apply(const v1::Command& command) {
 }
 
 Result<void> Simulation::set(const v1::Set& set) {
+    if (set.gravity().empty() && !set.has_restitution() && !set.has_substeps()) return {};
     scene::Scene changed = scene_;
     for (auto change : {setGravity, setRestitution, setSubsteps})
         if (auto done = change(changed, set); !done) return done;
-    return adopt(std::move(changed), snapshot());
+    if (!set.gravity().empty() || set.has_restitution()) {
+        if (auto done = adopt(std::move(changed), snapshot()); !done) return done;
+        if (set.has_restitution() && !scene_.obstacles.empty()) ++generation_;
+        return {};
+    }
+    // A change of substeps alone disturbs nobody's sleep.
+    scene_ = std::move(changed);
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    return {};
 }
 
 Result<void> Simulation::spawn(const v1::Spawn& spawn) {
@@ -95,7 +105,7 @@ Result<void> Simulation::spawn(const v1::Spawn& spawn) {
     const glm::dvec3 centre = grown.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 now = glm::dvec3(state.position[id]);
-        // One that has left the numbers, or the world, is in nobody's way.
+        // One that has left the numbers, or the world, counts where it began.
         if (glm::dot(now, now) < farthest * farthest) grown.spheres[id].position = now + centre;
     }
 

@@ -12,17 +12,14 @@ namespace {
 // moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
-void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan, const Radii& radii) {
-    const double g = glm::length(scene.gravity);
+void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan) {
     // Well above what lets a sphere fall asleep, or the two would take turns.
     const double wake = 3 * scene.sleep.speed;
-    // Far enough for a support that falls away to reach the wake speed before it is out of sight.
-    double gap = 0.02 * radii.smallest;
-    if (g > 0) gap = std::max(gap, wake * wake / g);
     p.sleepSpeed = static_cast<float>(scene.sleep.speed);
     p.sleepTime = static_cast<float>(scene.sleep.time);
     p.wakeSpeed = static_cast<float>(wake);
-    p.wakeGap = std::min(static_cast<float>(gap), 0.5F * plan.grid.margin);
+    // A little more than what a support may creep before it is noticed.
+    p.wakeGap = 0.5F * plan.grid.margin;
 }
 
 }  // namespace
@@ -31,7 +28,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
                                  const v1::WireGrid& wire) {
     layout::Parameters p{};
     const glm::dvec3 centre = scene.bounds.centre();
-    p.gravity = glm::vec4(glm::vec3(scene.gravity), static_cast<float>(glm::length(scene.gravity)));
+    p.gravity = glm::vec4(glm::vec3(scene.gravity), 0);
     p.wallMin = glm::vec4(glm::vec3(scene.bounds.min - centre), 0);
     p.wallMax = glm::vec4(glm::vec3(scene.bounds.max - centre), 0);
     p.wireOrigin = glm::vec4(glm::vec3(glm::dvec3(wire.origin_x(), wire.origin_y(), wire.origin_z()) - centre),
@@ -47,7 +44,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.radius = static_cast<float>(radii.largest);
     p.restitution = scene.spheres.empty() ? static_cast<float>(scene.restitution) : scene.spheres.front().restitution;
     p.wallRestitution = static_cast<float>(scene.bounds.restitution);
-    setSleep(p, scene, plan, radii);
+    setSleep(p, scene, plan);
 
     p.spheres = plan.spheres;
     p.groups = plan.groups() / 8;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "sim/shaders.h"
@@ -29,13 +30,10 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(compute::Device& device, Plan
     return pipeline;
 }
 
-Result<void> Pipeline::allocateArray(const ArraySpec& spec) {
-    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes);
-    if (!made) return tl::unexpected(made.error());
-    const auto index = static_cast<std::size_t>(spec.array);
-    owned_[index] = std::move(*made);
+void Pipeline::adopt(Array array, std::unique_ptr<compute::Buffer> made) {
+    const auto index = static_cast<std::size_t>(array);
+    owned_[index] = std::move(made);
     slots_[index] = owned_[index].get();
-    return {};
 }
 
 Result<void> Pipeline::allocate() {
@@ -43,8 +41,11 @@ Result<void> Pipeline::allocate() {
     if (!absent) return tl::unexpected(absent.error());
     absent_ = std::move(*absent);
     slots_.fill(absent_.get());
-    for (const ArraySpec& spec : plan_.arrays)
-        if (auto done = allocateArray(spec); !done) return done;
+    for (const ArraySpec& spec : plan_.arrays) {
+        auto made = device_.createBuffer(nameOf(spec.array), spec.bytes);
+        if (!made) return tl::unexpected(made.error());
+        adopt(spec.array, std::move(*made));
+    }
     auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters));
     if (!parameters) return tl::unexpected(parameters.error());
     parameters_ = std::move(*parameters);
@@ -63,7 +64,8 @@ Result<void> Pipeline::compile() {
             if (std::ranges::any_of(kernels_, [&](const auto& known) { return known.first == launch.kernel; }))
                 continue;
             auto kernel = device_.createKernel(shaders(), launch.kernel, defines);
-            if (!kernel) return tl::unexpected(kernel.error());
+            // Not the user's scene but the device is at fault.
+            if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
             kernels_.emplace_back(launch.kernel, std::move(*kernel));
         }
     }
@@ -84,6 +86,7 @@ void Pipeline::upload(const State& state) {
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
     write<std::uint32_t>(Array::Counters, counters);
+    listsPending_ = true;
 }
 
 State Pipeline::download() {
@@ -112,15 +115,37 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
 }
 
 Result<void> Pipeline::growPairs(std::uint32_t capacity) {
+    const std::uint64_t bytes = std::uint64_t{capacity} * sizeof(glm::uvec2);
+    auto pairs = device_.createBuffer(nameOf(Array::Pairs), bytes);
+    if (!pairs) return tl::unexpected(pairs.error());
+    auto touching = device_.createBuffer(nameOf(Array::Touching), bytes);
+    if (!touching) return tl::unexpected(touching.error());
+    adopt(Array::Pairs, std::move(*pairs));
+    adopt(Array::Touching, std::move(*touching));
     plan_.pairCapacity = capacity;
-    for (ArraySpec& spec : plan_.arrays) {
-        if (spec.array != Array::Pairs && spec.array != Array::Touching) continue;
-        spec.bytes = std::uint64_t{capacity} * sizeof(glm::uvec2);
-        if (auto done = allocateArray(spec); !done) return done;
-    }
+    for (ArraySpec& spec : plan_.arrays)
+        if (spec.array == Array::Pairs || spec.array == Array::Touching) spec.bytes = bytes;
     const std::uint32_t rebuild = 1;
     write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
+    listsPending_ = true;
     return {};
+}
+
+void Pipeline::substep() {
+    run(plan_.substep);
+    listsPending_ = false;
+}
+
+void Pipeline::runStatistics() {
+    if (listsPending_) {
+        std::vector<LaunchSpec> rebuild;
+        std::ranges::copy_if(plan_.substep, std::back_inserter(rebuild), [](const LaunchSpec& launch) {
+            return launch.pass == Pass::Grid || launch.pass == Pass::Lists;
+        });
+        run(rebuild);
+        listsPending_ = false;
+    }
+    run(plan_.statistics);
 }
 
 void Pipeline::run(const std::vector<LaunchSpec>& launches) {

@@ -21,8 +21,8 @@ class Pipeline {
     void upload(const State& state);  // in id order; the lists are rebuilt in the next substep
     [[nodiscard]] State download();   // in id order; waits for the device
 
-    void substep() { run(plan_.substep); }
-    void runStatistics() { run(plan_.statistics); }
+    void substep();
+    void runStatistics();  // of the state as it is: builds the lists first where they are not those of this state
     void runPack() { run(plan_.pack); }
 
     // Whole array as elements of T; waits for the device. Empty where the plan has no such array.
@@ -51,11 +51,12 @@ class Pipeline {
 
     Result<void> allocate();
     Result<void> compile();
-    Result<void> allocateArray(const ArraySpec& spec);
+    void adopt(Array array, std::unique_ptr<compute::Buffer> made);
     void run(const std::vector<LaunchSpec>& launches);
 
     compute::Device& device_;
     Plan plan_;
+    bool listsPending_ = false;
     std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;
     std::array<compute::Buffer*, arrayCount> slots_{};  // where the plan has none: a small one that nothing touches
     std::unique_ptr<compute::Buffer> absent_;

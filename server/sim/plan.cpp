@@ -47,7 +47,7 @@ void planArrays(Plan& plan, const scene::Scene& scene) {
     const std::uint64_t n = plan.spheres;
     add.array(Array::Position, n, 16);
     add.array(Array::Velocity, n, 16);
-    if (has.restitution || has.sleep) add.array(Array::Before, n, 16);
+    if (has.needBefore()) add.array(Array::Before, n, 16);
     add.array(Array::Id, n, 4);
     if (has.restitutions) add.array(Array::Bounce, n, 4);
     if (has.planes || has.boxes) add.array(Array::Obstacles, scene.obstacles.size(), sizeof(layout::Obstacle));

@@ -29,9 +29,14 @@ std::vector<Row> rowsOf(const Plan& plan) {
 }
 
 std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features& has) {
-    return {{"gravity", has.gravity}, {"contacts", has.contacts},       {"radii", has.radii},
-            {"masses", has.masses},   {"restitution", has.restitution}, {"restitutions", has.restitutions},
-            {"walls", has.walls},     {"planes", has.planes},           {"boxes", has.boxes},
+    return {{"gravity", has.gravity},
+            {"contacts", has.contacts},
+            {"radii", has.radii},
+            {"restitution", has.restitution},
+            {"restitutions", has.restitutions},
+            {"walls", has.walls},
+            {"planes", has.planes},
+            {"boxes", has.boxes},
             {"sleep", has.sleep}};
 }
 

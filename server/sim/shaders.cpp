@@ -30,8 +30,7 @@ std::vector<compute::Define> definesFor(const scene::Features& features) {
         define("RADII", features.radii),
         define("RESTITUTION", features.restitution),
         define("RESTITUTIONS", features.restitutions),
-        // The velocity before the substep serves both.
-        define("BEFORE", features.restitution || features.sleep),
+        define("BEFORE", features.needBefore()),
         define("WALLS", features.walls),
         define("PLANES", features.planes),
         define("BOXES", features.boxes),

@@ -21,6 +21,7 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     radii_ = radii;
     pipeline_ = std::move(*made);
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
+    crowded_ = false;
     pipeline_->upload(state);
     if (plan().has(Array::Obstacles)) pipeline_->write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene_));
     if (plan().has(Array::Bounce)) {
@@ -52,16 +53,21 @@ Result<void> Simulation::step() {
 Result<void> Simulation::guard() {
     if (auto alive = device_.status(); !alive) return alive;
     readCounters();
-    if (counters_.unlisted > 0) {
-        const std::uint32_t capacity = std::max(counters_.pairs, plan().pairCapacity) * 2;
-        spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
-        if (auto grown = pipeline_->growPairs(capacity); !grown) {
-            spdlog::warn("{}; those groups go on without lists, slower", grown.error().text());
-            return {};
-        }
-        pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
-    }
+    if (counters_.unlisted > 0 && !crowded_) makeRoom();
     return {};
+}
+
+// On failure the groups in question go on without lists, and nothing is tried again for this scene.
+void Simulation::makeRoom() {
+    const std::uint64_t wanted = 2 * std::max<std::uint64_t>(counters_.pairs, plan().pairCapacity);
+    const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, UNLISTED - 1));
+    spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
+    if (auto grown = pipeline_->growPairs(capacity); !grown) {
+        crowded_ = true;
+        spdlog::warn("{}; those groups go on without lists, slower", grown.error().text());
+        return;
+    }
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
 }
 
 void Simulation::setWireGrid(const v1::WireGrid& grid) {

@@ -61,6 +61,7 @@ class Simulation {
     Result<void> adopt(scene::Scene scene, State state);
     Result<void> guard();
     void readCounters();
+    void makeRoom();
 
     Result<void> set(const v1::Set& set);
     Result<void> spawn(const v1::Spawn& spawn);
@@ -74,6 +75,7 @@ class Simulation {
     v1::WireGrid wire_;
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
+    bool crowded_ = false;  // the device has no room for more pairs
     std::uint64_t steps_ = 0;
     double time_ = 0;
     std::uint32_t generation_ = 0;

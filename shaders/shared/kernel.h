@@ -5,7 +5,6 @@
 //   KERNEL(count) { ... }                    the body; `invocation` runs over 0 .. count - 1
 //   HAS(FEATURE)                             whether the scene requires it: a constant in GLSL, a value in C++
 //   PRIVATE(type, name)                      a variable of the invocation that functions share
-//   INOUT(type)                              a parameter that a function changes
 #ifndef __cplusplus
 
 #ifndef LOCAL_SIZE
@@ -14,7 +13,6 @@
 layout(local_size_x = LOCAL_SIZE) in;
 layout(location = 0) uniform uint phase;
 
-#define INOUT(type) inout type
 #define PRIVATE(type, name) type name;
 #define HAS(feature) (feature)
 #define BUFFER(slot, access, type, name, block) \

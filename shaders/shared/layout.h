@@ -2,7 +2,7 @@
 
 // The uniform block, std140: vectors first, then scalars in fours.
 struct Parameters {
-    vec4 gravity;        // xyz in m/s^2; w = its length
+    vec4 gravity;        // xyz in m/s^2; w = 0
     vec4 wallMin;        // domain walls
     vec4 wallMax;
     vec4 wireOrigin;     // of the packed grid; w = 1 / quantum
@@ -54,11 +54,14 @@ struct SphereStatistics {
     uint unused;            // keeps the size a multiple of 16 bytes
 };
 
+// In place of a quiet time: of a sphere that has crept out of the margin of the pair lists.
+#define CREPT -1.0f
+
 // Words of the `counters` buffer.
 #define COUNTER_REBUILD 0u      // lists are to be rebuilt
 #define COUNTER_PAIRS 1u        // listed
 #define COUNTER_UNLISTED 2u     // cell groups that found no room for their pairs
-#define COUNTER_NON_FINITE 3u   // spheres that have left the numbers
+#define COUNTER_NON_FINITE 3u   // not zero: some sphere has left the numbers
 #define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
 #define COUNTER_REBUILDS 5u     // since the start
 #define COUNTER_WORDS 8u

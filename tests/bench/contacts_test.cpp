@@ -101,7 +101,7 @@ TEST(Arrangements, LieInsideTheBoxAndBarelyTouchOrNotAtAll) {
     }
     EXPECT_GT(meanOverlap(state.position), 0);
     EXPECT_LT(meanOverlap(state.position), 0.02);
-    EXPECT_EQ(meanOverlap(arranged(scene, loose).position), 0);
+    EXPECT_EQ(meanOverlap(arranged(scene, falling).position), 0);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct State {
 
     [[nodiscard]] std::string table() const { return "Ours by pass, " + name; }
 };
-const std::array states = {State{"loose", loose}, State{"dense", dense}};
+const std::array states = {State{"falling", falling}, State{"dense", dense}};
 
 const std::string perSphere = "wall per sphere";
 

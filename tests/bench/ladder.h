@@ -7,7 +7,7 @@
 
 namespace spherule::bench {
 
-// Ours by pass at several sizes, one step after the spheres were let go from the arrangements `loose` and `dense`,
+// Ours by pass at several sizes, one step after the spheres were let go from the arrangements `falling` and `dense`,
 // which cost little to reach at any size. Medians of `rounds` rounds of 24 substeps each, fewer where they take
 // seconds; the sizes take turns, so that a change of the machine's load meets all of them.
 Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned rounds, Figures& figures);

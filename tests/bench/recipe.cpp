@@ -59,8 +59,9 @@ sim::State arranged(const scene::Scene& scene, const Arrangement& arrangement) {
     for (std::uint32_t k = 0; k < state.count(); ++k) {
         const glm::dvec3 place(k % across, k / across % across, k / (across * across));
         const glm::dvec3 at = first + spacing * place + anywhere(arrangement.jitter * radius);
+        const glm::dvec3 velocity = glm::dvec3(0, 0, -arrangement.fall) + anywhere(arrangement.stir);
         state.position[k] = glm::vec4(glm::vec3(at), radius);
-        state.velocity[k] = glm::vec4(glm::vec3(anywhere(arrangement.speed)), state.velocity[k].w);
+        state.velocity[k] = glm::vec4(glm::vec3(velocity), state.velocity[k].w);
     }
     return state;
 }

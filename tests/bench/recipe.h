@@ -18,16 +18,17 @@ Result<scene::Scene> box(std::uint32_t spheres);
 struct Arrangement {
     double spacing = 0;  // in r
     double jitter = 0;   // in r, uniform in +-jitter per axis
-    double speed = 0;    // m/s, uniform in +-speed per axis
+    double fall = 0;     // m/s, downwards
+    double stir = 0;     // m/s, uniform in +-stir per axis
 };
 sim::State arranged(const scene::Scene& scene, const Arrangement& arrangement);
 
 // As dense as a bed at once: each sphere touches its neighbours.
-constexpr Arrangement dense{.spacing = 2, .jitter = 0.01, .speed = 0};
+constexpr Arrangement dense{.spacing = 2, .jitter = 0.01};
 
-// In flight, all ways, nearly touching. Its spacing has nothing to do with the width of the grid's cells: where they
-// agree, as in the box before it falls, the cells hold one sphere each or many, depending on the number of spheres.
-constexpr Arrangement loose{.spacing = 2.4, .jitter = 0.2, .speed = 1};
+// Halfway down, nearly touching. Its spacing has nothing to do with the width of the grid's cells: where they agree, as
+// in the box before it falls, the cells hold one sphere each or many, depending on the number of spheres.
+constexpr Arrangement falling{.spacing = 2.4, .jitter = 0.2, .fall = 2, .stir = 0.5};
 
 // Mean overlap of the overlapping pairs of equal spheres (w = radius), as a share of the radius.
 double meanOverlap(std::vector<glm::vec4> positions);

@@ -12,6 +12,7 @@ TEST(Cradle, TheLastBallLeavesWithTheSpeedPutIn) {
     const double speed = velocityOf(simulation->snapshot(), 0).x;
     run(*simulation, 0.5);
     const sim::State state = simulation->snapshot();
+    RecordProperty("last", std::to_string(velocityOf(state, 4).x / speed));
     EXPECT_GE(velocityOf(state, 4).x, 0.99 * speed);
     EXPECT_LE(velocityOf(state, 4).x, 1.001 * speed);
     for (std::uint32_t id = 0; id < 4; ++id) EXPECT_LT(glm::length(velocityOf(state, id)), 0.01 * speed) << id;

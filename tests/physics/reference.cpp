@@ -46,21 +46,24 @@ void World::fly(double h) {
 }
 
 void World::separatePairs(double h) {
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        for (std::size_t j = i + 1; j < spheres.size(); ++j) {
-            Sphere& a = spheres[i];
-            Sphere& b = spheres[j];
-            const glm::dvec3 line = a.x - b.x;
-            const double distance = glm::length(line);
-            const double overlap = a.radius + b.radius - distance;
-            if (overlap <= 0) continue;
-            const glm::dvec3 push = line / distance * overlap;
-            share(a.x, b.x, a.inverseMass, b.inverseMass, push);
-            share(a.v, b.v, a.inverseMass, b.inverseMass, push / h);
-            touching_.emplace_back(i, j);
-            largestOverlap_ = std::max(largestOverlap_, overlap);
-        }
-    }
+    for (const auto& [i, j] : order) separatePair(i, j, h);
+    if (!order.empty()) return;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+        for (std::size_t j = i + 1; j < spheres.size(); ++j) separatePair(i, j, h);
+}
+
+void World::separatePair(std::size_t i, std::size_t j, double h) {
+    Sphere& a = spheres[i];
+    Sphere& b = spheres[j];
+    const glm::dvec3 line = a.x - b.x;
+    const double distance = glm::length(line);
+    const double overlap = a.radius + b.radius - distance;
+    if (overlap <= 0) return;
+    const glm::dvec3 push = line / distance * overlap;
+    share(a.x, b.x, a.inverseMass, b.inverseMass, push);
+    share(a.v, b.v, a.inverseMass, b.inverseMass, push / h);
+    touching_.emplace_back(i, j);
+    largestOverlap_ = std::max(largestOverlap_, overlap);
 }
 
 void World::separateFromWalls(double h) {
@@ -101,10 +104,10 @@ void World::bouncePair(std::size_t i, std::size_t j) {
     const double speed = glm::dot(a.v - b.v, n);
     const double approach = glm::dot(u_[i] - u_[j], n);
     double wanted = 0;
-    if (anythingBounces_ && approach < 0) {
+    if (approach < 0) {
         wanted = -std::min(a.restitution, b.restitution) * approach;
         share(u_[i], u_[j], a.inverseMass, b.inverseMass, n * (wanted - approach));
-    } else if (anythingBounces_) {
+    } else {
         wanted = std::clamp(speed, 0.0, approach);
     }
     share(a.v, b.v, a.inverseMass, b.inverseMass, n * (wanted - speed));

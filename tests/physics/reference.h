@@ -30,7 +30,8 @@ class World {
     std::vector<Sphere> spheres;
     std::vector<Wall> walls;
     glm::dvec3 gravity{};
-    bool contacts = true;  // of spheres with each other
+    bool contacts = true;                                    // of spheres with each other
+    std::vector<std::pair<std::size_t, std::size_t>> order;  // in which pairs are taken; empty: by index, all of them
 
     // Advances by h seconds.
     void substep(double h);
@@ -42,6 +43,7 @@ class World {
   private:
     void fly(double h);
     void separatePairs(double h);
+    void separatePair(std::size_t i, std::size_t j, double h);
     void separateFromWalls(double h);
     void bouncePairs();
     void bounceFromWalls();

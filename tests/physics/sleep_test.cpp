@@ -88,6 +88,13 @@ TEST(Sleep, EndsWhenTheSupportIsRemoved) {
     for (std::uint32_t id = 1; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.04) << id;
 }
 
+TEST(Sleep, EndsWhenTheSupportCreepsAway) {
+    const auto simulation = sleepingColumn(2);
+    push(*simulation, 0, {0.025, 0, 0});
+    run(*simulation, 5);
+    EXPECT_LT(positionOf(simulation->snapshot(), 1).z, -0.95 + 0.01) << "nothing holds it up there";
+}
+
 TEST(Sleep, EndsWhenGravityChanges) {
     const auto simulation = sleepingColumn(3);
     v1::Command command;

@@ -126,7 +126,6 @@ void run(const Binding& binding) {
 #define SPHERULE_ACCESS_restrict(type) type*
 #define SPHERULE_ACCESS_coherent(type) type*
 
-#define INOUT(type) type&
 #define PRIVATE(type, name) type name;
 #define HAS(feature) ((binding.features & (feature)) != 0U)
 #define BUFFER(number, access, type, name, block) SPHERULE_ACCESS_##access(type) name = slot<type>(number);

@@ -45,20 +45,10 @@ TEST(SceneFeatures, GravityIsWhatIsNotZero) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_gravity(); }), with(&Features::gravity));
 }
 
-TEST(SceneFeatures, RadiiThatDifferMakeMassesDiffer) {
-    Features expected = with(&Features::radii);
-    expected.masses = true;
+TEST(SceneFeatures, RadiiMayDiffer) {
     EXPECT_EQ(
         featuresAfter([](v1::Scene& s) { s.mutable_groups(0)->mutable_list()->mutable_spheres(1)->set_radius(0.2); }),
-        expected);
-}
-
-TEST(SceneFeatures, DensitiesThatDifferMakeMassesDiffer) {
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) {
-                  *s.add_groups() = s.groups(0);
-                  s.mutable_groups(1)->set_density(10);
-              }),
-              with(&Features::masses));
+        with(&Features::radii));
 }
 
 TEST(SceneFeatures, RestitutionIsAnythingThatBounces) {
@@ -92,8 +82,8 @@ TEST(SceneFeatures, ObstaclesAreOfTwoKinds) {
     EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(1); }), boxes);
 }
 
-TEST(SceneFeatures, SleepIsOnUnlessTurnedOff) {
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_sleep(); }), with(&Features::sleep));
+TEST(SceneFeatures, NothingRestsWithoutGravity) {
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_sleep(); }), onlyContacts);
 }
 
 }  // namespace

@@ -71,9 +71,15 @@ TEST(SceneFill, FollowsItsSeed) {
     EXPECT_EQ(first("1", {.seed = 2}), first("2"));
 }
 
+TEST(SceneFill, RefusesAtOnceWhatTheVolumeCannotHold) {
+    EXPECT_NE(refusalOf(fill(R"("count": 5000)", R"({"constant": 0.05})"))
+                  .find("groups[0].fill.count: asks for 5000 spheres, at least 2.62 of the volume"),
+              std::string::npos);
+}
+
 TEST(SceneFill, GivesUpWhenThereIsNoRoom) {
-    const std::string text = refusalOf(fill(R"("count": 5000)", R"({"constant": 0.05})"));
-    EXPECT_EQ(text.substr(0, 79), "groups[0].fill.count: asks for 5000 spheres, but no free place was found after ")
+    const std::string text = refusalOf(fill(R"("count": 720)", R"({"constant": 0.05})"));
+    EXPECT_EQ(text.substr(0, 78), "groups[0].fill.count: asks for 720 spheres, but no free place was found after ")
         << text;
 }
 

@@ -96,5 +96,12 @@ TEST(SceneLattice, RefusesWhatCannotBe) {
         std::string::npos);
 }
 
+TEST(SceneLattice, OfEndlessPlacesOnOneAxisAndNoneOnAnotherIsRefused) {
+    EXPECT_NE(refusalOf(group(R"("lattice": {"min": [0,0,0], "max": [1e9,0.01,1e9], "spacing": 1e-300, "count": 5},
+                                 "radius": {"constant": 0.05})"))
+                  .find("fit between min and max"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace spherule::scene::testing

@@ -53,8 +53,8 @@ TEST(SceneRefusals, RestitutionIsZeroToOne) {
 }
 
 TEST(SceneRefusals, StepAndSubstepsHaveARange) {
-    EXPECT_EQ(refusalOf(R"("step": 0)"), "step: is 0, must be positive");
-    EXPECT_EQ(refusalOf(R"("step": 1.5)"), "step: is 1.5, must be at most 1 s");
+    EXPECT_EQ(refusalOf(R"("step": 0)"), "step: is 0, must be 1e-06 to 1 s");
+    EXPECT_EQ(refusalOf(R"("step": 1.5)"), "step: is 1.5, must be 1e-06 to 1 s");
     EXPECT_EQ(refusalOf(R"("substeps": 0)"), "substeps: is 0, must be 1 to 10000");
     EXPECT_EQ(refusalOf(R"("substeps": 10001)"), "substeps: is 10001, must be 1 to 10000");
     EXPECT_EQ(refusalOf("", {.substeps = 0}), "substeps: is 0, must be 1 to 10000");

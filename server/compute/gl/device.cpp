@@ -187,8 +187,7 @@ Result<void> GlDevice::status() {
         default:
             return {};
     }
-    return fail(ErrorKind::DeviceLost, info_.renderer,
-                fmt::format("the device was reset: {}; start again from the last checkpoint", cause));
+    return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}; start it again", cause));
 }
 
 }  // namespace spherule::compute::gl

@@ -35,6 +35,7 @@ export class Panel {
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly scene: OptionController;
   private facts: Facts | undefined;
+  private settled: Settings | undefined;
 
   constructor(
     private readonly commands: Commands,
@@ -71,6 +72,7 @@ export class Panel {
   }
 
   settle(settings: Settings): void {
+    this.settled = settings;
     const [x = 0, y = 0, z = 0] = settings.gravity;
     const { restitution, substeps, speed } = settings;
     const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, substeps, speed };
@@ -95,6 +97,12 @@ export class Panel {
     if (statistics) this.statistics.show(statistics);
   }
 
+  /** Asks for a change; when it is refused, the control goes back to what holds. */
+  private async change(what: string, wish: Parameters<Commands["set"]>[1]): Promise<void> {
+    const outcome = await this.commands.set(what, wish);
+    if (outcome.case !== "applied" && this.settled) this.settle(this.settled);
+  }
+
   /** The setting that is being typed or dragged just now: what others set must not slip under the hand. */
   private edited(): string | undefined {
     const held = this.element.querySelector(".lil-slider.lil-active") ?? document.activeElement;
@@ -107,9 +115,9 @@ export class Panel {
   }
 
   private addWorld(): void {
-    const { world, commands } = this;
+    const { world } = this;
     const folder = this.gui.addFolder("World");
-    const setGravity = (): void => void commands.set("Gravity", { gravity: [world.x, world.y, world.z] });
+    const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
     tag("gravity-preset", folder.add(world, "gravity", [...Object.keys(presets), "Own"]).name("Gravity, m/s²")).onFinishChange((name: string) => {
       const preset = presets[name];
       if (!preset) return;
@@ -120,13 +128,13 @@ export class Panel {
       tag(`gravity-${axis}`, folder.add(world, axis).step(0.01).decimals(2).name(axis)).onFinishChange(setGravity);
     }
     tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
-      (restitution: number) => void commands.set("Restitution", { restitution }),
+      (restitution: number) => void this.change("Restitution", { restitution }),
     );
     tag("substeps", folder.add(world, "substeps", 1, 64, 1).name("Substeps")).onFinishChange(
-      (substeps: number) => void commands.set("Substeps", { substeps }),
+      (substeps: number) => void this.change("Substeps", { substeps }),
     );
     tag("speed", folder.add(world, "speed", 0.05, 4, 0.05).name("Speed, ×")).onFinishChange(
-      (speed: number) => void commands.set("Speed", { speed }),
+      (speed: number) => void this.change("Speed", { speed }),
     );
   }
 
