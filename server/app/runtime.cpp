@@ -41,6 +41,7 @@ void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, s
         return;
     }
     live_.update([&](LiveReport& report) {
+        report.state = "running";
         report.device = (*world)->device().kind;
         report.renderer = (*world)->device().renderer;
         report.reason = (*world)->device().reason;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "net/server.h"
+
 namespace spherule::net {
 namespace {
 
@@ -10,6 +12,12 @@ using Verdict = Liveness::Verdict;
 
 const Liveness::Clock::time_point start = Liveness::Clock::now();
 const Liveness::Limits limits{.hello = 10s, .progress = 10s, .idle = 60s};
+
+TEST(Liveness, IsTenSecondsForProgressAndSixtyForSilenceUnlessAskedOtherwise) {
+    EXPECT_EQ(Options{}.progressTimeout, 10s);
+    EXPECT_EQ(Options{}.idleTimeout, 60s);
+    EXPECT_EQ(Options{}.maxMessageBytes, 1024U * 1024U);
+}
 
 TEST(Liveness, WantsAHelloInTime) {
     Liveness liveness(limits, start);

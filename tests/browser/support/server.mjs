@@ -39,7 +39,8 @@ export async function serve(scene, port = 0) {
     async stop() {
       running.delete(server);
       child.kill("SIGTERM");
-      return ended;
+      const code = await ended;
+      if (code !== 0) throw new Error(`the server ended with ${code}:\n${said}`);
     },
   };
   running.add(server);

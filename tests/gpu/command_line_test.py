@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""The program as a user calls it: command_line_test.py BINARY. Needs only Mesa's software renderer."""
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.request
+
+BINARY = sys.argv.pop()
+KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds wallSeconds deviceSeconds kineticEnergy
+rotationalEnergy potentialEnergy momentum contacts overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight
+sleeping outside nonFinite stateHash""".split()
+
+
+def call(*arguments):
+    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False)
+
+
+def run_json(*arguments):
+    done = call("run", *arguments, "--device", "software", "--json")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("\n") == 1, done.stdout
+    return json.loads(done.stdout)
+
+
+class Run(unittest.TestCase):
+    def test_json_has_every_key(self):
+        report = run_json("two-spheres", "--for", "0.1s")
+        self.assertEqual(list(report), KEYS)
+        self.assertEqual((report["steps"], report["spheres"], report["device"]), (6, 2, "software"))
+        self.assertEqual(len(report["momentum"]), 3)
+        self.assertRegex(report["stateHash"], "^[0-9a-f]{16}$")
+
+    def test_same_scene_and_seed_give_the_same_hash_and_another_seed_another(self):
+        def hash_of(*more):
+            return run_json("box-4k", "--for", "0.1s", *more)["stateHash"]
+        self.assertEqual(hash_of(), hash_of())
+        self.assertNotEqual(hash_of(), hash_of("--seed", "7"))
+
+    def test_contacts_are_counted_before_the_first_step(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "pair.json")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write('{"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"radius": {"constant": 0.1},'
+                           '"list": {"spheres": [{"position": [0.4,0.5,0.5]}, {"position": [0.55,0.5,0.5]}]}}]}')
+            report = run_json(path, "--for", "0s")
+        self.assertEqual((report["steps"], report["contacts"]), (0, 1))
+        self.assertAlmostEqual(report["overlapMax"], 0.5, places=5)
+
+    def test_substeps_and_sleep_follow_the_options(self):
+        self.assertEqual(run_json("bounce", "--for", "0.05s", "--substeps", "3")["substepsPerStep"], 3)
+
+    def test_dump_has_its_header_and_a_row_per_sphere_and_state(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "states.csv")
+            run_json("two-spheres", "--for", "0.2s", "--every", "0.1", "--dump", path)
+            with open(path, encoding="utf-8") as file:
+                rows = list(csv.reader(file))
+        self.assertEqual(rows[0], "time id x y z vx vy vz radius".split())
+        self.assertEqual(len(rows), 1 + 3 * 2)
+
+    def test_exit_codes(self):
+        self.assertEqual(call("run", "box-4k").returncode, 2)
+        self.assertEqual(call("run", "no-such-scene", "--for", "1s", "--device", "software").returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "soon", "--device", "software").returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "1e300s", "--device", "software").returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "1s", "--every", "0", "--dump", "/dev/null").returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "1s", "--device", "gpu:99").returncode, 3)
+        self.assertIn("75 device lost", call("run", "--help").stdout)
+
+    def test_a_wrong_scene_is_refused_with_file_path_value_and_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "wrong.json")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write('{"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"radius": {"constant": -0.1},'
+                           '"list": {"spheres": [{"position": [0.5,0.5,0.5]}]}}]}')
+            done = call("run", path, "--for", "1s", "--device", "software")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("wrong.json: groups[0].radius.constant: is -0.1, must be positive", done.stderr)
+
+
+class Others(unittest.TestCase):
+    def test_plan_says_what_a_scene_requires(self):
+        plan = json.loads(call("plan", "box-50k", "--json").stdout)
+        self.assertEqual(plan["spheres"], 50000)
+        self.assertEqual(plan["bytes"], sum(array["bytes"] for array in plan["arrays"]))
+        self.assertIn("solve_positions.comp", call("plan", "box-50k").stdout)
+
+    def test_probe_names_the_renderer(self):
+        self.assertIn("llvmpipe", json.loads(call("probe", "--device", "software", "--json").stdout)["chosen"]["renderer"])
+
+
+class Serve(unittest.TestCase):
+    def setUp(self):
+        self.server = subprocess.Popen([BINARY, "serve", "cradle", "--device", "software", "--listen", "127.0.0.1:0"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        for line in self.server.stdout:
+            if found := re.search(r"open http://(\S+)/", line):
+                self.address = found.group(1)
+                break
+
+    def tearDown(self):
+        self.server.stdout.close()
+        if self.server.poll() is None:
+            self.server.kill()
+            self.server.wait()
+
+    def ctl(self, *words):
+        return call("ctl", f"ws://{self.address}/ws", *words)
+
+    def get(self, path):
+        with urllib.request.urlopen(f"http://{self.address}{path}", timeout=30) as answer:
+            return answer.read().decode()
+
+    def test_commands_are_answered_with_their_step_or_refused_with_the_reason(self):
+        done = self.ctl("set", "gravity", "0", "0", "-1.6")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"^applied at step \d+")
+        for words, reason in {("set", "restitution", "1.5"): "restitution: is 1.5",
+                              ("load", "nothing"): "load.name", ("push", "99", "0", "0", "1"): "sphere: is 99",
+                              ("step", "0"): "step.count"}.items():
+            refused = self.ctl(*words)
+            self.assertEqual(refused.returncode, 4, words)
+            self.assertIn(reason, refused.stdout)
+        self.assertEqual(self.ctl("dance").returncode, 2)
+
+    def test_a_refused_set_changes_nothing(self):
+        self.assertEqual(self.ctl('{"set":{"speed":2,"restitution":5}}').returncode, 4)
+        self.assertEqual(self.ctl('{"set":{"speed":-2,"gravity":[0,0,0]}}').returncode, 4)
+
+    def test_health_readiness_and_metrics(self):
+        self.assertEqual(self.get("/healthz"), "alive\n")
+        ready = json.loads(self.get("/readyz"))
+        self.assertEqual((ready["device"], ready["scene"], ready["spheres"]), ("software", "cradle", 5))
+        self.assertIn(ready["state"], ("running", "paused"))
+        self.assertIn("spherule_spheres 5", self.get("/metrics"))
+        self.assertIn("<!doctype html>", self.get("/").lower())
+
+    def test_sigterm_drains_and_exits_0(self):
+        self.server.send_signal(signal.SIGTERM)
+        self.assertEqual(self.server.wait(timeout=30), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
