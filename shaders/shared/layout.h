@@ -55,7 +55,7 @@ struct SphereStatistics {
 };
 
 // In place of a quiet time: of a sphere that has crept out of the margin of the pair lists.
-#define CREPT -1.0f
+#define CREPT (-1.0f)
 
 // Words of the `counters` buffer.
 #define COUNTER_REBUILD 0u      // lists are to be rebuilt

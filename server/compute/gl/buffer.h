@@ -15,6 +15,8 @@ class GlBuffer final : public Buffer {
     static Result<std::unique_ptr<Buffer>> create(const std::shared_ptr<Context>& context, std::string_view label,
                                                   std::size_t bytes);
     ~GlBuffer() override;
+    GlBuffer(const GlBuffer&) = delete;
+    GlBuffer& operator=(const GlBuffer&) = delete;
 
     [[nodiscard]] std::size_t bytes() const override { return bytes_; }
     [[nodiscard]] GLuint id() const { return id_; }

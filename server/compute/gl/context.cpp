@@ -67,7 +67,7 @@ Result<std::shared_ptr<Context>> Context::create(const std::shared_ptr<EglDispla
     if (!config) return fail(ErrorKind::NoDevice, where, "has no EGL config for OpenGL");
     for (const bool robust : {true, false}) {
         const auto attributes = contextAttributes(robust);
-        const EGLContext handle = eglCreateContext(display->handle(), *config, EGL_NO_CONTEXT, attributes.data());
+        EGLContext handle = eglCreateContext(display->handle(), *config, EGL_NO_CONTEXT, attributes.data());
         if (handle == EGL_NO_CONTEXT) continue;
         const std::shared_ptr<Context> context(new Context(display, handle, robust));
         if (auto started = context->start(); !started) return tl::unexpected(started.error());

@@ -35,7 +35,7 @@ std::string advice(EGLint code) {
 
 Result<std::shared_ptr<EglDisplay>> open(EGLenum platform, void* native, const std::string& name) {
     const std::lock_guard lock(registryMutex);
-    const EGLDisplay handle = platformDisplay(platform, native);
+    EGLDisplay handle = platformDisplay(platform, native);
     if (handle == EGL_NO_DISPLAY) {
         return fail(ErrorKind::NoDevice, name, fmt::format("EGL gives no display: {}", eglErrorName(eglGetError())));
     }

@@ -22,6 +22,8 @@ class GlKernel final : public Kernel {
     static Result<std::unique_ptr<Kernel>> create(const std::shared_ptr<Context>& context, const SourceSet& sources,
                                                   std::string_view file, std::span<const Define> defines);
     ~GlKernel() override;
+    GlKernel(const GlKernel&) = delete;
+    GlKernel& operator=(const GlKernel&) = delete;
 
     [[nodiscard]] const std::string& name() const override { return name_; }
     [[nodiscard]] GLuint program() const { return program_; }

@@ -17,6 +17,8 @@ class GlReadBack final : public ReadBack {
         place_.taken = true;
     }
 
+    GlReadBack(const GlReadBack&) = delete;
+    GlReadBack& operator=(const GlReadBack&) = delete;
     ~GlReadBack() override {
         places_->context_->use();
         glDeleteSync(fence_);
