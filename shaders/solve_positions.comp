@@ -23,7 +23,8 @@ bool wakes(vec4 v) {
 }
 
 // A sleeper wakes when a neighbour comes or goes faster than the wake speed; by its velocity before the substep, because
-// the present one holds the kicks of unfinished pushes. A slower one wakes it too once it has crept far enough that it
+// the present one holds the kicks of unfinished pushes. One that is beyond the wake gap after a single substep goes
+// unnoticed. A slower one wakes it too once it has crept far enough that it
 // may carry the sleeper no longer.
 void wake(uint a, uint b) {
     vec4 va = velocity[a];
