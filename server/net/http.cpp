@@ -58,9 +58,9 @@ void HttpConnection::onRead(ErrorCode error) {
     if (error == http::error::end_of_stream) return shutdown();
     if (error) return refuseUnread(error);
     ++context_.counters.httpRequests;
-    Request request = parser_->release();
+    const Request request = parser_->release();
     const std::string path = pathOf({request.target().data(), request.target().size()});
-    if (path == streamPath) return onUpgrade(std::move(request));
+    if (path == streamPath) return onUpgrade(request);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
         return refuse(request, 405, "only GET and HEAD are answered here");
     }
@@ -68,7 +68,7 @@ void HttpConnection::onRead(ErrorCode error) {
     answer(request, context_.handlers.get(path, context_.counters));
 }
 
-void HttpConnection::onUpgrade(Request request) {
+void HttpConnection::onUpgrade(const Request& request) {
     if (!beast::websocket::is_upgrade(request)) {
         return refuse(request, 400, "this is the stream: open it as a WebSocket with subprotocol spherule.v1");
     }

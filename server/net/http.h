@@ -29,7 +29,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
     void read();
     void onRead(ErrorCode error);
-    void onUpgrade(Request request);
+    void onUpgrade(const Request& request);
     void answer(const Request& request, HttpAnswer answer);
     void refuse(const Request& request, int status, const std::string& text);
     void refuseUnread(ErrorCode error);
