@@ -11,6 +11,7 @@ BUFFER(2, restrict, vec4, before, BeforeBlock)
 BUFFER(3, readonly, vec4, anchor, AnchorBlock)
 BUFFER(4, readonly, uint, id, IdBlock)
 BUFFER(5, coherent, uint, counters, CounterBlock)
+BUFFER(6, restrict, vec4, resting, RestingBlock)
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
@@ -35,9 +36,15 @@ KERNEL(params.spheres) {
     }
     if (HAS(CONTACTS)) {
         vec3 since = to - vec3(anchor[invocation]);
-        if (dot3(since, since) > params.rebuildMove * params.rebuildMove) {
-            atomicOr(counters[COUNTER_REBUILD], 1u);
-            if (HAS(SLEEP)) before[invocation] = vec4(vec3(v), CREPT);
+        if (dot3(since, since) > params.rebuildMove * params.rebuildMove) atomicOr(counters[COUNTER_REBUILD], 1u);
+        // Not from `anchor`, which starts anew whenever some other sphere needs new lists: a slow one would never have
+        // moved at all.
+        if (HAS(SLEEP)) {
+            vec3 crept = to - vec3(resting[id[invocation]]);
+            if (dot3(crept, crept) > params.rebuildMove * params.rebuildMove) {
+                resting[id[invocation]] = vec4(to, 0.0f);
+                before[invocation] = vec4(vec3(v), CREPT);
+            }
         }
     }
 }

@@ -8,6 +8,7 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/contact.h"
+#include "shared/wake.h"
 
 BUFFER(0, restrict, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
@@ -18,14 +19,8 @@ BUFFER(5, readonly, uvec2, pairs, PairBlock)
 BUFFER(6, writeonly, uvec2, touching, TouchingBlock)
 BUFFER(7, readonly, vec4, before, BeforeBlock)
 
-bool wakes(vec4 v) {
-    return v.w == CREPT || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
-}
-
-// A sleeper wakes when a neighbour comes or goes faster than the wake speed; by its velocity before the substep, because
-// the present one holds the kicks of unfinished pushes. One that is beyond the wake gap after a single substep goes
-// unnoticed. A slower one wakes it too once it has crept far enough that it
-// may carry the sleeper no longer.
+// A sleeper wakes when a neighbour comes, or has crept away far enough that it may carry the sleeper no longer. One that
+// leaves the wake gap in a single substep is what wake.comp looks for.
 void wake(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];

@@ -10,7 +10,8 @@ constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
 constexpr int exitDeviceLost = 75;  // worth another start
 
-constexpr const char* exitCodesText = "Exit codes: 0 done, 2 usage or scene, 3 no device, 4 refused, 75 device lost.";
+constexpr const char* exitCodesText =
+    "Exit codes: 0 done, 1 out of memory, 2 usage or scene, 3 no device, 4 refused, 75 device lost.";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {

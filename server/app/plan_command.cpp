@@ -35,6 +35,7 @@ void addPlan(CLI::App& app, int& exitCode) {
         ->check(CLI::IsMember({"gpu", "software"}))
         ->capture_default_str();
     command->add_option("--substeps", options->overrides.substeps, "per step, in place of the scene's");
+    command->add_option("--seed", options->overrides.seed, "in place of the scene's seeds");
     command->add_flag("--no-sleep", options->overrides.noSleep, "no sphere is put to sleep");
     command->add_flag("--json", options->json, "print one line of JSON");
     command->callback([options, &exitCode] { exitCode = plan(*options); });

@@ -22,14 +22,20 @@ Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const
     } else {
         runtime->simulation_.request_stop();
     }
-    runtime->listening_.set_value();
+    runtime->settle();
     if (!world) return tl::unexpected(world.error());
     if (!server) return tl::unexpected(server.error());
     return runtime;
 }
 
+void Runtime::settle() {
+    settled_ = true;
+    settled_.notify_all();
+}
+
 Runtime::~Runtime() {
     simulation_.request_stop();
+    settle();
     if (simulation_.joinable()) simulation_.join();
 }
 
@@ -49,7 +55,7 @@ void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, s
         report.spheres = (*world)->simulation().count();
     });
     ready.set_value({});
-    listening_.get_future().wait();
+    settled_.wait(false);
     if (stop.stop_requested()) return;
     SimLoop loop(**world, requests_, live_, outlets());
     Result<void> ended;

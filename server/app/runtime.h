@@ -35,6 +35,7 @@ class Runtime {
   private:
     Runtime() = default;
     void simulate(const std::stop_token& stop, const SceneOptions& scene, std::promise<Result<void>>& ready);
+    void settle();
     Outlets outlets();
     net::Handlers handlers();
 
@@ -43,7 +44,7 @@ class Runtime {
     Site site_{live_};
     std::unique_ptr<net::Server> server_;
     std::unique_ptr<Encoder> encoder_;
-    std::promise<void> listening_;
+    std::atomic<bool> settled_ = false;  // whether the server has started, or will not
     std::atomic<bool> failed_ = false;
     Error failure_;  // valid once failed_ is set
     std::jthread simulation_;

@@ -111,8 +111,9 @@ Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout 
     }));
     stream.read_message_max(largestMessage);
     websocket::response_type response;
+    const std::string host = parts->host.find(':') == std::string::npos ? parts->host : "[" + parts->host + "]";
     error = connection->waitFor(
-        [&](auto done) { stream.async_handshake(response, parts->host + ":" + parts->port, parts->path, done); });
+        [&](auto done) { stream.async_handshake(response, host + ":" + parts->port, parts->path, done); });
     if (error) {
         const std::string said = response.body().empty() ? error.message() : response.body();
         return tl::unexpected(connection->error("is not a stream of spherule: HTTP " +

@@ -13,6 +13,9 @@ void Outbox::setRate(std::uint32_t rate) {
 }
 
 bool Outbox::push(frame::SharedMessage message) {
+    const auto kind = message->content().kind_case();
+    if (kind == v1::ServerMessage::kScene || kind == v1::ServerMessage::kSettings)
+        std::erase_if(reliable_, [kind](const auto& waiting) { return waiting->content().kind_case() == kind; });
     if (reliable_.size() >= capacity_) return false;
     if (message->content().has_scene()) epoch_ = message->content().scene().epoch();
     reliable_.push_back(std::move(message));

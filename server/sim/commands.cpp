@@ -88,19 +88,25 @@ Result<void> Simulation::set(const v1::Set& set) {
     scene::Scene changed = scene_;
     for (auto change : {setGravity, setRestitution, setSubsteps})
         if (auto done = change(changed, set); !done) return done;
-    if (!set.gravity().empty() || set.has_restitution()) {
-        if (auto done = adopt(std::move(changed), snapshot()); !done) return done;
-        if (set.has_restitution() && !scene_.obstacles.empty()) ++generation_;
-        return {};
+    const bool described = set.has_restitution() && !changed.obstacles.empty();
+    if (scene::featuresOf(changed) == plan().features) {
+        scene_ = std::move(changed);
+        uploadConstants();
+        // A change of substeps alone disturbs nobody's sleep.
+        if (!set.gravity().empty() || set.has_restitution()) pipeline_->wakeAll();
+    } else {
+        auto state = liveState();
+        if (!state) return tl::unexpected(state.error());
+        if (auto done = adopt(std::move(changed), std::move(*state)); !done) return done;
     }
-    // A change of substeps alone disturbs nobody's sleep.
-    scene_ = std::move(changed);
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    if (described) ++generation_;
     return {};
 }
 
 Result<void> Simulation::spawn(const v1::Spawn& spawn) {
-    State state = snapshot();
+    auto live = liveState();
+    if (!live) return tl::unexpected(live.error());
+    State& state = *live;
     scene::Scene grown = scene_;
     const glm::dvec3 centre = grown.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {

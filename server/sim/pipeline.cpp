@@ -114,6 +114,13 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
 }
 
+void Pipeline::wakeAll() {
+    if (!plan_.features.sleep) return;
+    auto velocity = read<glm::vec4>(Array::Velocity);
+    for (glm::vec4& one : velocity) one.w = std::abs(one.w);
+    write<glm::vec4>(Array::Velocity, velocity);
+}
+
 Result<void> Pipeline::growPairs(std::uint32_t capacity) {
     const std::uint64_t bytes = std::uint64_t{capacity} * sizeof(glm::uvec2);
     auto pairs = device_.createBuffer(nameOf(Array::Pairs), bytes);

@@ -40,6 +40,9 @@ class Pipeline {
     // Wakes a sphere and gives it an impulse, in N s. Waits for the device.
     void kick(std::uint32_t id, glm::vec3 impulse);
 
+    // Ends all sleep. Waits for the device.
+    void wakeAll();
+
     // Room for more pairs; the lists are rebuilt.
     Result<void> growPairs(std::uint32_t capacity);
 

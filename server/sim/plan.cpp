@@ -62,6 +62,10 @@ void planArrays(Plan& plan, const scene::Scene& scene) {
         add.array(Array::SavedId, n, 4);
         add.array(Array::Anchor, n, 16);
         add.array(Array::SlotOf, n, 4);
+        if (has.sleep) {
+            add.array(Array::Resting, n, 16);
+            add.array(Array::Woken, n, 4);
+        }
         add.array(Array::Pairs, plan.pairCapacity, 8);
         add.array(Array::Touching, plan.pairCapacity, 8);
         add.array(Array::Span, plan.groups(), 16);
@@ -83,6 +87,11 @@ void planGrid(Plan& plan) {
     plan.fullLaunches = {plan.spheres, values, blocks, superBlocks, 1, plan.groups()};
 
     add.always(Pass::Grid, "rebuild_plan.comp", {Counters, FullLaunches, Launches}, 1);
+    if (plan.features.sleep)
+        add.onRebuild(Pass::Grid, "wake.comp", {Position, Velocity, Before, CellStart, Span, Pairs, Woken},
+                      LAUNCH_GROUPS);
+    add.onRebuild(Pass::Grid, "state_save.comp", {Position, Velocity, Before, Id, Saved, SavedId, Woken},
+                  LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "cell_clear.comp", {CellStart}, LAUNCH_CELLS);
     add.onRebuild(Pass::Grid, "cell_count.comp", {Position, CellStart, Place}, LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "scan_reduce.comp", {CellStart, BlockSums}, LAUNCH_BLOCKS, values);
@@ -92,7 +101,6 @@ void planGrid(Plan& plan) {
     add.onRebuild(Pass::Grid, "scan_spread.comp", {CellStart, BlockSums}, LAUNCH_BLOCKS, values);
     add.onRebuild(Pass::Grid, "cell_scatter.comp", {Position, CellStart, Place, Order}, LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "cell_order.comp", {CellStart, Order, Id}, LAUNCH_CELLS);
-    add.onRebuild(Pass::Grid, "state_save.comp", {Position, Velocity, Before, Id, Saved, SavedId}, LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "state_gather.comp", {Position, Velocity, Before, Id, Saved, SavedId, Order},
                   LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "state_anchor.comp", {Position, Id, Anchor, SlotOf}, LAUNCH_SPHERES);
@@ -108,7 +116,7 @@ void planSubstep(Plan& plan) {
     const std::uint32_t groupsPerColour = plan.groups() / 8;
     const bool obstructed = has.walls || has.planes || has.boxes;
 
-    add.always(Pass::Integrate, "integrate.comp", {Position, Velocity, Before, Anchor, Id, Counters}, n);
+    add.always(Pass::Integrate, "integrate.comp", {Position, Velocity, Before, Anchor, Id, Counters, Resting}, n);
     if (has.contacts) {
         planGrid(plan);
         for (std::uint32_t colour = 0; colour < 8; ++colour)

@@ -29,8 +29,10 @@ enum class Array : std::uint8_t {
     Order,
     Saved,  // state while it is put in cell order
     SavedId,
-    Anchor,  // position when the lists were built
-    SlotOf,  // by id
+    Anchor,   // position when the lists were built
+    Resting,  // by id: position when it was last found to have crept
+    Woken,    // sleepers to wake at this rebuild
+    SlotOf,   // by id
     Pairs,
     Touching,
     Span,  // per cell group: first pair, listed, touching

@@ -23,6 +23,12 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
     crowded_ = false;
     pipeline_->upload(state);
+    uploadConstants();
+    return {};
+}
+
+// What the kernels read of the scene besides the spheres' state.
+void Simulation::uploadConstants() {
     if (plan().has(Array::Obstacles)) pipeline_->write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene_));
     if (plan().has(Array::Bounce)) {
         std::vector<float> bounce;
@@ -31,7 +37,12 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
         pipeline_->write<float>(Array::Bounce, bounce);
     }
     pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
-    return {};
+}
+
+Result<State> Simulation::liveState() {
+    State state = snapshot();
+    if (auto alive = device_.status(); !alive) return tl::unexpected(alive.error());
+    return state;
 }
 
 Result<void> Simulation::reset() {

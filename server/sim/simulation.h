@@ -59,6 +59,8 @@ class Simulation {
 
     // Makes arrays and kernels anew for `scene` in `state`; everybody wakes. Nothing changes on failure.
     Result<void> adopt(scene::Scene scene, State state);
+    void uploadConstants();
+    Result<State> liveState();  // DeviceLost, rather than what a lost device gives
     Result<void> guard();
     void readCounters();
     void makeRoom();

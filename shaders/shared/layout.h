@@ -54,7 +54,7 @@ struct SphereStatistics {
     uint unused;            // keeps the size a multiple of 16 bytes
 };
 
-// In place of a quiet time: of a sphere that has crept out of the margin of the pair lists.
+// In place of a quiet time: of a sphere that has crept so far that it may carry a sleeper no longer.
 #define CREPT (-1.0f)
 
 // Words of the `counters` buffer.

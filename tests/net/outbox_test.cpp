@@ -35,6 +35,17 @@ TEST(Outbox, IsFullAtItsCapacity) {
     EXPECT_FALSE(outbox.push(eventOf("3")));
 }
 
+TEST(Outbox, KeepsOnlyTheNewestFactsThatWait) {
+    Outbox outbox(3, 60);
+    const auto event = eventOf("between");
+    EXPECT_TRUE(outbox.push(factsOf(1, 64)));
+    EXPECT_TRUE(outbox.push(event));
+    for (std::uint32_t epoch = 2; epoch < 100; ++epoch) EXPECT_TRUE(outbox.push(factsOf(epoch, 64)));
+    EXPECT_EQ(outbox.next(start), event);
+    EXPECT_EQ(outbox.next(start)->content().scene().epoch(), 99U);
+    EXPECT_EQ(outbox.next(start), nullptr);
+}
+
 TEST(Outbox, KeepsTheNewestStateAndTellsOfTheOneThatItReplaced) {
     Outbox outbox(2, 60);
     describe(outbox, 1);

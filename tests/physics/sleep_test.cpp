@@ -88,10 +88,36 @@ TEST(Sleep, EndsWhenTheSupportIsRemoved) {
     for (std::uint32_t id = 1; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.04) << id;
 }
 
+TEST(Sleep, EndsWhenTheSupportIsOutOfReachWithinASubstep) {
+    const auto simulation = sleepingColumn(4);
+    push(*simulation, 0, {40, 0, 0});  // 83 mm a substep
+    run(*simulation, 0.08);            // before it comes back from the wall
+    const sim::State state = simulation->snapshot();
+    for (std::uint32_t id = 1; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.015) << id;
+}
+
 TEST(Sleep, EndsWhenTheSupportCreepsAway) {
     const auto simulation = sleepingColumn(2);
     push(*simulation, 0, {0.025, 0, 0});
     run(*simulation, 5);
+    EXPECT_LT(positionOf(simulation->snapshot(), 1).z, -0.95 + 0.01) << "nothing holds it up there";
+}
+
+// Others that move fast have the lists built anew in every substep, before a slow one has left its margin.
+TEST(Sleep, EndsWhenTheSupportCreepsAwayInABusyWorld) {
+    scene::Scene scene = sleepyBox(2);
+    scene.spheres = {at({0, 0, -0.95}), at({0, 0, -0.85}), at({0.9, 0.9, 0.9})};
+    scene.spheres[2].radius = 0.025F;
+    scene.spheres[2].restitution = 1;
+    scene.bounds.restitution = 1;
+    scene.spheres[2].velocity = {0, 0, -12};
+    const auto simulation = simulate(scene);
+    run(*simulation, 3);
+    ASSERT_TRUE(asleep(simulation->snapshot(), 0) && asleep(simulation->snapshot(), 1));
+    push(*simulation, 0, {0.025, 0, 0});
+    const auto rebuilds = simulation->counters().rebuilds;
+    run(*simulation, 5);
+    EXPECT_GT(simulation->counters().rebuilds, rebuilds + 2000) << "the world is not busy";
     EXPECT_LT(positionOf(simulation->snapshot(), 1).z, -0.95 + 0.01) << "nothing holds it up there";
 }
 

@@ -1,0 +1,46 @@
+// Before the lists are rebuilt: flags the sleepers whose neighbours leave so fast that they are out of reach after this
+// one substep. The new lists no longer hold such a pair; the old ones do. Run over all groups at once, so it only raises
+// flags; state_save acts on them.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/wake.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, vec4, before, BeforeBlock)
+BUFFER(3, readonly, uint, cellStart, CellBlock)
+BUFFER(4, readonly, uvec4, span, SpanBlock)
+BUFFER(5, readonly, uvec2, pairs, PairBlock)
+BUFFER(6, coherent, uint, woken, WokenBlock)
+
+// Whether the one that moves was at the sleeper as the substep began.
+void leave(uint sleeper, uint mover) {
+    vec4 u = before[mover];
+    if (!wakes(u)) return;
+    vec4 pa = position[sleeper];
+    vec4 pb = position[mover];
+    vec3 d = vec3(pb) - vec3(u) * params.substep - vec3(pa);
+    float far = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + params.wakeGap;
+    if (dot3(d, d) < far * far) atomicOr(woken[sleeper], 1u);
+}
+
+void visitPair(uint a, uint b) {
+    bool aSleeps = velocity[a].w < 0.0f;
+    bool bSleeps = velocity[b].w < 0.0f;
+    if (aSleeps == bSleeps) return;
+    leave(aSleeps ? a : b, aSleeps ? b : a);
+}
+
+#include "shared/group.h"
+
+KERNEL(params.groups * 8u) {
+    uvec4 mine = span[invocation];
+    if (mine.y == UNLISTED) {
+        visitGroupNumber(invocation);
+        return;
+    }
+    for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+}
