@@ -25,7 +25,7 @@ void visitWall(vec3 normal, float depth, float wallRestitution) {
         float h = params.substep;
         float start = dot3(running, normal);
         float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
-        float gap = max(-depth - (start * h + 0.5f * pull * h * h), 0.0f);
+        precise float gap = max(-depth - (start * h + 0.5f * pull * h * h), 0.0f);
         float impact = sqrt(max(start * start - 2.0f * pull * gap, 0.0f));
         float after = min(sphereBounce, wallRestitution) * impact;
         if (depth > 0.0f || start < 0.0f) running = running + normal * (after - start);

@@ -18,7 +18,7 @@ PRIVATE(float, sphereBounce)
 
 void visitWall(vec3 normal, float depth, float wallRestitution) {
     float speed = dot3(corrected, normal);
-    float wanted = max(speed, 0.0f);
+    precise float wanted = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {
         // Negative where neighbours have pushed the sphere at the wall since its bounce.
         float start = dot3(running, normal);

@@ -12,7 +12,7 @@ void SceneOptions::addTo(CLI::App& command) {
     std::string known;
     for (const std::string& name : scene::names()) known += (known.empty() ? "" : ", ") + name;
     command.add_option("scene", scene, "a scene file, or one of: " + known)->capture_default_str();
-    command.add_option("--device", device, "auto, gpu, gpu:N or software")->capture_default_str();
+    command.add_option("--device", device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")->capture_default_str();
     command.add_option("--substeps", overrides.substeps, "per step, in place of the scene's");
     command.add_option("--seed", overrides.seed, "in place of the scene's seeds");
     command.add_flag("--no-sleep", overrides.noSleep, "no sphere is put to sleep");

@@ -31,8 +31,8 @@ void addPlan(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<PlanOptions>();
     CLI::App* command = app.add_subcommand("plan", "show what a scene requires; needs no device");
     command->add_option("scene", options->scene, "a scene file or a name")->capture_default_str();
-    command->add_option("--device", options->kind, "the kind of device to plan for: gpu or software")
-        ->check(CLI::IsMember({"gpu", "software"}))
+    command->add_option("--device", options->kind, "the kind of device to plan for: gpu, cpu or software")
+        ->check(CLI::IsMember({"gpu", "cpu", "software"}))
         ->capture_default_str();
     command->add_option("--substeps", options->overrides.substeps, "per step, in place of the scene's");
     command->add_option("--seed", options->overrides.seed, "in place of the scene's seeds");

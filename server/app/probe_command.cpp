@@ -26,7 +26,8 @@ void addProbe(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ProbeOptions>();
     CLI::App* command =
         app.add_subcommand("probe", "show what there is to compute on, and what to do about what is missing");
-    command->add_option("--device", options->device, "auto, gpu, gpu:N or software")->capture_default_str();
+    command->add_option("--device", options->device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")
+        ->capture_default_str();
     command->add_flag("--json", options->json, "print one line of JSON");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] { exitCode = probe(*options); });

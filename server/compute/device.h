@@ -15,8 +15,8 @@
 namespace spherule::compute {
 
 struct DeviceInfo {
-    std::string kind;      // "gpu" or "software"
-    std::string renderer;  // GL_RENDERER
+    std::string kind;      // "gpu", "cpu" or "software"
+    std::string renderer;  // GL_RENDERER, or the processor and the number of threads
     std::string vendor;
     std::string version;
     std::string reason;  // why this device was chosen, one sentence
@@ -75,14 +75,17 @@ class Device {
     [[nodiscard]] virtual const DeviceInfo& info() const = 0;
 
     // Refused, with both figures, when the device has no room for it or a kernel could not see all of it. The label is
-    // for errors and debuggers.
-    virtual Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes) = 0;
+    // for errors and debuggers. `words` says what its 32-bit words are, in turn and again and again: 'r' a real number
+    // (float32 to the host), 'u' an unsigned integer; only a device that computes in double precision asks.
+    virtual Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes,
+                                                         std::string_view words = "u") = 0;
 
     // Compiles `file` with the defines; an error carries the compiler's text with file and line. A kernel has a local
     // size of 64 (or of 1, to measure what that costs), storage buffers bound at their slot, at most one uniform block
     // (binding 0), and may have the uniforms `phase` and `invocations` (its count; 0xffffffff when launched indirectly:
     // then it reads the count itself). Its index is
-    // gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size.
+    // gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU device has the
+    // kernels of shaders/ compiled in and takes no others.
     virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                          std::span<const Define> defines) = 0;
 
@@ -90,7 +93,6 @@ class Device {
     // Waits for all launches before.
     virtual void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) = 0;
     virtual void fill(Buffer& buffer, std::uint32_t value) = 0;
-    virtual void copy(const Buffer& from, Buffer& to, std::size_t bytes) = 0;
 
     // Every launch sees what the launches before it wrote. A buffer that the kernel declares and the launch lacks, used
     // or not, ends the program: it would compute wrong results.
@@ -109,8 +111,9 @@ class Device {
     [[nodiscard]] virtual Result<void> status() = 0;  // DeviceLost when the context is gone
 };
 
-// "auto" (a hardware GPU, else "software", and the info's reason says so), "gpu", "gpu:N" (N counts the hardware
-// devices as `spherule probe` lists them) or "software". Input for anything else, NoDevice when there is none.
+// "auto" (a hardware GPU, else "cpu", and the info's reason says why), "gpu", "gpu:N" (N counts the hardware devices as
+// `spherule probe` lists them), "cpu", "cpu:N" (with N threads), "cpu-double" (the same in double precision, to tell
+// rounding from method) or "software" (Mesa's renderer). Input for anything else, NoDevice when there is none.
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice);
 
 }  // namespace spherule::compute

@@ -1,18 +1,16 @@
+#include "compute/gl/open_device.h"
+#include "compute/cpu/device.h"
 #include "compute/device.h"
-#include "compute/gl/device.h"
-#include "compute/gl/egl_api.h"
 #include "core/log.h"
 
 namespace spherule::compute {
 
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice) {
-    const auto wish = gl::parseWish(choice);
-    if (!wish) return tl::unexpected(wish.error());
-    if (auto loaded = gl::loadEgl(); !loaded) return tl::unexpected(loaded.error());
-    auto opened = gl::openContext(*wish, gl::eglDevices());
-    if (!opened) return tl::unexpected(opened.error());
-    auto device = std::make_unique<gl::GlDevice>(*opened);
-    spdlog::info("device: {}; {}", device->info().renderer, device->info().reason);
+    auto device =
+        choice.starts_with("cpu") ? cpu::openDevice(choice, "asked for as " + choice) : gl::openDevice(choice);
+    if (!device && choice == "auto") device = cpu::openDevice("cpu", "no usable GPU: " + device.error().message);
+    if (!device) return device;
+    spdlog::debug("device: {}; {}", (*device)->info().renderer, (*device)->info().reason);
     return device;
 }
 

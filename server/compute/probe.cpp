@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "compute/gl/device.h"
+#include "compute/gl/context.h"
 #include "compute/gl/egl_api.h"
 #include "compute/gl/limits.h"
 
@@ -31,34 +31,35 @@ ProbeDevice probeDevice(const gl::EglDevice& device, const std::string& choice) 
     return result;
 }
 
-void choose(Probe& result, const gl::Wish& wish, const std::vector<gl::EglDevice>& devices) {
-    const auto opened = gl::openContext(wish, devices);
-    if (!opened) {
+// The limits are those of the context that was opened last, so they are asked for at once.
+Result<void> choose(Probe& result) {
+    const auto opened = openDevice(result.choice);
+    if (opened) {
+        result.chosen = (*opened)->info();
+        if (result.chosen->kind != "cpu") result.limits = gl::queryLimits();
+    } else if (opened.error().kind == ErrorKind::Input) {
+        return tl::unexpected(opened.error());
+    } else {
         result.problem = opened.error().text();
-        return;
     }
-    result.chosen = gl::GlDevice(*opened).info();
-    result.limits = gl::queryLimits();
+    return {};
 }
 
 }  // namespace
 
 Result<Probe> probe(const std::string& choice) {
-    const auto wish = gl::parseWish(choice);
-    if (!wish) return tl::unexpected(wish.error());
     Probe result;
     result.choice = choice;
+    if (auto chosen = choose(result); !chosen) return tl::unexpected(chosen.error());
     result.vendors = detail::eglVendors();
     if (const auto loaded = gl::loadEgl(); loaded) {
         result.clientExtensions = gl::clientExtensions();
-        const auto devices = gl::eglDevices();
         unsigned gpus = 0;
-        for (const auto& device : devices) {
+        for (const auto& device : gl::eglDevices()) {
             const auto name = device.software() ? std::string("software") : fmt::format("gpu:{}", gpus++);
             result.devices.push_back(probeDevice(device, name));
         }
-        choose(result, *wish, devices);
-    } else {
+    } else if (!result.chosen) {
         result.problem = loaded.error().text();
     }
     result.hints = detail::hintsFor(result, detail::hostFacts());

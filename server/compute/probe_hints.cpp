@@ -82,12 +82,12 @@ std::vector<std::string> hintsFor(const Probe& probe, const HostFacts& host) {
                         fmt::join(host.closedDrmFiles, ", ")));
     }
     if (!gpu && hints.empty() && probe.chosen) {
-        hints.emplace_back("No GPU was found. Scenes run on the CPU, with fewer spheres in real time.");
+        hints.emplace_back("No GPU was found. Scenes run on the CPU, with fewer spheres in real time than on a GPU.");
     }
     if (!software) {
         hints.emplace_back(
-            "Mesa's software renderer is not here. It serves as a fallback and for tests (on Debian: apt "
-            "install libegl1 libegl-mesa0 libgl1-mesa-dri).");
+            "Mesa's software renderer is not here. Only tests need it (on Debian: apt install libegl1 libegl-mesa0 "
+            "libgl1-mesa-dri).");
     }
     if (probe.chosen && !probe.chosen->robust) {
         hints.emplace_back(

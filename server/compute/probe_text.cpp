@@ -51,7 +51,7 @@ std::string probeText(const Probe& probe) {
     std::string text = fmt::format("Chosen by --device {}\n", probe.choice);
     text += probe.chosen ? chosenText(*probe.chosen) : fmt::format("  nothing: {}\n", probe.problem);
     if (probe.limits) text += "Limits of OpenGL on it\n" + limitsText(*probe.limits);
-    text += "Devices, preferred first\n";
+    text += "Devices of EGL, preferred first; besides them there is cpu\n";
     for (const auto& device : probe.devices) text += deviceText(device);
     if (probe.devices.empty()) text += "  EGL lists none\n";
     text += "EGL vendors\n";

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -22,6 +23,15 @@ static_assert(offsetof(Parameters, cells) == 64);
 static_assert(offsetof(Parameters, substep) == 80);
 static_assert(offsetof(Parameters, spheres) == 128);
 static_assert(sizeof(Parameters) == 160);
+// What the words of these are: 'r' a real number, 'u' an unsigned integer.
+constexpr std::string_view parameterWords = "rrrrrrrrrrrrrrrruuuurrrrrrrrrrrruuuuuuuu";
+constexpr std::string_view statisticsWords = "rrrrrrrrrrrruuuu";
+static_assert(parameterWords.size() * 4 == sizeof(Parameters));
+static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));
+static_assert(parameterWords.rfind('r') * 4 + 4 == offsetof(Parameters, spheres));
+static_assert(statisticsWords.size() * 4 == sizeof(SphereStatistics));
+static_assert(statisticsWords.find('u') * 4 == offsetof(SphereStatistics, sleeping));
+
 static_assert(sizeof(Obstacle) == 32);
 static_assert(sizeof(SphereStatistics) == 64);
 

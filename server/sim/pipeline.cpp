@@ -42,11 +42,11 @@ Result<void> Pipeline::allocate() {
     absent_ = std::move(*absent);
     slots_.fill(absent_.get());
     for (const ArraySpec& spec : plan_.arrays) {
-        auto made = device_.createBuffer(nameOf(spec.array), spec.bytes);
+        auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, wordsOf(spec.array));
         if (!made) return tl::unexpected(made.error());
         adopt(spec.array, std::move(*made));
     }
-    auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters));
+    auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters), layout::parameterWords);
     if (!parameters) return tl::unexpected(parameters.error());
     parameters_ = std::move(*parameters);
     if (plan_.has(Array::FullLaunches)) {

@@ -160,6 +160,25 @@ void planOnDemand(Plan& plan) {
 
 }  // namespace
 
+std::string_view wordsOf(Array array) {
+    switch (array) {
+        case Array::Position:
+        case Array::Velocity:
+        case Array::Before:
+        case Array::Bounce:
+        case Array::Obstacles:
+        case Array::Saved:
+        case Array::Anchor:
+        case Array::Resting:
+        case Array::Overlaps:
+            return "r";
+        case Array::SphereParts:
+            return layout::statisticsWords;
+        default:
+            return "u";
+    }
+}
+
 bool Plan::has(Array array) const {
     return bytesOf(array) > 0;
 }

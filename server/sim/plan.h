@@ -49,6 +49,8 @@ constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 
 std::string_view nameOf(Array array);
 
+std::string_view wordsOf(Array array);  // what its words are, as compute::Device::createBuffer wants to know
+
 struct ArraySpec {
     Array array{};
     std::uint64_t bytes = 0;

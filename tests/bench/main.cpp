@@ -24,7 +24,7 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-    app.add_option("--device", options.device, "auto, gpu, gpu:N or software")->capture_default_str();
+    app.add_option("--device", options.device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")->capture_default_str();
     app.add_option("--sizes", options.sizes, "spheres, at which all methods are compared; 0: not at all")
         ->delimiter(',')
         ->capture_default_str();

@@ -48,13 +48,6 @@ TEST_F(DeviceTest, FillSetsEveryWord) {
     EXPECT_EQ(contents(*target), std::vector<std::uint32_t>(100, 0x01020304));
 }
 
-TEST_F(DeviceTest, CopyMovesTheFirstBytes) {
-    const auto from = buffer(std::vector<std::uint32_t>{1, 2, 3});
-    const auto to = buffer(std::vector<std::uint32_t>{7, 8, 9, 10});
-    device_->copy(*from, *to, 8);
-    EXPECT_EQ(contents(*to), (std::vector<std::uint32_t>{1, 2, 9, 10}));
-}
-
 TEST_F(DeviceTest, EmptyBufferIsAllowed) {
     const auto empty = buffer(std::size_t{0});
     EXPECT_EQ(empty->bytes(), 0U);

@@ -15,16 +15,25 @@ TEST(DeviceChoice, SoftwareIsASoftwareRenderer) {
     EXPECT_TRUE(info.robust);
 }
 
-TEST(DeviceChoice, AutoFindsSomethingAndSaysPlainlyWhenItIsNoGpu) {
+TEST(DeviceChoice, AutoIsAGpuOrElseTheCpuAndSaysWhy) {
     const auto device = openDevice("auto");
     ASSERT_TRUE(device.has_value()) << device.error().text();
     const auto& info = (*device)->info();
-    if (info.kind == "software") {
-        EXPECT_NE(info.reason.find("no usable GPU"), std::string::npos) << info.reason;
-        EXPECT_NE(info.reason.find("slow"), std::string::npos) << info.reason;
-    } else {
-        EXPECT_EQ(info.kind, "gpu");
+    if (info.kind == "gpu") {
         EXPECT_NE(info.reason.find("GPU was found"), std::string::npos) << info.reason;
+    } else {
+        EXPECT_EQ(info.kind, "cpu");
+        EXPECT_NE(info.reason.find("no usable GPU"), std::string::npos) << info.reason;
+    }
+}
+
+TEST(DeviceChoice, TheCpuIsThereWithAnyNumberOfThreads) {
+    for (const auto& [choice, threads] :
+         {std::pair{"cpu:1", "1 thread"}, {"cpu:3", "3 threads"}, {"cpu-double:2", "2 threads, double precision"}}) {
+        const auto device = openDevice(choice);
+        ASSERT_TRUE(device.has_value()) << device.error().text();
+        EXPECT_EQ((*device)->info().kind, "cpu");
+        EXPECT_TRUE((*device)->info().renderer.ends_with(threads)) << (*device)->info().renderer;
     }
 }
 
@@ -33,15 +42,16 @@ TEST(DeviceChoice, GpuThatIsNotThereIsNoDeviceWithAdvice) {
     ASSERT_FALSE(device.has_value());
     EXPECT_EQ(device.error().kind, ErrorKind::NoDevice);
     EXPECT_EQ(device.error().where, "gpu:99");
-    EXPECT_NE(device.error().message.find("--device software"), std::string::npos) << device.error().text();
+    EXPECT_NE(device.error().message.find("--device cpu"), std::string::npos) << device.error().text();
 }
 
 TEST(DeviceChoice, UnknownDevicesAreRefusedWithTheChoices) {
-    for (const auto* const choice : {"", "GPU", "gpux", "gpu:", "gpu:-1", "gpu:1x", "cuda", "gpu:99999999999"}) {
+    for (const auto* const choice : {"", "GPU", "gpux", "gpu:", "gpu:-1", "gpu:1x", "cuda", "gpu:99999999999", "cpu:0",
+                                     "cpu:", "cpu:2x", "cpux", "cpu:257"}) {
         const auto device = openDevice(choice);
         ASSERT_FALSE(device.has_value()) << choice;
         EXPECT_EQ(device.error().kind, ErrorKind::Input) << choice;
-        EXPECT_NE(device.error().message.find("software"), std::string::npos) << device.error().text();
+        EXPECT_NE(device.error().message.find("cpu"), std::string::npos) << device.error().text();
     }
 }
 

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "all_kernels.h"
-
 namespace spherule::kernels {
 
 namespace {
@@ -19,14 +17,17 @@ uint blocksOf(std::size_t values) {
 void launch(std::string_view kernel, std::initializer_list<Slot> slots, const Launch& how) {
     std::vector<void*> pointers;
     for (const Slot& slot : slots) pointers.push_back(slot.data);
-    const auto* const found = std::ranges::find(allKernels, kernel, &Entry::name);
-    if (found == std::end(allKernels)) throw std::out_of_range(std::string(kernel));
-    found->run({.slots = pointers, .parameters = how.parameters, .phase = how.phase, .features = how.features});
+    const auto kernels = compute::cpu::floatKernels();
+    const auto found = std::ranges::find(kernels, std::string(kernel) + ".comp", &compute::cpu::Entry::name);
+    if (found == kernels.end()) throw std::out_of_range(std::string(kernel));
+    const compute::cpu::Binding binding{
+        .slots = pointers, .parameters = how.parameters, .phase = how.phase, .features = how.features};
+    found->run(binding, 0, found->count(binding));
 }
 
 std::vector<std::string_view> kernelNames() {
     std::vector<std::string_view> names;
-    for (const Entry& entry : allKernels) names.push_back(entry.name);
+    for (const auto& entry : compute::cpu::floatKernels()) names.push_back(entry.name);
     return names;
 }
 

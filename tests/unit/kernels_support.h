@@ -6,10 +6,20 @@
 #include <string_view>
 #include <vector>
 
-#include "kernel_glue.h"
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "compute/cpu/kernels.h"
 
 // Runs kernels by the name of their file, as C++.
 namespace spherule::kernels {
+
+using glm::uvec2;
+using glm::uvec4;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
 
 // As shaders/shared/layout.h has it, with its constants.
 namespace layout {

@@ -65,7 +65,8 @@ GlDevice::GlDevice(const Opened& opened)
     info_.robust = context_->robust();
 }
 
-Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, std::size_t bytes) {
+Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, std::size_t bytes,
+                                                       std::string_view /*words*/) {
     if (bytes > info_.maxBufferBytes) {
         constexpr double mebi = 1 << 20;
         return fail(ErrorKind::Refused, std::string(label),
@@ -114,14 +115,6 @@ void GlDevice::fill(Buffer& buffer, std::uint32_t value) {
     context_->use();
     context_->state().beforeCopy();
     glClearNamedBufferData(glBuffer(buffer).id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
-}
-
-void GlDevice::copy(const Buffer& from, Buffer& to, std::size_t bytes) {
-    checkRange("copy", from, 0, bytes);
-    checkRange("copy", to, 0, bytes);
-    context_->use();
-    context_->state().beforeCopy();
-    glCopyNamedBufferSubData(glBuffer(from).id(), glBuffer(to).id(), 0, 0, static_cast<GLsizeiptr>(bytes));
 }
 
 void GlDevice::launch(const Launch& launch) {

@@ -19,13 +19,13 @@ class GlDevice final : public Device {
     explicit GlDevice(const Opened& opened);
 
     [[nodiscard]] const DeviceInfo& info() const override { return info_; }
-    Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes) override;
+    Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes,
+                                                 std::string_view words) override;
     Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                  std::span<const Define> defines) override;
     void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) override;
     void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) override;
     void fill(Buffer& buffer, std::uint32_t value) override;
-    void copy(const Buffer& from, Buffer& to, std::size_t bytes) override;
     void launch(const Launch& launch) override;
     std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) override;
     void beginTimer(unsigned slot) override;

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::string_view gpuAdvice =
     "Check that the GPU's driver is installed with its OpenGL part (in a container NVIDIA_DRIVER_CAPABILITIES must "
-    "name "
-    "graphics), see `spherule probe`, or use --device software";
+    "name graphics), see `spherule probe`, or use --device cpu";
 constexpr std::string_view softwareAdvice =
     "Install Mesa's software renderer (on Debian: apt install libegl-mesa0 libgl1-mesa-dri)";
 
@@ -93,7 +92,7 @@ Result<Wish> parseWish(const std::string& choice) {
         if (parsed.ec == std::errc() && parsed.ptr == end) return wish;
     }
     return fail(ErrorKind::Input, "device",
-                fmt::format("\"{}\" is none of auto, gpu, gpu:N (N from 0), software", choice));
+                fmt::format("\"{}\" is none of auto, gpu, gpu:N (N from 0), cpu, cpu:N (N threads), software", choice));
 }
 
 Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devices) {
@@ -105,22 +104,15 @@ Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devic
                                 : fmt::format("asked for as {} ({})", gpuName(wish), context->display().name());
         return Opened{context, "gpu", reason};
     }
-    if (wish.kind == Wish::Kind::Gpu) {
-        return fail(ErrorKind::NoDevice, gpuName(wish),
-                    fmt::format("no such GPU that computes with OpenGL 4.5{}. {}", attempts.problems(), gpuAdvice));
+    if (wish.kind != Wish::Kind::Software) {
+        return fail(
+            ErrorKind::NoDevice, gpuName(wish),
+            fmt::format("nothing here computes with OpenGL 4.5 on a GPU{}. {}", attempts.problems(), gpuAdvice));
     }
-    const auto gpuProblems = attempts.problems();
-    if (openSoftware(attempts, devices)) {
-        const auto reason = wish.kind == Wish::Kind::Software
-                                ? std::string("asked for as software: Mesa's software renderer on the CPU, slow")
-                                : fmt::format(
-                                      "no usable GPU was found{}, so Mesa's software renderer computes on the "
-                                      "CPU: right, but slow",
-                                      gpuProblems);
-        return Opened{attempts.context(), "software", reason};
-    }
-    return fail(ErrorKind::NoDevice, wish.kind == Wish::Kind::Software ? "software" : "auto",
-                fmt::format("nothing to compute on{}. {}", attempts.problems(), softwareAdvice));
+    if (openSoftware(attempts, devices))
+        return Opened{attempts.context(), "software", "asked for as software: Mesa's renderer on the CPU, slow"};
+    return fail(ErrorKind::NoDevice, "software",
+                fmt::format("no software renderer{}. {}", attempts.problems(), softwareAdvice));
 }
 
 }  // namespace spherule::compute::gl

@@ -19,7 +19,7 @@ struct Wish {
     bool numbered = false;  // that one and no other
 };
 
-// Input for anything but "auto", "gpu", "gpu:N", "software".
+// Input for anything but "auto", "gpu", "gpu:N", "software". Auto is a GPU that nobody asked for by name.
 Result<Wish> parseWish(const std::string& choice);
 
 struct Opened {

@@ -1,4 +1,10 @@
-#pragma once
+// What turns a .comp file, included in the body of a struct, into C++: the counterpart of shaders/shared/kernel.h.
+// Buffers are members that point into the slots of a launch, so that there are no globals and several worlds can run at
+// once; an object serves one thread at a time, because PRIVATE variables are members too.
+//
+// Included once by each translation unit that compiles the kernels, which says before what a `float` of theirs is:
+//   SPHERULE_REAL        float or double
+//   SPHERULE_PRECISION   the namespace they go to
 
 // Kernels share callbacks whose parameters not every kernel needs, and Mesa refuses a parameter without a name.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -8,27 +14,28 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <span>
 
-// What turns a .comp file, included in the body of a struct, into C++: the counterpart of shaders/shared/kernel.h.
-// Buffers are members that point into the slots of a launch, so that there are no globals and several worlds can run at
-// once; an object serves one thread at a time, because PRIVATE variables are members too.
-namespace spherule::kernels {
+#include "compute/cpu/features.h"
+#include "compute/cpu/kernels.h"
 
+namespace spherule::compute::cpu::SPHERULE_PRECISION {
+
+using real = SPHERULE_REAL;
 using glm::uvec2;
 using glm::uvec4;
-using glm::vec3;
-using glm::vec4;
+using vec3 = glm::vec<3, real>;
+using vec4 = glm::vec<4, real>;
 using uint = std::uint32_t;
 
 // GLSL's scalar functions, with GLSL's choice of operand where one is NaN.
-inline float min(float a, float b) {
+inline real min(real a, real b) {
     return b < a ? b : a;
 }
-inline float max(float a, float b) {
+inline real max(real a, real b) {
     return a < b ? b : a;
 }
 inline uint min(uint a, uint b) {
@@ -37,20 +44,27 @@ inline uint min(uint a, uint b) {
 inline uint max(uint a, uint b) {
     return a < b ? b : a;
 }
-inline float clamp(float x, float low, float high) {
+inline real clamp(real x, real low, real high) {
     return min(max(x, low), high);
 }
-inline float abs(float x) {
+inline real abs(real x) {
     return std::fabs(x);
 }
-inline float floor(float x) {
+inline real floor(real x) {
     return std::floor(x);
 }
-inline float sqrt(float x) {
+inline real sqrt(real x) {
     return std::sqrt(x);
 }
-inline uint floatBitsToUint(float x) {
-    return std::bit_cast<uint>(x);
+inline uint floatBitsToUint(real x) {
+    return std::bit_cast<uint>(static_cast<float>(x));
+}
+
+// GLM wants a vector and a number of one type, and the kernels' literals are float.
+template <class Literal>
+requires(std::is_same_v<Literal, float> && !std::is_same_v<real, float>) inline vec3 operator*(const vec3& v,
+                                                                                               Literal factor) {
+    return v * static_cast<real>(factor);
 }
 
 inline uint atomicAdd(uint& memory, uint value) {
@@ -69,29 +83,8 @@ inline uint atomicMax(uint& memory, uint value) {
     return seen;
 }
 
-// One launch. A slot that the scene's features leave unused may be null.
-struct Binding {
-    std::span<void* const> slots;
-    const void* parameters = nullptr;  // as `Parameters` of shaders/shared/layout.h; null for kernels without them
-    uint phase = 0;
-    uint features = 0;  // bits of `KernelBase`
-};
-
 // What the struct around a .comp file derives from.
-struct KernelBase {
-    enum Feature : uint {
-        GRAVITY = 1U << 0U,
-        CONTACTS = 1U << 1U,
-        RADII = 1U << 2U,
-        RESTITUTION = 1U << 3U,
-        RESTITUTIONS = 1U << 4U,
-        BEFORE = 1U << 5U,
-        WALLS = 1U << 6U,
-        PLANES = 1U << 7U,
-        BOXES = 1U << 8U,
-        SLEEP = 1U << 9U,
-    };
-
+struct KernelBase : Features {
     explicit KernelBase(const Binding& bound) : binding(bound), phase(bound.phase) {}
 
     template <class T>
@@ -111,21 +104,25 @@ struct KernelBase {
     uint phase;
 };
 
-// Runs every invocation of `Kernel`, one after another.
 template <class Kernel>
-void run(const Binding& binding) {
-    Kernel kernel(binding);
-    const uint count = kernel.kernelCount();
-    for (uint invocation = 0; invocation < count; ++invocation) kernel.kernelBody(invocation);
+uint countOf(const Binding& binding) {
+    return Kernel(binding).kernelCount();
 }
 
-}  // namespace spherule::kernels
+template <class Kernel>
+void run(const Binding& binding, uint begin, uint end) {
+    Kernel kernel(binding);
+    for (uint invocation = begin; invocation < end; ++invocation) kernel.kernelBody(invocation);
+}
+
+}  // namespace spherule::compute::cpu::SPHERULE_PRECISION
 
 #define SPHERULE_ACCESS_readonly(type) const type*
 #define SPHERULE_ACCESS_writeonly(type) type*
 #define SPHERULE_ACCESS_restrict(type) type*
 #define SPHERULE_ACCESS_coherent(type) type*
 
+#define precise  // C++ compilers take no such liberties
 #define PRIVATE(type, name) type name;
 #define HAS(feature) ((binding.features & (feature)) != 0U)
 #define BUFFER(number, access, type, name, block) SPHERULE_ACCESS_##access(type) name = slot<type>(number);

@@ -1,0 +1,185 @@
+#include "compute/cpu/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "compute/check.h"
+#include "compute/cpu/features.h"
+#include "compute/cpu/host.h"
+
+namespace spherule::compute::cpu {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t maxSlots = 8;
+constexpr int maxReadBacks = 2;
+// Ranges that a thread takes at a time: few enough that taking them costs little, many enough that the threads end
+// together.
+constexpr std::uint32_t rangesPerThread = 16;
+constexpr std::uint32_t smallestRange = 16;
+
+const CpuBuffer& cpuBuffer(const Buffer& buffer) {
+    return static_cast<const CpuBuffer&>(buffer);
+}
+
+void checkRange(const char* what, const Buffer& buffer, std::size_t offset, std::size_t bytes) {
+    if (offset <= buffer.bytes() && bytes <= buffer.bytes() - offset) return;
+    programError(fmt::format("{} of {} bytes at {} in a buffer of {}", what, bytes, offset, buffer.bytes()));
+}
+
+class CpuKernel final : public Kernel {
+  public:
+    CpuKernel(const Entry& entry, std::uint32_t features)
+        : entry_(entry), features_(features), name_(std::string(entry.name)) {}
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] const Entry& entry() const { return entry_; }
+    [[nodiscard]] std::uint32_t features() const { return features_; }
+
+  private:
+    const Entry& entry_;
+    std::uint32_t features_;
+    std::string name_;
+};
+
+class CpuReadBack final : public ReadBack {
+  public:
+    CpuReadBack(std::vector<std::byte> bytes, std::shared_ptr<int> underWay)
+        : bytes_(std::move(bytes)), underWay_(std::move(underWay)) {
+        ++*underWay_;
+    }
+    ~CpuReadBack() override { --*underWay_; }
+    CpuReadBack(const CpuReadBack&) = delete;
+    CpuReadBack& operator=(const CpuReadBack&) = delete;
+    std::optional<std::span<const std::byte>> poll() override { return bytes_; }
+
+  private:
+    std::vector<std::byte> bytes_;
+    std::shared_ptr<int> underWay_;
+};
+
+std::uint32_t featuresOf(std::span<const Define> defines) {
+    std::uint32_t features = 0;
+    for (const Define& define : defines) {
+        const auto* const found = std::ranges::find(featureNames, define.name);
+        if (found != std::end(featureNames) && define.value == "true")
+            features |= 1U << static_cast<unsigned>(found - std::begin(featureNames));
+    }
+    return features;
+}
+
+std::uint32_t countOf(const Launch& launch) {
+    if (launch.arguments == nullptr) return launch.count;
+    checkRange("launch arguments", *launch.arguments, launch.argumentsOffset, 16);
+    std::array<std::uint32_t, 4> row{};
+    std::memcpy(row.data(), cpuBuffer(*launch.arguments).data() + launch.argumentsOffset, sizeof row);
+    return row[0] == 0 ? 0 : row[3];
+}
+
+struct Work {
+    const Entry& entry;
+    Binding binding;
+};
+
+void runRange(const void* work, std::uint32_t begin, std::uint32_t end) {
+    const auto& [entry, binding] = *static_cast<const Work*>(work);
+    entry.run(binding, begin, end);
+}
+
+}  // namespace
+
+CpuDevice::CpuDevice(unsigned threads, Precision precision, const std::string& reason)
+    : precision_(precision), pool_(threads) {
+    info_.kind = "cpu";
+    info_.renderer = fmt::format("{}, {} thread{}{}", processorName(), threads, threads == 1 ? "" : "s",
+                                 precision == Precision::Double ? ", double precision" : "");
+    info_.vendor = "Spherule";
+    info_.version = "kernels compiled as C++";
+    info_.reason = reason;
+    info_.maxBufferBytes = memoryBytes();
+    info_.robust = true;  // it cannot be lost
+}
+
+Result<std::unique_ptr<Buffer>> CpuDevice::createBuffer(std::string_view label, std::size_t bytes,
+                                                        std::string_view words) {
+    return CpuBuffer::create(label, bytes, Words(words, precision_));
+}
+
+Result<std::unique_ptr<Kernel>> CpuDevice::createKernel(const SourceSet& /*sources*/, std::string_view file,
+                                                        std::span<const Define> defines) {
+    const auto kernels = precision_ == Precision::Double ? doubleKernels() : floatKernels();
+    const auto found = std::ranges::find(kernels, file, &Entry::name);
+    if (found == kernels.end()) {
+        return fail(ErrorKind::Input, std::string(file),
+                    "is not among the kernels that this program has as C++; use --device software");
+    }
+    return std::make_unique<CpuKernel>(*found, featuresOf(defines));
+}
+
+void CpuDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
+    checkRange("upload", buffer, offset, bytes.size());
+    const CpuBuffer& to = cpuBuffer(buffer);
+    to.words().store(to.data(), offset, bytes);
+}
+
+void CpuDevice::download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) {
+    checkRange("download", buffer, offset, bytes.size());
+    const CpuBuffer& from = cpuBuffer(buffer);
+    from.words().load(from.data(), offset, bytes);
+}
+
+void CpuDevice::fill(Buffer& buffer, std::uint32_t value) {
+    const std::vector<std::uint32_t> values(buffer.bytes() / sizeof value, value);
+    upload(buffer, 0, std::as_bytes(std::span(values)));
+}
+
+void CpuDevice::launch(const Launch& launch) {
+    if (launch.kernel == nullptr) programError("a launch without a kernel");
+    const auto& kernel = static_cast<const CpuKernel&>(*launch.kernel);
+    const Entry& entry = kernel.entry();
+    std::array<void*, maxSlots> slots{};
+    for (std::uint32_t slot = 0; slot < entry.slots; ++slot) {
+        const Buffer* const buffer = slot < launch.buffers.size() ? launch.buffers[slot] : nullptr;
+        if (buffer == nullptr)
+            programError(fmt::format("{} is launched without a buffer at slot {}", kernel.name(), slot));
+        slots[slot] = cpuBuffer(*buffer).data();
+    }
+    if (entry.wantsParameters && launch.parameters == nullptr)
+        programError(kernel.name() + " is launched without its parameters");
+    const Work work{.entry = entry,
+                    .binding = {.slots = std::span(slots.data(), entry.slots),
+                                .parameters = entry.wantsParameters ? cpuBuffer(*launch.parameters).data() : nullptr,
+                                .phase = launch.phase,
+                                .features = kernel.features()}};
+    const std::uint32_t wanted = countOf(launch);
+    if (wanted == 0) return;
+    const std::uint32_t count = std::min(wanted, entry.count(work.binding));
+    pool_.run(count, std::max(smallestRange, count / (pool_.threads() * rangesPerThread)), runRange, &work);
+}
+
+std::unique_ptr<ReadBack> CpuDevice::startReadBack(const Buffer& buffer, std::size_t bytes) {
+    checkRange("read back", buffer, 0, bytes);
+    if (*readBacks_ >= maxReadBacks) return nullptr;
+    std::vector<std::byte> copy(bytes);
+    download(buffer, 0, copy);
+    return std::make_unique<CpuReadBack>(std::move(copy), readBacks_);
+}
+
+void CpuDevice::beginTimer(unsigned slot) {
+    timed_ = slot;
+    if (seconds_.size() <= slot) seconds_.resize(slot + 1);
+    began_ = Clock::now();
+}
+
+void CpuDevice::endTimer() {
+    seconds_[timed_] += std::chrono::duration<double>(Clock::now() - began_).count();
+}
+
+std::vector<double> CpuDevice::takeTimes() {
+    return std::exchange(seconds_, {});
+}
+
+}  // namespace spherule::compute::cpu

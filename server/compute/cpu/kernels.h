@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+// The kernels of shaders/, compiled as C++.
+namespace spherule::compute::cpu {
+
+// One launch. A slot that the scene's features leave unused may be null.
+struct Binding {
+    std::span<void* const> slots;
+    const void* parameters = nullptr;  // null for kernels without them
+    std::uint32_t phase = 0;
+    std::uint32_t features = 0;  // bits of Features
+};
+
+struct Entry {
+    std::string_view name;  // file
+    std::uint32_t slots;    // one past the last buffer that it declares
+    bool wantsParameters;
+    std::uint32_t (*count)(const Binding&);  // invocations
+    // Invocations begin .. end - 1. Any number of threads, each with a range of its own.
+    void (*run)(const Binding&, std::uint32_t begin, std::uint32_t end);
+};
+
+// With `float` as GPUs have it, and the same with `double` in its place: in the arithmetic, the buffers and the
+// parameters.
+std::span<const Entry> floatKernels();
+std::span<const Entry> doubleKernels();
+
+}  // namespace spherule::compute::cpu

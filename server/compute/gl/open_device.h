@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "compute/device.h"
+
+namespace spherule::compute::gl {
+
+// "auto" (a hardware GPU), "gpu", "gpu:N" or "software"; Input for anything else, NoDevice when there is none.
+Result<std::unique_ptr<Device>> openDevice(const std::string& choice);
+
+}  // namespace spherule::compute::gl
