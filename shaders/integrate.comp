@@ -41,7 +41,7 @@ KERNEL(params.spheres) {
         // moved at all.
         if (HAS(SLEEP)) {
             vec3 crept = to - vec3(resting[id[invocation]]);
-            if (dot3(crept, crept) > params.rebuildMove * params.rebuildMove) {
+            if (dot3(crept, crept) > params.creep * params.creep) {
                 resting[id[invocation]] = vec4(to, 0.0f);
                 before[invocation] = vec4(vec3(v), CREPT);
             }

@@ -11,7 +11,7 @@ BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, readonly, uint, cellStart, CellBlock)
 BUFFER(2, coherent, uint, counters, CounterBlock)
 BUFFER(3, writeonly, uvec2, pairs, PairBlock)
-BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, listed, touching, 0
+BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, listed, touching, whether it stirs
 
 #define LOCAL_PAIRS 192u
 PRIVATE(uint, found)
@@ -42,10 +42,10 @@ KERNEL(params.groups * 8u) {
     uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
     if (count > params.pairCapacity || start > params.pairCapacity - count) {
         atomicAdd(counters[COUNTER_UNLISTED], 1u);
-        span[invocation] = uvec4(0u, UNLISTED, 0u, 0u);
+        span[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
         return;
     }
-    span[invocation] = uvec4(start, count, 0u, 0u);
+    span[invocation] = uvec4(start, count, 0u, 1u);
     if (count <= LOCAL_PAIRS) {
         for (uint k = 0u; k < count; ++k) pairs[start + k] = local[k];
     } else {

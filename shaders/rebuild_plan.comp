@@ -8,6 +8,7 @@ BUFFER(1, readonly, uvec4, fullLaunches, FullLaunchBlock)
 BUFFER(2, writeonly, uvec4, launches, LaunchBlock)
 
 KERNEL(1u) {
+    counters[COUNTER_SUBSTEPS] = counters[COUNTER_SUBSTEPS] + 1u;
     bool rebuild = counters[COUNTER_REBUILD] != 0u;
     for (uint row = 0u; row < LAUNCH_ROWS; ++row)
         launches[row] = rebuild ? fullLaunches[row] : uvec4(0u, 1u, 1u, 0u);

@@ -21,28 +21,31 @@ BUFFER(7, readonly, vec4, before, BeforeBlock)
 
 // A sleeper wakes when a neighbour comes, or has crept away far enough that it may carry the sleeper no longer. One that
 // leaves the wake gap in a single substep is what wake.comp looks for.
-void wake(uint a, uint b) {
-    vec4 va = velocity[a];
-    vec4 vb = velocity[b];
+void wake(uint a, uint b, vec4 va, vec4 vb) {
     if (va.w < 0.0f && vb.w > 0.0f && wakes(before[b])) velocity[a] = vec4(vec3(va), -va.w);
     if (vb.w < 0.0f && va.w > 0.0f && wakes(before[a])) velocity[b] = vec4(vec3(vb), -vb.w);
 }
 
 // True when the pair overlaps.
 bool separate(uint a, uint b) {
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    if (HAS(SLEEP) && va.w < 0.0f && vb.w < 0.0f) return false;
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
     float reach = HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius;
     if (HAS(SLEEP)) {
-        float far = reach + params.wakeGap;
+        float far = reach + wakeGap();
         if (!(squared < far * far)) return false;
-        wake(a, b);
+        wake(a, b, va, vb);
     }
     if (!(squared < reach * reach)) return false;
-    vec4 va = velocity[a];
-    vec4 vb = velocity[b];
+    if (HAS(SLEEP)) {
+        va = velocity[a];
+        vb = velocity[b];
+    }
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
     if (ma + mb == 0.0f) return false;
@@ -69,6 +72,7 @@ void visitPair(uint a, uint b) {
 KERNEL(params.groups) {
     uint group = groupOf(phase, invocation);
     uvec4 mine = span[group];
+    if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
         visitGroupNumber(group);
         return;
@@ -81,5 +85,5 @@ KERNEL(params.groups) {
             touched = touched + 1u;
         }
     }
-    span[group] = uvec4(mine.x, mine.y, touched, 0u);
+    span[group] = uvec4(mine.x, mine.y, touched, mine.w);
 }

@@ -69,6 +69,7 @@ void visitPair(uint a, uint b) {
 KERNEL(params.groups) {
     uint group = groupOf(phase, invocation);
     uvec4 mine = span[group];
+    if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
         visitGroupNumber(group);
         return;

@@ -23,7 +23,7 @@ void leave(uint sleeper, uint mover) {
     vec4 pa = position[sleeper];
     vec4 pb = position[mover];
     vec3 d = vec3(pb) - vec3(u) * params.substep - vec3(pa);
-    float far = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + params.wakeGap;
+    float far = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + wakeGap();
     if (dot3(d, d) < far * far) atomicOr(woken[sleeper], 1u);
 }
 

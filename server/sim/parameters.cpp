@@ -1,6 +1,7 @@
 #include "sim/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -13,13 +14,19 @@ namespace {
 constexpr double rebuildShare = 0.45;
 
 void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan) {
-    // Well above what lets a sphere fall asleep, or the two would take turns.
-    const double wake = 3 * scene.sleep.speed;
+    const double g = glm::length(scene.gravity);
+    const double h = scene.step / scene.substeps;
+    // Well above what lets a sphere fall asleep, or the two would take turns; and above what the solver's pushes make
+    // of a sphere squeezed between others: up to some 15 g h in a bed 20 deep. Whoever moves away more slowly creeps.
+    constexpr double kicks = 20;
     p.sleepSpeed = static_cast<float>(scene.sleep.speed);
-    p.sleepTime = static_cast<float>(scene.sleep.time);
-    p.wakeSpeed = static_cast<float>(wake);
-    // A little more than what a support may creep before it is noticed.
-    p.wakeGap = 0.5F * plan.grid.margin;
+    p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, kicks * g * h));
+    // Who stays within this distance of one place for the sleep time has not moved faster than the sleep speed.
+    const double creep =
+        std::min(rebuildShare * static_cast<double>(plan.grid.margin), 0.5 * scene.sleep.speed * scene.sleep.time);
+    p.creep = static_cast<float>(creep);
+    // In weak gravity, a free flight stays within that distance of its top for up to 3.4 sqrt(creep / g).
+    p.sleepTime = static_cast<float>(std::max(scene.sleep.time, g > 0 ? 4 * std::sqrt(creep / g) : 0.0));
 }
 
 }  // namespace

@@ -83,6 +83,7 @@ void Pipeline::upload(const State& state) {
     std::iota(ids.begin(), ids.end(), 0U);
     write<std::uint32_t>(Array::Id, ids);
     if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
+    if (plan_.has(Array::Stirred)) device_.fill(buffer(Array::Stirred), 0);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
     write<std::uint32_t>(Array::Counters, counters);

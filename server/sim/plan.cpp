@@ -65,6 +65,7 @@ void planArrays(Plan& plan, const scene::Scene& scene) {
         if (has.sleep) {
             add.array(Array::Resting, n, 16);
             add.array(Array::Woken, n, 4);
+            add.array(Array::Stirred, plan.groups(), 4);
         }
         add.array(Array::Pairs, plan.pairCapacity, 8);
         add.array(Array::Touching, plan.pairCapacity, 8);
@@ -119,6 +120,10 @@ void planSubstep(Plan& plan) {
     add.always(Pass::Integrate, "integrate.comp", {Position, Velocity, Before, Anchor, Id, Counters, Resting}, n);
     if (has.contacts) {
         planGrid(plan);
+        if (has.sleep) {
+            add.always(Pass::Sleep, "stir.comp", {Velocity, Anchor, Counters, Stirred}, n);
+            add.always(Pass::Sleep, "stir_spread.comp", {Counters, Stirred, Span}, plan.groups());
+        }
         for (std::uint32_t colour = 0; colour < 8; ++colour)
             add.always(Pass::Positions, "solve_positions.comp",
                        {Position, Velocity, Id, CellStart, Span, Pairs, Touching, Before}, groupsPerColour, colour);

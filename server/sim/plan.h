@@ -32,6 +32,7 @@ enum class Array : std::uint8_t {
     Anchor,   // position when the lists were built
     Resting,  // by id: position when it was last found to have crept
     Woken,    // sleepers to wake at this rebuild
+    Stirred,  // per cell group: the last substep in which it held a sphere that was awake
     SlotOf,   // by id
     Pairs,
     Touching,

@@ -53,10 +53,10 @@ std::string_view whenOf(const Row& row) {
 
 std::string_view nameOf(Array array) {
     static constexpr std::array<std::string_view, arrayCount> names = {
-        "position",      "velocity",   "before",       "id",       "bounce",   "obstacles", "cell-start",
-        "block-sums",    "super-sums", "place",        "order",    "saved",    "saved-id",  "anchor",
-        "resting",       "woken",      "slot-of",      "pairs",    "touching", "span",      "counters",
-        "full-launches", "launches",   "sphere-parts", "overlaps", "packed",
+        "position",   "velocity",      "before",   "id",           "bounce",   "obstacles", "cell-start",
+        "block-sums", "super-sums",    "place",    "order",        "saved",    "saved-id",  "anchor",
+        "resting",    "woken",         "stirred",  "slot-of",      "pairs",    "touching",  "span",
+        "counters",   "full-launches", "launches", "sphere-parts", "overlaps", "packed",
     };
     return names.at(static_cast<std::size_t>(array));
 }

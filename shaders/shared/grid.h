@@ -13,6 +13,13 @@ uint cellIndex(uint x, uint y, uint z) {
     return (z * params.cells.y + y) * params.cells.x + x;
 }
 
+uint groupOfCell(uint cell) {
+    uint x = cell % params.cells.x / 2u;
+    uint y = cell / params.cells.x % params.cells.y / 2u;
+    uint z = cell / (params.cells.x * params.cells.y) / 2u;
+    return (z * (params.cells.y / 2u) + y) * (params.cells.x / 2u) + x;
+}
+
 uint cellOf(vec3 point) {
     if (!finite3(point)) return 0u;
     vec3 p = point * params.inverseCell;

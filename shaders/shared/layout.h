@@ -21,7 +21,7 @@ struct Parameters {
     float sleepSpeed;    // m/s
     float sleepTime;     // s
     float wakeSpeed;     // m/s
-    float wakeGap;       // m
+    float creep;         // m; who moves this far from where it was is no longer at rest
 
     uint spheres;
     uint groups;         // of 2 x 2 x 2 cells, of one colour
@@ -64,6 +64,7 @@ struct SphereStatistics {
 #define COUNTER_NON_FINITE 3u   // not zero: some sphere has left the numbers
 #define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
 #define COUNTER_REBUILDS 5u     // since the start
+#define COUNTER_SUBSTEPS 6u     // since the start
 #define COUNTER_WORDS 8u
 
 // Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, 0).

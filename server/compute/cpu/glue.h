@@ -71,8 +71,12 @@ inline uint atomicAdd(uint& memory, uint value) {
     return std::atomic_ref<uint>(memory).fetch_add(value, std::memory_order_relaxed);
 }
 
+// Writes only what changes something: thousands of invocations raise one flag, and each write would take the cache line
+// from the other threads.
 inline uint atomicOr(uint& memory, uint value) {
-    return std::atomic_ref<uint>(memory).fetch_or(value, std::memory_order_relaxed);
+    const std::atomic_ref<uint> word(memory);
+    const uint seen = word.load(std::memory_order_relaxed);
+    return (seen & value) == value ? seen : word.fetch_or(value, std::memory_order_relaxed);
 }
 
 inline uint atomicMax(uint& memory, uint value) {
