@@ -47,7 +47,12 @@ KERNEL(params.groups * 8u) {
     }
     span[invocation] = uvec4(start, count, 0u, 1u);
     if (count <= LOCAL_PAIRS) {
-        for (uint k = 0u; k < count; ++k) pairs[start + k] = local[k];
+        // One from each half in turn: a solver then need not wait for the result of the pair before.
+        uint middle = (count + 1u) / 2u;
+        for (uint k = 0u; k < middle; ++k) {
+            pairs[start + 2u * k] = local[k];
+            if (middle + k < count) pairs[start + 2u * k + 1u] = local[middle + k];
+        }
     } else {
         found = 0u;
         base = start;

@@ -49,8 +49,9 @@ bool separate(uint a, uint b) {
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
     if (ma + mb == 0.0f) return false;
+    float inverse = 1.0f / (ma + mb);
     vec4 normal = normalAndDistance(d, squared, id[a], id[b]);
-    vec3 push = vec3(normal) * ((reach - normal.w) / (ma + mb));
+    vec3 push = vec3(normal) * ((reach - normal.w) * inverse);
     vec3 kick = push * params.perSubstep;
     if (ma > 0.0f) {
         position[a] = vec4(vec3(pa) + push * ma, pa.w);

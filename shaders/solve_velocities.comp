@@ -35,27 +35,22 @@ void collide(uint a, uint b, bool known) {
     vec4 vb = velocity[b];
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
-    float sum = ma + mb;
-    if (sum == 0.0f) return;
+    if (ma + mb == 0.0f) return;
+    float inverse = 1.0f / (ma + mb);
     vec3 n = vec3(normalAndDistance(d, squared, id[a], id[b]));
-    float least = 0.0f;
     vec4 ua = before[a];
     vec4 ub = before[b];
     float approach = dot3(vec3(ua) - vec3(ub), n);
-    float most = approach;
-    if (approach < 0.0f) {
-        if (HAS(RESTITUTION)) {
-            float e = HAS(RESTITUTIONS) ? min(bounce[id[a]], bounce[id[b]]) : params.restitution;
-            least = -e * approach;
-        }
-        most = least;
-        vec3 impulse = n * ((least - approach) / sum);
-        before[a] = vec4(vec3(ua) + impulse * ma, ua.w);
-        before[b] = vec4(vec3(ub) - impulse * mb, ub.w);
-    }
+    float e = 0.0f;
+    if (HAS(RESTITUTION)) e = HAS(RESTITUTIONS) ? min(bounce[id[a]], bounce[id[b]]) : params.restitution;
+    // Without a branch on the sign of `approach`, which is a toss-up between spheres at rest.
+    float least = max(-e * approach, 0.0f);
+    float most = max(approach, least);
+    vec3 rebound = n * ((most - approach) * inverse);
+    before[a] = vec4(vec3(ua) + rebound * ma, ua.w);
+    before[b] = vec4(vec3(ub) - rebound * mb, ub.w);
     float speed = dot3(vec3(va) - vec3(vb), n);
-    float change = min(max(speed, least), most) - speed;
-    vec3 impulse = n * (change / sum);
+    vec3 impulse = n * ((min(max(speed, least), most) - speed) * inverse);
     if (ma > 0.0f) velocity[a] = vec4(vec3(va) + impulse * ma, va.w);
     if (mb > 0.0f) velocity[b] = vec4(vec3(vb) - impulse * mb, vb.w);
 }

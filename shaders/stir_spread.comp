@@ -8,20 +8,37 @@ BUFFER(0, readonly, uint, counters, CounterBlock)
 BUFFER(1, readonly, uint, stirred, StirredBlock)
 BUFFER(2, restrict, uvec4, span, SpanBlock)
 
+// Neighbours on a ring of `count` places.
+uint lower(uint at, uint count) {
+    return at == 0u ? count - 1u : at - 1u;
+}
+
+uint upper(uint at, uint count) {
+    return at + 1u == count ? 0u : at + 1u;
+}
+
 KERNEL(params.groups * 8u) {
+    uvec4 mine = span[invocation];
+    if (mine.y == 0u) return;  // no pairs
     uint gx = params.cells.x / 2u;
     uint gy = params.cells.y / 2u;
     uint gz = params.cells.z / 2u;
-    // One less, on the torus; then three in each direction.
-    uint x = (invocation + gx - 1u) % gx;
-    uint y = (invocation / gx + gy - 1u) % gy;
-    uint z = (invocation / (gx * gy) + gz - 1u) % gz;
     uint substep = counters[COUNTER_SUBSTEPS];
-    uint stirs = 0u;
-    for (uint k = 0u; k < 27u && stirs == 0u; ++k) {
-        uint around = (((z + k / 9u) % gz) * gy + (y + (k / 3u) % 3u) % gy) * gx + (x + k % 3u) % gx;
-        stirs = stirred[around] == substep ? 1u : 0u;
+    uint row = invocation / gx;
+    uint x = invocation - row * gx;
+    uint west = lower(x, gx);
+    uint east = upper(x, gx);
+    uint z = lower(row / gy, gz);
+    uint south = lower(row % gy, gy);
+    bool stirs = false;
+    for (uint k = 0u; k < 3u && !stirs; ++k) {
+        uint y = south;
+        for (uint j = 0u; j < 3u && !stirs; ++j) {
+            uint start = (z * gy + y) * gx;
+            stirs = stirred[start + west] == substep || stirred[start + x] == substep || stirred[start + east] == substep;
+            y = upper(y, gy);
+        }
+        z = upper(z, gz);
     }
-    uvec4 mine = span[invocation];
-    span[invocation] = uvec4(mine.x, mine.y, 0u, stirs);
+    span[invocation] = uvec4(mine.x, mine.y, 0u, stirs ? 1u : 0u);
 }

@@ -41,10 +41,12 @@ void visitWall(vec3 normal, float depth, float wallRestitution) {
 #include "shared/walls.h"
 
 KERNEL(params.spheres) {
+    vec4 x = position[invocation];
+    float radius = HAS(RADII) ? x.w : params.radius;
+    wallPoint = vec3(x);
+    if (clearOfWalls(wallPoint, radius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
-    vec4 x = position[invocation];
-    wallPoint = vec3(x);
     corrected = vec3(v);
     met = false;
     vec4 u = vec4(0.0f, 0.0f, 0.0f, 0.0f);
@@ -53,7 +55,7 @@ KERNEL(params.spheres) {
         running = vec3(u);
         sphereBounce = HAS(RESTITUTIONS) ? bounce[id[invocation]] : params.restitution;
     }
-    visitWalls(HAS(RADII) ? x.w : params.radius);
+    visitWalls(radius);
     if (!met) return;
     position[invocation] = vec4(wallPoint, x.w);
     velocity[invocation] = vec4(corrected, v.w);

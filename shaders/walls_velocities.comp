@@ -31,15 +31,17 @@ void visitWall(vec3 normal, float depth, float wallRestitution) {
 #include "shared/walls.h"
 
 KERNEL(params.spheres) {
+    vec4 x = position[invocation];
+    float radius = HAS(RADII) ? x.w : params.radius;
+    wallPoint = vec3(x);
+    if (clearOfWalls(wallPoint, radius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
-    vec4 x = position[invocation];
-    wallPoint = vec3(x);
     corrected = vec3(v);
     if (HAS(RESTITUTION)) {
         running = vec3(before[invocation]);
         sphereBounce = HAS(RESTITUTIONS) ? bounce[id[invocation]] : params.restitution;
     }
-    visitWalls(HAS(RADII) ? x.w : params.radius);
+    visitWalls(radius);
     velocity[invocation] = vec4(corrected, v.w);
 }

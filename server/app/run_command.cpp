@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -59,27 +60,80 @@ class Progress {
     Clock::time_point last_ = start_;
 };
 
-Result<RunTimes> runSteps(sim::Simulation& simulation, compute::Device& device, double duration, double every,
-                          Dump* dump) {
+// Times a run stretch by stretch; what happens between two stretches does not count.
+class Watch {
+  public:
+    Watch(sim::Simulation& simulation, compute::Device& device) : simulation_(simulation), device_(device) { start(); }
+
+    void start() {
+        static_cast<void>(device_.takeTimes());
+        simTime_ = simulation_.time();
+        rebuilds_ = simulation_.counters().rebuilds;
+        began_ = Clock::now();
+    }
+    // Waits for the device.
+    Stretch take() {
+        device_.finish();
+        return {.simSeconds = simulation_.time() - simTime_,
+                .wallSeconds = secondsSince(began_),
+                .passSeconds = device_.takeTimes(),
+                .rebuilds = simulation_.counters().rebuilds - rebuilds_};
+    }
+
+  private:
+    sim::Simulation& simulation_;
+    compute::Device& device_;
+    double simTime_ = 0;
+    std::uint64_t rebuilds_ = 0;
+    Clock::time_point began_;
+};
+
+// Runs `steps`, and calls `every` after each `stride` of them and at the end.
+Result<void> runSteps(sim::Simulation& simulation, std::uint64_t steps, std::uint64_t stride,
+                      const std::function<Result<void>()>& every) {
+    if (steps == 0) return every();
+    Progress progress(steps);
+    for (std::uint64_t k = 1; k <= steps; ++k) {
+        if (auto done = simulation.step(); !done) return done;
+        progress.at(k, simulation.time());
+        if (k % stride == 0 || k == steps)
+            if (auto done = every(); !done) return done;
+    }
+    return {};
+}
+
+void print(const RunOptions& options, const compute::DeviceInfo& info, sim::Simulation& simulation,
+           const Stretch& stretch) {
+    if (options.json)
+        fmt::print("{}\n", runJson(info, simulation, stretch));
+    else if (options.every.empty() || !options.dump.empty())
+        fmt::print("{}", runText(info, simulation, stretch));
+    else
+        fmt::print("{}", runRow(simulation, stretch));
+    std::fflush(stdout);
+}
+
+Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, double duration,
+                      double every) {
     const double step = simulation.scene().step;
     const auto steps = static_cast<std::uint64_t>(std::llround(duration / step));
     const auto stride = every > 0 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(every / step)))
                                   : std::max<std::uint64_t>(1, steps);
-    if (dump != nullptr)
-        if (auto done = dump->write(simulation); !done) return tl::unexpected(done.error());
-    Progress progress(steps);
-    RunTimes times;
-    const auto start = Clock::now();
-    for (std::uint64_t k = 1; k <= steps; ++k) {
-        if (auto done = simulation.step(); !done) return tl::unexpected(done.error());
-        progress.at(k, simulation.time());
-        if (dump != nullptr && (k % stride == 0 || k == steps))
-            if (auto done = dump->write(simulation); !done) return tl::unexpected(done.error());
+    Watch watch(simulation, device);
+    if (options.dump.empty()) {
+        if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
+        return runSteps(simulation, steps, stride, [&]() -> Result<void> {
+            print(options, device.info(), simulation, watch.take());
+            watch.start();
+            return {};
+        });
     }
-    device.finish();
-    times.wallSeconds = secondsSince(start);
-    for (const double seconds : device.takeTimes()) times.deviceSeconds += seconds;
-    return times;
+    auto dump = Dump::create(options.dump);
+    if (!dump) return tl::unexpected(dump.error());
+    if (auto done = dump->write(simulation); !done) return done;
+    if (auto done = runSteps(simulation, steps, stride, [&] { return dump->write(simulation); }); !done) return done;
+    print(options, device.info(), simulation, watch.take());
+    return {};
 }
 
 Result<void> run(const RunOptions& options) {
@@ -88,8 +142,6 @@ Result<void> run(const RunOptions& options) {
     const auto every = options.every.empty() ? Result<double>(0.0) : secondsOf(options.every, "--every");
     if (!every) return tl::unexpected(every.error());
     if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
-    if (!options.every.empty() && options.dump.empty())
-        return fail(ErrorKind::Input, "--every", "says how often to dump; name the file with --dump");
 
     auto device = compute::openDevice(options.scene.device);
     if (!device) return tl::unexpected(device.error());
@@ -100,20 +152,7 @@ Result<void> run(const RunOptions& options) {
                     fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
     auto simulation = sim::Simulation::create(**device, std::move(*loaded));
     if (!simulation) return tl::unexpected(simulation.error());
-    std::optional<Dump> dump;
-    if (!options.dump.empty()) {
-        auto created = Dump::create(options.dump);
-        if (!created) return tl::unexpected(created.error());
-        dump = std::move(*created);
-    }
-    const auto times = runSteps(**simulation, **device, *duration, *every, dump ? &*dump : nullptr);
-    if (!times) return tl::unexpected(times.error());
-    const auto& info = (*device)->info();
-    if (options.json)
-        fmt::print("{}\n", runJson(info, **simulation, *times));
-    else
-        fmt::print("{}", runText(info, **simulation, *times));
-    return {};
+    return simulate(options, **simulation, **device, *duration, *every);
 }
 
 }  // namespace
@@ -123,9 +162,10 @@ void addRun(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("run", "simulate as fast as it goes, without the network");
     options->scene.addTo(*command);
     command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
-    command->add_option("--every", options->every, "dump a state this often; absent: the first and the last");
+    command->add_option("--every", options->every,
+                        "report this often, or with --dump write a state; absent: once, at the end");
     command->add_option("--dump", options->dump, "write states to this CSV file");
-    command->add_flag("--json", options->json, "print one line of JSON");
+    command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
         const auto done = run(*options);

@@ -2,13 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include <nlohmann/json.hpp>
 
 namespace spherule::app {
 
 namespace {
 
-nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times) {
+double realTimeFactor(const Stretch& stretch) {
+    return stretch.wallSeconds > 0 ? stretch.simSeconds / stretch.wallSeconds : 0;
+}
+
+nlohmann::ordered_json passesOf(const Stretch& stretch) {
+    auto passes = nlohmann::ordered_json::object();
+    for (unsigned pass = 0; pass < sim::passCount; ++pass) {
+        const bool known = pass < stretch.passSeconds.size();
+        passes[std::string(nameOf(static_cast<sim::Pass>(pass)))] = known ? stretch.passSeconds[pass] : 0.0;
+    }
+    return passes;
+}
+
+nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation,
+                                const Stretch& stretch) {
     const sim::Statistics s = simulation.statistics();
     const sim::State state = simulation.snapshot();
     return {
@@ -20,8 +36,12 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"steps", simulation.steps()},
         {"substepsPerStep", simulation.scene().substeps},
         {"simSeconds", simulation.time()},
-        {"wallSeconds", times.wallSeconds},
-        {"deviceSeconds", times.deviceSeconds},
+        {"stretchSeconds", stretch.simSeconds},
+        {"wallSeconds", stretch.wallSeconds},
+        {"realTimeFactor", realTimeFactor(stretch)},
+        {"deviceSeconds", std::accumulate(stretch.passSeconds.begin(), stretch.passSeconds.end(), 0.0)},
+        {"passSeconds", passesOf(stretch)},
+        {"rebuilds", stretch.rebuilds},
         {"kineticEnergy", s.kineticEnergy},
         {"rotationalEnergy", s.rotationalEnergy},
         {"potentialEnergy", s.potentialEnergy},
@@ -42,16 +62,26 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
 
 }  // namespace
 
-std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times) {
-    return reportOf(device, simulation, times).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const Stretch& stretch) {
+    return reportOf(device, simulation, stretch).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times) {
+std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const Stretch& stretch) {
     std::string text;
-    const nlohmann::ordered_json report = reportOf(device, simulation, times);
+    const nlohmann::ordered_json report = reportOf(device, simulation, stretch);
     for (const auto& [key, value] : report.items())
         text += fmt::format("{:<16} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     return text;
+}
+
+const char* const runRowHeader =
+    "   time, s   x real time    asleep   overlap, % of r: mean      max   speed, m/s: rms      max";
+
+std::string runRow(sim::Simulation& simulation, const Stretch& stretch) {
+    const sim::Statistics s = simulation.statistics();
+    return fmt::format("{:>10.4g}{:>14.3g}{:>10}{:>25.3f}{:>9.3f}{:>19.4f}{:>9.3f}\n", simulation.time(),
+                       realTimeFactor(stretch), s.sleeping, 100 * s.overlapMean, 100 * s.overlapMax, s.speedRms,
+                       s.speedMax);
 }
 
 }  // namespace spherule::app

@@ -1,21 +1,30 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "compute/device.h"
 #include "sim/simulation.h"
 
 namespace spherule::app {
 
-struct RunTimes {
+// What a stretch of a run took.
+struct Stretch {
+    double simSeconds = 0;
     double wallSeconds = 0;
-    double deviceSeconds = 0;  // sum of the passes
+    std::vector<double> passSeconds;  // device time by sim::Pass
+    std::uint64_t rebuilds = 0;       // of the pair lists
 };
 
-// The line that `run --json` prints: every key, always.
-std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times);
+// The line that `run --json` prints: every key, always. The state is that at the end of the stretch.
+std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const Stretch& stretch);
 
 // The same for people.
-std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const RunTimes& times);
+std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const Stretch& stretch);
+
+// One row for each of many stretches, and what its columns are.
+extern const char* const runRowHeader;
+std::string runRow(sim::Simulation& simulation, const Stretch& stretch);
 
 }  // namespace spherule::app

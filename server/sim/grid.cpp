@@ -8,7 +8,7 @@ namespace spherule::sim {
 namespace {
 
 // Gap up to which pairs are listed, in mean radii: a wider one lists more pairs, a narrower one rebuilds more often.
-constexpr double marginInRadii = 0.2;
+constexpr double marginInRadii = 0.3;
 constexpr std::uint64_t cellsPerSphere = 2;
 constexpr std::uint64_t fewestCells = 4096;
 constexpr std::uint32_t mostPerAxis = 1U << 16U;

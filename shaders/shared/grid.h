@@ -13,15 +13,16 @@ uint cellIndex(uint x, uint y, uint z) {
     return (z * params.cells.y + y) * params.cells.x + x;
 }
 
-uint groupOfCell(uint cell) {
-    uint x = cell % params.cells.x / 2u;
-    uint y = cell / params.cells.x % params.cells.y / 2u;
-    uint z = cell / (params.cells.x * params.cells.y) / 2u;
-    return (z * (params.cells.y / 2u) + y) * (params.cells.x / 2u) + x;
-}
-
 uint cellOf(vec3 point) {
     if (!finite3(point)) return 0u;
     vec3 p = point * params.inverseCell;
     return cellIndex(wrapCell(p.x, params.cells.x), wrapCell(p.y, params.cells.y), wrapCell(p.z, params.cells.z));
+}
+
+// The group of the point's cell.
+uint groupAt(vec3 point) {
+    if (!finite3(point)) return 0u;
+    vec3 p = point * params.inverseCell;
+    uint row = wrapCell(p.z, params.cells.z) / 2u * (params.cells.y / 2u) + wrapCell(p.y, params.cells.y) / 2u;
+    return row * (params.cells.x / 2u) + wrapCell(p.x, params.cells.x) / 2u;
 }

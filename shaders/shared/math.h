@@ -1,6 +1,7 @@
-// Written out, because compilers may contract or reorder the built-in ones differently on each device.
+// Written out, because compilers may contract or reorder the built-in one differently on each device.
 float dot3(vec3 a, vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    vec3 products = a * b;
+    return products.x + products.y + products.z;
 }
 
 // From the exponent's bits: compilers take x - x == 0 and its like for granted.

@@ -36,6 +36,18 @@ void visitBox(Obstacle box, float radius) {
     visitWall(normal, depth + radius, box.b.w);
 }
 
+// Whether the sphere is so far inside the bounds that it meets none of their faces. Most are.
+bool clearOfFaces(vec3 p, float radius) {
+    float r = radius * (1.0f + 2.0f * WALL_TOLERANCE);
+    return p.x - r > params.wallMin.x && p.x + r < params.wallMax.x && p.y - r > params.wallMin.y &&
+           p.y + r < params.wallMax.y && p.z - r > params.wallMin.z && p.z + r < params.wallMax.z;
+}
+
+// Whether it meets nothing, as far as that can be told at once.
+bool clearOfWalls(vec3 p, float radius) {
+    return !HAS(PLANES) && !HAS(BOXES) && clearOfFaces(p, radius);
+}
+
 void visitWalls(float radius) {
     if (HAS(WALLS)) {
         visitFace(0u, vec3(1.0f, 0.0f, 0.0f), params.wallMin.x + radius - wallPoint.x, radius);

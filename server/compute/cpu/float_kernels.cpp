@@ -1,3 +1,5 @@
+#include "compute/cpu/vectors.h"
+
 #define SPHERULE_REAL float
 #define SPHERULE_PRECISION single_precision
 #include "compute/cpu/glue.h"

@@ -4,7 +4,7 @@
 //
 // Included once by each translation unit that compiles the kernels, which says before what a `float` of theirs is:
 //   SPHERULE_REAL        float or double
-//   SPHERULE_PRECISION   the namespace they go to
+//   SPHERULE_PRECISION   the namespace they go to, which has types vec3 and vec4 of them
 
 // Kernels share callbacks whose parameters not every kernel needs, and Mesa refuses a parameter without a name.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -16,7 +16,6 @@
 #include <cstring>
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "compute/cpu/features.h"
@@ -27,8 +26,6 @@ namespace spherule::compute::cpu::SPHERULE_PRECISION {
 using real = SPHERULE_REAL;
 using glm::uvec2;
 using glm::uvec4;
-using vec3 = glm::vec<3, real>;
-using vec4 = glm::vec<4, real>;
 using uint = std::uint32_t;
 
 // GLSL's scalar functions, with GLSL's choice of operand where one is NaN.
@@ -58,13 +55,6 @@ inline real sqrt(real x) {
 }
 inline uint floatBitsToUint(real x) {
     return std::bit_cast<uint>(static_cast<float>(x));
-}
-
-// GLM wants a vector and a number of one type, and the kernels' literals are float.
-template <class Literal>
-requires(std::is_same_v<Literal, float> && !std::is_same_v<real, float>) inline vec3 operator*(const vec3& v,
-                                                                                               Literal factor) {
-    return v * static_cast<real>(factor);
 }
 
 inline uint atomicAdd(uint& memory, uint value) {
@@ -100,7 +90,7 @@ struct KernelBase : Features {
     template <class T>
     [[nodiscard]] T copyOfParameters() const {
         T copy{};
-        if (binding.parameters != nullptr) std::memcpy(&copy, binding.parameters, sizeof copy);
+        if (binding.parameters != nullptr) std::memcpy(static_cast<void*>(&copy), binding.parameters, sizeof copy);
         return copy;
     }
 
@@ -113,8 +103,16 @@ uint countOf(const Binding& binding) {
     return Kernel(binding).kernelCount();
 }
 
+// Compiled once more for processors with AVX2, which the loader then takes. No multiplication is contracted with an
+// addition in either, so that both give the same bits. The sanitizers' runtimes start later than the loader's choice.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define SPHERULE_CLONES __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
+#else
+#define SPHERULE_CLONES
+#endif
+
 template <class Kernel>
-void run(const Binding& binding, uint begin, uint end) {
+SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     Kernel kernel(binding);
     for (uint invocation = begin; invocation < end; ++invocation) kernel.kernelBody(invocation);
 }

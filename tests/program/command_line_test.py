@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program as a user calls it: command_line_test.py BINARY. Needs only Mesa's software renderer."""
+"""The program as a user calls it: command_line_test.py BINARY DEVICE, on `software` or `cpu`."""
 import csv
 import json
 import os
@@ -11,9 +11,10 @@ import tempfile
 import unittest
 import urllib.request
 
+DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
-KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds wallSeconds deviceSeconds kineticEnergy
-rotationalEnergy potentialEnergy momentum contacts overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight
+KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds stretchSeconds wallSeconds realTimeFactor
+deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy momentum contacts overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight
 sleeping outside nonFinite stateHash""".split()
 
 
@@ -22,7 +23,7 @@ def call(*arguments):
 
 
 def run_json(*arguments):
-    done = call("run", *arguments, "--device", "software", "--json")
+    done = call("run", *arguments, "--device", DEVICE, "--json")
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("\n") == 1, done.stdout
     return json.loads(done.stdout)
@@ -32,7 +33,7 @@ class Run(unittest.TestCase):
     def test_json_has_every_key(self):
         report = run_json("two-spheres", "--for", "0.1s")
         self.assertEqual(list(report), KEYS)
-        self.assertEqual((report["steps"], report["spheres"], report["device"]), (6, 2, "software"))
+        self.assertEqual((report["steps"], report["spheres"], report["device"]), (6, 2, DEVICE))
         self.assertEqual(len(report["momentum"]), 3)
         self.assertRegex(report["stateHash"], "^[0-9a-f]{16}$")
 
@@ -55,6 +56,15 @@ class Run(unittest.TestCase):
     def test_substeps_and_sleep_follow_the_options(self):
         self.assertEqual(run_json("bounce", "--for", "0.05s", "--substeps", "3")["substepsPerStep"], 3)
 
+    def test_every_reports_each_stretch(self):
+        done = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE, "--json")
+        reports = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual([round(report["stretchSeconds"], 3) for report in reports], [0.1, 0.1, 0.05])
+        self.assertAlmostEqual(sum(reports[0]["passSeconds"].values()), reports[0]["deviceSeconds"])
+        self.assertGreater(reports[0]["passSeconds"]["integrate"], 0)
+        rows = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE).stdout.splitlines()
+        self.assertEqual([row.split()[0] for row in rows], ["time,", "0.1", "0.2", "0.25"])
+
     def test_dump_has_its_header_and_a_row_per_sphere_and_state(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "states.csv")
@@ -66,9 +76,9 @@ class Run(unittest.TestCase):
 
     def test_exit_codes(self):
         self.assertEqual(call("run", "box-4k").returncode, 2)
-        self.assertEqual(call("run", "no-such-scene", "--for", "1s", "--device", "software").returncode, 2)
-        self.assertEqual(call("run", "bounce", "--for", "soon", "--device", "software").returncode, 2)
-        self.assertEqual(call("run", "bounce", "--for", "1e300s", "--device", "software").returncode, 2)
+        self.assertEqual(call("run", "no-such-scene", "--for", "1s", "--device", DEVICE).returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "soon", "--device", DEVICE).returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "1e300s", "--device", DEVICE).returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1s", "--every", "0", "--dump", "/dev/null").returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1s", "--device", "gpu:99").returncode, 3)
         self.assertIn("75 device lost", call("run", "--help").stdout)
@@ -79,7 +89,7 @@ class Run(unittest.TestCase):
             with open(path, "w", encoding="utf-8") as file:
                 file.write('{"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"radius": {"constant": -0.1},'
                            '"list": {"spheres": [{"position": [0.5,0.5,0.5]}]}}]}')
-            done = call("run", path, "--for", "1s", "--device", "software")
+            done = call("run", path, "--for", "1s", "--device", DEVICE)
         self.assertEqual(done.returncode, 2)
         self.assertIn("wrong.json: groups[0].radius.constant: is -0.1, must be positive", done.stderr)
 
@@ -92,12 +102,13 @@ class Others(unittest.TestCase):
         self.assertIn("solve_positions.comp", call("plan", "box-50k").stdout)
 
     def test_probe_names_the_renderer(self):
-        self.assertIn("llvmpipe", json.loads(call("probe", "--device", "software", "--json").stdout)["chosen"]["renderer"])
+        chosen = json.loads(call("probe", "--device", DEVICE, "--json").stdout)["chosen"]
+        self.assertIn({"software": "llvmpipe", "cpu": "thread"}[DEVICE], chosen["renderer"])
 
 
 class Serve(unittest.TestCase):
     def setUp(self):
-        self.server = subprocess.Popen([BINARY, "serve", "cradle", "--device", "software", "--listen", "127.0.0.1:0"],
+        self.server = subprocess.Popen([BINARY, "serve", "cradle", "--device", DEVICE, "--listen", "127.0.0.1:0"],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         for line in self.server.stdout:
             if found := re.search(r"open http://(\S+)/", line):
@@ -136,7 +147,7 @@ class Serve(unittest.TestCase):
     def test_health_readiness_and_metrics(self):
         self.assertEqual(self.get("/healthz"), "alive\n")
         ready = json.loads(self.get("/readyz"))
-        self.assertEqual((ready["device"], ready["scene"], ready["spheres"]), ("software", "cradle", 5))
+        self.assertEqual((ready["device"], ready["scene"], ready["spheres"]), (DEVICE, "cradle", 5))
         self.assertIn(ready["state"], ("running", "paused"))
         self.assertIn("spherule_spheres 5", self.get("/metrics"))
         self.assertIn("<!doctype html>", self.get("/").lower())
