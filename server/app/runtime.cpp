@@ -91,6 +91,7 @@ net::Handlers Runtime::handlers() {
                 welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
                 welcome.set_device(live.device);
                 welcome.set_renderer(live.renderer);
+                welcome.set_reason(live.reason);
                 for (const std::string& name : scene::names()) welcome.add_scenes(name);
                 return welcome;
             },

@@ -19,7 +19,8 @@ test("the page loads, connects and says what it shows", async () => {
   assert.equal(await page.textContent(control("scene-name")), "billiards");
   assert.equal(await page.textContent(control("connection")), "connected");
   await when(page, () => document.querySelector('[data-testid="status-spheres"]').textContent === "16");
-  assert.match(await page.textContent(control("status-renderer")), /llvmpipe|software/i);
+  assert.match(await page.textContent(control("status-renderer")), /^cpu · .*threads?$/);
+  assert.match(await page.getAttribute(".field.renderer", "title"), /asked for as cpu/);
   assert.deepEqual(page.faults, []);
   await page.close();
 });

@@ -12,21 +12,23 @@ after(async () => {
   await stopAll();
 });
 
-test("two pages see the same world", async () => {
-  const server = await serve("billiards");
-  const one = await open(browser, server.url);
-  const two = await open(browser, server.url);
-  await pause(one);
-  await when(two, () => document.querySelector('[data-testid="pause"]').dataset.paused === "true");
-  const state = (page) => page.evaluate(() => JSON.stringify([spherule.epoch, spherule.positions([...Array(spherule.count).keys()])]));
-  await when(two, (step) => spherule.step === step, await one.evaluate(() => spherule.step));
-  assert.equal(await state(two), await state(one));
-  await two.selectOption(control("gravity-preset"), "Sideways");
-  await when(one, () => document.querySelector('[data-testid="gravity-preset"]').value === "Sideways");
-  await one.close();
-  await two.close();
-  await server.stop();
-});
+for (const device of ["cpu", "software"]) {
+  test(`two pages see the same world, computed by ${device}`, async () => {
+    const server = await serve("billiards", { device });
+    const one = await open(browser, server.url);
+    const two = await open(browser, server.url);
+    await pause(one);
+    await when(two, () => document.querySelector('[data-testid="pause"]').dataset.paused === "true");
+    const state = (page) => page.evaluate(() => JSON.stringify([spherule.epoch, spherule.positions([...Array(spherule.count).keys()])]));
+    await when(two, (step) => spherule.step === step, await one.evaluate(() => spherule.step));
+    assert.equal(await state(two), await state(one));
+    await two.selectOption(control("gravity-preset"), "Sideways");
+    await when(one, () => document.querySelector('[data-testid="gravity-preset"]').value === "Sideways");
+    await one.close();
+    await two.close();
+    await server.stop();
+  });
+}
 
 test("the page finds a restarted server by itself and shows its world", async () => {
   const first = await serve("billiards");
@@ -35,7 +37,7 @@ test("the page finds a restarted server by itself and shows its world", async ()
   await when(page, () => spherule.connection === "waiting");
   await when(page, () => /offline/.test(document.querySelector('[data-testid="connection"]').textContent));
   const frames = await page.evaluate(() => spherule.frames);
-  const second = await serve("bounce", first.port);
+  const second = await serve("bounce", { port: first.port });
   await when(page, (then) => spherule.connection === "open" && spherule.scene === "bounce" && spherule.frames > then + 2, frames);
   assert.equal(await page.evaluate(() => spherule.count), 1);
   await page.click(control("pause"));

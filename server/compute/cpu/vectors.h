@@ -1,5 +1,5 @@
-// vec3 and vec4 of the float kernels, each in one register: what the kernels use of GLM's, whose separate floats GCC turns
-// into three or four times the loads, sums and stores.
+// vec3 and vec4 of the float kernels, each in one register: what the kernels use of GLM's, whose separate floats GCC
+// turns into three or four times the loads, sums and stores.
 //
 // The fourth lane of a vec3 holds whatever the vec4 that it came from held there.
 #pragma once
@@ -11,9 +11,7 @@ using Lanes = float __attribute__((vector_size(16)));
 struct vec4 {
     union {
         Lanes lanes;
-        __extension__ struct {
-            float x, y, z, w;
-        };
+        __extension__ struct { float x, y, z, w; };
     };
 
     vec4() = default;
@@ -30,9 +28,7 @@ struct vec4 {
 struct vec3 {
     union {
         Lanes lanes;
-        __extension__ struct {
-            float x, y, z;
-        };
+        __extension__ struct { float x, y, z; };
     };
 
     vec3() = default;

@@ -105,9 +105,10 @@ Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devic
         return Opened{context, "gpu", reason};
     }
     if (wish.kind != Wish::Kind::Software) {
-        return fail(
-            ErrorKind::NoDevice, gpuName(wish),
-            fmt::format("nothing here computes with OpenGL 4.5 on a GPU{}. {}", attempts.problems(), gpuAdvice));
+        // Without a GPU, `auto` goes on with the CPU: no advice is needed.
+        const std::string advice = wish.kind == Wish::Kind::Auto ? "" : fmt::format(". {}", gpuAdvice);
+        return fail(ErrorKind::NoDevice, gpuName(wish),
+                    fmt::format("no GPU here computes with OpenGL 4.5{}{}", attempts.problems(), advice));
     }
     if (openSoftware(attempts, devices))
         return Opened{attempts.context(), "software", "asked for as software: Mesa's renderer on the CPU, slow"};

@@ -11,8 +11,8 @@ export async function stopAll() {
 }
 
 /** Serves the scene; `port` 0 takes a free one. */
-export async function serve(scene, port = 0) {
-  const child = spawn(binary, ["serve", scene, "--device", "software", "--listen", `127.0.0.1:${port}`], {
+export async function serve(scene, { port = 0, device = "cpu" } = {}) {
+  const child = spawn(binary, ["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], {
     stdio: ["ignore", "pipe", "pipe"],
   });
   let said = "";

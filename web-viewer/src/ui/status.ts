@@ -40,6 +40,7 @@ export class StatusLine {
     this.set("fps", fps > 0 ? fps.toFixed(0) : "idle");
     this.set("viewers", status ? count(status.viewers) : "–", (status?.viewers ?? 0) < 2);
     this.set("renderer", welcome ? [welcome.device, welcome.renderer].filter(Boolean).join(" · ") : "");
+    if (welcome) this.fields.get("renderer")?.parentElement?.setAttribute("title", `What computes the world: ${welcome.reason}`);
   }
 
   private field(id: string, label: string, title: string): HTMLElement {
