@@ -28,17 +28,17 @@ KERNEL(params.groups * 8u) {
     uint x = invocation - row * gx;
     uint west = lower(x, gx);
     uint east = upper(x, gx);
-    uint z = lower(row / gy, gz);
-    uint south = lower(row % gy, gy);
+    uint y = lower(row / gz, gy);
+    uint below = lower(row % gz, gz);
     bool stirs = false;
     for (uint k = 0u; k < 3u && !stirs; ++k) {
-        uint y = south;
+        uint z = below;
         for (uint j = 0u; j < 3u && !stirs; ++j) {
-            uint start = (z * gy + y) * gx;
+            uint start = (y * gz + z) * gx;
             stirs = stirred[start + west] == substep || stirred[start + x] == substep || stirred[start + east] == substep;
-            y = upper(y, gy);
+            z = upper(z, gz);
         }
-        z = upper(z, gz);
+        y = upper(y, gy);
     }
     span[invocation] = uvec4(mine.x, mine.y, 0u, stirs ? 1u : 0u);
 }

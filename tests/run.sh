@@ -4,6 +4,7 @@
 #   ./tests/run.sh                  all tests but the benchmarks
 #   ./tests/run.sh --label unit     only those with this label; may be given several times
 #   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
+#   ./tests/run.sh --sanitize       what runs without OpenGL under ASan and UBSan, and under TSan, in place of the tests
 #
 # The last line sums it up. Exits 1 when anything failed.
 set -euo pipefail
@@ -14,11 +15,13 @@ jobs=$(nproc)
 
 labels=()
 tidy=
+sanitize=
 while [[ $# -gt 0 ]]; do
     case $1 in
         --label) labels+=("${2:?--label needs a name}"); shift 2 ;;
         --tidy) tidy=1; shift ;;
-        -h | --help) sed -n '2,8s/^# \?//p' "$0"; exit 0 ;;
+        --sanitize) sanitize=1; shift ;;
+        -h | --help) sed -n '2,9s/^# \?//p' "$0"; exit 0 ;;
         *) echo "unknown option $1; see $0 --help" >&2; exit 2 ;;
     esac
 done
@@ -67,7 +70,21 @@ run_tidy() {
     return "${PIPESTATUS[0]}"
 }
 
+# Mesa's renderer brings findings of its own: these tests compute on the CPU device.
+sanitized() {
+    cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
+        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test kernels_test pool_test physics_tests net_tests &&
+        ctest --test-dir "build/$1" -j "$jobs" --output-on-failure --no-tests=error \
+            -R '^(scene_test|frame_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
+}
+
 needed packages ./deploy/install_packages.sh build run test
+if [[ -n $sanitize ]]; then
+    phase asan sanitized asan
+    phase tsan sanitized tsan
+    summary
+    exit
+fi
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
 needed build cmake --build --preset release -j "$jobs"
 phase format check_format

@@ -9,8 +9,10 @@ uint wrapCell(float coordinate, uint cells) {
     return uint(int(bounded) + int(shift)) % cells;
 }
 
+// By x, then z, then y. With a horizontal axis last, a share of the cells, the groups or the sorted spheres is a slice of the
+// scene from bottom to top: threads that take the same share of each find their own spheres, and as many, in a pile too.
 uint cellIndex(uint x, uint y, uint z) {
-    return (z * params.cells.y + y) * params.cells.x + x;
+    return (y * params.cells.z + z) * params.cells.x + x;
 }
 
 uint cellOf(vec3 point) {
@@ -23,6 +25,6 @@ uint cellOf(vec3 point) {
 uint groupAt(vec3 point) {
     if (!finite3(point)) return 0u;
     vec3 p = point * params.inverseCell;
-    uint row = wrapCell(p.z, params.cells.z) / 2u * (params.cells.y / 2u) + wrapCell(p.y, params.cells.y) / 2u;
+    uint row = wrapCell(p.y, params.cells.y) / 2u * (params.cells.z / 2u) + wrapCell(p.z, params.cells.z) / 2u;
     return row * (params.cells.x / 2u) + wrapCell(p.x, params.cells.x) / 2u;
 }

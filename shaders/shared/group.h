@@ -39,15 +39,15 @@ void visitGroup(uint x, uint y, uint z) {
 // Group number `index` of a colour (0 .. 7): its place, as a number over all groups.
 uint groupOf(uint colour, uint index) {
     uint gx = params.cells.x / 4u;
-    uint gy = params.cells.y / 4u;
+    uint gz = params.cells.z / 4u;
     uint x = 2u * (index % gx) + (colour & 1u);
-    uint y = 2u * ((index / gx) % gy) + ((colour >> 1u) & 1u);
-    uint z = 2u * (index / (gx * gy)) + (colour >> 2u);
-    return (z * (2u * gy) + y) * (2u * gx) + x;
+    uint y = 2u * (index / (gx * gz)) + ((colour >> 1u) & 1u);
+    uint z = 2u * ((index / gx) % gz) + (colour >> 2u);
+    return (y * (2u * gz) + z) * (2u * gx) + x;
 }
 
 void visitGroupNumber(uint group) {
     uint gx = params.cells.x / 2u;
-    uint gy = params.cells.y / 2u;
-    visitGroup(group % gx, (group / gx) % gy, group / (gx * gy));
+    uint gz = params.cells.z / 2u;
+    visitGroup(group % gx, group / (gx * gz), (group / gx) % gz);
 }

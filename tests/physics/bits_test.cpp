@@ -1,5 +1,6 @@
-// Every scene that comes with the program, on the CPU with different numbers of threads and on Mesa's software renderer:
-// the same bits. SPHERULE_BITS_SECONDS says for how long; without it, 2 s, and one step of a scene above 100,000 spheres.
+// Every scene that comes with the program, on the CPU with different numbers of threads and on Mesa's software
+// renderer: the same bits. SPHERULE_BITS_SECONDS says for how long; without it, 2 s, and one step of a scene above
+// 100,000 spheres.
 #include <gtest/gtest.h>
 
 #include <algorithm>

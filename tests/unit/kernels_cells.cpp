@@ -65,7 +65,7 @@ TEST(KernelsAsCpp, EverySphereIsInTheCellOfItsPlaceOnTheTorus) {
         for (uint k = cells.start[cell]; k < cells.start[cell + 1]; ++k) {
             const vec4 p = positions[cells.order[k]];
             const auto wrap = [](float x) { return (static_cast<int>(std::floor(x)) % 4 + 4) % 4; };
-            EXPECT_EQ(cell, static_cast<uint>((wrap(p.z) * 4 + wrap(p.y)) * 4 + wrap(p.x)));
+            EXPECT_EQ(cell, static_cast<uint>((wrap(p.y) * 4 + wrap(p.z)) * 4 + wrap(p.x)));
         }
     }
 }

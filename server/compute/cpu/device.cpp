@@ -20,7 +20,7 @@ constexpr int maxReadBacks = 2;
 // Ranges that a thread takes at a time: few enough that taking them costs little, many enough that the threads end
 // together.
 constexpr std::uint32_t rangesPerThread = 16;
-constexpr std::uint32_t smallestRange = 16;
+constexpr std::uint32_t smallestRange = 4;
 
 const CpuBuffer& cpuBuffer(const Buffer& buffer) {
     return static_cast<const CpuBuffer&>(buffer);

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Spherule beside LAMMPS on one bed, in one run: peers.py [--sizes 10000,50000] [--rounds 3] [--markdown FILE]
+
+N spheres (r = 5 cm, 1000 kg/m3, e = 0.5, no friction) fall from a jittered lattice of 1.25 d into an open box of the width
+d sqrt(N / 20). Each round runs every contestant from the same positions, one after the other. Needs Debian's `lammps` and
+`openmpi-bin`, and build/release/spherule. Overlaps of both are measured by Spherule, from the positions at the end.
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import random
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+
+RADIUS = 0.05
+DENSITY = 1000
+SPACING = 1.25 * 2 * RADIUS
+JITTER = 0.12 * 2 * RADIUS
+RESTITUTION = 0.5
+GRAVITY = 9.81
+THREADS = os.cpu_count()
+BINARY = os.environ.get("SPHERULE", "build/release/spherule")
+WINDOWS = {"fall": (0, 1), "settled": (3, 3.5)}
+
+OURS = {
+    f"Spherule, {THREADS} threads, 1/480 s": ["--device", f"cpu:{THREADS}", "--no-sleep"],
+    "Spherule, 1 thread, 1/480 s": ["--device", "cpu:1", "--no-sleep"],
+    "Spherule, Mesa's software renderer, 1/480 s": ["--device", "software", "--no-sleep"],
+    f"Spherule, {THREADS} threads, 1/960 s": ["--device", f"cpu:{THREADS}", "--no-sleep", "--substeps", "16"],
+    f"Spherule, {THREADS} threads, 1/480 s, with sleep": ["--device", f"cpu:{THREADS}"],
+}
+LAMMPS = {
+    f"LAMMPS gran/hooke, {THREADS} ranks, k = 5e5 N/m, 1e-4 s": (5e5, 1e-4),
+    f"LAMMPS gran/hooke, {THREADS} ranks, k = 5e4 N/m, 3e-4 s": (5e4, 3e-4),
+}
+
+
+def bed(count):
+    """Positions and the width of the box."""
+    width = 2 * RADIUS * math.sqrt(count / 20)
+    across = int(width / SPACING)
+    margin = (width - (across - 1) * SPACING) / 2
+    rng = random.Random(1)
+    spheres = []
+    while len(spheres) < count:
+        layer, place = divmod(len(spheres), across * across)
+        corner = (margin + place % across * SPACING, margin + place // across * SPACING, (layer + 0.5) * SPACING)
+        spheres.append([axis + rng.uniform(-JITTER, JITTER) for axis in corner])
+    return spheres, width
+
+
+def scene_of(folder, name, spheres, width):
+    """Writes a scene with these positions; returns its path."""
+    with open(os.path.join(folder, name + ".csv"), "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow("xyz")
+        writer.writerows(spheres)
+    scene = {"bounds": {"min": [0, 0, 0], "max": [width, width, 8], "open": ["Z_MAX"]}, "restitution": RESTITUTION,
+             "gravity": [0, 0, -GRAVITY],
+             "groups": [{"radius": {"constant": RADIUS}, "density": DENSITY, "csv": {"file": name + ".csv"}}]}
+    path = os.path.join(folder, name + ".json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene, file)
+    return path
+
+
+def reports(path, *options):
+    command = [BINARY, "run", path, "--json", *options]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)}: {done.stderr}")
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def run_ours(path, options):
+    stretches = reports(path, "--for", "3.5s", "--every", "0.5s", *options)
+    row = {}
+    for window, (begin, end) in WINDOWS.items():
+        inside = [s for s in stretches if begin < s["simSeconds"] - 0.25 < end]
+        row[window] = sum(s["wallSeconds"] for s in inside) / sum(s["stretchSeconds"] for s in inside)
+    last = stretches[-1]
+    return row | {key: last[key] for key in ("overlapMean", "overlapMax", "speedRms", "sleeping")}
+
+
+def lammps_input(count, width, stiffness, step):
+    mass = DENSITY * 4 / 3 * math.pi * RADIUS ** 3
+    decay = -math.log(RESTITUTION)
+    ratio = decay / math.hypot(math.pi, decay)  # damping ratio of a linear spring with this restitution
+    pair, wall = (2 * ratio * math.sqrt(stiffness / m) for m in (mass / 2, mass))
+    faces = "\n".join(f"fix {axis} all wall/gran hooke {stiffness} 0 {wall} 0 0 0 {axis}plane 0 {far}"
+                      for axis, far in (("x", width), ("y", width), ("z", "NULL")))
+    runs = "\n".join(f"run {round(seconds / step)}" for seconds in (1, 2, 0.5))
+    return f"""units si
+atom_style sphere
+boundary f f f
+newton off
+comm_modify vel yes
+processors {THREADS} 1 1
+read_data bed{count}.data
+neighbor 0.02 bin
+neigh_modify delay 0 every 1 check yes
+pair_style gran/hooke {stiffness} 0 {pair} 0 0 0
+pair_coeff * *
+{faces}
+fix gravity all gravity {GRAVITY} vector 0 0 -1
+fix move all nve/sphere
+timestep {step}
+thermo_modify lost warn norm no
+{runs}
+write_dump all custom end.dump id x y z vx vy vz modify sort id format float %.9g
+"""
+
+
+def run_lammps(folder, count, spheres, width, stiffness, step):
+    with open(os.path.join(folder, f"bed{count}.data"), "w", encoding="utf-8") as file:
+        top = spheres[-1][2] + 1
+        file.write(f"bed\n\n{count} atoms\n1 atom types\n\n0 {width} xlo xhi\n0 {width} ylo yhi\n-0.2 {top} zlo zhi\n\nAtoms\n\n")
+        for number, (x, y, z) in enumerate(spheres, 1):
+            file.write(f"{number} 1 {2 * RADIUS} {DENSITY} {x} {y} {z}\n")
+    with open(os.path.join(folder, "bed.in"), "w", encoding="utf-8") as file:
+        file.write(lammps_input(count, width, stiffness, step))
+    command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", str(THREADS), "lmp", "-in", "bed.in", "-log", "none"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False,
+                          env=os.environ | {"OMPI_MCA_mpi_yield_when_idle": "1", "OMP_NUM_THREADS": "1"})
+    loops = [float(seconds) for seconds in re.findall(r"Loop time of (\S+) on", done.stdout)]
+    if done.returncode != 0 or len(loops) != 3:
+        sys.exit(f"{' '.join(command)} in {folder}: {done.stdout[-2000:]}{done.stderr}")
+    with open(os.path.join(folder, "end.dump"), encoding="utf-8") as file:
+        rows = [[float(value) for value in line.split()] for line in file.read().split("vz")[-1].strip().splitlines()]
+    # A soft sphere may reach into a wall, where a scene may not: the faces of this one are out of the way.
+    raised = [[axis + 1 for axis in row[1:4]] for row in rows]
+    overlaps = reports(scene_of(folder, "lammps_end", raised, width + 2), "--device", "cpu", "--for", "0s")[0]
+    rms = math.sqrt(sum(v * v for row in rows for v in row[4:7]) / len(rows))
+    return {"fall": loops[0], "settled": 2 * loops[2], "speedRms": rms, "sleeping": 0,
+            "overlapMean": overlaps["overlapMean"], "overlapMax": overlaps["overlapMax"]}
+
+
+def table(count, results):
+    lines = [f"### {count:,} spheres", "",
+             "| | wall s per simulated s: fall | settled | real-time factor: fall | settled | overlap, % of r: mean | max | rms speed, m/s | asleep |",
+             "|---|--:|--:|--:|--:|--:|--:|--:|--:|"]
+    for name, rows in results.items():
+        m = {key: statistics.median(row[key] for row in rows) for key in rows[0]}
+        lines.append(f"| {name} | {m['fall']:.3g} | {m['settled']:.3g} | {1 / m['fall']:.3g} | {1 / m['settled']:.3g} "
+                     f"| {100 * m['overlapMean']:.3g} | {100 * m['overlapMax']:.3g} | {m['speedRms']:.3g} | {m['sleeping']:.0f} |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sizes", default="10000,50000")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--markdown")
+    options = parser.parse_args()
+    text = ""
+    for count in map(int, options.sizes.split(",")):
+        spheres, width = bed(count)
+        results = {}
+        with tempfile.TemporaryDirectory() as folder:
+            path = scene_of(folder, "bed", spheres, width)
+            for number in range(options.rounds):
+                for name, more in OURS.items():
+                    results.setdefault(name, []).append(run_ours(path, more))
+                    print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
+                for name, (stiffness, step) in LAMMPS.items():
+                    results.setdefault(name, []).append(run_lammps(folder, count, spheres, width, stiffness, step))
+                    print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
+        text += table(count, results) + "\n"
+    print(text)
+    if options.markdown:
+        with open(options.markdown, "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+if __name__ == "__main__":
+    main()
