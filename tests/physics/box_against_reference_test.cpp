@@ -87,8 +87,8 @@ std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simula
     for (unsigned colour = 0; colour < 8; ++colour) {
         for (unsigned group = 0; group < span.size(); ++group) {
             const unsigned x = group % groups.x;
-            const unsigned y = group / groups.x % groups.y;
-            const unsigned z = group / (groups.x * groups.y);
+            const unsigned y = group / (groups.x * groups.z);
+            const unsigned z = group / groups.x % groups.z;
             if ((x & 1U) + 2 * (y & 1U) + 4 * (z & 1U) != colour) continue;
             for (unsigned k = span[group].x; k < span[group].x + span[group].y; ++k)
                 order.emplace_back(id[pairs[k].x], id[pairs[k].y]);

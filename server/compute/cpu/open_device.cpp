@@ -12,7 +12,12 @@ constexpr unsigned mostThreads = 256;
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& reason) {
+bool answersTo(const std::string& choice) {
+    return choice == "auto" || choice.starts_with("cpu");
+}
+
+Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& passedOver) {
+    if (choice == "auto") return std::make_unique<CpuDevice>(processors(), Precision::Single, passedOver);
     const std::string kind = choice.substr(0, choice.find(':'));
     unsigned threads = processors();
     bool right = kind == "cpu" || kind == "cpu-double";
@@ -27,7 +32,7 @@ Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std:
                                 choice, mostThreads));
     }
     const Precision precision = kind == "cpu" ? Precision::Single : Precision::Double;
-    return std::make_unique<CpuDevice>(threads, precision, reason);
+    return std::make_unique<CpuDevice>(threads, precision, "asked for as " + choice);
 }
 
 }  // namespace spherule::compute::cpu
