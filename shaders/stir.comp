@@ -12,5 +12,5 @@ BUFFER(3, coherent, uint, stirred, StirredBlock)
 
 KERNEL(params.spheres) {
     if (velocity[invocation].w < 0.0f) return;
-    atomicMax(stirred[groupAt(vec3(anchor[invocation]))], counters[COUNTER_SUBSTEPS]);
+    atomicExchange(stirred[groupAt(vec3(anchor[invocation]))], counters[COUNTER_SUBSTEPS]);
 }

@@ -59,7 +59,6 @@ check_format() {
 }
 
 run_tests() {
-    local chosen=()
     local chosen=(-LE '^bench$')
     [[ ${#labels[@]} -eq 0 ]] || chosen=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
     ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error "${chosen[@]}"

@@ -60,7 +60,7 @@ class Progress {
     Clock::time_point last_ = start_;
 };
 
-// Times a run stretch by stretch; what happens between two stretches does not count.
+// Times a run stretch by stretch. Reports between two stretches do not count, dumps within one do.
 class Watch {
   public:
     Watch(sim::Simulation& simulation, compute::Device& device) : simulation_(simulation), device_(device) { start(); }
@@ -91,7 +91,6 @@ class Watch {
 // Runs `steps`, and calls `every` after each `stride` of them and at the end.
 Result<void> runSteps(sim::Simulation& simulation, std::uint64_t steps, std::uint64_t stride,
                       const std::function<Result<void>()>& every) {
-    if (steps == 0) return every();
     Progress progress(steps);
     for (std::uint64_t k = 1; k <= steps; ++k) {
         if (auto done = simulation.step(); !done) return done;
@@ -122,11 +121,12 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
     Watch watch(simulation, device);
     if (options.dump.empty()) {
         if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
-        return runSteps(simulation, steps, stride, [&]() -> Result<void> {
+        const auto report = [&]() -> Result<void> {
             print(options, device.info(), simulation, watch.take());
             watch.start();
             return {};
-        });
+        };
+        return steps == 0 ? report() : runSteps(simulation, steps, stride, report);
     }
     auto dump = Dump::create(options.dump);
     if (!dump) return tl::unexpected(dump.error());

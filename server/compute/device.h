@@ -113,7 +113,8 @@ class Device {
 
 // "auto" (a hardware GPU, else "cpu", and the info's reason says why), "gpu", "gpu:N" (N counts the hardware devices as
 // `spherule probe` lists them), "cpu", "cpu:N" (with N threads), "cpu-double" (the same in double precision, to tell
-// rounding from method) or "software" (Mesa's renderer). Input for anything else, NoDevice when there is none.
+// rounding from method; what the host hands over, such as the substep, stays float) or "software" (Mesa's renderer).
+// Input for anything else, NoDevice when there is none.
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice);
 
 }  // namespace spherule::compute

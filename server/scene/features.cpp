@@ -38,8 +38,8 @@ Features featuresOf(const Scene& scene) {
         .walls = !std::all_of(open.begin(), open.end(), [](bool face) { return face; }),
         .planes = has<Plane>(scene),
         .boxes = has<Box>(scene),
-        // Without gravity nothing rests: what is slow only drifts.
-        .sleep = scene.sleep.enabled && glm::length(scene.gravity) > 0,
+        // Without gravity nothing rests: what is slow only drifts. Without contacts there is nothing that sleep saves.
+        .sleep = scene.sleep.enabled && scene.sphereContacts && glm::length(scene.gravity) > 0,
     };
 }
 

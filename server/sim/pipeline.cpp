@@ -113,6 +113,10 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
     velocity.w = std::abs(velocity.w);
     velocity += glm::vec4(impulse * velocity.w, 0);
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
+    if (!plan_.features.sleep) return;
+    // A slow push must reach the sleepers that it touches, too.
+    constexpr glm::vec4 crept(0, 0, 0, CREPT);
+    write<glm::vec4>(Array::Before, std::span<const glm::vec4>(&crept, 1), slot);
 }
 
 void Pipeline::wakeAll() {

@@ -18,7 +18,7 @@ namespace spherule::sim {
 enum class Array : std::uint8_t {
     Position,  // per sphere, in slot order
     Velocity,
-    Before,  // velocity before the substep, then after impacts; w = quiet time
+    Before,  // velocity before the substep, then after impacts; w = time in one place, or CREPT
     Id,
     Bounce,  // restitution by id
     Obstacles,
@@ -36,7 +36,7 @@ enum class Array : std::uint8_t {
     SlotOf,   // by id
     Pairs,
     Touching,
-    Span,  // per cell group: first pair, listed, touching
+    Span,  // per cell group: first pair, listed, touching, whether it stirs
     Counters,
     FullLaunches,
     Launches,

@@ -7,7 +7,8 @@ bool wakes(vec4 v) {
     return v.w == CREPT || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
-// Up to this gap a sphere wakes its neighbour; more than what may be crept before it is noticed.
+// Up to this gap a sphere wakes its neighbour. It must be more than what may be crept before it is noticed, which is from
+// one side of a resting place to the other: twice params.creep, at most two thirds of the margin.
 float wakeGap() {
-    return 0.5f * params.margin;
+    return 0.7f * params.margin;
 }

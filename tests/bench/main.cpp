@@ -15,7 +15,7 @@ using namespace spherule;
 using Sizes = std::vector<std::uint32_t>;
 
 struct Options {
-    std::string device = "auto";
+    std::string device = "software";
     Sizes sizes = {2000, 10000, 50000, 100000};
     Sizes ladder = {10000, 50000, 200000, 1000000};
     std::string csv;
@@ -24,7 +24,7 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-    app.add_option("--device", options.device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")->capture_default_str();
+    app.add_option("--device", options.device, "gpu, gpu:N or software; without comparison (--sizes 0) also cpu or cpu:THREADS")->capture_default_str();
     app.add_option("--sizes", options.sizes, "spheres, at which all methods are compared; 0: not at all")
         ->delimiter(',')
         ->capture_default_str();

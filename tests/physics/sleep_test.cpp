@@ -53,6 +53,31 @@ TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
     }
 }
 
+// It stays within the creep of one place, and is slow at each apex, but never slow and carried at once.
+TEST(Sleep, DoesNotTakeASphereThatHopsForEver) {
+    scene::Scene scene = sleepyBox(2);
+    scene.bounds.restitution = 1;
+    scene.spheres = {at({0, 0, -0.948})};
+    scene.spheres[0].restitution = 1;
+    const auto simulation = simulate(scene);
+    for (int step = 0; step < 120; ++step) {
+        run(*simulation, scene.step);
+        ASSERT_EQ(sleepers(simulation->snapshot()), 0U) << "in step " << step;
+    }
+}
+
+TEST(Sleep, EndsWhenATouchingSphereIsPushedSlowly) {
+    scene::Scene scene = sleepyBox(2);
+    scene.spheres = {at({0, 0, -0.95}), at({0.1, 0, -0.95})};
+    const auto simulation = simulate(scene);
+    run(*simulation, 1.5);
+    ASSERT_EQ(sleepers(simulation->snapshot()), 2U);
+    push(*simulation, 0, {0.3, 0, 0});
+    run(*simulation, simulation->scene().step);
+    const sim::State state = simulation->snapshot();
+    EXPECT_NEAR(velocityOf(state, 0).x + velocityOf(state, 1).x, 0.3, 1e-4) << "momentum has gone into a sleeper";
+}
+
 TEST(Sleep, EndsWhenASphereIsHit) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.95}), at({0.1, 0, -0.95}), at({-0.8, 0, -0.95})};

@@ -48,6 +48,13 @@ TEST(CpuMemory, HoldsRealNumbersAsDoublesWhereAsked) {
     EXPECT_EQ(rest, (std::array<std::uint32_t, 2>{5, 6}));
 }
 
+TEST(CpuMemory, IsRefusedBeyondWhatTheMachineHas) {
+    const auto refused = CpuBuffer::create("pairs", std::size_t{1} << 44U, Words("u", Precision::Single));
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
+    EXPECT_NE(refused.error().text().find("use fewer spheres"), std::string::npos) << refused.error().text();
+}
+
 TEST(CpuMemory, ReachesAnyWord) {
     const auto buffer = bufferOf(48, "rru", Precision::Double);
     const auto& memory = static_cast<const CpuBuffer&>(*buffer);

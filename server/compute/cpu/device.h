@@ -46,8 +46,8 @@ class CpuDevice final : public Device {
 // Whether a choice that is no OpenGL device, or "auto" where there is none, means this one.
 bool answersTo(const std::string& choice);
 
-// "cpu", "cpu:N" (N threads, 1 to 256) or "cpu-double", "cpu-double:N", or "auto"; Input for anything else. Without N as
-// many threads as this process may use processors. `passedOver`: why OpenGL was not taken.
+// "cpu", "cpu:N" (N threads, 1 to 256) or "cpu-double", "cpu-double:N", or "auto"; Input for anything else. Without N
+// as many threads as this process may use processors. `passedOver`: why OpenGL was not taken.
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& passedOver);
 
 }  // namespace spherule::compute::cpu

@@ -69,6 +69,12 @@ inline uint atomicOr(uint& memory, uint value) {
     return (seen & value) == value ? seen : word.fetch_or(value, std::memory_order_relaxed);
 }
 
+inline uint atomicExchange(uint& memory, uint value) {
+    const std::atomic_ref<uint> word(memory);
+    const uint seen = word.load(std::memory_order_relaxed);
+    return seen == value ? seen : word.exchange(value, std::memory_order_relaxed);
+}
+
 inline uint atomicMax(uint& memory, uint value) {
     const std::atomic_ref<uint> word(memory);
     uint seen = word.load(std::memory_order_relaxed);

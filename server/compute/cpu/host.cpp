@@ -29,4 +29,13 @@ std::size_t memoryBytes() {
            static_cast<std::size_t>(std::max(sysconf(_SC_PAGESIZE), 1L));
 }
 
+std::size_t availableBytes() {
+    std::ifstream file("/proc/meminfo");
+    for (std::string key; file >> key;) {
+        std::size_t kibibytes = 0;
+        if (key == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024;
+    }
+    return memoryBytes();
+}
+
 }  // namespace spherule::compute::cpu

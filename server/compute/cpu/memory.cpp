@@ -6,6 +6,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "compute/cpu/host.h"
+
 namespace spherule::compute::cpu {
 namespace {
 
@@ -73,7 +75,8 @@ void Words::load(const std::byte* memory, std::size_t hostOffset, std::span<std:
 Result<std::unique_ptr<Buffer>> CpuBuffer::create(std::string_view label, std::size_t bytes, Words words) {
     const std::size_t size = words.bytesFor((bytes + word - 1) / word * word);
     void* data = nullptr;
-    if (posix_memalign(&data, alignment, std::max<std::size_t>(size, 1)) != 0) {
+    // The kernel gives more than it has, and kills who uses it.
+    if (size > availableBytes() || posix_memalign(&data, alignment, std::max<std::size_t>(size, 1)) != 0) {
         return fail(ErrorKind::Refused, std::string(label),
                     fmt::format("needs {:.1f} MiB and there is not as much memory; use fewer spheres",
                                 static_cast<double>(size) / (1 << 20)));

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <charconv>
+#include <system_error>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -17,11 +19,10 @@ bool answersTo(const std::string& choice) {
 }
 
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& passedOver) {
-    if (choice == "auto") return std::make_unique<CpuDevice>(processors(), Precision::Single, passedOver);
-    const std::string kind = choice.substr(0, choice.find(':'));
-    unsigned threads = processors();
+    const std::string kind = choice == "auto" ? "cpu" : choice.substr(0, choice.find(':'));
+    unsigned threads = std::min(processors(), mostThreads);
     bool right = kind == "cpu" || kind == "cpu-double";
-    if (right && kind.size() < choice.size()) {
+    if (right && choice.find(':') != std::string::npos) {
         const char* const end = choice.data() + choice.size();
         const auto parsed = std::from_chars(choice.data() + kind.size() + 1, end, threads);
         right = parsed.ec == std::errc() && parsed.ptr == end && threads >= 1 && threads <= mostThreads;
@@ -32,7 +33,13 @@ Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std:
                                 choice, mostThreads));
     }
     const Precision precision = kind == "cpu" ? Precision::Single : Precision::Double;
-    return std::make_unique<CpuDevice>(threads, precision, "asked for as " + choice);
+    try {
+        return std::make_unique<CpuDevice>(threads, precision,
+                                           choice == "auto" ? passedOver : "asked for as " + choice);
+    } catch (const std::system_error& error) {
+        return fail(ErrorKind::NoDevice, choice,
+                    fmt::format("cannot start {} threads: {}; use --device cpu:N with fewer", threads, error.what()));
+    }
 }
 
 }  // namespace spherule::compute::cpu

@@ -28,10 +28,19 @@ void pause() {
 
 Pool::Pool(unsigned threads) : shares_(std::make_unique<Share[]>(threads)) {
     patience_ = threads <= std::thread::hardware_concurrency() ? patienceAlone : patienceCrowded;
-    for (unsigned self = 1; self < threads; ++self) workers_.emplace_back([this, self] { serve(self); });
+    try {
+        for (unsigned self = 1; self < threads; ++self) workers_.emplace_back([this, self] { serve(self); });
+    } catch (...) {
+        stop();
+        throw;
+    }
 }
 
 Pool::~Pool() {
+    stop();
+}
+
+void Pool::stop() {
     stop_ = true;
     gate_ += std::uint64_t{1} << numberShift;
     gate_.notify_all();
@@ -84,8 +93,11 @@ void Pool::work(unsigned self) {
 void Pool::serve(unsigned self) {
     std::uint64_t done = 0;
     unsigned looks = 0;
-    while (!stop_) {
+    for (;;) {
+        // In this order: whoever sees the gate as stop() left it sees that it is to stop, and waits for no other
+        // change.
         std::uint64_t state = gate_.load(std::memory_order_acquire);
+        if (stop_) return;
         const std::uint64_t number = state >> numberShift;
         if ((state & open) != 0 && number != done) {
             if (!gate_.compare_exchange_weak(state, state + inside, std::memory_order_acq_rel)) continue;

@@ -16,7 +16,7 @@ class Pool {
   public:
     using Body = void (*)(const void* context, std::uint32_t begin, std::uint32_t end);
 
-    explicit Pool(unsigned threads);  // the one that calls run is among them
+    explicit Pool(unsigned threads);  // the one that calls run is among them; throws std::system_error
     ~Pool();
     Pool(const Pool&) = delete;
     Pool& operator=(const Pool&) = delete;
@@ -36,6 +36,7 @@ class Pool {
     void work(unsigned self);
     void serve(unsigned self);
     void close();
+    void stop();
 
     // What is being run; written only while the gate is closed and nobody is inside.
     Body body_ = nullptr;
