@@ -5,6 +5,7 @@
 #   ./tests/run.sh --label unit     only those with this label; may be given several times
 #   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
 #   ./tests/run.sh --sanitize       what runs without OpenGL under ASan and UBSan, and under TSan, in place of the tests
+#   ./tests/run.sh --fuzz SECONDS   each fuzz target for so long, from its seeds, in place of the tests
 #
 # The last line sums it up. Exits 1 when anything failed.
 set -euo pipefail
@@ -16,12 +17,14 @@ jobs=$(nproc)
 labels=()
 tidy=
 sanitize=
+fuzz=
 while [[ $# -gt 0 ]]; do
     case $1 in
         --label) labels+=("${2:?--label needs a name}"); shift 2 ;;
         --tidy) tidy=1; shift ;;
         --sanitize) sanitize=1; shift ;;
-        -h | --help) sed -n '2,9s/^# \?//p' "$0"; exit 0 ;;
+        --fuzz) fuzz=${2:?--fuzz needs seconds}; shift 2 ;;
+        -h | --help) sed -n '2,10s/^# \?//p' "$0"; exit 0 ;;
         *) echo "unknown option $1; see $0 --help" >&2; exit 2 ;;
     esac
 done
@@ -77,6 +80,22 @@ sanitized() {
             -R '^(scene_test|frame_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
 }
 
+# Finds go to build/fuzz/finds-TARGET.
+fuzzed() {
+    local target=$1 seconds=$2
+    mkdir -p "build/fuzz/corpus-$target" "build/fuzz/finds-$target"
+    "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -print_final_stats=1 -verbosity=0 \
+        -artifact_prefix="build/fuzz/finds-$target/" "build/fuzz/corpus-$target" "tests/fuzz/seeds/$target"
+}
+
+if [[ -n $fuzz ]]; then
+    needed packages ./deploy/install_packages.sh build run test fuzz
+    needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
+    needed build cmake --build --preset fuzz -j "$jobs" --target fuzz_scene fuzz_message
+    for target in scene message; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
+    summary
+    exit
+fi
 needed packages ./deploy/install_packages.sh build run test
 if [[ -n $sanitize ]]; then
     phase asan sanitized asan
