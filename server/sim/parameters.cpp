@@ -22,7 +22,8 @@ void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan
     p.sleepSpeed = static_cast<float>(scene.sleep.speed);
     p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, kicks * g * h));
     // Who stays within this distance of one place for the sleep time has not crossed it faster than the sleep speed.
-    const double creep = std::min(static_cast<double>(plan.grid.margin) / 3, 0.5 * scene.sleep.speed * scene.sleep.time);
+    const double creep =
+        std::min(static_cast<double>(plan.grid.margin) / 3, 0.5 * scene.sleep.speed * scene.sleep.time);
     p.creep = static_cast<float>(creep);
     // In weak gravity, a free flight stays within that distance of its top for up to 3.4 sqrt(creep / g).
     p.sleepTime = static_cast<float>(std::max(scene.sleep.time, g > 0 ? 4 * std::sqrt(creep / g) : 0.0));

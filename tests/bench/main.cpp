@@ -24,7 +24,9 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-    app.add_option("--device", options.device, "gpu, gpu:N or software; without comparison (--sizes 0) also cpu or cpu:THREADS")->capture_default_str();
+    app.add_option("--device", options.device,
+                   "gpu, gpu:N or software; without comparison (--sizes 0) also cpu or cpu:THREADS")
+        ->capture_default_str();
     app.add_option("--sizes", options.sizes, "spheres, at which all methods are compared; 0: not at all")
         ->delimiter(',')
         ->capture_default_str();

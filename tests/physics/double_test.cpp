@@ -10,8 +10,8 @@
 namespace spherule::physics {
 namespace {
 
-// A sphere that glides and meets nothing: how far it is from where it must be after 20 s, in m. The host hands the kernels
-// floats; this step is one.
+// A sphere that glides and meets nothing: how far it is from where it must be after 20 s, in m. The host hands the
+// kernels floats; this step is one.
 double errorOfAGlide(const std::string& choice) {
     scene::Scene scene = openSpace(100);
     scene.sphereContacts = false;
