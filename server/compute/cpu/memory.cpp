@@ -45,7 +45,7 @@ void Words::store(std::byte* memory, std::size_t hostOffset, std::span<const std
         if (wide(number)) {
             float narrow = 0;
             std::memcpy(&narrow, &host[k * word], sizeof narrow);
-            const double value = static_cast<double>(narrow);
+            const auto value = static_cast<double>(narrow);
             std::memcpy(to, &value, sizeof value);
         } else {
             std::memcpy(to, &host[k * word], word);

@@ -24,8 +24,9 @@ class Words {
     void load(const std::byte* memory, std::size_t hostOffset, std::span<std::byte> host) const;
 
   private:
-    [[nodiscard]] std::size_t placeOf(std::size_t word) const;
-    [[nodiscard]] bool wide(std::size_t word) const;
+    // Of word `number`: where it begins, and whether it is a double here.
+    [[nodiscard]] std::size_t placeOf(std::size_t number) const;
+    [[nodiscard]] bool wide(std::size_t number) const;
 
     std::string pattern_;
     std::vector<std::size_t> places_;  // of the pattern's words, and its length in bytes
