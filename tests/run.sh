@@ -28,6 +28,10 @@ while [[ $# -gt 0 ]]; do
         *) echo "unknown option $1; see $0 --help" >&2; exit 2 ;;
     esac
 done
+if [[ -n $tidy$sanitize$fuzz && ${#labels[@]} -gt 0 ]]; then
+    echo "--label chooses among the tests; --tidy, --sanitize and --fuzz run others" >&2
+    exit 2
+fi
 
 durations=()
 failed=()

@@ -13,6 +13,7 @@
 #include "app/options.h"
 #include "app/run_report.h"
 #include "compute/device.h"
+#include "core/log.h"
 #include "sim/simulation.h"
 
 namespace spherule::app {
@@ -145,6 +146,7 @@ Result<void> run(const RunOptions& options) {
 
     auto device = compute::openDevice(options.scene.device);
     if (!device) return tl::unexpected(device.error());
+    spdlog::info("on {}: {}", (*device)->info().renderer, (*device)->info().reason);
     auto loaded = scene::load(options.scene.scene, (*device)->info().kind, options.scene.overrides);
     if (!loaded) return tl::unexpected(loaded.error());
     if (!(*duration / loaded->step <= mostSteps))

@@ -14,8 +14,8 @@ import urllib.request
 DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
 KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds stretchSeconds wallSeconds realTimeFactor
-deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy momentum contacts overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight
-sleeping outside nonFinite stateHash""".split()
+deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy momentum contacts overlapMean overlapMax
+wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite stateHash""".split()
 
 
 def call(*arguments):
@@ -27,6 +27,16 @@ def run_json(*arguments):
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("\n") == 1, done.stdout
     return json.loads(done.stdout)
+
+
+def scene_in(folder, name, radius, *positions):
+    """Writes a scene of spheres in a unit cube; returns its path."""
+    path = os.path.join(folder, name)
+    spheres = [{"position": position} for position in positions]
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
+                   "groups": [{"radius": {"constant": radius}, "list": {"spheres": spheres}}]}, file)
+    return path
 
 
 class Run(unittest.TestCase):
@@ -45,11 +55,7 @@ class Run(unittest.TestCase):
 
     def test_contacts_are_counted_before_the_first_step(self):
         with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "pair.json")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write('{"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"radius": {"constant": 0.1},'
-                           '"list": {"spheres": [{"position": [0.4,0.5,0.5]}, {"position": [0.55,0.5,0.5]}]}}]}')
-            report = run_json(path, "--for", "0s")
+            report = run_json(scene_in(folder, "pair.json", 0.1, [0.4, 0.5, 0.5], [0.55, 0.5, 0.5]), "--for", "0s")
         self.assertEqual((report["steps"], report["contacts"]), (0, 1))
         self.assertAlmostEqual(report["overlapMax"], 0.5, places=5)
 
@@ -85,10 +91,7 @@ class Run(unittest.TestCase):
 
     def test_a_wrong_scene_is_refused_with_file_path_value_and_reason(self):
         with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "wrong.json")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write('{"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"radius": {"constant": -0.1},'
-                           '"list": {"spheres": [{"position": [0.5,0.5,0.5]}]}}]}')
+            path = scene_in(folder, "wrong.json", -0.1, [0.5, 0.5, 0.5])
             done = call("run", path, "--for", "1s", "--device", DEVICE)
         self.assertEqual(done.returncode, 2)
         self.assertIn("wrong.json: groups[0].radius.constant: is -0.1, must be positive", done.stderr)

@@ -26,11 +26,6 @@ const CpuBuffer& cpuBuffer(const Buffer& buffer) {
     return static_cast<const CpuBuffer&>(buffer);
 }
 
-void checkRange(const char* what, const Buffer& buffer, std::size_t offset, std::size_t bytes) {
-    if (offset <= buffer.bytes() && bytes <= buffer.bytes() - offset) return;
-    programError(fmt::format("{} of {} bytes at {} in a buffer of {}", what, bytes, offset, buffer.bytes()));
-}
-
 class CpuKernel final : public Kernel {
   public:
     CpuKernel(const Entry& entry, std::uint32_t features)

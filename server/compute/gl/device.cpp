@@ -21,11 +21,6 @@ const GlBuffer& glBuffer(const Buffer& buffer) {
     return static_cast<const GlBuffer&>(buffer);
 }
 
-void checkRange(const char* what, const Buffer& buffer, std::size_t offset, std::size_t bytes) {
-    if (offset <= buffer.bytes() && bytes <= buffer.bytes() - offset) return;
-    programError(fmt::format("{} of {} bytes at {} in a buffer of {}", what, bytes, offset, buffer.bytes()));
-}
-
 void bindBuffers(State& state, const GlKernel& kernel, const Launch& launch) {
     for (const auto& slot : kernel.slots()) {
         const Buffer* const buffer = slot.binding < launch.buffers.size() ? launch.buffers[slot.binding] : nullptr;
