@@ -3,19 +3,21 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/label.h"
 
 BUFFER(0, readonly, uint, cellStart, CellBlock)
 BUFFER(1, restrict, uint, order, OrderBlock)
-BUFFER(2, readonly, uint, id, IdBlock)
+BUFFER(2, readonly, uint, label, LabelBlock)
 
 // Restores the heap below `root` in order[first .. first + count - 1].
 void sink(uint first, uint root, uint count) {
     uint moving = order[first + root];
-    uint key = id[moving];
+    uint key = idOf(label[moving]);
     uint hole = root;
     for (uint child = 2u * hole + 1u; child < count; child = 2u * hole + 1u) {
-        if (child + 1u < count && id[order[first + child + 1u]] > id[order[first + child]]) child = child + 1u;
-        if (id[order[first + child]] <= key) break;
+        if (child + 1u < count && idOf(label[order[first + child + 1u]]) > idOf(label[order[first + child]]))
+            child = child + 1u;
+        if (idOf(label[order[first + child]]) <= key) break;
         order[first + hole] = order[first + child];
         hole = child;
     }

@@ -4,12 +4,13 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
+#include "shared/label.h"
 
 BUFFER(0, restrict, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
 BUFFER(2, restrict, vec4, before, BeforeBlock)
 BUFFER(3, readonly, vec4, anchor, AnchorBlock)
-BUFFER(4, readonly, uint, id, IdBlock)
+BUFFER(4, readonly, uint, label, LabelBlock)
 BUFFER(5, coherent, uint, counters, CounterBlock)
 BUFFER(6, restrict, vec4, resting, RestingBlock)
 
@@ -26,12 +27,20 @@ KERNEL(params.spheres) {
         velocity[invocation] = vec4(moved, v.w);
         moved = moved - kick * 0.5f;
     }
-    vec3 to = vec3(x) + moved * h;
+    precise vec3 to = vec3(x) + moved * h;
+    if (HAS(RESIDUAL)) {
+        // What float32 cannot hold of the position: short substeps would not move a slow sphere at all.
+        vec4 residual = position[params.spheres + invocation];
+        precise vec3 low = vec3(residual) + moved * h;
+        to = vec3(x) + low;
+        precise vec3 held = to - vec3(x);
+        position[params.spheres + invocation] = vec4(low - held, residual.w);
+    }
     position[invocation] = vec4(to, x.w);
     if (!finite3(to)) {
         // Counted and reported; such a sphere touches nothing, because comparisons with it fail.
         atomicAdd(counters[COUNTER_NON_FINITE], 1u);
-        atomicMax(counters[COUNTER_FIRST_ID], ~id[invocation]);
+        atomicMax(counters[COUNTER_FIRST_ID], ~idOf(label[invocation]));
         return;
     }
     if (HAS(CONTACTS)) {
@@ -40,9 +49,10 @@ KERNEL(params.spheres) {
         // Not from `anchor`, which starts anew whenever some other sphere needs new lists: a slow one would never have
         // moved at all.
         if (HAS(SLEEP)) {
-            vec3 crept = to - vec3(resting[id[invocation]]);
+            uint id = idOf(label[invocation]);
+            vec3 crept = to - vec3(resting[id]);
             if (dot3(crept, crept) > params.creep * params.creep) {
-                resting[id[invocation]] = vec4(to, 0.0f);
+                resting[id] = vec4(to, 0.0f);
                 before[invocation] = vec4(vec3(v), CREPT);
             }
         }

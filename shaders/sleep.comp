@@ -22,6 +22,10 @@ KERNEL(params.spheres) {
         vec3 carried = vec3(v) - vec3(u) - pull;
         asleep = asleep && dot3(carried, carried) > 0.25f * dot3(pull, pull);
     }
+    if (HAS(FRICTION)) {
+        vec3 spin = vec3(velocity[params.spheres + invocation]) * params.radius;
+        asleep = asleep && dot3(spin, spin) < params.sleepSpeed * params.sleepSpeed;
+    }
     if (!asleep) {
         before[invocation] = vec4(vec3(u), spent);
         return;
@@ -29,4 +33,5 @@ KERNEL(params.spheres) {
     // A sleeper has no velocity before the substep either: its neighbours bounce off what stands still.
     before[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     velocity[invocation] = vec4(0.0f, 0.0f, 0.0f, -v.w);
+    if (HAS(FRICTION)) velocity[params.spheres + invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }

@@ -7,24 +7,23 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/label.h"
 #include "shared/contact.h"
 #include "shared/wake.h"
 
 BUFFER(0, restrict, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, id, IdBlock)
+BUFFER(2, readonly, uint, label, LabelBlock)
 BUFFER(3, readonly, uint, cellStart, CellBlock)
 BUFFER(4, restrict, uvec4, span, SpanBlock)
-BUFFER(5, readonly, uvec2, pairs, PairBlock)
-BUFFER(6, writeonly, uvec2, touching, TouchingBlock)
-BUFFER(7, readonly, vec4, before, BeforeBlock)
+BUFFER(5, restrict, uvec2, pairs, PairBlock)  // listed, then touching, then what presses those
+BUFFER(6, readonly, vec4, before, BeforeBlock)
+BUFFER(7, readonly, Law, laws, LawBlock)
 
-// A sleeper wakes when a neighbour comes, or has crept away far enough that it may carry the sleeper no longer. One that
-// leaves the wake gap in a single substep is what wake.comp looks for.
-void wake(uint a, uint b, vec4 va, vec4 vb) {
-    if (va.w < 0.0f && vb.w > 0.0f && wakes(before[b])) velocity[a] = vec4(vec3(va), -va.w);
-    if (vb.w < 0.0f && va.w > 0.0f && wakes(before[a])) velocity[b] = vec4(vec3(vb), -vb.w);
-}
+#include "shared/laws.h"
+#include "shared/sleepers.h"
+
+PRIVATE(float, load)  // of the last pair: the impulse of its push, N s
 
 // True when the pair overlaps.
 bool separate(uint a, uint b) {
@@ -50,8 +49,9 @@ bool separate(uint a, uint b) {
     float mb = mobility(vb.w);
     if (ma + mb == 0.0f) return false;
     float inverse = 1.0f / (ma + mb);
-    vec4 normal = normalAndDistance(d, squared, id[a], id[b]);
-    vec3 push = vec3(normal) * ((reach - normal.w) * inverse);
+    vec4 normal = normalAndDistance(d, squared, a, b);
+    float depth = (reach - normal.w) * inverse;
+    vec3 push = vec3(normal) * depth;
     vec3 kick = push * params.perSubstep;
     if (ma > 0.0f) {
         position[a] = vec4(vec3(pa) + push * ma, pa.w);
@@ -60,6 +60,9 @@ bool separate(uint a, uint b) {
     if (mb > 0.0f) {
         position[b] = vec4(vec3(pb) - push * mb, pb.w);
         velocity[b] = vec4(vec3(vb) - kick * mb, vb.w);
+    }
+    if (HAS(FRICTION)) {
+        load = depth * params.perSubstep;
     }
     return true;
 }
@@ -82,7 +85,9 @@ KERNEL(params.groups) {
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
         if (separate(pair.x, pair.y)) {
-            touching[mine.x + touched] = pair;
+            uint to = params.pairCapacity + mine.x + touched;
+            pairs[to] = pair;
+            if (HAS(FRICTION)) pairs[params.pairCapacity + to] = uvec2(floatBitsToUint(load), 0u);
             touched = touched + 1u;
         }
     }

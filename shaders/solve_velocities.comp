@@ -7,42 +7,46 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/label.h"
 #include "shared/contact.h"
 
 BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
 BUFFER(2, restrict, vec4, before, BeforeBlock)
-BUFFER(3, readonly, uint, id, IdBlock)
+BUFFER(3, readonly, uint, label, LabelBlock)
 BUFFER(4, readonly, uint, cellStart, CellBlock)
 BUFFER(5, readonly, uvec4, span, SpanBlock)
-BUFFER(6, readonly, uvec2, touching, TouchingBlock)
-BUFFER(7, readonly, float, bounce, BounceBlock)
+BUFFER(6, restrict, uvec2, pairs, PairBlock)
+BUFFER(7, readonly, Law, laws, LawBlock)
+
+#include "shared/laws.h"
 
 // Of an unlisted group, pairs this much further apart than their radii count as touching: the push apart leaves them
 // within rounding of it.
 #define TOUCH_TOLERANCE 1.0e-4f
 
-void collide(uint a, uint b, bool known) {
+// Returns the impulse along the normal, N s; negative where it takes from the push of the position pass.
+float collide(uint a, uint b, bool known) {
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
     if (!known) {
         float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) * (1.0f + TOUCH_TOLERANCE);
-        if (!(squared < reach * reach)) return;
+        if (!(squared < reach * reach)) return 0.0f;
     }
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
-    if (ma + mb == 0.0f) return;
+    if (ma + mb == 0.0f) return 0.0f;
     float inverse = 1.0f / (ma + mb);
-    vec3 n = vec3(normalAndDistance(d, squared, id[a], id[b]));
+    vec3 n = vec3(normalAndDistance(d, squared, a, b));
     vec4 ua = before[a];
     vec4 ub = before[b];
+    vec4 law = contactLaw(a, b);
     float approach = dot3(vec3(ua) - vec3(ub), n);
-    float e = 0.0f;
-    if (HAS(RESTITUTION)) e = HAS(RESTITUTIONS) ? min(bounce[id[a]], bounce[id[b]]) : params.restitution;
+    float e = HAS(RESTITUTION) ? law.x : 0.0f;
     // Without a branch on the sign of `approach`, which is a toss-up between spheres at rest.
     float least = max(-e * approach, 0.0f);
     float most = max(approach, least);
@@ -50,9 +54,11 @@ void collide(uint a, uint b, bool known) {
     before[a] = vec4(vec3(ua) + rebound * ma, ua.w);
     before[b] = vec4(vec3(ub) - rebound * mb, ub.w);
     float speed = dot3(vec3(va) - vec3(vb), n);
-    vec3 impulse = n * ((min(max(speed, least), most) - speed) * inverse);
+    float strength = (min(max(speed, least), most) - speed) * inverse;
+    vec3 impulse = n * strength;
     if (ma > 0.0f) velocity[a] = vec4(vec3(va) + impulse * ma, va.w);
     if (mb > 0.0f) velocity[b] = vec4(vec3(vb) - impulse * mb, vb.w);
+    return strength;
 }
 
 void visitPair(uint a, uint b) {
@@ -69,8 +75,13 @@ KERNEL(params.groups) {
         visitGroupNumber(group);
         return;
     }
-    for (uint k = mine.x; k < mine.x + mine.z; ++k) {
-        uvec2 pair = touching[k];
-        collide(pair.x, pair.y, true);
+    uint first = params.pairCapacity + mine.x;
+    for (uint k = first; k < first + mine.z; ++k) {
+        uvec2 pair = pairs[k];
+        float impulse = collide(pair.x, pair.y, true);
+        if (HAS(FRICTION)) {
+            uint at = params.pairCapacity + k;
+            pairs[at] = uvec2(floatBitsToUint(uintBitsToFloat(pairs[at].x) + impulse), 0u);
+        }
     }
 }

@@ -12,7 +12,7 @@ BUFFER(3, writeonly, SphereStatistics, parts, PartBlock)
 PRIVATE(vec3, wallPoint)
 PRIVATE(float, deepest)
 
-void visitWall(vec3 normal, float depth, float wallRestitution) {
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     deepest = max(deepest, depth);
 }
 
@@ -27,6 +27,8 @@ KERNEL(params.statisticBlocks) {
     uint end = min(params.spheres, (invocation + 1u) * STATISTIC_BLOCK);
     float energy = 0.0f;
     vec3 momentum = vec3(0.0f, 0.0f, 0.0f);
+    vec3 angular = vec3(0.0f, 0.0f, 0.0f);
+    float rotation = 0.0f;
     vec4 weighted = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     float height = 0.0f;
     float squares = 0.0f;
@@ -46,6 +48,14 @@ KERNEL(params.statisticBlocks) {
         float squared = dot3(vec3(v), vec3(v));
         energy += 0.5f * mass * squared;
         momentum = momentum + vec3(v) * mass;
+        angular = angular + cross3(x, vec3(v)) * mass;
+        if (HAS(FRICTION)) {
+            vec3 spin = vec3(velocity[params.spheres + k]);
+            float r = HAS(RADII) ? position[k].w : params.radius;
+            float inertia = 0.4f * mass * r * r;
+            angular = angular + spin * inertia;
+            rotation += 0.5f * inertia * dot3(spin, spin);
+        }
         weighted = weighted + vec4(x * mass, mass);
         height += x.z;
         squares += squared;
@@ -60,6 +70,7 @@ KERNEL(params.statisticBlocks) {
     }
     parts[invocation].weighted = weighted;
     parts[invocation].momentum = vec4(momentum, energy);
+    parts[invocation].angular = vec4(angular, rotation);
     parts[invocation].heightSum = height;
     parts[invocation].speedSquares = squares;
     parts[invocation].speedSquaredMax = fastest;

@@ -5,29 +5,46 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
+#include "shared/label.h"
 
 BUFFER(0, restrict, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
 BUFFER(2, restrict, vec4, before, BeforeBlock)
 BUFFER(3, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(4, readonly, uint, id, IdBlock)
-BUFFER(5, readonly, float, bounce, BounceBlock)
+BUFFER(4, readonly, uint, label, LabelBlock)
+BUFFER(5, readonly, Law, laws, LawBlock)
+BUFFER(6, writeonly, vec4, pressed, PressedBlock)  // sum of the pushes, m/s
 
+PRIVATE(uint, wallSphere)
+PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)  // where the sphere is, as the pushes go on
 PRIVATE(vec3, running)    // velocity before the substep, then after the bounces
 PRIVATE(vec3, corrected)  // velocity with the pushes
-PRIVATE(float, sphereBounce)
+PRIVATE(vec3, pushes)
 PRIVATE(bool, met)
 
-void visitWall(vec3 normal, float depth, float wallRestitution) {
+#include "shared/wall_laws.h"
+
+// Static friction by position: gravity has moved the sphere along the wall, which the push would not have let it.
+// (Velocities are the business of walls_velocities.comp. Between spheres this is left out: in a pile, it feeds the
+// jitter of the pushes more than it stops the creep.)
+void hold(vec3 n, float most) {
+    float h = params.substep;
+    vec3 along = (vec3(params.gravity) - n * dot3(vec3(params.gravity), n)) * (0.5f * h * h);
+    float squared = dot3(along, along);
+    wallPoint = wallPoint - along * (squared > most * most ? most / sqrt(squared) : 1.0f);
+}
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     met = true;
+    vec4 law = laws[wallLawIndex(wallMaterial)].contact;
     if (HAS(RESTITUTION)) {
         float h = params.substep;
         float start = dot3(running, normal);
         float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
         precise float gap = max(-depth - (start * h + 0.5f * pull * h * h), 0.0f);
         float impact = sqrt(max(start * start - 2.0f * pull * gap, 0.0f));
-        float after = min(sphereBounce, wallRestitution) * impact;
+        float after = law.x * impact;
         if (depth > 0.0f || start < 0.0f) running = running + normal * (after - start);
     }
     float push = max(depth, 0.0f);
@@ -36,15 +53,20 @@ void visitWall(vec3 normal, float depth, float wallRestitution) {
     float speed = dot3(corrected, normal);
     float stopped = max(speed, min(speed + push * params.perSubstep, 0.0f));
     corrected = corrected + normal * (stopped - speed);
+    if (HAS(FRICTION)) {
+        pushes = pushes + normal * (stopped - speed);
+        if (HAS(GRAVITY)) hold(normal, law.y * push);
+    }
 }
 
 #include "shared/walls.h"
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
-    float radius = HAS(RADII) ? x.w : params.radius;
+    wallSphere = invocation;
+    wallRadius = HAS(RADII) ? x.w : params.radius;
     wallPoint = vec3(x);
-    if (clearOfWalls(wallPoint, radius)) return;
+    if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
     corrected = vec3(v);
@@ -53,9 +75,12 @@ KERNEL(params.spheres) {
     if (HAS(RESTITUTION)) {
         u = before[invocation];
         running = vec3(u);
-        sphereBounce = HAS(RESTITUTIONS) ? bounce[id[invocation]] : params.restitution;
     }
-    visitWalls(radius);
+    if (HAS(FRICTION)) {
+        pushes = vec3(0.0f, 0.0f, 0.0f);
+    }
+    visitWalls(wallRadius);
+    if (HAS(FRICTION)) pressed[invocation] = vec4(pushes, 0.0f);
     if (!met) return;
     position[invocation] = vec4(wallPoint, x.w);
     velocity[invocation] = vec4(corrected, v.w);

@@ -1,47 +1,55 @@
-// Last word on the velocity of spheres at walls and obstacles: away with what the bounce gave, never into them.
+// Normal speed of spheres at walls and obstacles: away with what the bounce gave, never into them.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
+#include "shared/label.h"
 
 BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
 BUFFER(2, readonly, vec4, before, BeforeBlock)
 BUFFER(3, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(4, readonly, uint, id, IdBlock)
-BUFFER(5, readonly, float, bounce, BounceBlock)
+BUFFER(4, readonly, uint, label, LabelBlock)
+BUFFER(5, readonly, Law, laws, LawBlock)
+BUFFER(6, restrict, vec4, pressed, PressedBlock)
 
+PRIVATE(uint, wallSphere)
+PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, running)
 PRIVATE(vec3, corrected)
-PRIVATE(float, sphereBounce)
+PRIVATE(vec3, pushes)
 
-void visitWall(vec3 normal, float depth, float wallRestitution) {
+#include "shared/wall_laws.h"
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+    vec4 law = laws[wallLawIndex(wallMaterial)].contact;
     float speed = dot3(corrected, normal);
     precise float wanted = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {
         // Negative where neighbours have pushed the sphere at the wall since its bounce.
         float start = dot3(running, normal);
-        wanted = start < 0.0f ? -min(sphereBounce, wallRestitution) * start : start;
+        wanted = start < 0.0f ? -law.x * start : start;
         running = running + normal * (wanted - start);
     }
     corrected = corrected + normal * (wanted - speed);
+    if (HAS(FRICTION)) pushes = pushes + normal * (wanted - speed);
 }
 
 #include "shared/walls.h"
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
-    float radius = HAS(RADII) ? x.w : params.radius;
+    wallSphere = invocation;
+    wallRadius = HAS(RADII) ? x.w : params.radius;
     wallPoint = vec3(x);
-    if (clearOfWalls(wallPoint, radius)) return;
+    if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
     corrected = vec3(v);
-    if (HAS(RESTITUTION)) {
-        running = vec3(before[invocation]);
-        sphereBounce = HAS(RESTITUTIONS) ? bounce[id[invocation]] : params.restitution;
-    }
-    visitWalls(radius);
+    if (HAS(RESTITUTION)) running = vec3(before[invocation]);
+    if (HAS(FRICTION)) pushes = vec3(pressed[invocation]);
+    visitWalls(wallRadius);
     velocity[invocation] = vec4(corrected, v.w);
+    if (HAS(FRICTION)) pressed[invocation] = vec4(pushes, 0.0f);
 }

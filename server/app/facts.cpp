@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "scene/quality.h"
+
 namespace spherule::app {
 
 namespace {
@@ -15,7 +17,6 @@ void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         v1::Obstacle& message = *facts.add_obstacles();
         message.set_colour(obstacle.colour);
-        message.set_restitution(obstacle.restitution);
         if (const auto* plane = std::get_if<scene::Plane>(&obstacle.shape)) {
             set(message.mutable_plane()->mutable_point(), plane->point);
             set(message.mutable_plane()->mutable_normal(), plane->normal);
@@ -76,12 +77,13 @@ v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool 
     v1::ServerMessage message;
     v1::Settings& settings = *message.mutable_settings();
     set(settings.mutable_gravity(), scene.gravity);
-    settings.set_restitution(scene.restitution);
-    settings.set_substeps(scene.substeps);
+    settings.set_restitution(scene.materials.front().restitution);
+    settings.set_substeps(scene.quality.substeps);
     settings.set_speed(speed);
     settings.set_paused(paused);
     settings.set_step(scene.step);
-    settings.set_quality("balanced");
+    settings.set_model(scene::messageOf(scene.quality.model));
+    settings.set_friction(scene.materials.front().friction);
     return message;
 }
 

@@ -27,6 +27,9 @@ void addPlan(CLI::App& app, int& exitCode);
 void addCtl(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);
 
+// --quality and --substeps.
+void addQuality(CLI::App& command, scene::Overrides& overrides);
+
 // Prints the error to stderr and gives its exit code.
 int report(const Error& error);
 

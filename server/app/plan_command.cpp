@@ -34,7 +34,7 @@ void addPlan(CLI::App& app, int& exitCode) {
     command->add_option("--device", options->kind, "the kind of device to plan for: gpu, cpu or software")
         ->check(CLI::IsMember({"gpu", "cpu", "software"}))
         ->capture_default_str();
-    command->add_option("--substeps", options->overrides.substeps, "per step, in place of the scene's");
+    addQuality(*command, options->overrides);
     command->add_option("--seed", options->overrides.seed, "in place of the scene's seeds");
     command->add_flag("--no-sleep", options->overrides.noSleep, "no sphere is put to sleep");
     command->add_flag("--json", options->json, "print one line of JSON");

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/quality.h"
+
 namespace spherule::app {
 
 namespace {
@@ -31,10 +33,10 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"scene", simulation.scene().name},
         {"device", device.kind},
         {"renderer", device.renderer},
-        {"quality", "balanced"},
+        {"quality", scene::nameOf(simulation.scene().quality.model)},
         {"spheres", simulation.count()},
         {"steps", simulation.steps()},
-        {"substepsPerStep", simulation.scene().substeps},
+        {"substepsPerStep", simulation.scene().quality.substeps},
         {"simSeconds", simulation.time()},
         {"stretchSeconds", stretch.simSeconds},
         {"wallSeconds", stretch.wallSeconds},
@@ -46,6 +48,7 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"rotationalEnergy", s.rotationalEnergy},
         {"potentialEnergy", s.potentialEnergy},
         {"momentum", {s.momentum.x, s.momentum.y, s.momentum.z}},
+        {"angularMomentum", {s.angularMomentum.x, s.angularMomentum.y, s.angularMomentum.z}},
         {"contacts", s.contacts},
         {"overlapMean", s.overlapMean},
         {"overlapMax", s.overlapMax},

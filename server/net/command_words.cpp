@@ -1,4 +1,6 @@
 // The words of `spherule ctl`.
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -20,7 +22,8 @@ const std::string_view commandForms =
     "  step [N]\n"
     "  reset\n"
     "  load NAME | load FILE.json\n"
-    "  set gravity X Y Z | set restitution E | set substeps N | set speed S\n"
+    "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
+    "  set model fast|balanced|accurate | set substeps N\n"
     "  spawn JSON                                 a group of spheres\n"
     "  push SPHERE JX JY JZ                       an impulse in N s\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        at the first sphere that the ray meets\n"
@@ -103,7 +106,13 @@ Result<void> set(Words words, v1::Command& command) {
         if (auto right = wantWords(values, 3, "set gravity"); !right) return right;
         return numbers(values, change.mutable_gravity());
     }
-    if (name != "restitution" && name != "substeps" && name != "speed") return refuse("'" + name + "' cannot be set");
+    static const std::map<std::string_view, void (v1::Set::*)(double)> numbersByName = {
+        {"restitution", &v1::Set::set_restitution},
+        {"friction", &v1::Set::set_friction},
+        {"speed", &v1::Set::set_speed}};
+    const auto plainNumber = numbersByName.find(name);
+    if (plainNumber == numbersByName.end() && name != "substeps" && name != "model")
+        return refuse("'" + name + "' cannot be set");
     if (auto right = wantWords(values, 1, "set " + name); !right) return right;
     if (name == "substeps") {
         const auto count = number<std::uint32_t>(values[0]);
@@ -111,9 +120,18 @@ Result<void> set(Words words, v1::Command& command) {
         change.set_substeps(*count);
         return {};
     }
+    if (name == "model") {
+        std::string upper = values[0];
+        std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });
+        v1::Model model{};
+        if (!v1::Model_Parse(upper, &model) || model == v1::MODEL_UNSPECIFIED)
+            return refuse("'" + values[0] + "' is no model");
+        change.set_model(model);
+        return {};
+    }
     const auto value = number<double>(values[0]);
     if (!value) return tl::unexpected(value.error());
-    name == "speed" ? change.set_speed(*value) : change.set_restitution(*value);
+    (change.*plainNumber->second)(*value);
     return {};
 }
 

@@ -8,7 +8,9 @@
 #include <limits>
 
 #include "scene/group.h"
+#include "scene/materials.h"
 #include "scene/occupancy.h"
+#include "scene/quality.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
 
@@ -51,31 +53,7 @@ Sleep readSleep(Check& check, const v1::Sleep& message, bool noSleep) {
     return sleep;
 }
 
-std::uint32_t readSubsteps(Check& check, const v1::Scene& message, const Overrides& overrides, const Scene& scene) {
-    const bool given = overrides.substeps || message.has_substeps();
-    const double radius = scene.spheres.empty() ? 0 : smallestRadiusOf(scene.spheres);
-    const std::uint32_t substeps = given ? overrides.substeps.value_or(message.substeps())
-                                         : defaultSubsteps(scene.step, glm::length(scene.gravity), radius);
-    if (substeps >= 1 && substeps <= maxSubsteps) return substeps;
-    check.refuse("substeps",
-                 given ? fmt::format("is {}, must be 1 to {}", substeps, maxSubsteps)
-                       : fmt::format("would be {} for this gravity and a smallest radius of {:.6g} m, must be "
-                                     "at most {}; shorten the step or give substeps",
-                                     substeps, radius, maxSubsteps));
-    return 1;
-}
-
 }  // namespace
-
-std::uint32_t defaultSubsteps(double step, double gravity, double smallestRadius) {
-    constexpr double longest = 1.0 / 480;
-    // The rule's constant has two figures, so a substep may exceed it by a hundredth: 1/480 s at r = 0.05 m on earth.
-    constexpr double slack = 0.01;
-    const bool falls = gravity > 0 && smallestRadius > 0;
-    const double substep = falls ? std::min(longest, std::sqrt(8.5e-4 * smallestRadius / gravity)) : longest;
-    const double substeps = std::ceil(step / substep * (1 - slack));
-    return static_cast<std::uint32_t>(std::clamp(substeps, 1.0, double{std::numeric_limits<std::uint32_t>::max()}));
-}
 
 Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
                       const Overrides& overrides) {
@@ -84,19 +62,20 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     scene.name = message.name();
     scene.description = message.description();
     scene.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
-    if (message.has_restitution()) scene.restitution = check.within(message.restitution(), 0, 1, "restitution");
+    scene.materials = readMaterials(check, message.materials());
+    if (check.ok()) scene.pairs = readPairs(check, message.pairs(), scene.materials);
     if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
     if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
     scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
     if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");
-    scene.bounds = readBounds(check, message.bounds(), scene.restitution, "bounds");
-    scene.obstacles = readObstacles(check, message.obstacles(), scene.restitution);
+    scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");
+    scene.obstacles = readObstacles(check, message.obstacles(), scene.materials);
     if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
     if (check.ok()) readGroups(check, message, directory, overrides, scene);
     if (check.ok() && !scene.spheres.empty()) {
         checkResolution(check, scene.bounds, smallestRadiusOf(scene.spheres), "bounds");
     }
-    if (check.ok()) scene.substeps = readSubsteps(check, message, overrides, scene);
+    if (check.ok()) readQuality(check, message.quality(), overrides, scene);
     if (!check.ok()) return check.error();
     return scene;
 }

@@ -124,7 +124,7 @@ std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesys
         const auto row = reader.row(names);
         if (!row || !checkRoom(check, input, static_cast<double>(spheres.size() + 1), field)) break;
         const Row& v = *row;
-        Sphere sphere{.position = {v[0], v[1], v[2]}, .velocity = input.velocity};
+        Sphere sphere{.position = {v[0], v[1], v[2]}, .velocity = input.velocity, .spin = input.spin};
         if (columns->velocity) sphere.velocity = glm::dvec3(v[3], v[4], v[5]);
         sphere.radius = columns->radius ? static_cast<float>(v[names.size() - 1]) : radii.draw(input.random);
         spheres.push_back(sphere);

@@ -1,7 +1,11 @@
 #include "scene/features.h"
 
 #include <algorithm>
+#include <set>
+
 #include <glm/geometric.hpp>
+
+#include "scene/materials.h"
 
 namespace spherule::scene {
 
@@ -12,11 +16,22 @@ bool differ(const std::vector<Sphere>& spheres, auto quantity) {
                        [&](const Sphere& s) { return quantity(s) != quantity(spheres.front()); });
 }
 
-bool bounces(const Scene& scene) {
-    const auto any = [](const auto& list) {
-        return std::any_of(list.begin(), list.end(), [](const auto& item) { return item.restitution > 0; });
-    };
-    return scene.restitution > 0 || scene.bounds.restitution > 0 || any(scene.spheres) || any(scene.obstacles);
+bool hasWalls(const Scene& scene) {
+    return !std::ranges::all_of(scene.bounds.open, [](bool face) { return face; });
+}
+
+// The laws that can come to act: of the spheres' materials with each other, and with those of walls and obstacles.
+std::vector<PairLaw> actingLaws(const Scene& scene) {
+    std::set<std::uint8_t> spheres;
+    for (const Sphere& sphere : scene.spheres) spheres.insert(sphere.material);
+    std::set<std::uint8_t> surfaces;
+    if (hasWalls(scene)) surfaces.insert(scene.bounds.material);
+    for (const Obstacle& obstacle : scene.obstacles) surfaces.insert(obstacle.material);
+    if (scene.sphereContacts) surfaces.insert(spheres.begin(), spheres.end());
+    std::vector<PairLaw> laws;
+    for (const std::uint8_t a : spheres)
+        for (const std::uint8_t b : surfaces) laws.push_back(lawBetween(scene, a, b));
+    return laws;
 }
 
 template <class Shape>
@@ -28,18 +43,28 @@ bool has(const Scene& scene) {
 }  // namespace
 
 Features featuresOf(const Scene& scene) {
-    const auto& open = scene.bounds.open;
+    const std::vector<PairLaw> laws = actingLaws(scene);
+    const bool friction = std::ranges::any_of(laws, [](const PairLaw& law) { return law.friction > 0; });
+    const bool accurate = scene.quality.model == Model::Accurate;
     return {
         .gravity = glm::length(scene.gravity) > 0,
         .contacts = scene.sphereContacts,
         .radii = differ(scene.spheres, [](const Sphere& s) { return s.radius; }),
-        .restitution = bounces(scene),
-        .restitutions = differ(scene.spheres, [](const Sphere& s) { return s.restitution; }),
-        .walls = !std::all_of(open.begin(), open.end(), [](bool face) { return face; }),
+        .restitution = std::ranges::any_of(laws, [](const PairLaw& law) { return law.restitution > 0; }),
+        .materials = differ(scene.spheres, [](const Sphere& s) { return s.material; }),
+        .friction = friction,
+        .rolling = friction && std::ranges::any_of(laws,
+                                                   [](const PairLaw& law) {
+                                                       return law.rollingResistance > 0 || law.spinningResistance > 0;
+                                                   }),
+        .hertz = accurate && std::ranges::any_of(scene.materials, [](const Material& m) { return m.young > 0; }),
+        .walls = hasWalls(scene),
         .planes = has<Plane>(scene),
         .boxes = has<Box>(scene),
         // Without gravity nothing rests: what is slow only drifts. Without contacts there is nothing that sleep saves.
-        .sleep = scene.sleep.enabled && scene.sphereContacts && glm::length(scene.gravity) > 0,
+        // Under forces nothing is put to sleep: `accurate` is for those who want to see them.
+        .sleep = scene.sleep.enabled && scene.sphereContacts && glm::length(scene.gravity) > 0 && !accurate,
+        .model = scene.quality.model,
     };
 }
 

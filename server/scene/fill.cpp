@@ -81,6 +81,7 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
     std::vector<Sphere> spheres(fill.count());
     for (Sphere& sphere : spheres) {
         sphere.velocity = input.velocity;
+        sphere.spin = input.spin;
         sphere.radius = radii.draw(input.random);
     }
     double largest = radii.max;

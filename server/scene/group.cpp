@@ -3,15 +3,13 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "scene/load.h"
+#include "scene/materials.h"
 #include "scene/source.h"
 #include "scene/surroundings.h"
 
 namespace spherule::scene {
 
 namespace {
-
-constexpr double smallestDensity = 1e-6;  // kg/m^3
-constexpr double largestDensity = 1e9;    // kg/m^3
 
 // The name of the source as it stands in the scene file; empty when there is none.
 std::string sourceName(const v1::Group& message) {
@@ -95,20 +93,14 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
                       .random = Random(context.seed.value_or(seedOf(message)), context.stream)};
     if (message.has_radius()) input.radii = readRadii(check, message.radius(), at(context.field, "radius"));
     input.velocity = check.vectorOr(message.velocity(), {}, at(context.field, "velocity"));
-    const double density =
-        message.has_density() ? check.positive(message.density(), at(context.field, "density")) : 1000;
-    check.within(density, smallestDensity, largestDensity, at(context.field, "density"), " kg/m^3");
-    const double restitution = message.has_restitution()
-                                   ? check.within(message.restitution(), 0, 1, at(context.field, "restitution"))
-                                   : scene.restitution;
+    input.spin = check.vectorOr(message.spin(), {}, at(context.field, "spin"));
+    const std::uint8_t material =
+        materialNamed(check, message.material(), scene.materials, at(context.field, "material"));
     check.colour(message.colour(), at(context.field, "colour"));
     if (!check.ok()) return {};
 
     std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));
-    for (Sphere& sphere : spheres) {
-        sphere.density = static_cast<float>(density);
-        sphere.restitution = static_cast<float>(restitution);
-    }
+    for (Sphere& sphere : spheres) sphere.material = material;
     if (check.ok()) checkPlaces(check, message, scene, source, spheres);
     return spheres;
 }

@@ -22,8 +22,7 @@ struct GroupContext {
     std::size_t room = 0;                              // spheres that the scene may still take
 };
 
-// Spheres of a group: each inside the bounds of `scene`, clear of its obstacles, with its restitution unless the group
-// has one.
+// Spheres of a group: each inside the bounds of `scene`, clear of its obstacles.
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context);
 
 }  // namespace spherule::scene

@@ -58,7 +58,9 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
     for (double z = 0; spheres.size() < total; ++z) {
         for (double y = 0; y < places.count.y && spheres.size() < total; ++y) {
             for (double x = 0; x < places.count.x && spheres.size() < total; ++x) {
-                Sphere sphere{.position = places.first + spacing * glm::dvec3(x, y, z), .velocity = input.velocity};
+                Sphere sphere{.position = places.first + spacing * glm::dvec3(x, y, z),
+                              .velocity = input.velocity,
+                              .spin = input.spin};
                 for (int axis = 0; axis < 3; ++axis) sphere.position[axis] += input.random.uniform(-jitter, jitter);
                 sphere.radius = radii.draw(input.random);
                 spheres.push_back(sphere);

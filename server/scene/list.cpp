@@ -32,6 +32,7 @@ std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput inp
         Sphere sphere;
         sphere.position = check.vector(message.position(), at(field, "position"));
         sphere.velocity = check.vectorOr(message.velocity(), input.velocity, at(field, "velocity"));
+        sphere.spin = check.vectorOr(message.spin(), input.spin, at(field, "spin"));
         sphere.radius = message.has_radius()
                             ? static_cast<float>(readRadius(check, message.radius(), at(field, "radius")))
                             : requiredRadii(check, input).draw(input.random);

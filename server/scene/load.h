@@ -14,11 +14,12 @@ namespace spherule::scene {
 
 constexpr std::uint32_t maxSpheres = 16'000'000;
 constexpr std::uint32_t maxObstacles = 1000;  // every sphere meets each of them
-constexpr std::uint32_t maxSubsteps = 10'000;
+constexpr std::uint32_t maxSubsteps = 1'000'000;
 
 // What a caller may change of a scene before it is built.
 struct Overrides {
     std::optional<std::uint32_t> substeps{};
+    std::optional<Model> model{};
     std::optional<std::uint64_t> seed{};  // replaces every seed of the scene
     bool noSleep = false;
 };
@@ -37,8 +38,8 @@ Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scen
 // Three finite numbers, or the error for `field`.
 Result<glm::dvec3> vectorOf(const google::protobuf::RepeatedField<double>& values, std::string_view field);
 
-// Substeps per step by the stability rule h = min(1/480 s, sqrt(8.5e-4 r_min / g)); g in m/s^2, r_min and step in SI.
-std::uint32_t defaultSubsteps(double step, double gravity, double smallestRadius);
+// Substeps per step that suit the scene and its model; may exceed maxSubsteps.
+double defaultSubsteps(const Scene& scene);
 
 // Names of the scenes that come with the program, sorted.
 std::vector<std::string> names();

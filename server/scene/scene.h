@@ -14,11 +14,41 @@ namespace spherule::scene {
 // A validated scene, in SI units and world coordinates. Ids are indices into `spheres`.
 
 struct Sphere {
-    glm::dvec3 position{};  // m
-    glm::vec3 velocity{};   // m/s
-    float radius = 0;       // m
-    float density = 1000;   // kg/m^3
-    float restitution = 0;  // 0..1
+    glm::dvec3 position{};      // m
+    glm::vec3 velocity{};       // m/s
+    float radius = 0;           // m
+    std::uint8_t material = 0;  // index into Scene::materials
+    glm::vec3 spin{};           // angular velocity, rad/s
+};
+
+struct Material {
+    std::string name{};
+    double density = 1000;     // kg/m^3
+    double restitution = 0.5;  // 0..1
+    double friction = 0;
+    double rollingResistance = 0;
+    double spinningResistance = 0;
+    double young = 0;  // Pa; 0: to be chosen
+    double poisson = 0.25;
+};
+
+// Between materials `a` and `b`, in place of what follows from each.
+struct MaterialPair {
+    std::uint8_t a = 0;
+    std::uint8_t b = 0;
+    std::optional<double> restitution;
+    std::optional<double> friction;
+    std::optional<double> rollingResistance;
+    std::optional<double> spinningResistance;
+};
+
+enum class Model : std::uint8_t { Fast, Balanced, Accurate };
+
+struct Quality {
+    Model model = Model::Balanced;
+    std::uint32_t substeps = 1;  // per step
+    bool pinned = true;          // substeps were asked for, not chosen
+    double overlap = 0.1;        // of the radius: what `accurate` aims at where it chooses stiffness and substeps
 };
 
 struct Group {
@@ -34,7 +64,7 @@ struct Bounds {
     glm::dvec3 min{};
     glm::dvec3 max{};
     std::array<bool, 6> open{};  // by Face
-    double restitution = 0;
+    std::uint8_t material = 0;
 
     [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (min + max); }
 };
@@ -51,7 +81,7 @@ struct Box {
 
 struct Obstacle {
     std::variant<Plane, Box> shape;
-    double restitution = 0;
+    std::uint8_t material = 0;
     std::string colour;
 };
 
@@ -75,9 +105,10 @@ struct Scene {
     std::vector<Obstacle> obstacles;
     std::vector<Group> groups;
     std::vector<Sphere> spheres;
-    double restitution = 0.5;
-    double step = 1.0 / 60;      // s
-    std::uint32_t substeps = 0;  // per step, at least 1
+    std::vector<Material> materials{Material{}};  // at least one
+    std::vector<MaterialPair> pairs;
+    double step = 1.0 / 60;  // s
+    Quality quality;
     Camera camera;
     Sleep sleep;
     bool sphereContacts = true;

@@ -14,12 +14,13 @@
 
 namespace spherule::scene {
 
-// What the sources of a group work from. The spheres they return have position, velocity and radius; density and
-// restitution, and the check that each sphere has a place in the scene, are the group's.
+// What the sources of a group work from. The spheres they return have position, velocity, spin and radius;
+// the material, and the check that each sphere has a place in the scene, are the group's.
 struct SourceInput {
     std::string field;             // of the source: "groups[2].lattice"
     std::optional<Radii> radii{};  // of the group
     glm::vec3 velocity{};          // m/s, of the group
+    glm::vec3 spin{};              // rad/s, of the group
     std::size_t room = 0;          // spheres that the scene may still take
     Random random;
 };

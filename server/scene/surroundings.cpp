@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "scene/load.h"
+#include "scene/materials.h"
 
 namespace spherule::scene {
 
@@ -32,7 +33,8 @@ Plane readPlane(Check& check, const v1::Plane& message, const std::string& field
     return plane;
 }
 
-Obstacle readObstacle(Check& check, const v1::Obstacle& message, double restitution, const std::string& field) {
+Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
+                      const std::string& field) {
     Obstacle obstacle;
     switch (message.shape_case()) {
         case v1::Obstacle::kPlane:
@@ -45,15 +47,15 @@ Obstacle readObstacle(Check& check, const v1::Obstacle& message, double restitut
             check.refuse(field, "has no shape, must be a plane or a box");
             break;
     }
-    obstacle.restitution =
-        message.has_restitution() ? check.within(message.restitution(), 0, 1, at(field, "restitution")) : restitution;
+    obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
     obstacle.colour = check.colour(message.colour(), at(field, "colour"));
     return obstacle;
 }
 
 }  // namespace
 
-Bounds readBounds(Check& check, const v1::Bounds& message, double restitution, std::string_view field) {
+Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
+                  std::string_view field) {
     Bounds bounds;
     const Box box = check.box(message.min(), message.max(), field);
     bounds.min = box.min;
@@ -68,13 +70,12 @@ Bounds readBounds(Check& check, const v1::Bounds& message, double restitution, s
                                      static_cast<int>(message.open(i))));
         }
     }
-    bounds.restitution =
-        message.has_restitution() ? check.within(message.restitution(), 0, 1, at(field, "restitution")) : restitution;
+    bounds.material = materialNamed(check, message.material(), materials, at(field, "material"));
     return bounds;
 }
 
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
-                                    double restitution) {
+                                    const std::vector<Material>& materials) {
     std::vector<Obstacle> obstacles;
     const auto count = static_cast<std::size_t>(messages.size());
     if (count > maxObstacles) {
@@ -82,7 +83,7 @@ std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::Repeat
         return obstacles;
     }
     for (std::size_t i = 0; i < count; ++i) {
-        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], restitution, at("obstacles", i)));
+        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], materials, at("obstacles", i)));
     }
     return obstacles;
 }

@@ -10,10 +10,10 @@
 
 namespace spherule::scene {
 
-// Bounds and obstacles of a scene. `restitution` is the scene's, for those that have none of their own.
-Bounds readBounds(Check& check, const v1::Bounds& message, double restitution, std::string_view field);
+Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
+                  std::string_view field);
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
-                                    double restitution);
+                                    const std::vector<Material>& materials);
 
 // Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius (m).
 void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, std::string_view field);

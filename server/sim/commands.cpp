@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "scene/load.h"
+#include "scene/materials.h"
+#include "scene/quality.h"
 #include "sim/parameters.h"
 #include "sim/picking.h"
 #include "sim/simulation.h"
@@ -14,6 +16,10 @@ namespace {
 
 constexpr double mostGravity = 1e6;  // m/s^2
 constexpr double farthest = 1e9;     // m
+
+tl::unexpected<Error> refusal(const Error& error) {
+    return fail(ErrorKind::Refused, error.where, error.message);
+}
 
 Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
     if (set.gravity().empty()) return {};
@@ -26,24 +32,44 @@ Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
     return {};
 }
 
+// Sets a property of all materials, and ends what pairs have of their own.
+Result<void> setMaterials(scene::Scene& scene, double value, double most, const char* name,
+                          double scene::Material::*ofMaterial, std::optional<double> scene::MaterialPair::*ofPair) {
+    if (!(value >= 0 && value <= most))
+        return fail(ErrorKind::Refused, name, fmt::format("is {:g}, must be within 0 and {:g}", value, most));
+    for (scene::Material& material : scene.materials) material.*ofMaterial = value;
+    for (scene::MaterialPair& pair : scene.pairs) (pair.*ofPair).reset();
+    return {};
+}
+
 Result<void> setRestitution(scene::Scene& scene, const v1::Set& set) {
     if (!set.has_restitution()) return {};
-    const double e = set.restitution();
-    if (!(e >= 0 && e <= 1))
-        return fail(ErrorKind::Refused, "restitution", fmt::format("is {:g}, must be within 0 and 1", e));
-    scene.restitution = e;
-    scene.bounds.restitution = e;
-    for (scene::Obstacle& obstacle : scene.obstacles) obstacle.restitution = e;
-    for (scene::Sphere& sphere : scene.spheres) sphere.restitution = static_cast<float>(e);
+    return setMaterials(scene, set.restitution(), 1, "restitution", &scene::Material::restitution,
+                        &scene::MaterialPair::restitution);
+}
+
+Result<void> setFriction(scene::Scene& scene, const v1::Set& set) {
+    if (!set.has_friction()) return {};
+    return setMaterials(scene, set.friction(), scene::largestFriction, "friction", &scene::Material::friction,
+                        &scene::MaterialPair::friction);
+}
+
+// With the substeps that suit the new model, unless the command has its own.
+Result<void> setModel(scene::Scene& scene, const v1::Set& set) {
+    if (!set.has_model()) return {};
+    if (set.model() <= v1::MODEL_UNSPECIFIED || set.model() > v1::ACCURATE)
+        return fail(ErrorKind::Refused, "model",
+                    fmt::format("is {}, must be FAST, BALANCED or ACCURATE", static_cast<int>(set.model())));
+    scene.quality.model = scene::modelOf(set.model());
+    scene.quality.pinned = false;
+    if (auto fits = scene::checkModel(scene); !fits) return refusal(fits.error());
     return {};
 }
 
 Result<void> setSubsteps(scene::Scene& scene, const v1::Set& set) {
     if (!set.has_substeps()) return {};
-    if (set.substeps() < 1 || set.substeps() > scene::maxSubsteps)
-        return fail(ErrorKind::Refused, "substeps",
-                    fmt::format("is {}, must be within 1 and {}", set.substeps(), scene::maxSubsteps));
-    scene.substeps = set.substeps();
+    scene.quality.pinned = true;
+    scene.quality.substeps = set.substeps();
     return {};
 }
 
@@ -84,22 +110,23 @@ Result<v1::Applied> Simulation::apply(const v1::Command& command) {
 }
 
 Result<void> Simulation::set(const v1::Set& set) {
-    if (set.gravity().empty() && !set.has_restitution() && !set.has_substeps()) return {};
+    const bool disturbs = !set.gravity().empty() || set.has_restitution() || set.has_friction() || set.has_model();
+    if (!disturbs && !set.has_substeps()) return {};
     scene::Scene changed = scene_;
-    for (auto change : {setGravity, setRestitution, setSubsteps})
+    for (auto change : {setGravity, setRestitution, setFriction, setModel, setSubsteps})
         if (auto done = change(changed, set); !done) return done;
-    const bool described = set.has_restitution() && !changed.obstacles.empty();
+    // Gravity and the model have a say in how short a substep must be.
+    if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     if (scene::featuresOf(changed) == plan().features) {
         scene_ = std::move(changed);
         uploadConstants();
         // A change of substeps alone disturbs nobody's sleep.
-        if (!set.gravity().empty() || set.has_restitution()) pipeline_->wakeAll();
+        if (disturbs) pipeline_->wakeAll();
     } else {
         auto state = liveState();
         if (!state) return tl::unexpected(state.error());
         if (auto done = adopt(std::move(changed), std::move(*state)); !done) return done;
     }
-    if (described) ++generation_;
     return {};
 }
 
@@ -125,7 +152,9 @@ Result<void> Simulation::spawn(const v1::Spawn& spawn) {
     const State fresh = stateOf(addition);
     state.position.insert(state.position.end(), fresh.position.begin(), fresh.position.end());
     state.velocity.insert(state.velocity.end(), fresh.velocity.begin(), fresh.velocity.end());
+    state.spin.insert(state.spin.end(), fresh.spin.begin(), fresh.spin.end());
     grown.spheres.insert(grown.spheres.end(), added->begin(), added->end());
+    if (auto fits = scene::fitSubsteps(grown); !fits) return refusal(fits.error());
     if (auto done = adopt(std::move(grown), std::move(state)); !done) return done;
     ++generation_;
     return {};
@@ -160,6 +189,7 @@ v1::Statistics messageOf(const Statistics& s) {
     message.set_rotational_energy(s.rotationalEnergy);
     message.set_potential_energy(s.potentialEnergy);
     for (int axis = 0; axis < 3; ++axis) message.add_momentum(s.momentum[axis]);
+    for (int axis = 0; axis < 3; ++axis) message.add_angular_momentum(s.angularMomentum[axis]);
     message.set_contacts(s.contacts);
     message.set_overlap_mean(s.overlapMean);
     message.set_overlap_max(s.overlapMax);

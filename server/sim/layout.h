@@ -19,20 +19,20 @@ using uint = std::uint32_t;
 
 // std140 puts a uniform block's vectors on multiples of 16 and packs scalars; the struct keeps to it without padding.
 static_assert(sizeof(vec4) == 16 && sizeof(uvec4) == 16);
-static_assert(offsetof(Parameters, cells) == 64);
-static_assert(offsetof(Parameters, substep) == 80);
-static_assert(offsetof(Parameters, spheres) == 128);
-static_assert(sizeof(Parameters) == 160);
+static_assert(offsetof(Parameters, cells) == 96);
+static_assert(offsetof(Parameters, substep) == 112);
+static_assert(offsetof(Parameters, spheres) == 160);
+static_assert(sizeof(Parameters) == 208);
 // What the words of these are: 'r' a real number, 'u' an unsigned integer.
-constexpr std::string_view parameterWords = "rrrrrrrrrrrrrrrruuuurrrrrrrrrrrruuuuuuuu";
-constexpr std::string_view statisticsWords = "rrrrrrrrrrrruuuu";
+constexpr std::string_view parameterWords = "rrrrrrrrrrrrrrrrrrrrrrrruuuurrrrrrrrrrrruuuuuuuuuuuu";
+constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrruuuu";
 static_assert(parameterWords.size() * 4 == sizeof(Parameters));
 static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));
 static_assert(parameterWords.rfind('r') * 4 + 4 == offsetof(Parameters, spheres));
 static_assert(statisticsWords.size() * 4 == sizeof(SphereStatistics));
 static_assert(statisticsWords.find('u') * 4 == offsetof(SphereStatistics, sleeping));
 
-static_assert(sizeof(Obstacle) == 32);
-static_assert(sizeof(SphereStatistics) == 64);
+static_assert(sizeof(Obstacle) == 32 && sizeof(Law) == 32);
+static_assert(sizeof(SphereStatistics) == 80);
 
 }  // namespace spherule::sim::layout

@@ -5,6 +5,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/materials.h"
+#include "scene/stiffness.h"
+
 namespace spherule::sim {
 
 namespace {
@@ -15,7 +18,7 @@ constexpr double rebuildShare = 0.45;
 
 void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan) {
     const double g = glm::length(scene.gravity);
-    const double h = scene.step / scene.substeps;
+    const double h = scene.step / scene.quality.substeps;
     // Well above what lets a sphere fall asleep, or the two would take turns; and above what the solver's pushes make
     // of a sphere squeezed between others: up to some 15 g h in a bed 20 deep. Whoever moves away more slowly creeps.
     constexpr double kicks = 20;
@@ -27,6 +30,22 @@ void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan
     p.creep = static_cast<float>(creep);
     // In weak gravity, a free flight stays within that distance of its top for up to 3.4 sqrt(creep / g).
     p.sleepTime = static_cast<float>(std::max(scene.sleep.time, g > 0 ? 4 * std::sqrt(creep / g) : 0.0));
+}
+
+double springModulusOf(const scene::Scene& scene) {
+    return scene.quality.model == scene::Model::Accurate ? scene::springModulus(scene) : 0;
+}
+
+layout::Law lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, double springModulus) {
+    const scene::PairLaw contact = scene::lawBetween(scene, a, b);
+    layout::Law law{.contact = glm::vec4(contact.restitution, contact.friction, contact.rollingResistance,
+                                         contact.spinningResistance),
+                    .stiffness = {}};
+    if (scene.quality.model == scene::Model::Accurate) {
+        const scene::Stiffness stiffness = scene::stiffnessBetween(scene, a, b, springModulus);
+        law.stiffness = glm::vec4(stiffness.normal, stiffness.damping, stiffness.tangential, 0);
+    }
+    return law;
 }
 
 }  // namespace
@@ -42,15 +61,22 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
                              wire.quantum() > 0 ? static_cast<float>(1 / wire.quantum()) : 0.0F);
     p.cells = glm::uvec4(plan.grid.cells, plan.grid.all());
 
-    const double h = scene.step / scene.substeps;
+    const double h = scene.step / scene.quality.substeps;
     p.substep = static_cast<float>(h);
     p.perSubstep = static_cast<float>(1 / h);
     p.inverseCell = plan.grid.cellSize > 0 ? 1 / plan.grid.cellSize : 0.0F;
     p.margin = plan.grid.margin;
     p.rebuildMove = static_cast<float>(rebuildShare) * plan.grid.margin;
     p.radius = static_cast<float>(radii.largest);
-    p.restitution = scene.spheres.empty() ? static_cast<float>(scene.restitution) : scene.spheres.front().restitution;
-    p.wallRestitution = static_cast<float>(scene.bounds.restitution);
+    p.deadBand = static_cast<float>(2 * glm::length(scene.gravity) * h);
+    p.materials = static_cast<std::uint32_t>(scene.materials.size());
+    p.material = scene.spheres.empty() ? 0U : scene.spheres.front().material;
+    p.wallMaterial = scene.bounds.material;
+    p.wallContacts = plan.wallContacts;
+    const layout::Law law = lawFor(scene, static_cast<std::uint8_t>(p.material), static_cast<std::uint8_t>(p.material),
+                                   springModulusOf(scene));
+    p.law = law.contact;
+    p.stiffness = law.stiffness;
     setSleep(p, scene, plan);
 
     p.spheres = plan.spheres;
@@ -64,18 +90,30 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     return p;
 }
 
+std::vector<layout::Law> lawsFor(const scene::Scene& scene) {
+    std::vector<layout::Law> laws;
+    const std::size_t count = scene.materials.size();
+    const double modulus = springModulusOf(scene);
+    for (std::size_t a = 0; a < count; ++a)
+        for (std::size_t b = 0; b < count; ++b)
+            laws.push_back(lawFor(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), modulus));
+    return laws;
+}
+
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
     std::vector<layout::Obstacle> planes;
     std::vector<layout::Obstacle> boxes;
     const glm::dvec3 centre = scene.bounds.centre();
     for (const scene::Obstacle& obstacle : scene.obstacles) {
-        const auto e = static_cast<float>(obstacle.restitution);
+        const auto material = static_cast<float>(obstacle.material);
         if (const auto* plane = std::get_if<scene::Plane>(&obstacle.shape)) {
             const double offset = glm::dot(plane->normal, plane->point - centre);
-            planes.push_back({glm::vec4(glm::vec3(plane->normal), static_cast<float>(offset)), glm::vec4(0, 0, 0, e)});
+            planes.push_back(
+                {glm::vec4(glm::vec3(plane->normal), static_cast<float>(offset)), glm::vec4(0, 0, 0, material)});
         } else {
             const auto& box = std::get<scene::Box>(obstacle.shape);
-            boxes.push_back({glm::vec4(glm::vec3(box.min - centre), 0), glm::vec4(glm::vec3(box.max - centre), e)});
+            boxes.push_back(
+                {glm::vec4(glm::vec3(box.min - centre), 0), glm::vec4(glm::vec3(box.max - centre), material)});
         }
     }
     planes.insert(planes.end(), boxes.begin(), boxes.end());

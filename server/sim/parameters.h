@@ -13,6 +13,9 @@ namespace spherule::sim {
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
                                  const v1::WireGrid& wire);
 
+// Between all materials, row by row.
+std::vector<layout::Law> lawsFor(const scene::Scene& scene);
+
 // Planes first, then boxes, relative to the bounds' centre.
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);
 

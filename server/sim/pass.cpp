@@ -6,8 +6,9 @@ namespace spherule::sim {
 
 std::string_view nameOf(Pass pass) {
     static constexpr std::array<std::string_view, passCount> names = {
-        "integrate",       "grid",  "lists",      "positions", "wall-positions", "velocities",
-        "wall-velocities", "sleep", "statistics", "pack",
+        "integrate", "grid",           "lists",      "history",         "impulses", "wall-impulses",
+        "positions", "wall-positions", "velocities", "wall-velocities", "friction", "wall-friction",
+        "forces",    "wall-forces",    "sleep",      "statistics",      "pack",
     };
     return names.at(static_cast<std::size_t>(pass));
 }

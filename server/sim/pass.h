@@ -10,16 +10,23 @@ enum class Pass : std::uint8_t {
     Integrate,
     Grid,
     Lists,
-    Positions,
+    History,   // of `accurate`
+    Impulses,  // of `fast`
+    WallImpulses,
+    Positions,  // of `balanced`
     WallPositions,
     Velocities,
     WallVelocities,
+    Friction,
+    WallFriction,
+    Forces,  // of `accurate`
+    WallForces,
     Sleep,
     Statistics,
     Pack,
 };
 
-constexpr unsigned passCount = 10;
+constexpr unsigned passCount = 17;
 
 std::string_view nameOf(Pass pass);
 

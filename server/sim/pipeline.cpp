@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "scene/load.h"
+#include "scene/materials.h"
 #include "sim/shaders.h"
 
 namespace spherule::sim {
@@ -13,12 +15,21 @@ namespace {
 
 constexpr std::uint32_t workgroup = 64;
 constexpr std::uint32_t mostGroupsPerAxis = 32768;
+constexpr std::uint32_t idBits = 24;  // of a label
+constexpr std::uint32_t idMask = (1U << idBits) - 1;
+static_assert(scene::maxSpheres <= idMask);
+static_assert(scene::maxMaterials <= 1U << (32 - idBits));
 
 // Groups x, y, z for `invocations`, as the kernels index them.
 glm::uvec4 groupsFor(std::uint32_t invocations) {
     const std::uint32_t groups = (invocations + workgroup - 1) / workgroup;
     const std::uint32_t x = std::min(groups, mostGroupsPerAxis);
     return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, invocations};
+}
+
+// Arrays whose size goes with the number of listed pairs.
+bool holdsPairs(Array array) {
+    return array == Array::Pairs || array == Array::History || array == Array::Kept;
 }
 
 }  // namespace
@@ -76,13 +87,15 @@ void Pipeline::setParameters(const layout::Parameters& parameters) {
     device_.upload(*parameters_, 0, std::as_bytes(std::span(&parameters, 1)));
 }
 
-void Pipeline::upload(const State& state) {
+void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
     write<glm::vec4>(Array::Position, state.position);
     write<glm::vec4>(Array::Velocity, state.velocity);
+    if (plan_.features.friction) write<glm::vec4>(Array::Velocity, state.spin, state.count());
     std::vector<std::uint32_t> ids(state.count());
     std::iota(ids.begin(), ids.end(), 0U);
-    write<std::uint32_t>(Array::Id, ids);
     if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
+    for (std::uint32_t id = 0; id < state.count(); ++id) ids[id] |= std::uint32_t{materials[id]} << idBits;
+    write<std::uint32_t>(Array::Label, ids);
     if (plan_.has(Array::Stirred)) device_.fill(buffer(Array::Stirred), 0);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
@@ -93,13 +106,16 @@ void Pipeline::upload(const State& state) {
 State Pipeline::download() {
     const auto position = read<glm::vec4>(Array::Position);
     const auto velocity = read<glm::vec4>(Array::Velocity);
-    const auto id = read<std::uint32_t>(Array::Id);
+    const auto label = read<std::uint32_t>(Array::Label);
     State state;
+    state.spin.resize(plan_.spheres);
     state.position.resize(plan_.spheres);
     state.velocity.resize(plan_.spheres);
     for (std::uint32_t slot = 0; slot < plan_.spheres; ++slot) {
-        state.position[id[slot]] = position[slot];
-        state.velocity[id[slot]] = velocity[slot];
+        const std::uint32_t id = label[slot] & idMask;
+        state.position[id] = position[slot];
+        state.velocity[id] = velocity[slot];
+        if (plan_.features.friction) state.spin[id] = glm::vec4(glm::vec3(velocity[plan_.spheres + slot]), 0);
     }
     return state;
 }
@@ -122,21 +138,29 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
 void Pipeline::wakeAll() {
     if (!plan_.features.sleep) return;
     auto velocity = read<glm::vec4>(Array::Velocity);
+    velocity.resize(plan_.spheres);
     for (glm::vec4& one : velocity) one.w = std::abs(one.w);
     write<glm::vec4>(Array::Velocity, velocity);
 }
 
 Result<void> Pipeline::growPairs(std::uint32_t capacity) {
-    const std::uint64_t bytes = std::uint64_t{capacity} * sizeof(glm::uvec2);
-    auto pairs = device_.createBuffer(nameOf(Array::Pairs), bytes);
-    if (!pairs) return tl::unexpected(pairs.error());
-    auto touching = device_.createBuffer(nameOf(Array::Touching), bytes);
-    if (!touching) return tl::unexpected(touching.error());
-    adopt(Array::Pairs, std::move(*pairs));
-    adopt(Array::Touching, std::move(*touching));
+    std::vector<std::unique_ptr<compute::Buffer>> grown;
+    for (ArraySpec& spec : plan_.arrays) {
+        if (!holdsPairs(spec.array)) continue;
+        auto made =
+            device_.createBuffer(nameOf(spec.array), spec.bytes / plan_.pairCapacity * capacity, wordsOf(spec.array));
+        if (!made) return tl::unexpected(made.error());
+        // What contacts remember is read once more, with the pairs as they were listed.
+        if (plan_.has(Array::History)) device_.upload(**made, 0, read<std::byte>(spec.array));
+        grown.push_back(std::move(*made));
+    }
+    auto next = grown.begin();
+    for (ArraySpec& spec : plan_.arrays) {
+        if (!holdsPairs(spec.array)) continue;
+        spec.bytes = (*next)->bytes();
+        adopt(spec.array, std::move(*next++));
+    }
     plan_.pairCapacity = capacity;
-    for (ArraySpec& spec : plan_.arrays)
-        if (spec.array == Array::Pairs || spec.array == Array::Touching) spec.bytes = bytes;
     const std::uint32_t rebuild = 1;
     write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
     listsPending_ = true;
@@ -152,7 +176,7 @@ void Pipeline::runStatistics() {
     if (listsPending_) {
         std::vector<LaunchSpec> rebuild;
         std::ranges::copy_if(plan_.substep, std::back_inserter(rebuild), [](const LaunchSpec& launch) {
-            return launch.pass == Pass::Grid || launch.pass == Pass::Lists;
+            return launch.pass == Pass::Grid || launch.pass == Pass::Lists || launch.pass == Pass::History;
         });
         run(rebuild);
         listsPending_ = false;

@@ -18,8 +18,9 @@ class Pipeline {
     static Result<std::unique_ptr<Pipeline>> create(compute::Device& device, Plan plan);
 
     void setParameters(const layout::Parameters& parameters);
-    void upload(const State& state);  // in id order; the lists are rebuilt in the next substep
-    [[nodiscard]] State download();   // in id order; waits for the device
+    // In id order, as are the materials of the spheres; the lists are rebuilt in the next substep.
+    void upload(const State& state, std::span<const std::uint8_t> materials);
+    [[nodiscard]] State download();  // in id order; waits for the device
 
     void substep();
     void runStatistics();  // of the state as it is: builds the lists first where they are not those of this state

@@ -16,11 +16,11 @@ namespace spherule::sim {
 
 // Device arrays. "Per sphere, in slot order" means cell order where there is a grid, id order elsewhere.
 enum class Array : std::uint8_t {
-    Position,  // per sphere, in slot order
-    Velocity,
-    Before,  // velocity before the substep, then after impacts; w = time in one place, or CREPT
-    Id,
-    Bounce,  // restitution by id
+    Position,  // per sphere, in slot order; for `accurate` then what float32 cannot hold of it
+    Velocity,  // then, with friction, angular velocities; for `accurate` then what contacts change of both
+    Before,    // velocity before the substep, then after impacts; w = time in one place, or CREPT
+    Label,     // id and material
+    Laws,      // by material and material
     Obstacles,
     CellStart,  // per cell and one more: first slot
     BlockSums,  // of the prefix sum
@@ -28,15 +28,20 @@ enum class Array : std::uint8_t {
     Place,  // of a sphere in its cell
     Order,
     Saved,  // state while it is put in cell order
-    SavedId,
-    Anchor,   // position when the lists were built
-    Resting,  // by id: position when it was last found to have crept
-    Woken,    // sleepers to wake at this rebuild
-    Stirred,  // per cell group: the last substep in which it held a sphere that was awake
-    SlotOf,   // by id
-    Pairs,
-    Touching,
-    Span,  // per cell group: first pair, listed, touching, whether it stirs
+    SavedLabel,
+    Anchor,     // position when the lists were built
+    Resting,    // by id: position when it was last found to have crept
+    Woken,      // sleepers to wake at this rebuild
+    Stirred,    // per cell group: the last substep in which it held a sphere that was awake
+    SlotOf,     // by id
+    Pairs,      // listed; for `balanced` then those that touch and, with friction, what presses them
+    History,    // of each listed pair
+    KeptStart,  // per id and one more: where the contacts that it keeps during a rebuild end
+    Kept,
+    Pressed,      // per sphere: the pushes of walls in this substep
+    WallHistory,  // by id
+    Work,         // by id: of pushes out of walls, J
+    Span,         // per cell group: first pair, listed, touching, whether it stirs
     Counters,
     FullLaunches,
     Launches,
@@ -73,6 +78,7 @@ struct Plan {
     std::uint32_t substeps = 0;
     Grid grid;
     std::uint32_t pairCapacity = 0;
+    std::uint32_t wallContacts = 0;  // that each sphere remembers
     std::vector<ArraySpec> arrays;
     std::vector<LaunchSpec> substep;     // in order
     std::vector<LaunchSpec> statistics;  // on demand
@@ -82,6 +88,8 @@ struct Plan {
     [[nodiscard]] bool has(Array array) const;
     [[nodiscard]] std::uint64_t bytesOf(Array array) const;
     [[nodiscard]] std::uint64_t bytes() const;
+    // Elements of `Pairs` per listed pair: those listed, those that touch, what presses those.
+    [[nodiscard]] std::uint32_t pairSections() const;
     [[nodiscard]] std::uint32_t groups() const { return grid.all() / 8; }  // cell groups of all colours
 };
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "scene/quality.h"
 #include "sim/plan.h"
 
 namespace spherule::sim {
@@ -29,15 +30,10 @@ std::vector<Row> rowsOf(const Plan& plan) {
 }
 
 std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features& has) {
-    return {{"gravity", has.gravity},
-            {"contacts", has.contacts},
-            {"radii", has.radii},
-            {"restitution", has.restitution},
-            {"restitutions", has.restitutions},
-            {"walls", has.walls},
-            {"planes", has.planes},
-            {"boxes", has.boxes},
-            {"sleep", has.sleep}};
+    return {{"gravity", has.gravity},         {"contacts", has.contacts},   {"radii", has.radii},
+            {"restitution", has.restitution}, {"materials", has.materials}, {"friction", has.friction},
+            {"rolling", has.rolling},         {"hertz", has.hertz},         {"walls", has.walls},
+            {"planes", has.planes},           {"boxes", has.boxes},         {"sleep", has.sleep}};
 }
 
 double perSphere(const Plan& plan, std::uint64_t bytes) {
@@ -53,18 +49,19 @@ std::string_view whenOf(const Row& row) {
 
 std::string_view nameOf(Array array) {
     static constexpr std::array<std::string_view, arrayCount> names = {
-        "position",   "velocity",      "before",   "id",           "bounce",   "obstacles", "cell-start",
-        "block-sums", "super-sums",    "place",    "order",        "saved",    "saved-id",  "anchor",
-        "resting",    "woken",         "stirred",  "slot-of",      "pairs",    "touching",  "span",
-        "counters",   "full-launches", "launches", "sphere-parts", "overlaps", "packed",
+        "position",   "velocity",     "before",       "label",   "laws",  "obstacles",   "cell-start",
+        "block-sums", "super-sums",   "place",        "order",   "saved", "saved-label", "anchor",
+        "resting",    "woken",        "stirred",      "slot-of", "pairs", "history",     "kept-start",
+        "kept",       "pressed",      "wall-history", "work",    "span",  "counters",    "full-launches",
+        "launches",   "sphere-parts", "overlaps",     "packed",
     };
     return names.at(static_cast<std::size_t>(array));
 }
 
 std::string planText(const scene::Scene& scene, const Plan& plan) {
     std::string text =
-        fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    balanced\n", scene.name,
-                    plan.spheres, scene.step, plan.substeps);
+        fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    {}\n", scene.name,
+                    plan.spheres, scene.step, plan.substeps, scene::nameOf(plan.features.model));
     text += "features  ";
     for (const auto& [name, on] : featureList(plan.features))
         if (on) text += fmt::format(" {}", name);
@@ -90,7 +87,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
     json["spheres"] = plan.spheres;
     json["step"] = scene.step;
     json["substepsPerStep"] = plan.substeps;
-    json["quality"] = "balanced";
+    json["quality"] = scene::nameOf(plan.features.model);
     for (const auto& [name, on] : featureList(plan.features)) json["features"][std::string(name)] = on;
     json["cells"] = {plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z};
     json["cellSize"] = static_cast<double>(plan.grid.cellSize);

@@ -22,20 +22,22 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     pipeline_ = std::move(*made);
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
     crowded_ = false;
-    pipeline_->upload(state);
+    put(state);
     uploadConstants();
     return {};
+}
+
+void Simulation::put(const State& state) {
+    std::vector<std::uint8_t> materials;
+    materials.reserve(state.count());
+    for (const scene::Sphere& sphere : scene_.spheres) materials.push_back(sphere.material);
+    pipeline_->upload(state, materials);
 }
 
 // What the kernels read of the scene besides the spheres' state.
 void Simulation::uploadConstants() {
     if (plan().has(Array::Obstacles)) pipeline_->write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene_));
-    if (plan().has(Array::Bounce)) {
-        std::vector<float> bounce;
-        bounce.reserve(scene_.spheres.size());
-        for (const scene::Sphere& sphere : scene_.spheres) bounce.push_back(sphere.restitution);
-        pipeline_->write<float>(Array::Bounce, bounce);
-    }
+    if (plan().has(Array::Laws)) pipeline_->write<layout::Law>(Array::Laws, lawsFor(scene_));
     pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
 }
 
@@ -54,7 +56,7 @@ Result<void> Simulation::reset() {
 }
 
 Result<void> Simulation::step() {
-    for (std::uint32_t k = 0; k < scene_.substeps; ++k) pipeline_->substep();
+    for (std::uint32_t k = 0; k < scene_.quality.substeps; ++k) pipeline_->substep();
     ++steps_;
     time_ += scene_.step;
     return guard();

@@ -21,7 +21,7 @@ class Simulation {
   public:
     static Result<std::unique_ptr<Simulation>> create(compute::Device& device, scene::Scene scene);
 
-    // One step of scene().step seconds, in scene().substeps substeps.
+    // One step of scene().step seconds, in scene().quality.substeps substeps.
     Result<void> step();
 
     // set, spawn, push, reset and query; Refused, with nothing changed, for what cannot be done.
@@ -29,6 +29,7 @@ class Simulation {
 
     [[nodiscard]] Statistics statistics() { return measure(*pipeline_, scene_); }
     [[nodiscard]] State snapshot() { return pipeline_->download(); }
+    void put(const State& state);  // of as many spheres
 
     // Positions packed for `setWireGrid`'s grid, on their way to the host; nothing when two are under way already.
     void setWireGrid(const v1::WireGrid& grid);

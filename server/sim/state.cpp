@@ -14,9 +14,10 @@ State stateOf(const scene::Scene& scene) {
     const glm::dvec3 centre = scene.bounds.centre();
     for (const scene::Sphere& sphere : scene.spheres) {
         const auto r = static_cast<double>(sphere.radius);
-        const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * static_cast<double>(sphere.density);
+        const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * scene.materials[sphere.material].density;
         state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
         state.velocity.emplace_back(sphere.velocity, static_cast<float>(1 / mass));
+        state.spin.emplace_back(sphere.spin, 0.0F);
     }
     return state;
 }
@@ -28,6 +29,7 @@ std::uint64_t hashOf(const State& state) {
         XXH3_64bits_update(hash, &id, sizeof id);
         XXH3_64bits_update(hash, &state.position[id], 3 * sizeof(float));
         XXH3_64bits_update(hash, &state.velocity[id], 3 * sizeof(float));
+        XXH3_64bits_update(hash, &state.spin[id], 3 * sizeof(float));
     }
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);

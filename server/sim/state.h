@@ -13,13 +13,14 @@ namespace spherule::sim {
 struct State {
     std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
     std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass, negative while asleep
+    std::vector<glm::vec4> spin;      // angular velocity, rad/s; w = 0
 
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size()); }
 };
 
 State stateOf(const scene::Scene& scene);
 
-// Of ids, positions and velocities, bit by bit (XXH3).
+// Of ids, positions, velocities and spins, bit by bit (XXH3).
 std::uint64_t hashOf(const State& state);
 
 }  // namespace spherule::sim

@@ -40,6 +40,8 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereParts)) {
         weighted += glm::dvec4(part.weighted);
         sum.momentum += glm::dvec3(part.momentum);
+        sum.angularMomentum += glm::dvec3(part.angular);
+        sum.rotationalEnergy += static_cast<double>(part.angular.w);
         sum.kineticEnergy += static_cast<double>(part.momentum.w);
         heights += static_cast<double>(part.heightSum);
         squares += static_cast<double>(part.speedSquares);

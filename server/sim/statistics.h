@@ -15,6 +15,7 @@ struct Statistics {
     double rotationalEnergy = 0;
     double potentialEnergy = 0;  // zero at the lowest corner of the bounds
     glm::dvec3 momentum{};
+    glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre
     std::uint64_t contacts = 0;
     double overlapMean = 0;  // over overlapping pairs
     double overlapMax = 0;

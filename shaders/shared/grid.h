@@ -28,3 +28,13 @@ uint groupAt(vec3 point) {
     uint row = wrapCell(p.y, params.cells.y) / 2u * (params.cells.z / 2u) + wrapCell(p.z, params.cells.z) / 2u;
     return row * (params.cells.x / 2u) + wrapCell(p.x, params.cells.x) / 2u;
 }
+
+// Group number `index` of a colour (0 .. 7): its place, as a number over all groups.
+uint groupOf(uint colour, uint index) {
+    uint gx = params.cells.x / 4u;
+    uint gz = params.cells.z / 4u;
+    uint x = 2u * (index % gx) + (colour & 1u);
+    uint y = 2u * (index / (gx * gz)) + ((colour >> 1u) & 1u);
+    uint z = 2u * ((index / gx) % gz) + (colour >> 2u);
+    return (y * (2u * gz) + z) * (2u * gx) + x;
+}

@@ -36,16 +36,6 @@ void visitGroup(uint x, uint y, uint z) {
     for (uint k = 0u; k < 8u; ++k) visitCell(2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u));
 }
 
-// Group number `index` of a colour (0 .. 7): its place, as a number over all groups.
-uint groupOf(uint colour, uint index) {
-    uint gx = params.cells.x / 4u;
-    uint gz = params.cells.z / 4u;
-    uint x = 2u * (index % gx) + (colour & 1u);
-    uint y = 2u * (index / (gx * gz)) + ((colour >> 1u) & 1u);
-    uint z = 2u * ((index / gx) % gz) + (colour >> 2u);
-    return (y * (2u * gz) + z) * (2u * gx) + x;
-}
-
 void visitGroupNumber(uint group) {
     uint gx = params.cells.x / 2u;
     uint gz = params.cells.z / 2u;

@@ -6,6 +6,8 @@ struct Parameters {
     vec4 wallMin;        // domain walls
     vec4 wallMax;
     vec4 wireOrigin;     // of the packed grid; w = 1 / quantum
+    vec4 law;            // of two spheres where all have one material: Law.contact
+    vec4 stiffness;      // the same: Law.stiffness
     uvec4 cells;         // per axis, multiples of 4; w = all cells
 
     float substep;       // h
@@ -15,8 +17,8 @@ struct Parameters {
 
     float rebuildMove;   // lists hold until a sphere has moved this far; below margin / 2
     float radius;        // of every sphere where radii are equal
-    float restitution;   // of every sphere where they are equal
-    float wallRestitution;
+    float deadBand;      // m/s; slower approaches of spheres do not bounce in the model `fast`
+    float unusedReal;    // keeps the size a multiple of 16 bytes
 
     float sleepSpeed;    // m/s
     float sleepTime;     // s
@@ -31,10 +33,21 @@ struct Parameters {
     uint planes;
     uint boxes;
     uint statisticBlocks;
+    uint materials;
+
+    uint material;       // of every sphere where all have one
+    uint wallMaterial;   // of the bounds
+    uint wallContacts;   // that a sphere remembers
     uint unused;         // keeps the size a multiple of 16 bytes
 };
 
-// Solid obstacles. A plane: normal and offset; a box: its corners; restitution in the second w.
+// What holds between two materials. Row a, column b of the `laws`.
+struct Law {
+    vec4 contact;        // restitution, friction, rolling resistance, spinning resistance
+    vec4 stiffness;      // of the model `accurate`: normal (Pa), damping ratio, tangential (Pa), 0
+};
+
+// Solid obstacles. A plane: normal and offset; a box: its corners; its material in the second w.
 struct Obstacle {
     vec4 a;
     vec4 b;
@@ -44,6 +57,7 @@ struct Obstacle {
 struct SphereStatistics {
     vec4 weighted;          // sum of m x; w: sum of m
     vec4 momentum;          // sum of m v; w: sum of m v^2 / 2
+    vec4 angular;           // sum of m x cross v + I spin; w: sum of I spin^2 / 2
     float heightSum;        // of z
     float speedSquares;     // sum of v^2
     float speedSquaredMax;
@@ -65,6 +79,7 @@ struct SphereStatistics {
 #define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
 #define COUNTER_REBUILDS 5u     // since the start
 #define COUNTER_SUBSTEPS 6u     // since the start
+#define COUNTER_FORGOTTEN 7u    // contacts with walls that found no room for their history, since the start
 #define COUNTER_WORDS 8u
 
 // Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, 0).
@@ -74,7 +89,10 @@ struct SphereStatistics {
 #define LAUNCH_SUPERBLOCKS 3u
 #define LAUNCH_ONE 4u
 #define LAUNCH_GROUPS 5u
-#define LAUNCH_ROWS 6u
+#define LAUNCH_OWNERS 6u        // the same for the history of contacts
+#define LAUNCH_OWNER_BLOCKS 7u
+#define LAUNCH_OWNER_SUPERBLOCKS 8u
+#define LAUNCH_ROWS 9u
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
 #define UNLISTED 0xffffffffu    // pair count of a group without a list

@@ -1,7 +1,13 @@
-// Written out, because compilers may contract or reorder the built-in one differently on each device.
+// Written out, because compilers may contract or reorder the built-in ones differently on each device.
 float dot3(vec3 a, vec3 b) {
-    vec3 products = a * b;
-    return products.x + products.y + products.z;
+    precise vec3 products = a * b;
+    precise float total = products.x + products.y + products.z;
+    return total;
+}
+
+vec3 cross3(vec3 a, vec3 b) {
+    precise vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return product;
 }
 
 // From the exponent's bits: compilers take x - x == 0 and its like for granted.

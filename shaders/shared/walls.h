@@ -1,16 +1,16 @@
 // Walls, planes and boxes that a sphere touches or overlaps. The includer defines
-// `void visitWall(vec3 normal, float depth, float wallRestitution)`, which may move the private
-// `wallPoint`, and binds `obstacles`: planes first, then boxes.
+// `void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface)`, which may move the
+// private `wallPoint`, and binds `obstacles`: planes first, then boxes. Surfaces count through faces, planes and boxes.
 //
 // A sphere within rounding of a wall counts as touching it: after the push it lies there.
 #define WALL_TOLERANCE 2.0e-4f
 
 void visitFace(uint face, vec3 normal, float depth, float radius) {
     if ((params.closedFaces & (1u << face)) != 0u && depth > -WALL_TOLERANCE * radius)
-        visitWall(normal, depth, params.wallRestitution);
+        visitWall(normal, depth, params.wallMaterial, face);
 }
 
-void visitBox(Obstacle box, float radius) {
+void visitBox(Obstacle box, uint surface, float radius) {
     vec3 low = vec3(box.a);
     vec3 high = vec3(box.b);
     vec3 nearest = vec3(min(max(wallPoint.x, low.x), high.x), min(max(wallPoint.y, low.y), high.y),
@@ -20,7 +20,7 @@ void visitBox(Obstacle box, float radius) {
     if (!(squared < radius * radius * (1.0f + 2.0f * WALL_TOLERANCE))) return;
     if (squared > 0.0f) {
         float distance = sqrt(squared);
-        visitWall(d * (1.0f / distance), radius - distance, box.b.w);
+        visitWall(d * (1.0f / distance), radius - distance, uint(box.b.w), surface);
         return;
     }
     // The centre is inside: out through the nearest side.
@@ -33,7 +33,7 @@ void visitBox(Obstacle box, float radius) {
     if (toHigh.y < depth) { depth = toHigh.y; normal = vec3(0.0f, 1.0f, 0.0f); }
     if (toLow.z < depth) { depth = toLow.z; normal = vec3(0.0f, 0.0f, -1.0f); }
     if (toHigh.z < depth) { depth = toHigh.z; normal = vec3(0.0f, 0.0f, 1.0f); }
-    visitWall(normal, depth + radius, box.b.w);
+    visitWall(normal, depth + radius, uint(box.b.w), surface);
 }
 
 // Whether the sphere is so far inside the bounds that it meets none of their faces. Most are.
@@ -61,10 +61,10 @@ void visitWalls(float radius) {
         for (uint k = 0u; k < params.planes; ++k) {
             vec4 plane = obstacles[k].a;
             float depth = plane.w + radius - dot3(vec3(plane), wallPoint);
-            if (depth > -WALL_TOLERANCE * radius) visitWall(vec3(plane), depth, obstacles[k].b.w);
+            if (depth > -WALL_TOLERANCE * radius) visitWall(vec3(plane), depth, uint(obstacles[k].b.w), 6u + k);
         }
     }
     if (HAS(BOXES)) {
-        for (uint k = 0u; k < params.boxes; ++k) visitBox(obstacles[params.planes + k], radius);
+        for (uint k = 0u; k < params.boxes; ++k) visitBox(obstacles[params.planes + k], 6u + params.planes + k, radius);
     }
 }

@@ -81,7 +81,7 @@ void measure(compute::Device& device, sim::Simulation& simulation, const std::st
         figures.push_back(figure);
     }
     // The race has moved ours on; what follows starts where the race did.
-    simulation.pipeline().upload(from);
+    simulation.put(from);
 }
 
 // How deep the baselines' contact law lets the same bed sink: they are no cheaper way to the same result.

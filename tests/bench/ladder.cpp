@@ -46,7 +46,7 @@ Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres) {
 // The first step finds out how many pairs there are to make room for.
 Result<void> letGo(Rung& rung, const Arrangement& arrangement) {
     sim::Simulation& simulation = *rung.simulation;
-    simulation.pipeline().upload(arranged(simulation.scene(), arrangement));
+    simulation.put(arranged(simulation.scene(), arrangement));
     if (auto done = simulation.step(); !done) return done;
     rung.state = simulation.snapshot();
     return {};

@@ -12,7 +12,7 @@ class Ours final : public Method {
     explicit Ours(sim::Simulation& simulation) : simulation_(simulation) {}
 
     void upload(const sim::State& state) override {
-        simulation_.pipeline().upload(state);
+        simulation_.put(state);
         substeps_ = 0;
     }
 

@@ -60,9 +60,9 @@ def scene_of(folder, name, spheres, width):
         writer = csv.writer(file)
         writer.writerow("xyz")
         writer.writerows(spheres)
-    scene = {"bounds": {"min": [0, 0, 0], "max": [width, width, 8], "open": ["Z_MAX"]}, "restitution": RESTITUTION,
-             "gravity": [0, 0, -GRAVITY],
-             "groups": [{"radius": {"constant": RADIUS}, "density": DENSITY, "csv": {"file": name + ".csv"}}]}
+    scene = {"bounds": {"min": [0, 0, 0], "max": [width, width, 8], "open": ["Z_MAX"]},
+             "gravity": [0, 0, -GRAVITY], "materials": [{"density": DENSITY, "restitution": RESTITUTION}],
+             "groups": [{"radius": {"constant": RADIUS}, "csv": {"file": name + ".csv"}}]}
     path = os.path.join(folder, name + ".json")
     with open(path, "w", encoding="utf-8") as file:
         json.dump(scene, file)

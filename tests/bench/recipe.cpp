@@ -23,8 +23,8 @@ Result<scene::Scene> box(std::uint32_t spheres) {
     const double width = 2 * radius * std::sqrt(static_cast<double>(spheres) / layers);
     v1::Scene message;
     message.set_name("box");
-    message.set_restitution(0.5);
-    message.set_substeps(substeps);
+    message.add_materials()->set_restitution(0.5);
+    message.mutable_quality()->set_substeps(substeps);
     set(message.mutable_bounds()->mutable_min(), {0, 0, 0});
     set(message.mutable_bounds()->mutable_max(), {width, width, height});
     message.mutable_bounds()->add_open(v1::Z_MAX);

@@ -28,6 +28,11 @@ async function type(id, value) {
   await page.press(control(id), "Enter");
 }
 
+/** Waits until the control on the panel shows the value. */
+async function shows(id, value) {
+  await when(page, ([name, wanted]) => document.querySelector(`[data-testid="${name}"]`).value === wanted, [id, String(value)]);
+}
+
 test("pause stops the world and resume lets it go on", async () => {
   await pause(page);
   const { step } = await serverSays(page);
@@ -69,9 +74,49 @@ test("restitution, substeps and speed from the panel reach the world", async () 
   assert.deepEqual([settings.restitution, settings.substeps, settings.speed], [0.35, 9, 0.5]);
 });
 
+test("quality and friction from the panel reach the world, quality with the substeps that suit it", async () => {
+  const typed = 4321; // as no model chooses
+  await type("substeps", typed);
+  await type("friction", 0.25);
+  await when(page, (count) => spherule.settings.substeps === count && spherule.settings.friction === 0.25, typed);
+  for (const model of ["Accurate", "Fast", "Balanced"]) {
+    await page.selectOption(control("model"), model);
+    await when(page, (wanted) => spherule.settings.model === wanted, model.toLowerCase());
+    const { settings } = await serverSays(page);
+    assert.equal(settings.model, model.toUpperCase());
+    assert.equal(settings.friction, 0.25);
+    assert.notEqual(settings.substeps, typed);
+    await shows("substeps", settings.substeps);
+  }
+  assert.equal((await answer("Quality")).outcome, "applied");
+});
+
 test("a setting that another client changed shows on the panel", async () => {
   await server.ctl("set", "restitution", "0.65");
-  await when(page, () => document.querySelector('[data-testid="restitution"]').value === "0.65");
+  await server.ctl("set", "friction", "0.3");
+  await server.ctl("set", "model", "fast");
+  await shows("restitution", 0.65);
+  await shows("friction", 0.3);
+  await shows("model", "Fast");
+  await server.ctl("set", "model", "balanced");
+  await shows("model", "Balanced");
+});
+
+test("a quality that the scene has no numbers for is refused, and the panel goes back to what holds", async () => {
+  const half = {
+    name: "half",
+    bounds: { min: [0, 0, 0], max: [1, 1, 1] },
+    materials: [{ name: "known", young: 1e6 }, { name: "unknown" }],
+    groups: [{ name: "one", list: { spheres: [{ position: [0.5, 0.5, 0.5] }] }, radius: { constant: 0.1 } }],
+  };
+  await server.ctl(JSON.stringify({ load: { scene: half } }));
+  await when(page, () => spherule.scene === "half");
+  await page.selectOption(control("model"), "Accurate");
+  await when(page, () => spherule.results.some(({ what, outcome }) => what === "Quality" && outcome === "refused"));
+  assert.match(await page.locator('[data-testid="toast"][data-tone="bad"]').last().textContent(), /materials\[1\]\.young/);
+  await shows("model", "Balanced");
+  await server.ctl("load", "cradle");
+  await when(page, () => spherule.scene === "cradle");
 });
 
 test("a refused command says why", async () => {

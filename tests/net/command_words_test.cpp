@@ -26,6 +26,10 @@ TEST(CommandWords, BecomeCommands) {
     EXPECT_EQ(parsed({"load", "box-10k"}), "load { name: \"box-10k\" }");
     EXPECT_EQ(parsed({"set", "gravity", "0", "0", "-1.6"}), "set { gravity: 0 gravity: 0 gravity: -1.6 }");
     EXPECT_EQ(parsed({"set", "restitution", "0.9"}), "set { restitution: 0.9 }");
+    EXPECT_EQ(parsed({"set", "friction", "0.4"}), "set { friction: 0.4 }");
+    EXPECT_EQ(parsed({"set", "model", "fast"}), "set { model: FAST }");
+    EXPECT_EQ(parsed({"set", "model", "balanced"}), "set { model: BALANCED }");
+    EXPECT_EQ(parsed({"set", "model", "accurate"}), "set { model: ACCURATE }");
     EXPECT_EQ(parsed({"set", "substeps", "16"}), "set { substeps: 16 }");
     EXPECT_EQ(parsed({"set", "speed", "0.25"}), "set { speed: 0.25 }");
     EXPECT_EQ(parsed({"push", "17", "0", "0", "2"}), "push { sphere: 17 impulse: 0 impulse: 0 impulse: 2 }");
@@ -65,6 +69,12 @@ TEST(CommandWords, ThatAreWrongAreAnErrorThatListsWhatIsAccepted) {
         {"set", "speed", "1e999"},
         {"set", "speed", "1x"},
         {"set", "speed", ""},
+        {"set", "friction"},
+        {"set", "friction", "rough"},
+        {"set", "model"},
+        {"set", "model", "slow"},
+        {"set", "model", "model_unspecified"},
+        {"set", "model", "fast", "accurate"},
         {"push", "1", "2", "3"},
         {"push", "ray", "1", "2", "3"},
         {"{}"},

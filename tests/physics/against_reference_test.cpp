@@ -26,10 +26,10 @@ glm::dvec3 somewhere(scene::Random& random, double reach) {
 }
 
 // Two spheres of unequal radius and mass a little apart, about to meet at any angle.
-void placePair(scene::Random& random, scene::Sphere& a, scene::Sphere& b) {
+void placePair(scene::Random& random, scene::Scene& scene, scene::Sphere& a, scene::Sphere& b) {
     a.radius = static_cast<float>(random.uniform(0.35, 0.55));
     b.radius = static_cast<float>(random.uniform(0.35, 0.55));
-    a.density = static_cast<float>(random.uniform(500, 2000));
+    a.material = addMaterial(scene, {.density = random.uniform(500, 2000)});
     const glm::dvec3 line = glm::normalize(somewhere(random, 1));
     const glm::dvec3 aside = 0.4 * somewhere(random, 1);
     const glm::dvec3 side = aside - glm::dot(aside, line) * line;
@@ -74,8 +74,8 @@ TEST(AgainstReference, FortyIsolatedPairsAgree) {
     double worst = 0;
     for (int k = 0; k < 40; ++k) {
         SCOPED_TRACE(k);
-        placePair(random, scene.spheres[0], scene.spheres[1]);
-        simulation->pipeline().upload(sim::stateOf(scene));
+        placePair(random, scene, scene.spheres[0], scene.spheres[1]);
+        simulation->put(sim::stateOf(scene));
         const Difference found = difference(*simulation);
         EXPECT_LT(found.ofRadius, tolerance);
         EXPECT_GT(found.turned, 0.01) << "they never met";

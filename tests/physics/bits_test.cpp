@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
+#include "scene/quality.h"
+#include "scene/random.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -14,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t large = 100'000;
 
-class Bits : public testing::TestWithParam<std::string> {};
+class SceneBits : public testing::TestWithParam<std::string> {};
 
 double durationOf(const scene::Scene& scene) {
     const char* const asked = std::getenv("SPHERULE_BITS_SECONDS");
@@ -29,13 +32,49 @@ std::uint64_t hashOn(const std::string& choice, const std::string& name) {
     return sim::hashOf(simulation->snapshot());
 }
 
-TEST_P(Bits, AreTheSameOnAllDevices) {
+TEST_P(SceneBits, AreTheSameOnAllDevices) {
     const std::uint64_t expected = hashOn("software", GetParam());
     for (const char* const choice : {"cpu:1", "cpu:2", "cpu:3", "cpu:8"})
         EXPECT_EQ(hashOn(choice, GetParam()), expected) << choice;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Bits, testing::ValuesIn(scene::names()), [](const auto& parameter) {
+// Two hundred spheres of two materials and many sizes, thrown onto a box in a box, with all that contacts can have.
+scene::Scene mixture(scene::Model model) {
+    scene::Scene scene = closedBox(0.8);
+    scene.materials = {{.name = "a", .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.05},
+                       {.name = "b", .density = 2500, .restitution = 0.8, .friction = 0.7}};
+    scene.bounds.material = 1;
+    scene.obstacles.push_back({scene::Box{{-0.2, -0.2, -0.4}, {0.1, 0.1, -0.3}}, 0, ""});
+    scene.quality = {.model = model, .substeps = model == scene::Model::Accurate ? 100U : 1U};
+    scene::Random random(11);
+    for (int k = 0; k < 216; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = static_cast<float>(random.uniform(0.02, 0.045));
+        sphere.material = static_cast<std::uint8_t>(k % 2);
+        sphere.position = 0.1 * (glm::dvec3(k % 6, k / 6 % 6, k / 36) - 2.5);
+        sphere.position.z += 0.1;
+        sphere.velocity = {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-1, 1)), -1};
+        sphere.spin = {static_cast<float>(random.uniform(-9, 9)), 3, static_cast<float>(random.uniform(-9, 9))};
+        scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+TEST(Bits, AreTheSameInAllModels) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
+        std::optional<std::uint64_t> expected;
+        for (const char* const choice : {"software", "cpu:1", "cpu:2", "cpu:3", "cpu:8"}) {
+            const auto device = compute::openDevice(choice).value();
+            auto simulation = sim::Simulation::create(*device, mixture(model)).value();
+            run(*simulation, model == scene::Model::Accurate ? 0.15 : 0.6);
+            const std::uint64_t hash = sim::hashOf(simulation->snapshot());
+            if (!expected) expected = hash;
+            EXPECT_EQ(hash, *expected) << scene::nameOf(model) << " on " << choice;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SceneBits, testing::ValuesIn(scene::names()), [](const auto& parameter) {
     std::string name = parameter.param;
     std::ranges::replace(name, '-', '_');
     return name;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "sim/plan.h"
 #include "support.h"
@@ -22,16 +23,17 @@ bool dispatches(const sim::Plan& plan, Pass pass) {
 }
 
 // Sixty-four spheres with everything that a scene can ask for.
-scene::Scene everything() {
+scene::Scene everything(scene::Model model = scene::Model::Balanced) {
     scene::Scene scene = closedBox(10);
+    scene.quality.model = model;
     scene.sleep.enabled = true;
-    scene.obstacles.push_back({scene::Plane{{0, 0, -4}, {0, 0, 1}}, 0.5, ""});
-    scene.obstacles.push_back({scene::Box{{1, 1, 1}, {2, 2, 2}}, 0.5, ""});
+    scene.obstacles.push_back({scene::Plane{{0, 0, -4}, {0, 0, 1}}, 0, ""});
+    scene.obstacles.push_back({scene::Box{{1, 1, 1}, {2, 2, 2}}, 0, ""});
     for (int k = 0; k < 64; ++k) {
         scene::Sphere sphere;
         sphere.position = {k % 8 - 4, k / 8 - 4, 0};
         sphere.radius = 0.05F + 0.001F * static_cast<float>(k);
-        sphere.restitution = 0.01F * static_cast<float>(k);
+        sphere.material = addMaterial(scene, {.restitution = 0.01 * k, .friction = 0.3, .rollingResistance = 0.1});
         scene.spheres.push_back(sphere);
     }
     return scene;
@@ -41,18 +43,57 @@ scene::Scene dust() {
     scene::Scene scene = openSpace(10);
     scene.sphereContacts = false;
     scene.spheres = everything().spheres;
-    for (scene::Sphere& sphere : scene.spheres) sphere.radius = 0.05F;
+    for (scene::Sphere& sphere : scene.spheres) {
+        sphere.radius = 0.05F;
+        sphere.material = 0;
+    }
     setRestitution(scene, 0);
     return scene;
 }
 
-TEST(Plan, OfEverythingHasEveryPass) {
-    const sim::Plan plan = planOf(everything());
-    for (const Pass pass : {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Positions, Pass::WallPositions,
-                            Pass::Velocities, Pass::WallVelocities, Pass::Sleep})
-        EXPECT_TRUE(dispatches(plan, pass)) << nameOf(pass);
+const std::vector<std::pair<scene::Model, std::set<Pass>>> passesByModel = {
+    {scene::Model::Fast, {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Impulses, Pass::WallImpulses, Pass::Sleep}},
+    {scene::Model::Balanced,
+     {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Positions, Pass::WallPositions, Pass::Velocities,
+      Pass::WallVelocities, Pass::Friction, Pass::WallFriction, Pass::Sleep}},
+    {scene::Model::Accurate, {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::History, Pass::Forces, Pass::WallForces}},
+};
+
+TEST(Plan, OfEverythingHasThePassesOfItsModelAndNoOthers) {
+    for (const auto& [model, passes] : passesByModel) {
+        const sim::Plan plan = planOf(everything(model));
+        for (unsigned k = 0; k < sim::passCount; ++k) {
+            const auto pass = static_cast<Pass>(k);
+            if (pass == Pass::Statistics || pass == Pass::Pack) continue;
+            EXPECT_EQ(dispatches(plan, pass), passes.contains(pass)) << nameOf(pass);
+        }
+    }
+}
+
+TEST(Plan, OfEverythingInAllModelsHasEveryArray) {
+    std::set<Array> arrays;
+    for (const auto& [model, passes] : passesByModel)
+        for (const sim::ArraySpec& spec : planOf(everything(model)).arrays) arrays.insert(spec.array);
     for (std::size_t k = 0; k < sim::arrayCount; ++k)
-        EXPECT_TRUE(plan.has(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
+        EXPECT_TRUE(arrays.contains(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
+}
+
+// Spins, what presses the pairs and the walls, the memory of contacts: gone with the friction, and what reads them.
+TEST(Plan, WithoutFrictionHasNoRotationAndNoMemoryOfContacts) {
+    for (const auto& [model, passes] : passesByModel) {
+        scene::Scene scene = everything(model);
+        for (scene::Material& material : scene.materials) material.friction = 0;
+        const sim::Plan without = planOf(scene);
+        const sim::Plan with = planOf(everything(model));
+        EXPECT_EQ(2 * without.bytesOf(Array::Velocity), with.bytesOf(Array::Velocity));
+        EXPECT_LT(without.bytesOf(Array::Saved), with.bytesOf(Array::Saved));
+        for (const Array array : {Array::Pressed, Array::History, Array::Kept, Array::KeptStart, Array::WallHistory})
+            EXPECT_FALSE(without.has(array)) << nameOf(array);
+        for (const Pass pass : {Pass::Friction, Pass::WallFriction, Pass::History})
+            EXPECT_FALSE(dispatches(without, pass)) << nameOf(pass);
+        EXPECT_LT(without.bytes(), with.bytes());
+        EXPECT_FALSE(without.features.rolling) << "nothing rolls";
+    }
 }
 
 TEST(Plan, OfDustInEmptySpaceIntegratesAndNothingElse) {
@@ -60,7 +101,7 @@ TEST(Plan, OfDustInEmptySpaceIntegratesAndNothingElse) {
     ASSERT_EQ(plan.substep.size(), 1U);
     EXPECT_EQ(plan.substep[0].pass, Pass::Integrate);
     for (const Array needed :
-         {Array::Position, Array::Velocity, Array::Id, Array::Counters, Array::SphereParts, Array::Packed})
+         {Array::Position, Array::Velocity, Array::Label, Array::Counters, Array::SphereParts, Array::Packed})
         EXPECT_TRUE(plan.has(needed)) << nameOf(needed);
     EXPECT_EQ(plan.arrays.size(), 6U);
     EXPECT_LT(plan.bytes(), planOf(everything()).bytes() / 4);
@@ -72,7 +113,7 @@ TEST(Plan, WithoutContactsHasNoGridAndNoLists) {
     const sim::Plan plan = planOf(scene);
     for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::Positions, Pass::Velocities})
         EXPECT_FALSE(dispatches(plan, pass)) << nameOf(pass);
-    for (const Array array : {Array::CellStart, Array::Pairs, Array::Touching, Array::Order, Array::Saved})
+    for (const Array array : {Array::CellStart, Array::Pairs, Array::Span, Array::Order, Array::Saved})
         EXPECT_FALSE(plan.has(array)) << nameOf(array);
     EXPECT_TRUE(dispatches(plan, Pass::WallPositions));
     EXPECT_LT(plan.bytes(), planOf(everything()).bytes());
@@ -88,11 +129,13 @@ TEST(Plan, WithoutSleepHasNoSleepPass) {
     EXPECT_LT(planOf(scene).bytes(), planOf(everything()).bytes());
 }
 
-TEST(Plan, OfOneRestitutionHasNoArrayOfThem) {
+TEST(Plan, OfOneMaterialInEmptySpaceHasNoTableOfLaws) {
     scene::Scene scene = everything();
-    setRestitution(scene, 0.5);
-    EXPECT_TRUE(planOf(everything()).has(Array::Bounce));
-    EXPECT_FALSE(planOf(scene).has(Array::Bounce));
+    scene.bounds.open.fill(true);
+    scene.obstacles.clear();
+    EXPECT_TRUE(planOf(scene).has(Array::Laws));
+    for (scene::Sphere& sphere : scene.spheres) sphere.material = 0;
+    EXPECT_FALSE(planOf(scene).has(Array::Laws));
 }
 
 TEST(Plan, WithoutWallsHasNoWallPass) {

@@ -13,10 +13,12 @@ namespace {
 scene::Scene contractingCloud(bool equal) {
     scene::Scene scene = openSpace(10);
     scene::Random random(7);
+    constexpr int kinds = 50;
+    for (int k = 1; k < kinds; ++k) addMaterial(scene, {.density = random.uniform(500, 8000)});
     for (int k = 0; k < 1000; ++k) {
         scene::Sphere sphere;
         sphere.radius = equal ? 0.05F : static_cast<float>(random.uniform(0.02, 0.055));
-        sphere.density = equal ? 1000.0F : static_cast<float>(random.uniform(500, 8000));
+        sphere.material = equal ? std::uint8_t{0} : static_cast<std::uint8_t>(k % kinds);
         glm::dvec3 own;
         for (int axis = 0; axis < 3; ++axis) {
             const int place = axis == 0 ? k % 10 : axis == 1 ? k / 10 % 10 : k / 100;

@@ -21,21 +21,20 @@ struct Meeting {
     scene::Sphere b;
 };
 
-// Along x, each meeting in a lane of its own.
+// Along x, each meeting in a lane of its own. The last figure is the material: of 1,000, 20,000, 7,800 or 500 kg/m^3.
 const std::vector<Meeting> meetings{
     {"equal", {{-0.3, 0, 0}, {1, 0, 0}, 0.05F}, {{0.3, 0, 0}, {-1, 0, 0}, 0.05F}},
     {"one at rest", {{-0.3, 0, 0}, {2, 0, 0}, 0.05F}, {{0, 0, 0}, {}, 0.05F}},
     {"slow", {{-0.06, 0, 0}, {0.05F, 0, 0}, 0.05F}, {{0.05, 0, 0}, {}, 0.05F}},
-    {"unequal masses", {{-0.3, 0, 0}, {1, 0, 0}, 0.05F, 20000}, {{0.3, 0, 0}, {-1, 0, 0}, 0.05F, 1000}},
+    {"unequal masses", {{-0.3, 0, 0}, {1, 0, 0}, 0.05F, 1}, {{0.3, 0, 0}, {-1, 0, 0}, 0.05F}},
     {"unequal radii", {{-0.3, 0, 0}, {1, 0, 0}, 0.09F}, {{0.3, 0, 0}, {-1, 0, 0}, 0.03F}},
     {"oblique", {{-0.3, 0.03, 0.02}, {1.2F, 0, 0}, 0.05F}, {{0.3, 0, 0}, {-1, 0.05F, 0}, 0.05F}},
-    {"oblique, all unequal",
-     {{-0.3, 0.04, -0.01}, {0.7F, 0, 0}, 0.04F, 7800},
-     {{0.3, 0, 0}, {-1.1F, 0, 0.02F}, 0.08F, 500}},
+    {"oblique, all unequal", {{-0.3, 0.04, -0.01}, {0.7F, 0, 0}, 0.04F, 2}, {{0.3, 0, 0}, {-1.1F, 0, 0.02F}, 0.08F, 3}},
 };
 
 scene::Scene lanes(double restitution) {
     scene::Scene scene = openSpace(8);
+    for (const double density : {20000.0, 7800.0, 500.0}) addMaterial(scene, {.density = density});
     double lane = -2;
     for (const Meeting& meeting : meetings) {
         for (scene::Sphere sphere : {meeting.a, meeting.b}) {
@@ -114,7 +113,11 @@ INSTANTIATE_TEST_SUITE_P(Of, Restitution, testing::Values(0.0, 0.5, 0.9, 1.0));
 
 TEST(Restitution, APairTakesTheSmallerOfItsTwo) {
     scene::Scene scene = lanes(0.9);
-    for (std::size_t k = 0; k < scene.spheres.size(); k += 2) scene.spheres[k + (k / 2) % 2].restitution = 0.3F;
+    // Of the same density as the one that it replaces.
+    for (std::size_t k = 0; k < scene.spheres.size(); k += 2) {
+        scene::Sphere& sphere = scene.spheres[k + (k / 2) % 2];
+        sphere.material = addMaterial(scene, {.density = scene.materials[sphere.material].density, .restitution = 0.3});
+    }
     const auto simulation = simulate(scene);
     const sim::State before = simulation->snapshot();
     run(*simulation, 0.5);

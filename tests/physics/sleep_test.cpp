@@ -13,7 +13,6 @@ scene::Sphere at(glm::dvec3 position) {
     scene::Sphere sphere;
     sphere.position = position;
     sphere.radius = 0.05F;
-    sphere.restitution = 0.3F;
     return sphere;
 }
 
@@ -28,7 +27,7 @@ void push(sim::Simulation& simulation, std::uint32_t id, glm::dvec3 velocity) {
 // A column of balls, one exactly on top of the other, all asleep.
 std::unique_ptr<sim::Simulation> sleepingColumn(int height) {
     scene::Scene scene = sleepyBox(2);
-    scene.bounds.restitution = 0;  // what is shot away stays away
+    scene.bounds.material = addMaterial(scene, {.restitution = 0});  // what is shot away stays away
     for (int k = 0; k < height; ++k) scene.spheres.push_back(at({0, 0, -0.95 + 0.1 * k}));
     auto simulation = simulate(scene);
     run(*simulation, 3);
@@ -56,9 +55,8 @@ TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
 // It stays within the creep of one place, and is slow at each apex, but never slow and carried at once.
 TEST(Sleep, DoesNotTakeASphereThatHopsForEver) {
     scene::Scene scene = sleepyBox(2);
-    scene.bounds.restitution = 1;
     scene.spheres = {at({0, 0, -0.948})};
-    scene.spheres[0].restitution = 1;
+    setRestitution(scene, 1);
     const auto simulation = simulate(scene);
     for (int step = 0; step < 120; ++step) {
         run(*simulation, scene.step);
@@ -137,8 +135,8 @@ TEST(Sleep, EndsWhenTheSupportCreepsAwayInABusyWorld) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.95}), at({0, 0, -0.85}), at({0.9, 0.9, 0.9})};
     scene.spheres[2].radius = 0.025F;
-    scene.spheres[2].restitution = 1;
-    scene.bounds.restitution = 1;
+    scene.bounds.material = addMaterial(scene, {.restitution = 1});
+    scene.spheres[2].material = scene.bounds.material;
     scene.spheres[2].velocity = {0, 0, -12};
     const auto simulation = simulate(scene);
     run(*simulation, 3);

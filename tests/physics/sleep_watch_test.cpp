@@ -79,7 +79,6 @@ TEST(SleepWatch, BallsOnTheFloorAllFallAsleepAndStayExactlyWhereTheyAre) {
     scene::Scene scene = sleepyBox(2);
     scene::Sphere ball;
     ball.radius = 0.05F;
-    ball.restitution = 0.3F;
     for (int k = 0; k < 100; ++k) {
         ball.position = {0.17 * (k % 10 - 4.5), 0.17 * (k / 10 - 4.5), -0.94 + 0.002 * k};
         scene.spheres.push_back(ball);

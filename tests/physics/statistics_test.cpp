@@ -15,10 +15,11 @@ std::unique_ptr<sim::Simulation> fallenHeap() {
     scene::Scene scene = closedBox(1.2);
     scene.bounds.open[scene::ZMax] = true;
     scene::Random random(2);
+    const std::uint8_t heavy = addMaterial(scene, {.density = 3000});
     for (int k = 0; k < 600; ++k) {
         scene::Sphere sphere;
         sphere.radius = k % 3 == 0 ? 0.03F : 0.05F;
-        sphere.density = k % 2 == 0 ? 1000 : 3000;
+        sphere.material = k % 2 == 0 ? 0 : heavy;
         const glm::dvec3 place{k % 10, k / 10 % 10, k / 100};
         sphere.position = 0.11 * (place - glm::dvec3(4.5, 4.5, 4.5));
         sphere.position.x += random.uniform(-0.004, 0.004);

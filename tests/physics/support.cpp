@@ -32,7 +32,7 @@ scene::Scene openSpace(double side) {
     scene.bounds.max = glm::dvec3(side / 2);
     scene.bounds.open.fill(true);
     scene.step = 1.0 / 480;
-    scene.substeps = 1;
+    scene.quality.substeps = 1;
     scene.sleep.enabled = false;
     return scene;
 }
@@ -47,16 +47,19 @@ scene::Scene closedBox(double side) {
 scene::Scene sleepyBox(double side) {
     scene::Scene scene = closedBox(side);
     scene.step = 1.0 / 60;
-    scene.substeps = 8;
+    scene.quality.substeps = 8;
     scene.sleep.enabled = true;
+    setRestitution(scene, 0.3);
     return scene;
 }
 
+std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material) {
+    scene.materials.push_back(material);
+    return static_cast<std::uint8_t>(scene.materials.size() - 1);
+}
+
 void setRestitution(scene::Scene& scene, double restitution) {
-    scene.restitution = restitution;
-    scene.bounds.restitution = restitution;
-    for (scene::Obstacle& obstacle : scene.obstacles) obstacle.restitution = restitution;
-    for (scene::Sphere& sphere : scene.spheres) sphere.restitution = static_cast<float>(restitution);
+    for (scene::Material& material : scene.materials) material.restitution = restitution;
 }
 
 std::unique_ptr<sim::Simulation> simulate(scene::Scene scene) {
@@ -75,22 +78,23 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
     reference::World world;
     world.gravity = scene.gravity;
     world.contacts = scene.sphereContacts;
+    const auto restitutionOf = [&](std::uint8_t material) { return scene.materials[material].restitution; };
     const glm::dvec3 centre = scene.bounds.centre();
     for (unsigned face = 0; face < 6; ++face) {
         if (scene.bounds.open[face]) continue;
         glm::dvec3 normal{};
         normal[static_cast<int>(face / 2)] = face % 2 == 0 ? 1 : -1;
-        world.walls.push_back(
-            {(face % 2 == 0 ? scene.bounds.min : scene.bounds.max) - centre, normal, scene.bounds.restitution});
+        world.walls.push_back({(face % 2 == 0 ? scene.bounds.min : scene.bounds.max) - centre, normal,
+                               restitutionOf(scene.bounds.material)});
     }
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         const auto& plane = std::get<scene::Plane>(obstacle.shape);
-        world.walls.push_back({plane.point - centre, plane.normal, obstacle.restitution});
+        world.walls.push_back({plane.point - centre, plane.normal, restitutionOf(obstacle.material)});
     }
     for (std::uint32_t id = 0; id < state.count(); ++id)
         world.spheres.push_back({positionOf(state, id), velocityOf(state, id),
                                  static_cast<double>(state.position[id].w), 1 / massOf(state, id),
-                                 static_cast<double>(scene.spheres[id].restitution)});
+                                 restitutionOf(scene.spheres[id].material)});
     return world;
 }
 

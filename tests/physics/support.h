@@ -27,8 +27,11 @@ scene::Scene openSpace(double side);
 // The same with closed faces and, downwards, the earth's gravity.
 scene::Scene closedBox(double side);
 
-// The same in steps of 1/60 s, eight substeps each, with sleep.
+// The same in steps of 1/60 s, eight substeps each, with sleep; everything has a restitution of 0.3.
 scene::Scene sleepyBox(double side);
+
+// A material of its own; the index to give to spheres and walls.
+std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material);
 
 void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
 

@@ -14,8 +14,8 @@ import urllib.request
 DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
 KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds stretchSeconds wallSeconds realTimeFactor
-deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy momentum contacts overlapMean overlapMax
-wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite stateHash""".split()
+deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy momentum angularMomentum contacts
+overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite stateHash""".split()
 
 
 def call(*arguments):
@@ -44,7 +44,7 @@ class Run(unittest.TestCase):
         report = run_json("two-spheres", "--for", "0.1s")
         self.assertEqual(list(report), KEYS)
         self.assertEqual((report["steps"], report["spheres"], report["device"]), (6, 2, DEVICE))
-        self.assertEqual(len(report["momentum"]), 3)
+        self.assertEqual((len(report["momentum"]), len(report["angularMomentum"])), (3, 3))
         self.assertRegex(report["stateHash"], "^[0-9a-f]{16}$")
 
     def test_same_scene_and_seed_give_the_same_hash_and_another_seed_another(self):
@@ -61,6 +61,17 @@ class Run(unittest.TestCase):
 
     def test_substeps_and_sleep_follow_the_options(self):
         self.assertEqual(run_json("bounce", "--for", "0.05s", "--substeps", "3")["substepsPerStep"], 3)
+
+    def test_the_model_follows_the_option_and_brings_its_substeps(self):
+        def model_of(*more):
+            report = run_json("bounce", "--for", "0s", *more)
+            return report["quality"], report["substepsPerStep"]
+        self.assertEqual(model_of(), ("balanced", 8))
+        self.assertEqual(model_of("--quality", "fast"), ("fast", 2))
+        self.assertEqual(model_of("--quality", "fast", "--substeps", "5"), ("fast", 5))
+        model, substeps = model_of("--quality", "accurate")
+        self.assertEqual(model, "accurate")
+        self.assertGreater(substeps, 8)
 
     def test_every_reports_each_stretch(self):
         done = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE, "--json")
@@ -85,6 +96,8 @@ class Run(unittest.TestCase):
         self.assertEqual(call("run", "no-such-scene", "--for", "1s", "--device", DEVICE).returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "soon", "--device", DEVICE).returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1e300s", "--device", DEVICE).returncode, 2)
+        self.assertEqual(call("run", "bounce", "--for", "1s", "--quality", "best", "--device", DEVICE).returncode, 2)
+        self.assertEqual(call("serve", "bounce", "--quality", "best", "--device", DEVICE).returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1s", "--every", "0", "--dump", "/dev/null").returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1s", "--device", "gpu:99").returncode, 3)
         self.assertIn("75 device lost", call("run", "--help").stdout)
@@ -103,6 +116,8 @@ class Others(unittest.TestCase):
         self.assertEqual(plan["spheres"], 50000)
         self.assertEqual(plan["bytes"], sum(array["bytes"] for array in plan["arrays"]))
         self.assertIn("solve_positions.comp", call("plan", "box-50k").stdout)
+        self.assertEqual(call("plan", "bounce", "--quality", "accurate").returncode, 0)
+        self.assertEqual(call("plan", "bounce", "--quality", "best").returncode, 2)
 
     def test_probe_names_the_renderer(self):
         chosen = json.loads(call("probe", "--device", DEVICE, "--json").stdout)["chosen"]
@@ -136,12 +151,20 @@ class Serve(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout, r"^applied at step \d+")
         for words, reason in {("set", "restitution", "1.5"): "restitution: is 1.5",
+                              ("set", "friction", "-1"): "friction: is -1",
+                              ("set", "substeps", "0"): "substeps: is 0",
                               ("load", "nothing"): "load.name", ("push", "99", "0", "0", "1"): "sphere: is 99",
                               ("step", "0"): "step.count"}.items():
             refused = self.ctl(*words)
             self.assertEqual(refused.returncode, 4, words)
             self.assertIn(reason, refused.stdout)
         self.assertEqual(self.ctl("dance").returncode, 2)
+
+    def test_friction_and_the_model_can_be_set(self):
+        for words in (("set", "friction", "0.3"), ("set", "model", "fast"), ("set", "model", "accurate"),
+                      ("set", "model", "balanced")):
+            self.assertEqual(self.ctl(*words).returncode, 0, words)
+        self.assertEqual(self.ctl("set", "model", "slow").returncode, 2)
 
     def test_a_refused_set_changes_nothing(self):
         self.assertEqual(self.ctl('{"set":{"speed":2,"restitution":5}}').returncode, 4)

@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 INCLUDE = re.compile(r'^#include "([^"]+)"$')
-FEATURE = re.compile(r"\bHAS\((?!feature\b)(\w+)\)")
+FEATURE = re.compile(r"\bHAS\((?!feature\b|FEATURE\b)(\w+)\)")  # but for its definition and what explains it
 
 
 def expand(root, name):

@@ -26,7 +26,7 @@ class SceneCsv : public ::testing::Test {
     Folder folder_;
 };
 
-constexpr const char* radius = R"(, "radius": {"constant": 0.1}, "velocity": [0, 0, 2])";
+constexpr const char* radius = R"(, "radius": {"constant": 0.1}, "velocity": [0, 0, 2], "spin": [3, 0, 0])";
 
 TEST_F(SceneCsv, GivesPositionsNextToTheSceneFile) {
     const auto scene = loaded("x,y,z\n0.2,0.3,0.4\n0.5, 6e-1 ,0.5\r\n", radius);
@@ -35,6 +35,7 @@ TEST_F(SceneCsv, GivesPositionsNextToTheSceneFile) {
     EXPECT_EQ(scene->spheres[0].position, glm::dvec3(0.2, 0.3, 0.4));
     EXPECT_EQ(scene->spheres[1].position, glm::dvec3(0.5, 0.6, 0.5));
     EXPECT_EQ(scene->spheres[1].velocity, glm::vec3(0, 0, 2));
+    EXPECT_EQ(scene->spheres[1].spin, glm::vec3(3, 0, 0));
     EXPECT_EQ(scene->spheres[1].radius, 0.1F);
 }
 

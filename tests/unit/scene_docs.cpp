@@ -26,6 +26,9 @@ TEST(SceneDocs, TheCompleteExampleLoads) {
     ASSERT_TRUE(scene) << scene.error().text();
     EXPECT_EQ(scene->spheres.size(), 2U + 1000U + 500U + 2U);
     EXPECT_EQ(scene->obstacles.size(), 2U);
+    EXPECT_EQ(scene->materials.size(), 3U);
+    EXPECT_EQ(scene->pairs.size(), 1U);
+    EXPECT_EQ(scene->spheres[0].spin, glm::vec3(0, -40, 0));
 }
 
 }  // namespace

@@ -6,22 +6,27 @@ namespace spherule::scene::testing {
 namespace {
 
 TEST(SceneGroups, ListSpheresTakeWhatTheyDoNotSayFromTheGroup) {
-    const Scene scene = sceneWith(R"("restitution": 0.3, "groups": [
-        {"name": "a", "colour": "#102030", "velocity": [1, 2, 3], "density": 500, "radius": {"constant": 0.1},
+    const Scene scene =
+        sceneWith(R"("materials": [{"restitution": 0.3, "density": 500}, {"name": "b", "restitution": 0.9}], "groups": [
+        {"name": "a", "colour": "#102030", "velocity": [1, 2, 3], "spin": [4, 5, 6], "radius": {"constant": 0.1},
          "list": {"spheres": [{"position": [0.2, 0.3, 0.4]},
-                              {"position": [0.6, 0.7, 0.8], "velocity": [0, 0, 1], "radius": 0.05}]}},
-        {"name": "b", "restitution": 0.9, "list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.2}]}}])");
+                              {"position": [0.6, 0.7, 0.8], "velocity": [0, 0, 1], "spin": [7, 0, 0], "radius": 0.05}]}},
+        {"name": "b", "material": "b", "list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.2}]}}])");
     ASSERT_EQ(scene.spheres.size(), 3U);
     const auto& [first, second, third] = std::tie(scene.spheres[0], scene.spheres[1], scene.spheres[2]);
     EXPECT_EQ(first.position, glm::dvec3(0.2, 0.3, 0.4));
     EXPECT_EQ(first.velocity, glm::vec3(1, 2, 3));
     EXPECT_EQ(first.radius, 0.1F);
-    EXPECT_EQ(first.density, 500.0F);
-    EXPECT_EQ(first.restitution, 0.3F);
+    EXPECT_EQ(first.spin, glm::vec3(4, 5, 6));
+    EXPECT_EQ(scene.materials[first.material].density, 500);
+    EXPECT_EQ(scene.materials[first.material].restitution, 0.3);
     EXPECT_EQ(second.velocity, glm::vec3(0, 0, 1));
+    EXPECT_EQ(second.spin, glm::vec3(7, 0, 0));
     EXPECT_EQ(second.radius, 0.05F);
-    EXPECT_EQ(third.density, 1000.0F);
-    EXPECT_EQ(third.restitution, 0.9F);
+    EXPECT_EQ(second.material, first.material);
+    EXPECT_EQ(third.spin, glm::vec3(0));
+    EXPECT_EQ(scene.materials[third.material].density, 1000);
+    EXPECT_EQ(scene.materials[third.material].restitution, 0.9);
     ASSERT_EQ(scene.groups.size(), 2U);
     EXPECT_EQ(scene.groups[0].name, "a");
     EXPECT_EQ(scene.groups[0].colour, "#102030");
@@ -74,11 +79,18 @@ TEST(SceneGroups, RadiiArePositive) {
               "groups[0].list.spheres[0].radius: is -1, must be positive");
 }
 
-TEST(SceneGroups, DensityIsPositive) {
-    EXPECT_EQ(refusalOf(group(R"("list": {}, "density": 0)")), "groups[0].density: is 0, must be positive");
-    EXPECT_EQ(refusalOf(group(R"("list": {}, "density": -3)")), "groups[0].density: is -3, must be positive");
-    EXPECT_EQ(refusalOf(group(R"("list": {}, "density": 1e12)")),
-              "groups[0].density: is 1000000000000, must be 1e-06 to 1000000000 kg/m^3");
+TEST(SceneGroups, EverySourceGivesTheGroupsVelocityAndSpin) {
+    for (const std::string source : {R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})",
+                                     R"("lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.5})",
+                                     R"("fill": {"min": [0,0,0], "max": [1,1,1], "count": 3})"}) {
+        const Scene scene =
+            sceneWith(group(source + R"(, "radius": {"constant": 0.1}, "velocity": [1, 2, 3], "spin": [4, 5, 6])"));
+        ASSERT_FALSE(scene.spheres.empty()) << source;
+        for (const Sphere& sphere : scene.spheres) {
+            EXPECT_EQ(sphere.velocity, glm::vec3(1, 2, 3)) << source;
+            EXPECT_EQ(sphere.spin, glm::vec3(4, 5, 6)) << source;
+        }
+    }
 }
 
 TEST(SceneGroups, SphereVectorsAreChecked) {
@@ -91,6 +103,10 @@ TEST(SceneGroups, SphereVectorsAreChecked) {
         "groups[0].list.spheres[0].velocity: has 1 number, must have three: x, y, z");
     EXPECT_EQ(refusalOf(group(R"("list": {}, "velocity": [1, 2])")),
               "groups[0].velocity: has 2 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "spin": [1], "radius": 0.1}]})")),
+              "groups[0].list.spheres[0].spin: has 1 number, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "spin": [0, "NaN", 0])")),
+              "groups[0].spin[1]: is nan, must be a finite number");
 }
 
 TEST(SceneGroups, TogetherAreLimitedInNumber) {
@@ -110,15 +126,18 @@ TEST(SceneGroups, AnInlineSceneMayNotNameFiles) {
 }
 
 TEST(SceneGroups, ASpawnedGroupKeepsToTheScene) {
-    const Scene scene =
-        sceneWith(R"("restitution": 0.7, "obstacles": [{"plane": {"point": [0, 0, 0.3], "normal": [0, 0, 1]}}])");
+    const Scene scene = sceneWith(R"("materials": [{"name": "a"}, {"name": "b", "restitution": 0.7}],
+        "obstacles": [{"plane": {"point": [0, 0, 0.3], "normal": [0, 0, 1]}}])");
     const auto spawned = [&](const std::string& members) {
         return buildGroup(parsed(object(group(members))).groups(0), scene);
     };
-    const auto good = spawned(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.1}]})");
+    const auto good =
+        spawned(R"("material": "b", "list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.1}]})");
     ASSERT_TRUE(good) << good.error().text();
     EXPECT_EQ(good->size(), 1U);
-    EXPECT_EQ(good->front().restitution, 0.7F);
+    EXPECT_EQ(scene.materials.at(good->front().material).restitution, 0.7);
+    EXPECT_EQ(spawned(R"("material": "c", "list": {})").error().text(),
+              R"(group.material: is "c", which is no material of the scene; it has "a", "b")");
     EXPECT_EQ(spawned(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.2], "radius": 0.1}]})").error().text(),
               "group.list.spheres[0]: is at (0.5, 0.5, 0.2) with radius 0.1 and reaches into obstacles[0]");
     EXPECT_NE(spawned(R"("csv": {"file": "x.csv"})").error().text().find("only a scene file may name files"),

@@ -8,7 +8,7 @@
 
 namespace spherule::scene::testing {
 
-// A scene in the unit cube with these further members, as JSON: `"restitution": 0.3, "groups": []`.
+// A scene in the unit cube with these further members, as JSON: `"step": 0.01, "groups": []`.
 Result<Scene> builtWith(std::string_view members, const Overrides& overrides = {});
 
 // The scene, or a failed test and an empty one.

@@ -37,13 +37,15 @@ TEST(SceneBounds, OpenFacesAreNamed) {
               "bounds.open[0]: is 0, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX");
 }
 
-TEST(SceneBounds, RestitutionIsTheScenesUnlessGiven) {
-    EXPECT_EQ(sceneWith(R"("restitution": 0.3)").bounds.restitution, 0.3);
+TEST(SceneBounds, AreOfTheFirstMaterialUnlessTheyNameOne) {
+    const std::string materials = R"("materials": [{"restitution": 0.3}, {"name": "felt", "restitution": 0.9}])";
+    const Scene scene = sceneWith(materials);
+    EXPECT_EQ(scene.materials[scene.bounds.material].restitution, 0.3);
     const Scene own =
-        *build(parsed(R"({"bounds": {"min": [0,0,0], "max": [1,1,1], "restitution": 0.9}, "restitution": 0.3})"));
-    EXPECT_EQ(own.bounds.restitution, 0.9);
-    EXPECT_EQ(refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "restitution": 2)"),
-              "bounds.restitution: is 2, must be 0 to 1");
+        *build(parsed(object(R"("bounds": {"min": [0,0,0], "max": [1,1,1], "material": "felt"}, )" + materials)));
+    EXPECT_EQ(own.materials[own.bounds.material].restitution, 0.9);
+    EXPECT_EQ(refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "material": "ice")", ", " + materials),
+              R"(bounds.material: is "ice", which is no material of the scene; it has "felt")");
 }
 
 TEST(SceneBounds, HoldEverySphereOnEveryFace) {
@@ -82,7 +84,8 @@ TEST(SceneObstacles, PlanesHaveUnitNormals) {
     const Scene scene = sceneWith(R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 3, 4]}}])");
     const auto& plane = std::get<Plane>(scene.obstacles.at(0).shape);
     EXPECT_NEAR(glm::distance(plane.normal, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
-    EXPECT_EQ(scene.obstacles[0].restitution, 0.5);
+    EXPECT_EQ(scene.obstacles[0].material, 0);
+    EXPECT_EQ(scene.materials[0].restitution, 0.5);
     EXPECT_EQ(refusalOf(R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 0]}}])"),
               "obstacles[0].plane.normal: is (0, 0, 0), must not be zero");
 }
@@ -91,10 +94,20 @@ TEST(SceneObstacles, AreChecked) {
     EXPECT_EQ(refusalOf(R"("obstacles": [{}])"), "obstacles[0]: has no shape, must be a plane or a box");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,0]}}])"),
               "obstacles[0].box.max[2]: is 0, must be above min, which is 0");
-    EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "restitution": 2}])"),
-              "obstacles[0].restitution: is 2, must be 0 to 1");
+    EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "material": "ice"}])"),
+              R"(obstacles[0].material: is "ice", which is no material of the scene; it has none with a name)");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "colour": "x"}])"),
               R"(obstacles[0].colour: is "x", must be #rrggbb in hexadecimal)");
+}
+
+TEST(SceneObstacles, AreOfTheMaterialTheyName) {
+    const Scene scene = sceneWith(R"("materials": [{}, {"name": "felt"}], "obstacles": [
+        {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "material": "felt"},
+        {"box": {"min": [0, 0, 0], "max": [0.1, 0.1, 0.1]}},
+        {"box": {"min": [0, 0, 0], "max": [0.1, 0.1, 0.1]}, "material": "felt"}])");
+    EXPECT_EQ(scene.obstacles[0].material, 1);
+    EXPECT_EQ(scene.obstacles[1].material, 0);
+    EXPECT_EQ(scene.obstacles[2].material, 1);
 }
 
 TEST(SceneObstacles, AreLimitedInNumber) {

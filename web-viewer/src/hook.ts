@@ -1,5 +1,6 @@
 import { project } from "./camera/ray";
 import type { Pose } from "./camera/orbit";
+import { Model } from "./gen/spherule/v1/scene_pb";
 import type { Report } from "./connection/commands";
 import type { Facts, Vec3 } from "./scene/facts";
 import { positionOf } from "./scene/positions";
@@ -25,7 +26,7 @@ export interface Hook {
   readonly skipped: number;
   readonly scene: string;
   readonly facts: Facts | undefined;
-  readonly settings: { gravity: number[]; restitution: number; substeps: number; speed: number; paused: boolean } | undefined;
+  readonly settings: HeldSettings | undefined;
   readonly camera: Pose & { eye: Vec3 };
   /** Answers to this page's commands, the newest last, at most 50. */
   readonly results: { what: string; outcome: string; step: number | undefined; words: string }[];
@@ -35,6 +36,17 @@ export interface Hook {
   at(x: number, y: number): number | undefined;
   /** Where a place in metres lies on the page, in CSS pixels; undefined behind the eye. */
   project(place: Vec3): [number, number] | undefined;
+}
+
+/** What holds on the server; `model`: "fast", "balanced" or "accurate". */
+export interface HeldSettings {
+  gravity: number[];
+  restitution: number;
+  friction: number;
+  model: string;
+  substeps: number;
+  speed: number;
+  paused: boolean;
 }
 
 declare global {
@@ -92,8 +104,9 @@ export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Ho
     },
     get settings() {
       if (!session.settings) return undefined;
-      const { gravity, restitution, substeps, speed, paused } = session.settings;
-      return { gravity, restitution, substeps, speed, paused };
+      const { gravity, restitution, friction, substeps, speed, paused } = session.settings;
+      const model = Model[session.settings.model].toLowerCase();
+      return { gravity, restitution, friction, model, substeps, speed, paused };
     },
     get camera() {
       return { ...camera.pose, eye: camera.last.eye };

@@ -53,6 +53,9 @@ inline real floor(real x) {
 inline real sqrt(real x) {
     return std::sqrt(x);
 }
+inline real uintBitsToFloat(uint x) {
+    return static_cast<real>(std::bit_cast<float>(x));
+}
 inline uint floatBitsToUint(real x) {
     return std::bit_cast<uint>(static_cast<float>(x));
 }

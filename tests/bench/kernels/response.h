@@ -34,7 +34,7 @@ void meet(uint other) {
     vec3 normal = vec3(contact);
     push = push + normal * (0.5f * (reach - contact.w));
     float approach = dot3(speed - vec3(velocity[other]), normal);
-    if (approach < 0.0f) kick = kick - normal * (0.5f * (1.0f + params.restitution) * approach);
+    if (approach < 0.0f) kick = kick - normal * (0.5f * (1.0f + params.law.x) * approach);
 }
 
 // Keeps a coordinate between two walls; returns it and the speed.

@@ -1,10 +1,15 @@
 import type { Drop } from "../connection/commands";
 import type { Facts, Vec3 } from "../scene/facts";
 
-const density = 1000; // kg/m³, of a group that says nothing else
-const kick = 3; // m/s that the impulse offered gives a sphere
+// Of water, a material's default. The server tells no densities, and the impulse is only a first offer that the person
+// may change: most solids and liquids are near enough for it to be felt and to do no harm.
+const density = 1000; // kg/m³
+const kick = 3; // m/s that the impulse offered gives a sphere of that density
 
-/** An impulse that is felt but does no harm, in N s, for a sphere of this radius in m; two significant digits. */
+/** What the person should know of the impulse offered. */
+export const impulseNote = `At first what gives a sphere of the scene's middle size ${kick} m/s at ${density} kg/m³; denser ones need more`;
+
+/** An impulse, in N s, for a sphere of this radius in m; two significant digits. */
 export function impulseFor(radius: number): number {
   return Number((kick * density * (4 / 3) * Math.PI * radius ** 3).toPrecision(2));
 }

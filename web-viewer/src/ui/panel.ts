@@ -1,14 +1,16 @@
 import GUI from "lil-gui";
 import type { Controller, OptionController } from "lil-gui";
 import type { Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import { Model } from "../gen/spherule/v1/scene_pb";
 import { modeFor, modeList, modeNames } from "../colour/modes";
 import type { Mode } from "../colour/modes";
 import type { Commands } from "../connection/commands";
 import type { QualityChoice } from "../renderer/quality";
 import type { ThemeName } from "../renderer/theme";
 import type { Facts } from "../scene/facts";
-import { dropFor, impulseFor } from "./amounts";
+import { dropFor, impulseFor, impulseNote } from "./amounts";
 import { presetOf, presets } from "./gravity";
+import { models, mostSubsteps } from "./models";
 import { StatisticsTable } from "./statistics";
 
 /** What the panel holds that only the page uses. */
@@ -31,7 +33,18 @@ export class Panel {
   readonly element: HTMLElement;
   private readonly gui: GUI;
   private readonly statistics = new StatisticsTable();
-  private readonly world = { scene: "", gravity: "Earth", x: 0, y: 0, z: 0, restitution: 0.5, substeps: 1, speed: 1 };
+  private readonly world = {
+    scene: "",
+    gravity: "Earth",
+    x: 0,
+    y: 0,
+    z: 0,
+    restitution: 0.5,
+    friction: 0,
+    model: Model.BALANCED,
+    substeps: 1,
+    speed: 1,
+  };
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly scene: OptionController;
   private facts: Facts | undefined;
@@ -74,8 +87,8 @@ export class Panel {
   settle(settings: Settings): void {
     this.settled = settings;
     const [x = 0, y = 0, z = 0] = settings.gravity;
-    const { restitution, substeps, speed } = settings;
-    const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, substeps, speed };
+    const { restitution, friction, model, substeps, speed } = settings;
+    const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, friction, model, substeps, speed };
     const edited = this.edited();
     if (edited) delete (settled as Partial<typeof settled>)[edited as keyof typeof settled];
     Object.assign(this.world, settled);
@@ -130,12 +143,26 @@ export class Panel {
     tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
       (restitution: number) => void this.change("Restitution", { restitution }),
     );
-    tag("substeps", folder.add(world, "substeps", 1, 64, 1).name("Substeps")).onFinishChange(
-      (substeps: number) => void this.change("Substeps", { substeps }),
+    tag("friction", folder.add(world, "friction", 0, 1, 0.01).name("Friction")).onFinishChange(
+      (friction: number) => void this.change("Friction", { friction }),
     );
+    this.addQuality(folder);
     tag("speed", folder.add(world, "speed", 0.05, 4, 0.05).name("Speed, ×")).onFinishChange(
       (speed: number) => void this.change("Speed", { speed }),
     );
+  }
+
+  private addQuality(folder: GUI): void {
+    const { world } = this;
+    const names = Object.fromEntries(models.map(({ name, model }) => [name, model]));
+    const quality = tag("model", folder.add(world, "model", names).name("Quality")) as OptionController;
+    quality.onFinishChange((model: Model) => void this.change("Quality", { model }));
+    quality.domElement.title = models.map(({ name, says }) => `${name}: ${says}`).join("\n");
+    models.forEach(({ says }, i) => quality.$select.options.item(i)?.setAttribute("title", says));
+    // Without a slider: one that reaches what Accurate takes would be too coarse for the few that the others take.
+    tag("substeps", folder.add(world, "substeps").min(1).step(1).name("Substeps"))
+      .onChange(() => (world.substeps = Math.min(world.substeps, mostSubsteps)))
+      .onFinishChange((substeps: number) => void this.change("Substeps", { substeps }));
   }
 
   private addDrop(): void {
@@ -148,7 +175,7 @@ export class Panel {
   private addPush(): void {
     const folder = this.gui.addFolder("Push");
     tag("push", folder.add(this.choices, "push").name("Click pushes"));
-    tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s"));
+    tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s")).domElement.title = impulseNote;
   }
 
   private addLook(): void {

@@ -1,0 +1,119 @@
+#include "scene/materials.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spherule::scene {
+
+namespace {
+
+constexpr double smallestDensity = 1e-6;  // kg/m^3
+constexpr double largestDensity = 1e9;    // kg/m^3
+constexpr double softest = 1e-3;          // Pa
+constexpr double stiffest = 1e15;
+
+Material readMaterial(Check& check, const v1::Material& message, const std::string& field) {
+    Material material{.name = message.name()};
+    const auto read = [&](bool given, double value, double low, double high, const char* member, const char* unit,
+                          double& target) {
+        if (given) target = check.within(value, low, high, at(field, member), unit);
+    };
+    read(message.has_density(), message.density(), smallestDensity, largestDensity, "density", " kg/m^3",
+         material.density);
+    read(message.has_restitution(), message.restitution(), 0, 1, "restitution", "", material.restitution);
+    read(message.has_friction(), message.friction(), 0, largestFriction, "friction", "", material.friction);
+    read(message.has_rolling_resistance(), message.rolling_resistance(), 0, largestFriction, "rollingResistance", "",
+         material.rollingResistance);
+    read(message.has_spinning_resistance(), message.spinning_resistance(), 0, largestFriction, "spinningResistance", "",
+         material.spinningResistance);
+    read(message.has_young(), message.young(), softest, stiffest, "young", " Pa", material.young);
+    read(message.has_poisson(), message.poisson(), -0.99, 0.5, "poisson", "", material.poisson);
+    return material;
+}
+
+}  // namespace
+
+std::vector<Material> readMaterials(Check& check, const google::protobuf::RepeatedPtrField<v1::Material>& messages) {
+    std::vector<Material> materials;
+    const auto count = static_cast<std::size_t>(messages.size());
+    if (count > maxMaterials)
+        check.refuse("materials", fmt::format("has {} entries, must have at most {}", count, maxMaterials));
+    for (std::size_t k = 0; k < count && check.ok(); ++k) {
+        const std::string field = at("materials", k);
+        Material material = readMaterial(check, messages[static_cast<int>(k)], field);
+        const auto same = [&](const Material& other) { return other.name == material.name; };
+        if (k > 0 && material.name.empty()) {
+            check.refuse(at(field, "name"), "is missing; only the first material may go without");
+        } else if (std::ranges::any_of(materials, same)) {
+            check.refuse(at(field, "name"), fmt::format("is {}, as that of an earlier material", shown(material.name)));
+        }
+        materials.push_back(std::move(material));
+    }
+    if (materials.empty()) materials.emplace_back();
+    return materials;
+}
+
+std::uint8_t materialNamed(Check& check, const std::string& name, const std::vector<Material>& materials,
+                           std::string_view field) {
+    if (name.empty()) return 0;
+    const auto found = std::ranges::find(materials, name, &Material::name);
+    if (found != materials.end()) return static_cast<std::uint8_t>(found - materials.begin());
+    std::string known;
+    for (const Material& material : materials)
+        if (!material.name.empty()) known += (known.empty() ? "" : ", ") + shown(material.name);
+    check.refuse(std::string(field), fmt::format("is {}, which is no material of the scene; {}", shown(name),
+                                                 known.empty() ? "it has none with a name" : "it has " + known));
+    return 0;
+}
+
+std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::RepeatedPtrField<v1::MaterialPair>& messages,
+                                    const std::vector<Material>& materials) {
+    std::vector<MaterialPair> pairs;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(messages.size()) && check.ok(); ++k) {
+        const v1::MaterialPair& message = messages[static_cast<int>(k)];
+        const std::string field = at("pairs", k);
+        for (const auto& [name, member] : {std::pair(message.a(), "a"), std::pair(message.b(), "b")})
+            if (name.empty()) check.refuse(at(field, member), "is missing; give the name of a material");
+        MaterialPair pair;
+        pair.a = materialNamed(check, message.a(), materials, at(field, "a"));
+        pair.b = materialNamed(check, message.b(), materials, at(field, "b"));
+        const auto same = [&](const MaterialPair& other) {
+            return std::minmax(other.a, other.b) == std::minmax(pair.a, pair.b);
+        };
+        if (check.ok() && std::ranges::any_of(pairs, same))
+            check.refuse(field,
+                         fmt::format("is of {} and {}, as an earlier one is", shown(message.a()), shown(message.b())));
+        const auto read = [&](bool given, double value, double high, const char* member) {
+            return given ? std::optional(check.within(value, 0, high, at(field, member))) : std::nullopt;
+        };
+        pair.restitution = read(message.has_restitution(), message.restitution(), 1, "restitution");
+        pair.friction = read(message.has_friction(), message.friction(), largestFriction, "friction");
+        pair.rollingResistance =
+            read(message.has_rolling_resistance(), message.rolling_resistance(), largestFriction, "rollingResistance");
+        pair.spinningResistance = read(message.has_spinning_resistance(), message.spinning_resistance(),
+                                       largestFriction, "spinningResistance");
+        pairs.push_back(pair);
+    }
+    return pairs;
+}
+
+PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b) {
+    const Material& first = scene.materials[a];
+    const Material& second = scene.materials[b];
+    PairLaw law{.restitution = std::min(first.restitution, second.restitution),
+                .friction = std::sqrt(first.friction * second.friction),
+                .rollingResistance = std::sqrt(first.rollingResistance * second.rollingResistance),
+                .spinningResistance = std::sqrt(first.spinningResistance * second.spinningResistance)};
+    for (const MaterialPair& pair : scene.pairs) {
+        if (std::minmax(pair.a, pair.b) != std::minmax(a, b)) continue;
+        law.restitution = pair.restitution.value_or(law.restitution);
+        law.friction = pair.friction.value_or(law.friction);
+        law.rollingResistance = pair.rollingResistance.value_or(law.rollingResistance);
+        law.spinningResistance = pair.spinningResistance.value_or(law.spinningResistance);
+    }
+    return law;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string_view>
+
+#include "scene/check.h"
+#include "spherule/v1/scene.pb.h"
+
+namespace spherule::scene {
+
+constexpr std::size_t maxMaterials = 64;
+constexpr double largestFriction = 100;  // and resistance
+
+// The scene's materials; one with the defaults where it names none.
+std::vector<Material> readMaterials(Check& check, const google::protobuf::RepeatedPtrField<v1::Material>& messages);
+
+std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::RepeatedPtrField<v1::MaterialPair>& messages,
+                                    const std::vector<Material>& materials);
+
+// The index of the material with this name; of the first where `name` is empty.
+std::uint8_t materialNamed(Check& check, const std::string& name, const std::vector<Material>& materials,
+                           std::string_view field);
+
+// What holds between two materials: the smaller restitution, the geometric mean of the others, unless a pair says
+// otherwise.
+struct PairLaw {
+    double restitution = 0;
+    double friction = 0;
+    double rollingResistance = 0;
+    double spinningResistance = 0;
+};
+
+PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);
+
+}  // namespace spherule::scene

@@ -1,0 +1,119 @@
+#include "scene/quality.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "scene/load.h"
+#include "scene/stiffness.h"
+
+namespace spherule::scene {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> modelNames = {"fast", "balanced", "accurate"};
+
+double smallestRadius(const Scene& scene) {
+    double smallest = 0;
+    for (const Sphere& sphere : scene.spheres)
+        if (smallest == 0 || static_cast<double>(sphere.radius) < smallest)
+            smallest = static_cast<double>(sphere.radius);
+    return smallest;
+}
+
+// h = min(1/480 s, sqrt(8.5e-4 r_min / g)): keeps the mean overlap of a bed under a hundredth of the radius.
+double balancedSubstep(const Scene& scene) {
+    constexpr double longest = 1.0 / 480;
+    const double gravity = glm::length(scene.gravity);
+    const double radius = smallestRadius(scene);
+    return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
+}
+
+}  // namespace
+
+std::string_view nameOf(Model model) {
+    return modelNames.at(static_cast<std::size_t>(model));
+}
+
+std::optional<Model> modelNamed(std::string_view name) {
+    const auto found = std::ranges::find(modelNames, name);
+    if (found == modelNames.end()) return std::nullopt;
+    return static_cast<Model>(found - modelNames.begin());
+}
+
+Model modelOf(v1::Model message) {
+    return static_cast<Model>(message - v1::FAST);
+}
+
+v1::Model messageOf(Model model) {
+    return static_cast<v1::Model>(static_cast<int>(model) + v1::FAST);
+}
+
+double defaultSubsteps(const Scene& scene) {
+    // The rule's constant has two figures, so a substep may exceed it by a hundredth: 1/480 s at r = 0.05 m on earth.
+    constexpr double slack = 0.01;
+    constexpr double coarser = 4;  // what `fast` saves
+    if (scene.quality.model == Model::Accurate)
+        return std::max(1.0, std::ceil(scene.step / contactTimeOf(scene).substep));
+    double substep = balancedSubstep(scene);
+    if (scene.quality.model == Model::Fast) substep *= coarser;
+    return std::max(1.0, std::ceil(scene.step / substep * (1 - slack)));
+}
+
+Result<void> checkModel(const Scene& scene) {
+    if (scene.quality.model != Model::Accurate || !followsHertz(scene)) return {};
+    for (std::size_t k = 0; k < scene.materials.size(); ++k)
+        if (!(scene.materials[k].young > 0))
+            return fail(ErrorKind::Input, at(at("materials", k), "young"),
+                        "is missing; with one material's modulus given, accurate needs all of them");
+    return {};
+}
+
+Result<void> fitSubsteps(Scene& scene) {
+    Quality& quality = scene.quality;
+    constexpr const char* field = "quality.substeps";
+    if (!quality.pinned) {
+        const double wanted = defaultSubsteps(scene);
+        if (!(wanted <= maxSubsteps))
+            return fail(ErrorKind::Input, field,
+                        fmt::format("would be {:.0f} for this scene, must be at most {}; shorten the step or give "
+                                    "substeps",
+                                    wanted, maxSubsteps));
+        quality.substeps = static_cast<std::uint32_t>(wanted);
+        return {};
+    }
+    if (quality.substeps < 1 || quality.substeps > maxSubsteps)
+        return fail(ErrorKind::Input, field, fmt::format("is {}, must be 1 to {}", quality.substeps, maxSubsteps));
+    if (quality.model != Model::Accurate || !followsHertz(scene)) return {};
+    constexpr double fewestPerContact = 10;
+    const double fewest = std::ceil(fewestPerContact * scene.step / contactTimeOf(scene).contact);
+    if (quality.substeps < fewest)
+        return fail(ErrorKind::Input, field,
+                    fmt::format("is {}, but contacts of these materials would take less than {} substeps then; give at "
+                                "least {:.0f}",
+                                quality.substeps, fewestPerContact, fewest));
+    return {};
+}
+
+void readQuality(Check& check, const v1::Quality& message, const Overrides& overrides, Scene& scene) {
+    Quality& quality = scene.quality;
+    if (message.model() < v1::MODEL_UNSPECIFIED || message.model() > v1::ACCURATE) {
+        check.refuse("quality.model",
+                     fmt::format("is {}, must be FAST, BALANCED or ACCURATE", static_cast<int>(message.model())));
+    } else if (message.model() != v1::MODEL_UNSPECIFIED) {
+        quality.model = modelOf(message.model());
+    }
+    quality.model = overrides.model.value_or(quality.model);
+    if (message.has_overlap()) quality.overlap = check.within(message.overlap(), 1e-6, 0.5, "quality.overlap");
+    if (const auto fits = checkModel(scene); !fits) check.refuse(fits.error().where, fits.error().message);
+    if (!check.ok()) return;
+    quality.pinned = overrides.substeps || message.has_substeps();
+    quality.substeps = overrides.substeps.value_or(message.substeps());
+    if (const auto fits = fitSubsteps(scene); !fits) check.refuse(fits.error().where, fits.error().message);
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,34 @@
+// Friction between two touching spheres. The includer binds `velocity`, with the spins behind the velocities.
+
+// Rubs a against b; n from b to a, `pressing` is the impulse that presses them together (N s), `law` their
+// Law.contact; without `slows`, rolling is held or left alone, not slowed. Returns the impulse on a.
+void rubPair(uint a, uint b, vec3 n, float ra, float rb, float pressing, vec4 law) {
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    vec4 sa = velocity[params.spheres + a];
+    vec4 sb = velocity[params.spheres + b];
+    float ma = mobility(va.w);
+    float mb = mobility(vb.w);
+    vec3 difference = vec3(va) - vec3(vb);
+    vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n);
+    vec3 turning = vec3(sa) - vec3(sb);
+    float inertia = ma / (ra * ra) + mb / (rb * rb);
+    float lever = ra * rb / (ra + rb);
+    Rub got = rub(slip, cross3(turning, n), ma + mb, ma / ra - mb / rb, inertia, law.y * pressing,
+                  law.z * lever * pressing);
+    vec3 twist = cross3(n, got.impulse) * 2.5f;
+    vec3 moment = vec3(0.0f, 0.0f, 0.0f);
+    if (HAS(ROLLING)) {
+        moment = cross3(n, got.moment) +
+                 spinningMoment(n, dot3(turning, n), 2.5f * inertia, law.w * lever * pressing);
+        moment = moment * 2.5f;
+    }
+    if (ma > 0.0f) {
+        velocity[a] = vec4(vec3(va) + got.impulse * ma, va.w);
+        velocity[params.spheres + a] = vec4(vec3(sa) + moment * (ma / (ra * ra)) - twist * (ma / ra), sa.w);
+    }
+    if (mb > 0.0f) {
+        velocity[b] = vec4(vec3(vb) - got.impulse * mb, vb.w);
+        velocity[params.spheres + b] = vec4(vec3(sb) - moment * (mb / (rb * rb)) - twist * (mb / rb), sb.w);
+    }
+}

@@ -1,0 +1,7 @@
+// What holds between sphere `wallSphere` (a PRIVATE slot of the includer's) and a wall's material. The includer binds
+// `label` and `laws`.
+
+uint wallLawIndex(uint wallMaterial) {
+    uint mine = HAS(MATERIALS) ? materialOf(label[wallSphere]) : params.material;
+    return mine * params.materials + wallMaterial;
+}

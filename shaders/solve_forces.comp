@@ -1,0 +1,102 @@
+// The model `accurate`: the forces between overlapping soft spheres, added up on both sides while velocities stay as they
+// are. (Were they changed at once, each pair would see the half-way sum of the others' forces, take it for slip, and wind
+// up its spring.) What the surfaces have slipped is remembered with the listed pair. `phase` is the colour of the groups.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/label.h"
+#include "shared/contact.h"
+#include "shared/rub.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)  // with what float32 cannot hold of it behind
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, uint, label, LabelBlock)
+BUFFER(3, readonly, uint, cellStart, CellBlock)
+BUFFER(4, restrict, uvec4, span, SpanBlock)
+BUFFER(5, readonly, uvec2, pairs, PairBlock)
+BUFFER(6, restrict, vec4, history, HistoryBlock)  // per listed pair: slip of the first against the second, m; w: 1 in touch
+BUFFER(7, readonly, Law, laws, LawBlock)
+
+PRIVATE(vec3, stretch)
+PRIVATE(bool, touches)
+
+#include "shared/laws.h"
+#include "shared/kicks.h"
+#include "shared/spring.h"
+
+void rubSprings(uint a, uint b, vec3 n, float ra, float rb, vec4 spring, vec4 law) {
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    vec4 sa = velocity[params.spheres + a];
+    vec4 sb = velocity[params.spheres + b];
+    vec3 difference = vec3(va) - vec3(vb);
+    vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n);
+    stretch = turnedInto(stretch, n);
+    vec3 impulse = tangentialImpulse(slip, spring.z, spring.w, law.y * spring.x);
+    vec3 twist = cross3(n, impulse) * 2.5f;
+    vec3 moment = vec3(0.0f, 0.0f, 0.0f);
+    if (HAS(ROLLING)) {
+        float c = 2.5f * (va.w / (ra * ra) + vb.w / (rb * rb));
+        float most = ra * rb / (ra + rb) * spring.x;
+        vec3 turning = vec3(sa) - vec3(sb);
+        float about = dot3(turning, n);
+        moment = (rollingMoment(turning - n * about, c, law.z * most) + spinningMoment(n, about, c, law.w * most)) * 2.5f;
+    }
+    addKick(a, impulse * va.w);
+    addKick(b, impulse * -vb.w);
+    addTwist(a, moment * (va.w / (ra * ra)) - twist * (va.w / ra));
+    addTwist(b, moment * (-vb.w / (rb * rb)) - twist * (vb.w / rb));
+}
+
+void visitPair(uint a, uint b) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    d = d + (vec3(position[params.spheres + a]) - vec3(position[params.spheres + b]));
+    float squared = dot3(d, d);
+    float ra = HAS(RADII) ? pa.w : params.radius;
+    float rb = HAS(RADII) ? pb.w : params.radius;
+    float reach = ra + rb;
+    touches = squared < reach * reach;
+    if (!touches) return;
+    vec4 va = velocity[a];
+    vec4 vb = velocity[b];
+    float inverse = va.w + vb.w;
+    vec4 normal = normalAndDistance(d, squared, a, b);
+    vec3 n = vec3(normal);
+    float speed = dot3(vec3(va) - vec3(vb), n);
+    vec4 spring = springImpulse(reach - normal.w, speed, ra * rb / reach, inverse, stiffnessLaw(a, b));
+    vec3 impulse = n * spring.x;
+    addKick(a, impulse * va.w);
+    addKick(b, impulse * -vb.w);
+    if (HAS(FRICTION)) rubSprings(a, b, n, ra, rb, spring, contactLaw(a, b));
+}
+
+#include "shared/group.h"
+
+KERNEL(params.groups) {
+    uint group = groupOf(phase, invocation);
+    uvec4 mine = span[group];
+    if (mine.y == UNLISTED) {
+        // Nowhere to remember: every substep, such a contact slips as if it had just begun.
+        stretch = vec3(0.0f, 0.0f, 0.0f);
+        visitGroupNumber(group);
+        return;
+    }
+    uint touched = 0u;
+    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+        uvec2 pair = pairs[k];
+        if (HAS(FRICTION)) stretch = vec3(history[k]);
+        visitPair(pair.x, pair.y);
+        if (touches) touched = touched + 1u;
+        if (HAS(FRICTION)) {
+            if (touches)
+                history[k] = vec4(stretch, 1.0f);
+            else if (history[k].w != 0.0f)
+                history[k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        }
+    }
+    span[group] = uvec4(mine.x, mine.y, touched, mine.w);
+}

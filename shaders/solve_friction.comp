@@ -1,0 +1,41 @@
+// Friction of the touching pairs, once all normal speeds are settled: while they are not, what a pair sees as slip is the
+// half-way sum of its neighbours' impulses. Coulomb's limit follows from the whole normal impulse of the substep.
+// `phase` is the colour of the groups.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/label.h"
+#include "shared/contact.h"
+#include "shared/rub.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, uint, label, LabelBlock)
+BUFFER(3, readonly, uvec4, span, SpanBlock)
+BUFFER(4, readonly, uvec2, pairs, PairBlock)
+BUFFER(5, readonly, Law, laws, LawBlock)
+
+#include "shared/laws.h"
+#include "shared/rub_pair.h"
+
+KERNEL(params.groups) {
+    uvec4 mine = span[groupOf(phase, invocation)];
+    if (HAS(SLEEP) && mine.w == 0u) return;
+    // Groups without lists know no impulses: they go without friction.
+    if (mine.y == UNLISTED) return;
+    uint first = params.pairCapacity + mine.x;
+    for (uint k = first; k < first + mine.z; ++k) {
+        float pressing = uintBitsToFloat(pairs[params.pairCapacity + k].x);
+        if (!(pressing > 0.0f)) continue;
+        uint a = pairs[k].x;
+        uint b = pairs[k].y;
+        vec4 pa = position[a];
+        vec4 pb = position[b];
+        vec3 d = vec3(pa) - vec3(pb);
+        vec3 n = vec3(normalAndDistance(d, dot3(d, d), a, b));
+        rubPair(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, pressing,
+                contactLaw(a, b));
+    }
+}

@@ -1,0 +1,116 @@
+// Walls and obstacles in the model `accurate`: the force of the same springs, the wall being a sphere of infinite mass and
+// radius. What a sphere has slipped against each wall is remembered by the wall's number.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/label.h"
+#include "shared/rub.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
+BUFFER(3, readonly, uint, label, LabelBlock)
+BUFFER(4, readonly, Law, laws, LawBlock)
+BUFFER(5, restrict, vec4, wallHistory, WallHistoryBlock)  // by id, params.wallContacts each: slip, m; w: surface + 1
+BUFFER(6, coherent, uint, counters, CounterBlock)
+
+#define NO_PLACE 0xffffffffu
+
+PRIVATE(uint, wallSphere)
+PRIVATE(float, wallRadius)
+PRIVATE(vec3, wallPoint)
+PRIVATE(vec3, residual)   // what float32 cannot hold of the position
+PRIVATE(vec3, moving)     // m/s
+PRIVATE(vec3, turning)    // rad/s
+PRIVATE(vec3, push)       // of all walls together, N s
+PRIVATE(vec3, torque)     // times the substep, N s m
+PRIVATE(vec3, stretch)
+PRIVATE(float, inverseMass)
+PRIVATE(uint, seen)       // bits of the remembered walls that it still touches
+
+#include "shared/wall_laws.h"
+#include "shared/kicks.h"
+#include "shared/spring.h"
+
+// Where the slip against this surface is kept: where it was, or a place that nothing uses.
+uint placeOf(uint surface) {
+    uint first = idOf(label[wallSphere]) * params.wallContacts;
+    uint empty = NO_PLACE;
+    for (uint k = 0u; k < params.wallContacts; ++k) {
+        float owner = wallHistory[first + k].w;
+        if (owner == float(surface + 1u)) return first + k;
+        if (owner == 0.0f && empty == NO_PLACE) empty = first + k;
+    }
+    return empty;
+}
+
+void rubSprings(vec3 n, uint surface, vec4 spring, vec4 law) {
+    uint place = placeOf(surface);
+    bool known = place != NO_PLACE && wallHistory[place].w != 0.0f;
+    stretch = known ? turnedInto(vec3(wallHistory[place]), n) : vec3(0.0f, 0.0f, 0.0f);
+    // Over the last substep, in which gravity worked for half of what it has added to the velocity.
+    vec3 mean = moving;
+    if (HAS(GRAVITY)) mean = mean - vec3(params.gravity) * (0.5f * params.substep);
+    vec3 slip = mean - n * dot3(mean, n) - cross3(turning, n) * wallRadius;
+    vec3 impulse = tangentialImpulse(slip, spring.z, spring.w, law.y * spring.x);
+    push = push + impulse;
+    torque = torque - cross3(n, impulse) * wallRadius;
+    if (HAS(ROLLING)) {
+        float c = 2.5f * inverseMass / (wallRadius * wallRadius);
+        float about = dot3(turning, n);
+        float most = wallRadius * spring.x;
+        torque = torque + rollingMoment(turning - n * about, c, law.z * most) +
+                 spinningMoment(n, about, c, law.w * most);
+    }
+    if (place == NO_PLACE) {
+        atomicAdd(counters[COUNTER_FORGOTTEN], 1u);
+        return;
+    }
+    wallHistory[place] = vec4(stretch, float(surface + 1u));
+    seen = seen | (1u << (place - idOf(label[wallSphere]) * params.wallContacts));
+}
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+    float overlap = depth - dot3(residual, normal);
+    if (!(overlap > 0.0f)) return;
+    uint index = wallLawIndex(wallMaterial);
+    float speed = dot3(moving, normal);
+    vec4 spring = springImpulse(overlap, speed, wallRadius, inverseMass, laws[index].stiffness);
+    push = push + normal * spring.x;
+    if (HAS(FRICTION)) rubSprings(normal, surface, spring, laws[index].contact);
+}
+
+#include "shared/walls.h"
+
+void forget() {
+    uint first = idOf(label[wallSphere]) * params.wallContacts;
+    for (uint k = 0u; k < params.wallContacts; ++k)
+        if ((seen & (1u << k)) == 0u && wallHistory[first + k].w != 0.0f)
+            wallHistory[first + k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+}
+
+KERNEL(params.spheres) {
+    vec4 x = position[invocation];
+    wallSphere = invocation;
+    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallPoint = vec3(x);
+    vec4 spin = vec4(0.0f, 0.0f, 0.0f, 0.0f);  // w: whether any wall is remembered
+    if (HAS(FRICTION)) spin = velocity[params.spheres + invocation];
+    if (spin.w == 0.0f && clearOfWalls(wallPoint, wallRadius)) return;
+    residual = vec3(position[params.spheres + invocation]);
+    vec4 v = velocity[invocation];
+    inverseMass = v.w;
+    moving = vec3(v);
+    push = vec3(0.0f, 0.0f, 0.0f);
+    torque = vec3(0.0f, 0.0f, 0.0f);
+    turning = vec3(spin);
+    seen = 0u;
+    visitWalls(wallRadius);
+    addKick(invocation, push * inverseMass);
+    if (HAS(FRICTION)) {
+        addTwist(invocation, torque * (2.5f * inverseMass / (wallRadius * wallRadius)));
+        velocity[params.spheres + invocation] = vec4(turning, seen != 0u ? 1.0f : 0.0f);
+        if (spin.w != 0.0f) forget();
+    }
+}

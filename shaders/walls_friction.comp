@@ -1,0 +1,45 @@
+// Friction at walls and obstacles, within what they have pushed in this substep.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/label.h"
+#include "shared/rub.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
+BUFFER(3, readonly, uint, label, LabelBlock)
+BUFFER(4, readonly, Law, laws, LawBlock)
+BUFFER(5, readonly, vec4, pressed, PressedBlock)
+
+PRIVATE(uint, wallSphere)
+PRIVATE(float, wallRadius)
+PRIVATE(vec3, wallPoint)
+PRIVATE(vec3, corrected)  // m/s
+PRIVATE(vec3, turning)    // rad/s
+
+#include "shared/wall_laws.h"
+#include "shared/rub_wall.h"
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+    float pressing = dot3(vec3(pressed[wallSphere]), normal);
+    if (pressing > 0.0f) rubWall(normal, wallRadius, pressing, laws[wallLawIndex(wallMaterial)].contact);
+}
+
+#include "shared/walls.h"
+
+KERNEL(params.spheres) {
+    vec4 x = position[invocation];
+    wallSphere = invocation;
+    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallPoint = vec3(x);
+    if (clearOfWalls(wallPoint, wallRadius)) return;
+    vec4 v = velocity[invocation];
+    if (HAS(SLEEP) && v.w < 0.0f) return;
+    corrected = vec3(v);
+    turning = vec3(velocity[params.spheres + invocation]);
+    visitWalls(wallRadius);
+    velocity[invocation] = vec4(corrected, v.w);
+    velocity[params.spheres + invocation] = vec4(turning, 0.0f);
+}

@@ -1,0 +1,63 @@
+// Walls and obstacles in the model `fast`: the impulse of restitution and friction, then out of the wall. The speed at
+// the moment of impact follows from the depth: sqrt(v^2 - 2 g depth), so that a bounce neither gains nor loses height.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/label.h"
+#include "shared/rub.h"
+
+BUFFER(0, restrict, vec4, position, PositionBlock)
+BUFFER(1, restrict, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
+BUFFER(3, readonly, uint, label, LabelBlock)
+BUFFER(4, readonly, Law, laws, LawBlock)
+BUFFER(5, restrict, float, work, WorkBlock)  // by id: J that pushes out of walls have done against gravity
+
+PRIVATE(uint, wallSphere)
+PRIVATE(float, wallRadius)
+PRIVATE(vec3, wallPoint)
+PRIVATE(vec3, corrected)  // m/s
+PRIVATE(vec3, turning)    // rad/s
+PRIVATE(bool, met)
+
+#include "shared/wall_laws.h"
+#include "shared/rub_wall.h"
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+    met = true;
+    vec4 law = laws[wallLawIndex(wallMaterial)].contact;
+    float push = max(depth, 0.0f);
+    wallPoint = wallPoint + normal * push;
+    float speed = dot3(corrected, normal);
+    if (speed >= 0.0f) return;
+    float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
+    precise float impact = sqrt(max(speed * speed + 2.0f * pull * push, 0.0f));
+    precise float load = law.x * impact - speed;
+    corrected = corrected + normal * load;
+    if (HAS(FRICTION)) rubWall(normal, wallRadius, load, law);
+}
+
+#include "shared/walls.h"
+
+KERNEL(params.spheres) {
+    vec4 x = position[invocation];
+    wallSphere = invocation;
+    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallPoint = vec3(x);
+    if (clearOfWalls(wallPoint, wallRadius)) return;
+    vec4 v = velocity[invocation];
+    if (HAS(SLEEP) && v.w < 0.0f) return;
+    corrected = vec3(v);
+    met = false;
+    if (HAS(FRICTION)) turning = vec3(velocity[params.spheres + invocation]);
+    visitWalls(wallRadius);
+    if (!met) return;
+    position[invocation] = vec4(wallPoint, x.w);
+    velocity[invocation] = vec4(corrected, v.w);
+    if (HAS(FRICTION)) velocity[params.spheres + invocation] = vec4(turning, 0.0f);
+    if (HAS(GRAVITY)) {
+        uint id = idOf(label[invocation]);
+        work[id] = work[id] - dot3(vec3(params.gravity), wallPoint - vec3(x)) / abs(v.w);
+    }
+}

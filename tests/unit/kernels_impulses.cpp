@@ -1,0 +1,112 @@
+// Impacts of pairs in the model `fast`.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "kernels_bed.h"
+
+namespace spherule::kernels {
+namespace {
+
+constexpr vec3 across(0.6F, 0.64F, 0.48F);  // of length 1
+constexpr uint bouncing = Feature::RESTITUTION;
+
+void collide(Bed& bed) {
+    bed.sweep("solve_impulses",
+              {bed.position, bed.velocity, bed.label, bed.cellStart, bed.span, bed.pairs, bed.before, bed.laws});
+}
+
+// Two spheres of 1 and 3 kg that overlap by a hundredth of a metre.
+Bed pairWith(vec4 law, uint features) {
+    Bed bed({vec4(0.99F * across, 0.5F), vec4(0, 0, 0, 0.5F)}, features);
+    bed.setMass(1, 3);
+    bed.parameters.law = law;
+    bed.rebuild();
+    return bed;
+}
+
+float partingSpeed(const Bed& bed) {
+    return glm::dot(bed.velocityOf(0) - bed.velocityOf(1), bed.normal(0, 1));
+}
+
+vec3 along(const Bed& bed) {
+    return bed.velocityOf(0) - bed.velocityOf(1) - bed.normal(0, 1) * partingSpeed(bed);
+}
+
+void expectNear(vec3 value, vec3 wanted, float within = 1e-5F) {
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(value[axis], wanted[axis], within) << "axis " << axis;
+}
+
+TEST(KernelsAsCpp, APairPartsWithItsRestitution) {
+    for (const float restitution : {0.0F, 0.3F, 0.8F, 1.0F}) {
+        Bed bed = pairWith(vec4(restitution, 0, 0, 0), bouncing);
+        bed.setVelocity(0, {-3, -1, 0.5F});
+        bed.setVelocity(1, {0, 0.5F, -1});
+        const float speed = partingSpeed(bed);
+        ASSERT_LT(speed, -1);
+        const vec3 momentum = bed.momentum();
+        const vec3 sliding = along(bed);
+        const float energy = bed.energy();
+        collide(bed);
+        EXPECT_NEAR(partingSpeed(bed), -restitution * speed, 2e-6F);
+        expectNear(bed.momentum(), momentum);
+        expectNear(along(bed), sliding);
+        EXPECT_NEAR(bed.energy(), energy - 0.5F * 0.75F * (1 - restitution * restitution) * speed * speed, 1e-5F);
+    }
+}
+
+TEST(KernelsAsCpp, AnImpactWithoutAListIsTheSame) {
+    Bed bed = pairWith(vec4(0.8F, 0, 0, 0), bouncing);
+    bed.parameters.pairCapacity = 0;
+    bed.rebuild();
+    ASSERT_EQ(bed.counters[COUNTER_UNLISTED], 1U);
+    bed.setVelocity(0, -2.0F * across);
+    collide(bed);
+    EXPECT_NEAR(partingSpeed(bed), 1.6F, 2e-6F);
+}
+
+TEST(KernelsAsCpp, OverlapsAreMovedApartWithoutBecomingSpeed) {
+    Bed bed = pairWith(vec4(1, 0, 0, 0), bouncing);
+    bed.setVelocity(0, 2.0F * across);
+    const auto velocity = bed.velocity;
+    const vec3 centre = 1.0F / 4 * bed.at(0) + 3.0F / 4 * bed.at(1);
+    collide(bed);
+    EXPECT_EQ(bed.velocity, velocity) << "they part already";
+    EXPECT_NEAR(glm::distance(bed.at(0), bed.at(1)), 1, 1e-6F);
+    expectNear(1.0F / 4 * bed.at(0) + 3.0F / 4 * bed.at(1), centre, 1e-6F);
+}
+
+TEST(KernelsAsCpp, WhatMeetsWithinTheDeadBandDoesNotBounce) {
+    Bed bed = pairWith(vec4(1, 0, 0, 0), bouncing);
+    bed.parameters.deadBand = 0.1F;
+    bed.setVelocity(0, -0.09F * across);
+    collide(bed);
+    EXPECT_NEAR(partingSpeed(bed), 0, 1e-7F);
+    bed.setPlace(0, 0.99F * across);
+    bed.setPlace(1, vec3(0));
+    bed.setVelocity(0, -0.11F * across);
+    bed.setVelocity(1, vec3(0));
+    collide(bed);
+    EXPECT_NEAR(partingSpeed(bed), 0.11F, 1e-7F);
+}
+
+TEST(KernelsAsCpp, AnImpactRubsWithinCoulombsLimit) {
+    const vec3 speed = -2.0F * across + glm::cross(across, vec3(1, 2, 3));
+    for (const float friction : {0.1F, 10.0F}) {
+        Bed bed = pairWith(vec4(0.5F, friction, 0, 0), bouncing | Feature::FRICTION);
+        bed.setVelocity(0, speed);
+        const vec3 momentum = bed.momentum();
+        const float energy = bed.energy();
+        const vec3 slip = bed.slip(0, 1);
+        collide(bed);
+        // The normal impulse is (1 + e) v m*, and friction changes the slip by 7/2 of what it is over m*.
+        const vec3 wanted = friction < 1 ? slip - 3.5F * friction * 3 * glm::normalize(slip) : vec3(0);
+        expectNear(bed.slip(0, 1), wanted, 2e-5F);
+        EXPECT_NEAR(partingSpeed(bed), 1, 1e-5F);
+        expectNear(bed.momentum(), momentum);
+        EXPECT_LT(bed.energy(), energy);
+    }
+}
+
+}  // namespace
+}  // namespace spherule::kernels

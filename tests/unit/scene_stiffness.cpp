@@ -1,0 +1,207 @@
+#include "scene/stiffness.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// One sphere of 5 cm without weight, in the unit cube, that flies at `speed`.
+Scene flying(double speed, const std::string& material = "", const std::string& overlap = "0.01") {
+    return sceneWith(R"("gravity": [0, 0, 0], "materials": [)" + object(material) +
+                     R"(], "quality": {"model": "ACCURATE", "overlap": )" + overlap + "}, " +
+                     group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.05, "velocity": [0, 0, )" +
+                           std::to_string(speed) + "]}]}"));
+}
+
+Stiffness lawOf(const Scene& scene, std::uint8_t a = 0, std::uint8_t b = 0) {
+    return stiffnessBetween(scene, a, b, springModulus(scene));
+}
+
+double massOf(const Scene& scene) {
+    const Sphere& sphere = scene.spheres.at(0);
+    return 4.0 / 3 * pi * std::pow(static_cast<double>(sphere.radius), 3) * scene.materials[sphere.material].density;
+}
+
+// How long two bodies of this reduced mass touch that meet at `speed` and repel each other with `force` of the overlap;
+// in steps of `h`.
+double contactUnder(auto force, double mass, double speed, double h) {
+    double x = h * speed;
+    double v = speed;
+    double time = h;
+    for (; x > 0; time += h) {
+        v -= h / mass * force(x);
+        x += h * v;
+    }
+    return time;
+}
+
+TEST(SceneStiffness, FollowsHertzWhereThereIsAModulus) {
+    EXPECT_FALSE(followsHertz(flying(1)));
+    EXPECT_TRUE(followsHertz(flying(1, R"("young": 1e7)")));
+    EXPECT_TRUE(followsHertz(sceneWith(R"("materials": [{}, {"name": "steel", "young": 1e7}])")));
+    EXPECT_GT(springModulus(flying(1)), 0);
+    EXPECT_EQ(springModulus(flying(1, R"("young": 1e7)")), 0);
+}
+
+TEST(SceneStiffness, LinearSpringsYieldByTheOverlapAskedForAtTheFastestImpact) {
+    for (const double overlap : {0.01, 0.002}) {
+        const Scene scene = flying(2, R"("density": 2500)", std::to_string(overlap));
+        const auto r = static_cast<double>(scene.spheres[0].radius);
+        const double modulus = lawOf(scene).normal;
+        // m* v^2 = k d^2 for two equal spheres, and for one on a wall.
+        EXPECT_NEAR(2 * std::sqrt(massOf(scene) / 2 / (2 * modulus * r / 2)) / r, overlap, 1e-6 * overlap);
+        EXPECT_NEAR(2 * std::sqrt(massOf(scene) / (2 * modulus * r)) / r, overlap, 1e-6 * overlap);
+    }
+}
+
+TEST(SceneStiffness, LinearSpringsStiffenWithTheSquareOfSpeedOverOverlap) {
+    const double one = lawOf(flying(1)).normal;
+    EXPECT_NEAR(lawOf(flying(2)).normal / one, 4, 1e-6);
+    EXPECT_NEAR(lawOf(flying(10)).normal / one, 100, 1e-4);
+    EXPECT_NEAR(lawOf(flying(1, "", "0.001")).normal / one, 100, 1e-6);
+    EXPECT_NEAR(lawOf(flying(1, R"("density": 3000)")).normal / one, 3, 1e-6);
+    EXPECT_EQ(lawOf(flying(0.05)).normal, lawOf(flying(0)).normal) << "slower than any impact that is expected";
+}
+
+TEST(SceneStiffness, LinearSpringsBearThePileWithAFifthOfTheOverlap) {
+    const std::string pile = R"("quality": {"model": "ACCURATE", "overlap": 0.5}, )" +
+                             group(R"("lattice": {"min": [0, 0, 0], "max": [1, 1, 1], "spacing": 0.1},
+                                      "radius": {"constant": 0.05})");
+    const Scene scene = sceneWith(pile);
+    ASSERT_EQ(scene.spheres.size(), 1000U);
+    // The lowest bear the weight of all on 100 places, each k d with k = 2 Y R* = Y r.
+    const double load = massOf(scene) * 9.81 * 1000 / 100;
+    const auto r = static_cast<double>(scene.spheres[0].radius);
+    EXPECT_NEAR(load / (lawOf(scene).normal * r) / r, 0.2 * 0.5, 1e-6);
+}
+
+TEST(SceneStiffness, TangentialSpringsKeepTimeWithTheNormalOnes) {
+    const Stiffness law = lawOf(flying(1));
+    EXPECT_DOUBLE_EQ(law.tangential, 2.0 / 7 * law.normal);
+}
+
+TEST(SceneStiffness, HertzAndMindlinTakeTheEffectiveModuliOfTheTwo) {
+    const Scene scene = sceneWith(R"("materials": [{"young": 2e8, "poisson": 0.3},
+                                                   {"name": "felt", "young": 1e6, "poisson": 0.45}])");
+    const auto shear = [](double young, double poisson) { return young / (2 * (1 + poisson)); };
+    const double normal = 1 / ((1 - 0.3 * 0.3) / 2e8 + (1 - 0.45 * 0.45) / 1e6);
+    const double tangential = 1 / ((2 - 0.3) / shear(2e8, 0.3) + (2 - 0.45) / shear(1e6, 0.45));
+    for (const Stiffness& law : {lawOf(scene, 0, 1), lawOf(scene, 1, 0)}) {
+        EXPECT_NEAR(law.normal / normal, 1, 1e-12);
+        EXPECT_NEAR(law.tangential / tangential, 1, 1e-12);
+    }
+    const Stiffness alike = lawOf(scene);
+    EXPECT_NEAR(alike.normal / (2e8 / (2 * (1 - 0.3 * 0.3))), 1, 1e-12);
+    EXPECT_NEAR(alike.tangential / (shear(2e8, 0.3) / (2 * (2 - 0.3))), 1, 1e-12);
+}
+
+TEST(SceneStiffness, DampingIsThatOfThePairsRestitution) {
+    const Scene scene = sceneWith(R"("materials": [{"name": "felt", "restitution": 0.2}, {"name": "steel"},
+        {"name": "ice"}], "pairs": [{"a": "steel", "b": "ice", "restitution": 0.9}])");
+    EXPECT_EQ(lawOf(scene, 0, 1).damping, dampingRatio(0.2));
+    EXPECT_EQ(lawOf(scene, 1, 1).damping, dampingRatio(0.5));
+    EXPECT_EQ(lawOf(scene, 2, 1).damping, dampingRatio(0.9));
+}
+
+TEST(SceneContactTime, ExpectsTheSpeedsAndTheFallThereMayBe) {
+    EXPECT_EQ(contactTimeOf(flying(0)).speed, 0.1);
+    EXPECT_NEAR(contactTimeOf(flying(3)).speed, 3, 1e-6);
+    Scene scene = flying(3);
+    scene.gravity = {0, 0, -9.81};
+    EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.5), 1e-6);
+    scene.spheres[0].position = {0.2, 0.5, 0.9};
+    EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.9), 1e-6);
+    scene.gravity = {9.81, 0, 0};
+    EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.8), 1e-6) << "down is where gravity points";
+}
+
+TEST(SceneContactTime, ExpectsSpheresToMeetHeadOn) {
+    Scene scene = flying(3);
+    scene.spheres.push_back(scene.spheres[0]);
+    scene.spheres[1].velocity = {0, 0, -1};
+    EXPECT_NEAR(contactTimeOf(scene).speed, 6, 1e-6) << "twice the fastest";
+    scene.gravity = {0, 0, -9.81};
+    EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(36 + 2 * 9.81 * 0.5), 1e-6) << "which falls once";
+    scene.gravity = {};
+    const double modulus = springModulus(scene);
+    scene.sphereContacts = false;
+    EXPECT_NEAR(contactTimeOf(scene).speed, 3, 1e-6) << "they meet walls alone";
+    EXPECT_NEAR(springModulus(scene) / modulus, 0.25, 1e-6);
+}
+
+TEST(SceneContactTime, IsThatOfLinearSprings) {
+    const Scene scene = flying(1);
+    const double stiffness = lawOf(scene).normal * static_cast<double>(scene.spheres[0].radius);
+    const ContactTime time = contactTimeOf(scene);
+    const auto force = [stiffness](double x) { return stiffness * x; };
+    EXPECT_NEAR(contactUnder(force, massOf(scene) / 2, time.speed, 1e-4 * time.contact) / time.contact, 1, 0.001);
+}
+
+TEST(SceneContactTime, IsThatOfHertz) {
+    for (const std::string material : {R"("young": 1e7)", R"("young": 2e9, "poisson": 0.4, "density": 3000)"}) {
+        const Scene scene = flying(1, material);
+        const double reduced = static_cast<double>(scene.spheres[0].radius) / 2;
+        const double stiffness = 4.0 / 3 * lawOf(scene).normal * std::sqrt(reduced);
+        const ContactTime time = contactTimeOf(scene);
+        const auto force = [stiffness](double x) { return stiffness * std::pow(std::max(x, 0.0), 1.5); };
+        const double contact = contactUnder(force, massOf(scene) / 2, time.speed, 1e-4 * time.contact);
+        EXPECT_NEAR(contact / time.contact, 1, 0.001) << material;
+    }
+}
+
+TEST(SceneContactTime, FiftySubstepsPassInAContact) {
+    for (const std::string material : {"", R"("young": 1e7)", R"("young": 1e11, "poisson": 0.45)"}) {
+        for (const double speed : {0.0, 1.0, 50.0}) {
+            const Scene scene = flying(speed, material);
+            const ContactTime time = contactTimeOf(scene);
+            EXPECT_LE(time.substep, time.contact / 50 * (1 + 1e-12)) << material << " at " << speed;
+            EXPECT_GT(time.substep, 0);
+            EXPECT_LE(scene.step / scene.quality.substeps, time.substep * (1 + 1e-12)) << "and it is what is taken";
+        }
+    }
+}
+
+TEST(SceneContactTime, ASubstepIsATenthOfTheRayleighTime) {
+    const Scene scene = flying(0, R"("young": 1e10, "poisson": 0.3, "density": 2000)");
+    const double shear = 1e10 / (2 * 1.3);
+    const double rayleigh = pi * 0.05 * std::sqrt(2000 / shear) / (0.163 * 0.3 + 0.8766);
+    EXPECT_NEAR(contactTimeOf(scene).substep / (rayleigh / 10), 1, 1e-6);
+    EXPECT_GT(contactTimeOf(scene).contact / 50, rayleigh / 10) << "so slow an impact takes longer";
+}
+
+TEST(SceneContactTime, IsThatOfTheSmallestSphereAndTheStiffestSurface) {
+    const std::string spheres = R"("groups": [
+        {"list": {"spheres": [{"position": [0.3, 0.5, 0.5], "radius": 0.1}]}},
+        {"list": {"spheres": [{"position": [0.7, 0.5, 0.5], "radius": 0.01}]}}])";
+    const std::string felt = R"({"young": 1e8})";
+    const std::string steel = R"({"name": "steel", "young": 1e11})";
+    const double soft = contactTimeOf(sceneWith("\"materials\": [" + felt + "], " + spheres)).contact;
+    const std::string both = "\"materials\": [" + felt + ", " + steel + "], ";
+    EXPECT_EQ(contactTimeOf(sceneWith(both + spheres)).contact, soft) << "nothing is of steel";
+    const std::string plate =
+        R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "material": "steel"}])";
+    const double plated = contactTimeOf(sceneWith(both + plate + ", " + spheres)).contact;
+    // E* doubles, nearly: the felt yields alone.
+    EXPECT_NEAR(plated / soft, std::pow(0.5, 0.4), 0.001);
+    const double large = contactTimeOf(sceneWith("\"materials\": [" + felt + R"(], "groups": [
+        {"list": {"spheres": [{"position": [0.3, 0.5, 0.5], "radius": 0.1}]}}])"))
+                             .contact;
+    EXPECT_NEAR(large / soft, 10, 1e-3);
+}
+
+TEST(SceneContactTime, IsNoLongerThanTheStepWhereNothingMeets) {
+    const ContactTime time = contactTimeOf(sceneWith(R"("quality": {"model": "ACCURATE"})"));
+    EXPECT_LE(time.contact, 1.0 / 60);
+    EXPECT_GT(time.substep, 0);
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

@@ -1,0 +1,149 @@
+// Substeps that were asked for, and substeps that are chosen.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/quality.h"
+#include "scene/stiffness.h"
+#include "scene_support.h"
+
+namespace spherule::scene::testing {
+namespace {
+
+// Two spheres of 5 cm, with this quality and of this material.
+Scene sceneOf(const std::string& quality, const std::string& material = "", const Overrides& overrides = {}) {
+    return sceneWith("\"quality\": " + object(quality) + ", \"materials\": [" + object(material) + "], " +
+                         group(R"("list": {"spheres": [{"position": [0.3, 0.5, 0.5]}, {"position": [0.7, 0.5, 0.5]}]},
+                                  "radius": {"constant": 0.05})"),
+                     overrides);
+}
+
+constexpr double pi = std::numbers::pi;
+constexpr const char* accurate = R"("model": "ACCURATE")";
+constexpr const char* rubber = R"("young": 1e7)";
+
+std::string refusalBy(Scene& scene) {
+    const auto fits = fitSubsteps(scene);
+    return fits ? "accepted" : fits.error().text();
+}
+
+TEST(SceneSubsteps, ArePinnedByTheSceneAndByTheCaller) {
+    EXPECT_FALSE(sceneOf("").quality.pinned);
+    EXPECT_TRUE(sceneOf(R"("substeps": 8)").quality.pinned);
+    EXPECT_TRUE(sceneOf("", "", {.substeps = 8}).quality.pinned);
+    EXPECT_FALSE(sceneOf("", "", {.model = Model::Fast}).quality.pinned);
+}
+
+TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
+    Scene chosen = sceneOf("");
+    ASSERT_EQ(chosen.quality.substeps, 8U);
+    chosen.gravity *= 4;
+    EXPECT_EQ(refusalBy(chosen), "accepted");
+    EXPECT_EQ(chosen.quality.substeps, 16U);
+    chosen.spheres[1].radius /= 4;
+    EXPECT_EQ(refusalBy(chosen), "accepted");
+    EXPECT_EQ(chosen.quality.substeps, 32U);
+    chosen.quality.model = Model::Fast;
+    EXPECT_EQ(refusalBy(chosen), "accepted");
+    EXPECT_EQ(chosen.quality.substeps, 8U);
+
+    Scene pinned = sceneOf(R"("substeps": 3)");
+    pinned.gravity *= 4;
+    pinned.quality.model = Model::Fast;
+    EXPECT_EQ(refusalBy(pinned), "accepted");
+    EXPECT_EQ(pinned.quality.substeps, 3U);
+    pinned.quality.pinned = false;
+    EXPECT_EQ(refusalBy(pinned), "accepted");
+    EXPECT_EQ(pinned.quality.substeps, 4U);
+}
+
+TEST(SceneSubsteps, AreRefusedOutOfTheirRange) {
+    Scene scene = sceneOf(R"("substeps": 3)");
+    scene.quality.substeps = 0;
+    EXPECT_EQ(refusalBy(scene), "quality.substeps: is 0, must be 1 to 1000000");
+    scene.quality.substeps = maxSubsteps + 1;
+    EXPECT_EQ(refusalBy(scene), "quality.substeps: is 1000001, must be 1 to 1000000");
+    scene.quality.pinned = false;
+    EXPECT_EQ(refusalBy(scene), "accepted") << "what was there does not count";
+    EXPECT_EQ(scene.quality.substeps, 8U);
+    scene.gravity *= 1e12;
+    EXPECT_EQ(refusalBy(scene).find("quality.substeps: would be "), 0U) << refusalBy(scene);
+}
+
+TEST(SceneSubsteps, OfKnownMaterialsTakeAtLeastTenForAContact) {
+    const double contact = contactTimeOf(sceneOf(accurate, rubber)).contact;
+    const auto fewest = static_cast<std::uint32_t>(std::ceil(10 / 60.0 / contact));
+    ASSERT_GT(fewest, 10U);
+    Scene scene = sceneOf(accurate, rubber, {.substeps = fewest});
+    EXPECT_EQ(refusalBy(scene), "accepted");
+    scene.quality.substeps = fewest - 1;
+    EXPECT_EQ(refusalBy(scene), "quality.substeps: is " + std::to_string(fewest - 1) +
+                                    ", but contacts of these materials would take less than 10 substeps then; give at "
+                                    "least " +
+                                    std::to_string(fewest));
+    for (const Model model : {Model::Fast, Model::Balanced}) {
+        scene.quality.model = model;
+        EXPECT_EQ(refusalBy(scene), "accepted") << "it has no contacts that take time";
+    }
+}
+
+TEST(SceneSubsteps, OfKnownMaterialsAreCheckedAsASceneIsBuilt) {
+    const std::string half = R"("model": "ACCURATE", "substeps": 2)";
+    EXPECT_EQ(refusalOf("\"quality\": " + object(half) + R"(, "materials": [{"young": 1e9}], )" +
+                        group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.05}]})"))
+                  .find("quality.substeps: is 2, but contacts of these materials"),
+              0U);
+    EXPECT_EQ(sceneOf(half).quality.substeps, 2U) << "springs can be as soft as need be";
+}
+
+TEST(SceneSubsteps, SpringsAreAsStiffAsPinnedOnesAllow) {
+    for (const std::uint32_t substeps : {1U, 40U, 1000U}) {
+        const Scene scene = sceneOf(accurate, "", {.substeps = substeps});
+        const double substep = scene.step / substeps;
+        // Where a contact takes longer than a step, its time is said to be that of a step.
+        EXPECT_NEAR(contactTimeOf(scene).contact, std::min(50 * substep, scene.step), 1e-9);
+        const double mass = 4.0 / 3 * pi * std::pow(0.05, 3) * 1000;
+        const double stiffness = springModulus(scene) * 0.05;
+        EXPECT_NEAR(pi * std::sqrt(mass / 2 / stiffness) / substep, 50, 1e-4);
+    }
+}
+
+TEST(SceneSubsteps, PinnedOnesMakeSpringsThatOverlapAndSpeedDoNotChange) {
+    const Scene scene = sceneOf(accurate, "", {.substeps = 500});
+    const double modulus = springModulus(scene);
+    Scene changed = scene;
+    changed.quality.overlap = 0.01;
+    changed.spheres[0].velocity = {10, 0, 0};
+    changed.gravity *= 2;
+    EXPECT_EQ(springModulus(changed), modulus);
+    changed.quality.pinned = false;
+    EXPECT_NE(springModulus(changed), modulus);
+    changed = scene;
+    changed.quality.substeps = 1000;
+    EXPECT_NEAR(springModulus(changed) / modulus, 4, 1e-9);
+}
+
+TEST(SceneSubsteps, PinnedOnesSufficeForTheSmallestAndTheLightest) {
+    Scene scene = sceneOf(accurate, "", {.substeps = 500});
+    const double modulus = springModulus(scene);
+    scene.materials.push_back({.name = "cork", .density = 250});
+    EXPECT_EQ(springModulus(scene), modulus) << "nothing is of cork";
+    scene.spheres[1].material = 1;
+    EXPECT_NEAR(springModulus(scene) / modulus, 0.25, 1e-9);
+    scene.spheres[0].radius /= 2;
+    EXPECT_NEAR(springModulus(scene) / modulus, 0.0625, 1e-6);
+    EXPECT_NEAR(contactTimeOf(scene).contact, 50 * scene.step / 500, 1e-9);
+}
+
+TEST(SceneSubsteps, ChosenOnesFitTheSpringsThatAreChosen) {
+    for (const std::string overlap : {"0.1", "0.01"}) {
+        const Scene scene = sceneOf(accurate + (R"(, "overlap": )" + overlap));
+        const double contact = contactTimeOf(scene).contact;
+        EXPECT_EQ(scene.quality.substeps, std::ceil(50 * scene.step / contact));
+    }
+}
+
+}  // namespace
+}  // namespace spherule::scene::testing

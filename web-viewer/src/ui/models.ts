@@ -1,0 +1,10 @@
+import { Model } from "../gen/spherule/v1/scene_pb";
+
+/** The ways to compute contacts, with what each is good for. */
+export const models = [
+  { model: Model.FAST, name: "Fast", says: "impulses, few substeps; for very many in the air, sinks in deep piles" },
+  { model: Model.BALANCED, name: "Balanced", says: "the default; piles come to rest" },
+  { model: Model.ACCURATE, name: "Accurate", says: "soft spheres that forces push apart; many substeps, so it is slow" },
+];
+
+export const mostSubsteps = 1_000_000; // that the server takes
