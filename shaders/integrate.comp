@@ -43,6 +43,10 @@ KERNEL(params.spheres) {
         atomicMax(counters[COUNTER_FIRST_ID], ~idOf(label[invocation]));
         return;
     }
+    float far = FAR_MOTION * (HAS(RADII) ? x.w : params.radius);
+    float squared = dot3(moved, moved) * h * h;
+    if (squared > far * far)
+        atomicMax(counters[COUNTER_FASTEST], floatBitsToUint(sqrt(squared) * FAR_MOTION / far));
     if (HAS(CONTACTS)) {
         vec3 since = to - vec3(anchor[invocation]);
         if (dot3(since, since) > params.rebuildMove * params.rebuildMove) atomicOr(counters[COUNTER_REBUILD], 1u);

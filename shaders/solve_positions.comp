@@ -7,21 +7,21 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
-#include "shared/label.h"
 #include "shared/contact.h"
 #include "shared/wake.h"
 
 BUFFER(0, restrict, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
-BUFFER(3, readonly, uint, cellStart, CellBlock)
-BUFFER(4, restrict, uvec4, span, SpanBlock)
-BUFFER(5, restrict, uvec2, pairs, PairBlock)  // listed, then touching, then what presses those
-BUFFER(6, readonly, vec4, before, BeforeBlock)
-BUFFER(7, readonly, Law, laws, LawBlock)
+BUFFER(2, readonly, uint, cellStart, CellBlock)
+BUFFER(3, restrict, uvec4, span, SpanBlock)
+BUFFER(4, restrict, uvec2, pairs, PairBlock)  // listed, then touching, then what presses those
+BUFFER(5, readonly, vec4, before, BeforeBlock)
 
-#include "shared/laws.h"
 #include "shared/sleepers.h"
+
+// Overlaps deeper than this share of the radius did not come about by impacts or weight: undoing them stops what
+// approaches, but throws nothing.
+#define DEEP 0.25f
 
 PRIVATE(float, load)  // of the last pair: the impulse of its push, N s
 
@@ -50,9 +50,14 @@ bool separate(uint a, uint b) {
     if (ma + mb == 0.0f) return false;
     float inverse = 1.0f / (ma + mb);
     vec4 normal = normalAndDistance(d, squared, a, b);
-    float depth = (reach - normal.w) * inverse;
-    vec3 push = vec3(normal) * depth;
-    vec3 kick = push * params.perSubstep;
+    vec3 n = vec3(normal);
+    float depth = reach - normal.w;
+    vec3 push = n * (depth * inverse);
+    load = depth * params.perSubstep;
+    if (depth > DEEP * (HAS(RADII) ? min(pa.w, pb.w) : params.radius))
+        load = min(load, max(-dot3(vec3(va) - vec3(vb), n), 0.0f));
+    load = load * inverse;
+    vec3 kick = n * load;
     if (ma > 0.0f) {
         position[a] = vec4(vec3(pa) + push * ma, pa.w);
         velocity[a] = vec4(vec3(va) + kick * ma, va.w);
@@ -60,9 +65,6 @@ bool separate(uint a, uint b) {
     if (mb > 0.0f) {
         position[b] = vec4(vec3(pb) - push * mb, pb.w);
         velocity[b] = vec4(vec3(vb) - kick * mb, vb.w);
-    }
-    if (HAS(FRICTION)) {
-        load = depth * params.perSubstep;
     }
     return true;
 }

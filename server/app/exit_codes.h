@@ -8,10 +8,12 @@ constexpr int exitDone = 0;
 constexpr int exitInput = 2;  // usage or scene
 constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
+constexpr int exitDiverged = 5;
 constexpr int exitDeviceLost = 75;  // worth another start
 
 constexpr const char* exitCodesText =
-    "Exit codes: 0 done, 1 out of memory, 2 usage or scene, 3 no device, 4 refused, 75 device lost.";
+    "Exit codes: 0 done, 1 out of memory, 2 usage or scene, 3 no device, 4 refused, 5 a sphere left the numbers, 75 "
+    "device lost.";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {
@@ -23,6 +25,8 @@ constexpr int exitCodeOf(ErrorKind kind) {
             return exitRefused;
         case ErrorKind::DeviceLost:
             return exitDeviceLost;
+        case ErrorKind::Diverged:
+            return exitDiverged;
     }
     return exitInput;
 }

@@ -95,6 +95,9 @@ Result<void> runSteps(sim::Simulation& simulation, std::uint64_t steps, std::uin
     Progress progress(steps);
     for (std::uint64_t k = 1; k <= steps; ++k) {
         if (auto done = simulation.step(); !done) return done;
+        for (const std::string& notice : simulation.takeNotices()) spdlog::warn("{}", notice);
+        if (simulation.counters().nonFinite)
+            return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
         progress.at(k, simulation.time());
         if (k % stride == 0 || k == steps)
             if (auto done = every(); !done) return done;

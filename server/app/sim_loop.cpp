@@ -77,7 +77,6 @@ void SimLoop::announce() {
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
         pending_.clear();
-        nonFinite_ = false;
         measured_ = {};
         outlets_.scene(share(world_.facts()));
     }
@@ -94,22 +93,30 @@ Result<void> SimLoop::step() {
     if (auto done = world_.step(); !done) return done;
     world_.pacer().stepped(Pacer::Clock::now());
     stale_ = true;
+    for (const std::string& notice : world_.simulation().takeNotices()) warn(notice);
     stopAtNonFinite();
     return {};
 }
 
+void SimLoop::warn(const std::string& text) {
+    spdlog::warn("{}", text);
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(v1::Event::WARNING);
+    message.mutable_event()->set_step(world_.simulation().steps());
+    message.mutable_event()->set_text(text);
+    outlets_.event(share(std::move(message)));
+}
+
 void SimLoop::stopAtNonFinite() {
-    const auto& counters = world_.simulation().counters();
-    if (!counters.nonFinite || nonFinite_) return;
-    nonFinite_ = true;
+    if (!world_.simulation().counters().nonFinite) return;
     world_.pause();
     v1::ServerMessage message;
     v1::Event& event = *message.mutable_event();
     event.set_kind(v1::Event::NON_FINITE);
     event.set_step(world_.simulation().steps());
-    event.set_text(
-        fmt::format("sphere {} has no finite position any more, at step {}; paused. Reset, or use more substeps.",
-                    counters.firstNonFinite, world_.simulation().steps()));
+    event.set_text(fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
+                               world_.simulation().divergence()));
+    world_.simulation().restore();
     spdlog::error("{}", event.text());
     outlets_.event(share(std::move(message)));
     announce();

@@ -49,6 +49,7 @@ class SimLoop {
     void serve(const Request& request);
     void announce();
     Result<void> step();
+    void warn(const std::string& text);
     void stopAtNonFinite();
     void produce(Pacer::Clock::time_point now);
     void collect();
@@ -71,7 +72,6 @@ class SimLoop {
     std::uint64_t joins_ = 0;
     bool watched_ = false;
     bool stale_ = true;  // the viewers' picture is older than the world
-    bool nonFinite_ = false;
 };
 
 }  // namespace spherule::app

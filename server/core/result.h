@@ -13,6 +13,7 @@ enum class ErrorKind {
     NoDevice,    // nothing to compute on
     Refused,     // understood, but not possible now
     DeviceLost,  // the compute device is gone
+    Diverged,    // a simulation has left the numbers
 };
 
 struct Error {

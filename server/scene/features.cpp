@@ -1,8 +1,6 @@
 #include "scene/features.h"
 
 #include <algorithm>
-#include <set>
-
 #include <glm/geometric.hpp>
 
 #include "scene/materials.h"
@@ -14,24 +12,6 @@ namespace {
 bool differ(const std::vector<Sphere>& spheres, auto quantity) {
     return std::any_of(spheres.begin(), spheres.end(),
                        [&](const Sphere& s) { return quantity(s) != quantity(spheres.front()); });
-}
-
-bool hasWalls(const Scene& scene) {
-    return !std::ranges::all_of(scene.bounds.open, [](bool face) { return face; });
-}
-
-// The laws that can come to act: of the spheres' materials with each other, and with those of walls and obstacles.
-std::vector<PairLaw> actingLaws(const Scene& scene) {
-    std::set<std::uint8_t> spheres;
-    for (const Sphere& sphere : scene.spheres) spheres.insert(sphere.material);
-    std::set<std::uint8_t> surfaces;
-    if (hasWalls(scene)) surfaces.insert(scene.bounds.material);
-    for (const Obstacle& obstacle : scene.obstacles) surfaces.insert(obstacle.material);
-    if (scene.sphereContacts) surfaces.insert(spheres.begin(), spheres.end());
-    std::vector<PairLaw> laws;
-    for (const std::uint8_t a : spheres)
-        for (const std::uint8_t b : surfaces) laws.push_back(lawBetween(scene, a, b));
-    return laws;
 }
 
 template <class Shape>

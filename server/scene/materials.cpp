@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace spherule::scene {
 
@@ -114,6 +115,23 @@ PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b) {
         law.spinningResistance = pair.spinningResistance.value_or(law.spinningResistance);
     }
     return law;
+}
+
+bool hasWalls(const Scene& scene) {
+    return !std::ranges::all_of(scene.bounds.open, [](bool face) { return face; });
+}
+
+std::vector<PairLaw> actingLaws(const Scene& scene) {
+    std::set<std::uint8_t> spheres;
+    for (const Sphere& sphere : scene.spheres) spheres.insert(sphere.material);
+    std::set<std::uint8_t> surfaces;
+    if (hasWalls(scene)) surfaces.insert(scene.bounds.material);
+    for (const Obstacle& obstacle : scene.obstacles) surfaces.insert(obstacle.material);
+    if (scene.sphereContacts) surfaces.insert(spheres.begin(), spheres.end());
+    std::vector<PairLaw> laws;
+    for (const std::uint8_t a : spheres)
+        for (const std::uint8_t b : surfaces) laws.push_back(lawBetween(scene, a, b));
+    return laws;
 }
 
 }  // namespace spherule::scene

@@ -29,6 +29,11 @@ struct PairLaw {
     double spinningResistance = 0;
 };
 
+bool hasWalls(const Scene& scene);  // some face of the bounds is closed
+
+// The laws that can come to act: of the spheres' materials with each other, and with those of walls and obstacles.
+std::vector<PairLaw> actingLaws(const Scene& scene);
+
 PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);
 
 }  // namespace spherule::scene

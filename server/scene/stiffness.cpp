@@ -17,7 +17,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double mostDamping = 15.8;  // parts with a thousandth of the speed; more would need shorter substeps
 constexpr double slowest = 0.1;       // m/s: impacts that are to be expected in any case
-constexpr double contactShare = 50;
+constexpr double contactShare = 50;   // substeps in a contact
+constexpr double dampedEnough = 2;    // stronger dashpots ask for shorter substeps: those of all contacts add up
 constexpr double rayleighShare = 10;
 
 // Speed over approach speed after a contact with this damping ratio.
@@ -88,10 +89,16 @@ double modulusForOverlap(const Scene& scene) {
     return std::max(impact, weight);
 }
 
+double substepsPerContact(const Scene& scene) {
+    double strongest = dampedEnough;
+    for (const PairLaw& law : actingLaws(scene)) strongest = std::max(strongest, dampingRatio(law.restitution));
+    return contactShare * strongest / dampedEnough;
+}
+
 // Of equal spheres of this radius and density: half their mass over the square of the contact's frequency.
 double modulusForSubstep(const Scene& scene) {
     const Extremes extremes = extremesOf(scene);
-    const double contact = contactShare * scene.step / scene.quality.substeps;
+    const double contact = substepsPerContact(scene) * scene.step / scene.quality.substeps;
     const double r = std::isfinite(extremes.smallest) ? extremes.smallest : 1;
     return 2.0 / 3 * pi * r * r *
            (std::isfinite(extremes.lightest) ? extremes.lightest : scene.materials.front().density) *
@@ -146,7 +153,7 @@ ContactTime contactTimeOf(const Scene& scene) {
     const double modulus = springModulus(scene);
     ContactTime time;
     time.speed = fastestImpact(scene, extremes);
-    time.contact = scene.step;
+    time.contact = std::numeric_limits<double>::infinity();
     time.substep = scene.step;
     std::set<std::uint8_t> used;
     for (const Sphere& sphere : scene.spheres) used.insert(sphere.material);
@@ -170,7 +177,7 @@ ContactTime contactTimeOf(const Scene& scene) {
             pi * r * std::sqrt(material.density / shearModulus(material)) / (0.163 * material.poisson + 0.8766);
         time.substep = std::min(time.substep, rayleigh / rayleighShare);
     }
-    time.substep = std::min(time.substep, time.contact / contactShare);
+    time.substep = std::min(time.substep, time.contact / substepsPerContact(scene));
     return time;
 }
 

@@ -18,7 +18,10 @@ constexpr double mostGravity = 1e6;  // m/s^2
 constexpr double farthest = 1e9;     // m
 
 tl::unexpected<Error> refusal(const Error& error) {
-    return fail(ErrorKind::Refused, error.where, error.message);
+    // By the command's name for it.
+    constexpr std::string_view prefix = "quality.";
+    const bool quality = error.where.starts_with(prefix);
+    return fail(ErrorKind::Refused, quality ? error.where.substr(prefix.size()) : error.where, error.message);
 }
 
 Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
@@ -119,6 +122,7 @@ Result<void> Simulation::set(const v1::Set& set) {
     if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     if (scene::featuresOf(changed) == plan().features) {
         scene_ = std::move(changed);
+        substeps_ = scene_.quality.substeps;
         uploadConstants();
         // A change of substeps alone disturbs nobody's sleep.
         if (disturbs) pipeline_->wakeAll();
@@ -180,6 +184,10 @@ Result<std::uint32_t> Simulation::push(const v1::Push& push) {
     if (id >= count())
         return fail(ErrorKind::Refused, "sphere", fmt::format("is {}, the scene has {} spheres", id, count()));
     pipeline_->kick(id, glm::vec3(*impulse));
+    const double speed = glm::length(glm::dvec3(pipeline_->velocityOf(id)));
+    if (const double moved = speed * scene_.step / substeps_ / static_cast<double>(scene_.spheres[id].radius);
+        moved > static_cast<double>(FAR_MOTION))
+        fitToMotion(moved);
     return id;
 }
 

@@ -16,9 +16,8 @@ namespace {
 // moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
-void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan) {
+void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan, double h) {
     const double g = glm::length(scene.gravity);
-    const double h = scene.step / scene.quality.substeps;
     // Well above what lets a sphere fall asleep, or the two would take turns; and above what the solver's pushes make
     // of a sphere squeezed between others: up to some 15 g h in a bed 20 deep. Whoever moves away more slowly creeps.
     constexpr double kicks = 20;
@@ -51,7 +50,7 @@ layout::Law lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, do
 }  // namespace
 
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
-                                 const v1::WireGrid& wire) {
+                                 const v1::WireGrid& wire, std::uint32_t substeps) {
     layout::Parameters p{};
     const glm::dvec3 centre = scene.bounds.centre();
     p.gravity = glm::vec4(glm::vec3(scene.gravity), 0);
@@ -61,7 +60,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
                              wire.quantum() > 0 ? static_cast<float>(1 / wire.quantum()) : 0.0F);
     p.cells = glm::uvec4(plan.grid.cells, plan.grid.all());
 
-    const double h = scene.step / scene.quality.substeps;
+    const double h = scene.step / substeps;
     p.substep = static_cast<float>(h);
     p.perSubstep = static_cast<float>(1 / h);
     p.inverseCell = plan.grid.cellSize > 0 ? 1 / plan.grid.cellSize : 0.0F;
@@ -77,7 +76,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
                                    springModulusOf(scene));
     p.law = law.contact;
     p.stiffness = law.stiffness;
-    setSleep(p, scene, plan);
+    setSleep(p, scene, plan, h);
 
     p.spheres = plan.spheres;
     p.groups = plan.groups() / 8;

@@ -9,9 +9,9 @@
 
 namespace spherule::sim {
 
-// The uniform block for a scene and its plan.
+// The uniform block for a scene and its plan, with so many substeps to a step.
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
-                                 const v1::WireGrid& wire);
+                                 const v1::WireGrid& wire, std::uint32_t substeps);
 
 // Between all materials, row by row.
 std::vector<layout::Law> lawsFor(const scene::Scene& scene);

@@ -120,12 +120,23 @@ State Pipeline::download() {
     return state;
 }
 
-void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
+std::uint32_t Pipeline::slotOf(std::uint32_t id) {
     std::uint32_t slot = id;
     if (plan_.has(Array::SlotOf))
         device_.download(buffer(Array::SlotOf), id * sizeof slot, std::as_writable_bytes(std::span(&slot, 1)));
+    return slot;
+}
+
+glm::vec4 Pipeline::velocityOf(std::uint32_t id) {
     glm::vec4 velocity;
-    device_.download(buffer(Array::Velocity), slot * sizeof velocity, std::as_writable_bytes(std::span(&velocity, 1)));
+    device_.download(buffer(Array::Velocity), slotOf(id) * sizeof velocity,
+                     std::as_writable_bytes(std::span(&velocity, 1)));
+    return velocity;
+}
+
+void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
+    const std::uint32_t slot = slotOf(id);
+    glm::vec4 velocity = velocityOf(id);
     velocity.w = std::abs(velocity.w);
     velocity += glm::vec4(impulse * velocity.w, 0);
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
@@ -150,8 +161,8 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
         auto made =
             device_.createBuffer(nameOf(spec.array), spec.bytes / plan_.pairCapacity * capacity, wordsOf(spec.array));
         if (!made) return tl::unexpected(made.error());
-        // What contacts remember is read once more, with the pairs as they were listed.
-        if (plan_.has(Array::History)) device_.upload(**made, 0, read<std::byte>(spec.array));
+        // The old lists are read once more as the new ones are made.
+        device_.upload(**made, 0, read<std::byte>(spec.array));
         grown.push_back(std::move(*made));
     }
     auto next = grown.begin();

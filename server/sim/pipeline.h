@@ -40,6 +40,7 @@ class Pipeline {
 
     // Wakes a sphere and gives it an impulse, in N s. Waits for the device.
     void kick(std::uint32_t id, glm::vec3 impulse);
+    [[nodiscard]] glm::vec4 velocityOf(std::uint32_t id);  // waits for the device
 
     // Ends all sleep. Waits for the device.
     void wakeAll();
@@ -55,6 +56,7 @@ class Pipeline {
 
     Result<void> allocate();
     Result<void> compile();
+    std::uint32_t slotOf(std::uint32_t id);
     void adopt(Array array, std::unique_ptr<compute::Buffer> made);
     void run(const std::vector<LaunchSpec>& launches);
 

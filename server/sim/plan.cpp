@@ -167,8 +167,7 @@ void planFast(Plan& plan, Planner& add) {
 
 void planBalanced(Plan& plan, Planner& add) {
     using enum Array;
-    planPairs(plan, add, Pass::Positions, "solve_positions.comp",
-              {Position, Velocity, Label, CellStart, Span, Pairs, Before, Laws});
+    planPairs(plan, add, Pass::Positions, "solve_positions.comp", {Position, Velocity, CellStart, Span, Pairs, Before});
     planWalls(plan, add, Pass::WallPositions, "walls_positions.comp",
               {Position, Velocity, Before, Obstacles, Label, Laws, Pressed});
     planPairs(plan, add, Pass::Velocities, "solve_velocities.comp",
@@ -306,7 +305,6 @@ Plan planFor(const scene::Scene& scene, const scene::Features& features, std::ui
     Plan plan;
     plan.features = features;
     plan.spheres = spheres;
-    plan.substeps = scene.quality.substeps;
     if (features.contacts) {
         plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii.largest, radii.mean, spheres);
         plan.pairCapacity = pairCapacity != 0 ? pairCapacity : std::max(fewestPairs, pairsPerSphere * spheres);

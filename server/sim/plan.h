@@ -75,7 +75,6 @@ struct LaunchSpec {
 struct Plan {
     scene::Features features;
     std::uint32_t spheres = 0;
-    std::uint32_t substeps = 0;
     Grid grid;
     std::uint32_t pairCapacity = 0;
     std::uint32_t wallContacts = 0;  // that each sphere remembers

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/quality.h"
+#include "scene/stiffness.h"
 #include "sim/plan.h"
 
 namespace spherule::sim {
@@ -36,6 +37,17 @@ std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features
             {"planes", has.planes},           {"boxes", has.boxes},         {"sleep", has.sleep}};
 }
 
+// The springs of `accurate` and how finely their contacts are resolved.
+std::string contactText(const scene::Scene& scene) {
+    const scene::ContactTime time = scene::contactTimeOf(scene);
+    const double substep = scene.step / scene.quality.substeps;
+    const double modulus = scene::springModulus(scene);
+    const std::string law =
+        modulus > 0 ? fmt::format("linear springs, k = 2 R* x {:.3g} Pa", modulus) : std::string("Hertz and Mindlin");
+    return fmt::format("contacts   {}\n           at least {:.3g} s at {:.3g} m/s, {:.3g} substeps of {:.3g} s\n", law,
+                       time.contact, time.speed, time.contact / substep, substep);
+}
+
 double perSphere(const Plan& plan, std::uint64_t bytes) {
     return plan.spheres == 0 ? 0.0 : static_cast<double>(bytes) / plan.spheres;
 }
@@ -61,7 +73,7 @@ std::string_view nameOf(Array array) {
 std::string planText(const scene::Scene& scene, const Plan& plan) {
     std::string text =
         fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    {}\n", scene.name,
-                    plan.spheres, scene.step, plan.substeps, scene::nameOf(plan.features.model));
+                    plan.spheres, scene.step, scene.quality.substeps, scene::nameOf(plan.features.model));
     text += "features  ";
     for (const auto& [name, on] : featureList(plan.features))
         if (on) text += fmt::format(" {}", name);
@@ -70,6 +82,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan) {
         text +=
             fmt::format("grid       {} x {} x {} cells of {:.4g} m, pairs listed up to a gap of {:.4g} m\n",
                         plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z, plan.grid.cellSize, plan.grid.margin);
+    if (plan.features.model == scene::Model::Accurate) text += contactText(scene);
     text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
     for (const ArraySpec& spec : plan.arrays)
         text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));
@@ -86,12 +99,19 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
     json["scene"] = scene.name;
     json["spheres"] = plan.spheres;
     json["step"] = scene.step;
-    json["substepsPerStep"] = plan.substeps;
+    json["substepsPerStep"] = scene.quality.substeps;
     json["quality"] = scene::nameOf(plan.features.model);
     for (const auto& [name, on] : featureList(plan.features)) json["features"][std::string(name)] = on;
     json["cells"] = {plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z};
     json["cellSize"] = static_cast<double>(plan.grid.cellSize);
     json["margin"] = static_cast<double>(plan.grid.margin);
+    if (plan.features.model == scene::Model::Accurate) {
+        const scene::ContactTime time = scene::contactTimeOf(scene);
+        json["contact"] = {{"seconds", time.contact},
+                           {"speed", time.speed},
+                           {"substeps", time.contact * scene.quality.substeps / scene.step},
+                           {"springModulus", scene::springModulus(scene)}};
+    }
     json["arrays"] = nlohmann::ordered_json::array();
     for (const ArraySpec& spec : plan.arrays)
         json["arrays"].push_back({{"name", nameOf(spec.array)}, {"bytes", spec.bytes}});

@@ -1,11 +1,33 @@
 #include "sim/simulation.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
 #include "core/log.h"
+#include "scene/load.h"
 #include "sim/parameters.h"
 
 namespace spherule::sim {
+
+namespace {
+
+constexpr double keepEvery = 1;  // s simulated
+
+// In radii, in h seconds.
+double farthestMotion(const State& state, double h) {
+    double farthest = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id) {
+        const double speed = glm::length(glm::dvec3(state.velocity[id]));
+        farthest = std::max(farthest, speed * h / static_cast<double>(state.position[id].w));
+    }
+    return farthest;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::create(compute::Device& device, scene::Scene scene) {
     std::unique_ptr<Simulation> simulation(new Simulation(device, std::move(scene)));
@@ -22,8 +44,13 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     pipeline_ = std::move(*made);
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
     crowded_ = false;
+    substeps_ = scene_.quality.substeps;
     put(state);
     uploadConstants();
+    fitToMotion(farthestMotion(state, scene_.step / substeps_));
+    good_ = std::move(state);
+    goodStep_ = steps_;
+    goodTime_ = time_;
     return {};
 }
 
@@ -34,11 +61,15 @@ void Simulation::put(const State& state) {
     pipeline_->upload(state, materials);
 }
 
+void Simulation::uploadParameters() {
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_, substeps_));
+}
+
 // What the kernels read of the scene besides the spheres' state.
 void Simulation::uploadConstants() {
     if (plan().has(Array::Obstacles)) pipeline_->write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene_));
     if (plan().has(Array::Laws)) pipeline_->write<layout::Law>(Array::Laws, lawsFor(scene_));
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    uploadParameters();
 }
 
 Result<State> Simulation::liveState() {
@@ -51,12 +82,14 @@ Result<void> Simulation::reset() {
     if (auto done = adopt(initial_, stateOf(initial_)); !done) return done;
     steps_ = 0;
     time_ = 0;
+    goodStep_ = 0;
+    goodTime_ = 0;
     ++generation_;
     return {};
 }
 
 Result<void> Simulation::step() {
-    for (std::uint32_t k = 0; k < scene_.quality.substeps; ++k) pipeline_->substep();
+    for (std::uint32_t k = 0; k < substeps_; ++k) pipeline_->substep();
     ++steps_;
     time_ += scene_.step;
     return guard();
@@ -67,7 +100,60 @@ Result<void> Simulation::guard() {
     if (auto alive = device_.status(); !alive) return alive;
     readCounters();
     if (counters_.unlisted > 0 && !crowded_) makeRoom();
+    fitToMotion(counters_.farthest);
+    const double since = static_cast<double>(steps_ - goodStep_) * scene_.step;
+    if (!counters_.nonFinite && since > keepEvery - 0.5 * scene_.step) keep();
     return {};
+}
+
+void Simulation::keep() {
+    good_ = snapshot();
+    goodStep_ = steps_;
+    goodTime_ = time_;
+}
+
+std::string Simulation::divergence() const {
+    const std::uint32_t id = counters_.firstNonFinite;
+    const glm::dvec3 x = glm::dvec3(good_.position.at(id)) + scene_.bounds.centre();
+    return fmt::format(
+        "sphere {} has no finite position any more at step {}; at step {} it was at {:.4g} {:.4g} {:.4g} m "
+        "with {:.3g} m/s",
+        id, steps_, goodStep_, x.x, x.y, x.z, glm::length(glm::dvec3(good_.velocity.at(id))));
+}
+
+void Simulation::restore() {
+    put(good_);
+    steps_ = goodStep_;
+    time_ = goodTime_;
+    counters_ = {};
+}
+
+// Raises the substeps at once when the fastest sphere has moved too far in one, and lowers them by and by when nothing
+// does any more.
+void Simulation::fitToMotion(double radiiPerSubstep) {
+    constexpr double easier = 0.8;
+    constexpr double mostTimes = 256;
+    const std::uint32_t asked = scene_.quality.substeps;
+    const double most = std::max(1.0 * substeps_, std::min<double>(mostTimes * asked, scene::maxSubsteps));
+    std::uint32_t wanted = substeps_;
+    bool enough = true;
+    if (radiiPerSubstep > static_cast<double>(FAR_MOTION)) {
+        const double needed = std::ceil(substeps_ * radiiPerSubstep / static_cast<double>(FAR_MOTION));
+        enough = needed <= most;
+        wanted = static_cast<std::uint32_t>(std::min(needed, most));
+    } else if (substeps_ > asked) {
+        wanted = std::max(asked, static_cast<std::uint32_t>(easier * substeps_));
+    }
+    if (wanted == substeps_) return;
+    if (substeps_ == asked)
+        notices_.push_back(fmt::format(
+            "at step {}, a sphere moves {:.2g} radii in a substep: {} substeps per step in "
+            "place of {} while anything is so fast{}",
+            steps_, radiiPerSubstep, wanted, asked, enough ? "" : "; even so it may pass through what it should hit"));
+    else if (wanted == asked)
+        notices_.push_back(fmt::format("at step {}, back to {} substeps per step", steps_, asked));
+    substeps_ = wanted;
+    uploadParameters();
 }
 
 // On failure the groups in question go on without lists, and nothing is tried again for this scene.
@@ -80,12 +166,12 @@ void Simulation::makeRoom() {
         spdlog::warn("{}; those groups go on without lists, slower", grown.error().text());
         return;
     }
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    uploadParameters();
 }
 
 void Simulation::setWireGrid(const v1::WireGrid& grid) {
     wire_ = grid;
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_));
+    uploadParameters();
 }
 
 std::unique_ptr<compute::ReadBack> Simulation::pack() {
@@ -99,7 +185,12 @@ void Simulation::readCounters() {
                  .unlisted = words[COUNTER_UNLISTED],
                  .nonFinite = words[COUNTER_NON_FINITE] > 0,
                  .firstNonFinite = ~words[COUNTER_FIRST_ID],
-                 .rebuilds = words[COUNTER_REBUILDS]};
+                 .rebuilds = words[COUNTER_REBUILDS],
+                 .farthest = static_cast<double>(std::bit_cast<float>(words[COUNTER_FASTEST]))};
+    if (counters_.farthest > 0) {
+        const std::uint32_t none = 0;
+        pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_FASTEST);
+    }
 }
 
 }  // namespace spherule::sim

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "compute/device.h"
 #include "scene/features.h"
@@ -21,7 +23,7 @@ class Simulation {
   public:
     static Result<std::unique_ptr<Simulation>> create(compute::Device& device, scene::Scene scene);
 
-    // One step of scene().step seconds, in scene().quality.substeps substeps.
+    // One step of scene().step seconds, in substeps().
     Result<void> step();
 
     // set, spawn, push, reset and query; Refused, with nothing changed, for what cannot be done.
@@ -30,6 +32,11 @@ class Simulation {
     [[nodiscard]] Statistics statistics() { return measure(*pipeline_, scene_); }
     [[nodiscard]] State snapshot() { return pipeline_->download(); }
     void put(const State& state);  // of as many spheres
+
+    // Once counters().nonFinite: which sphere has left the numbers, since when, and how fast it was before.
+    [[nodiscard]] std::string divergence() const;
+    // Back to the last state that is known to be good: less than a simulated second old.
+    void restore();
 
     // Positions packed for `setWireGrid`'s grid, on their way to the host; nothing when two are under way already.
     void setWireGrid(const v1::WireGrid& grid);
@@ -41,8 +48,15 @@ class Simulation {
         bool nonFinite = false;            // some sphere has left the numbers,
         std::uint32_t firstNonFinite = 0;  // this one of them, by id
         std::uint32_t rebuilds = 0;        // of the lists, since the last change of the scene
+        double farthest = 0;               // largest motion in a substep of the step, in radii; 0: less than FAR_MOTION
     };
     [[nodiscard]] const Counters& counters() const { return counters_; }  // as of the end of the last step
+
+    // Of the next step: those of the scene, or more while something moves too far in one of them.
+    [[nodiscard]] std::uint32_t substeps() const { return substeps_; }
+
+    // What users should hear of, in sentences, since the last call.
+    [[nodiscard]] std::vector<std::string> takeNotices() { return std::exchange(notices_, {}); }
 
     // Device seconds per Pass since the last call. Waits for the device.
     [[nodiscard]] std::vector<double> passSeconds() { return device_.takeTimes(); }
@@ -65,6 +79,9 @@ class Simulation {
     Result<void> guard();
     void readCounters();
     void makeRoom();
+    void uploadParameters();
+    void fitToMotion(double radiiPerSubstep);
+    void keep();
 
     Result<void> set(const v1::Set& set);
     Result<void> spawn(const v1::Spawn& spawn);
@@ -79,6 +96,11 @@ class Simulation {
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
     bool crowded_ = false;  // the device has no room for more pairs
+    std::uint32_t substeps_ = 1;
+    std::vector<std::string> notices_;
+    State good_;  // the last one that was found finite
+    std::uint64_t goodStep_ = 0;
+    double goodTime_ = 0;
     std::uint64_t steps_ = 0;
     double time_ = 0;
     std::uint32_t generation_ = 0;

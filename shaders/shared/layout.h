@@ -80,7 +80,11 @@ struct SphereStatistics {
 #define COUNTER_REBUILDS 5u     // since the start
 #define COUNTER_SUBSTEPS 6u     // since the start
 #define COUNTER_FORGOTTEN 7u    // contacts with walls that found no room for their history, since the start
-#define COUNTER_WORDS 8u
+#define COUNTER_FASTEST 8u      // largest motion in a substep, in radii, as a float's bits; 0: none beyond FAR_MOTION
+#define COUNTER_WORDS 9u
+
+// In a substep a sphere should move less than this share of its radius, or it may pass through what it should hit.
+#define FAR_MOTION 0.5f
 
 // Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, 0).
 #define LAUNCH_SPHERES 0u

@@ -1,7 +1,7 @@
 // Friction between two touching spheres. The includer binds `velocity`, with the spins behind the velocities.
 
 // Rubs a against b; n from b to a, `pressing` is the impulse that presses them together (N s), `law` their
-// Law.contact; without `slows`, rolling is held or left alone, not slowed. Returns the impulse on a.
+// Law.contact.
 void rubPair(uint a, uint b, vec3 n, float ra, float rb, float pressing, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];

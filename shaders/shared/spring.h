@@ -7,6 +7,10 @@
 // Tangential: a spring along the path of the contact point (Mindlin: 8 G sqrt(R d); linear: G/Y of the normal one), with
 // a dashpot, held by Coulomb's law. Tsuji, Tanaka and Ishida 1992; Thornton, Cummins and Cleary 2013.
 
+// Damping ratio up to which the tangential dashpot follows the normal one: it is explicit, and the contacts of a sphere
+// add up.
+#define MOST_DRAG 0.3f
+
 // Over a substep, around the position it is found at: (impulse J >= 0, force F without damping, tangential stiffness k_t,
 // tangential damping c_t). `speed` is the normal speed before, positive when parting.
 vec4 springImpulse(float overlap, float speed, float radius, float mobility, vec4 law) {
@@ -35,7 +39,7 @@ vec4 springImpulse(float overlap, float speed, float radius, float mobility, vec
     // The dashpot sees the mean of the speeds before and after: second order, and stable for any damping.
     float c = damping * part;
     float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * mobility), 0.0f);
-    float drag = 2.0f * law.y * sqrt(tangential * mass);
+    float drag = 2.0f * min(law.y, MOST_DRAG) * sqrt(tangential * mass);
     if (HAS(HERTZ)) drag = drag * 0.91287093f;
     return vec4(impulse, force, tangential, drag);
 }

@@ -51,6 +51,27 @@ TEST_P(NonFinite, ASphereIsCountedAndLeavesItsNeighboursAlone) {
     EXPECT_TRUE(allFinite(state));
 }
 
+TEST(Divergence, IsToldWithTheSphereAndEndsInTheLastGoodState) {
+    const auto simulation = simulate(block(5));
+    run(*simulation, 1.5);
+    const glm::vec4 bad(nan, 0, 0, 1);
+    sim::Pipeline& pipeline = simulation->pipeline();
+    const std::uint32_t slot = pipeline.read<std::uint32_t>(sim::Array::SlotOf).at(7);
+    pipeline.write<glm::vec4>(sim::Array::Velocity, std::span(&bad, 1), slot);
+    run(*simulation, simulation->scene().step);
+    ASSERT_TRUE(simulation->counters().nonFinite);
+    EXPECT_NE(simulation->divergence().find("sphere 7 has no finite position any more at step 721; at step 480"),
+              std::string::npos)
+        << simulation->divergence();
+    simulation->restore();
+    EXPECT_EQ(simulation->steps(), 480U);
+    EXPECT_NEAR(simulation->time(), 1, 1e-9);
+    EXPECT_TRUE(allFinite(simulation->snapshot()));
+    run(*simulation, 0.5);
+    EXPECT_FALSE(simulation->counters().nonFinite);
+    EXPECT_TRUE(allFinite(simulation->snapshot()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Velocity, NonFinite,
                          testing::Values(glm::vec4(nan, 0, 0, 1), glm::vec4(0, 0, infinity, 1),
                                          glm::vec4(0, -infinity, 0, 1), glm::vec4(nan, nan, nan, nan)));

@@ -8,8 +8,7 @@ namespace spherule::kernels {
 namespace {
 
 void separate(Bed& bed) {
-    bed.sweep("solve_positions",
-              {bed.position, bed.velocity, bed.label, bed.cellStart, bed.span, bed.pairs, bed.before, bed.laws});
+    bed.sweep("solve_positions", {bed.position, bed.velocity, bed.cellStart, bed.span, bed.pairs, bed.before});
 }
 
 TEST(KernelsAsCpp, PairsWithinTheMarginAreListedOnce) {

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/quality.h"
+#include "support.h"
+
+// Nothing passes through what it should hit: substeps are raised while a sphere moves too far in one.
+namespace spherule::physics {
+namespace {
+
+constexpr scene::Model models[] = {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate};
+
+scene::Scene shot(scene::Model model, double speed, double height) {
+    scene::Scene scene = closedBox(4);
+    scene.step = 1.0 / 60;
+    scene.quality = {.model = model, .substeps = 8, .pinned = false};
+    scene.spheres = {{.position = {0, 0, height}, .velocity = {0, 0, static_cast<float>(-speed)}, .radius = 0.05F}};
+    if (auto fits = scene::fitSubsteps(scene); !fits) throw std::runtime_error(fits.error().text());
+    return scene;
+}
+
+TEST(FastMotion, IsHeldByTheFloorInEveryModelFromFortyHeights) {
+    for (const scene::Model model : models) {
+        for (int k = 0; k < 40; ++k) {
+            // Soft spheres bounce the whole step long: fewer of them will do.
+            if (model == scene::Model::Accurate && k % 10 != 0) continue;
+            const auto simulation = simulate(shot(model, 1000, 0.5 + 0.017 * k));
+            run(*simulation, 0.05);
+            const sim::Statistics statistics = simulation->statistics();
+            EXPECT_EQ(statistics.outside, 0U) << scene::nameOf(model) << " from " << 0.5 + 0.017 * k << " m";
+            EXPECT_EQ(statistics.nonFinite, 0U);
+        }
+    }
+}
+
+TEST(FastMotion, RaisesTheSubstepsSaysSoAndTakesThemBack) {
+    scene::Scene scene = shot(scene::Model::Balanced, 200, 0);
+    setRestitution(scene, 0);
+    const auto simulation = simulate(scene);
+    EXPECT_GE(simulation->substeps(), 130U) << "200 m/s over 1/60 s in steps of half a radius";
+    const auto raised = simulation->takeNotices();
+    ASSERT_EQ(raised.size(), 1U);
+    EXPECT_NE(raised[0].find("substeps per step in place of 8"), std::string::npos) << raised[0];
+    run(*simulation, 0.5);
+    EXPECT_EQ(simulation->substeps(), 8U);
+    const auto lowered = simulation->takeNotices();
+    ASSERT_EQ(lowered.size(), 1U);
+    EXPECT_NE(lowered[0].find("back to 8 substeps"), std::string::npos) << lowered[0];
+}
+
+TEST(FastMotion, OfAPushIsSeenBeforeTheNextStep) {
+    scene::Scene scene = shot(scene::Model::Balanced, 0, -1.9);
+    const auto simulation = simulate(scene);
+    v1::Command command;
+    command.mutable_push()->set_sphere(0);
+    for (const double component : {0.0, 0.0, -300.0}) command.mutable_push()->add_impulse(component);
+    ASSERT_TRUE(simulation->apply(command));
+    EXPECT_GT(simulation->substeps(), 300U);
+    run(*simulation, 0.1);
+    EXPECT_EQ(simulation->statistics().outside, 0U);
+}
+
+}  // namespace
+}  // namespace spherule::physics
