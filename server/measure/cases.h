@@ -24,6 +24,10 @@ std::vector<Case> frictionCases();
 std::vector<Case> chainCases();
 std::vector<Case> gasCases();
 std::vector<Case> restCases();
+std::vector<Case> extremeCases();
+std::vector<Case> settingCases();
+std::vector<Case> commandCases();
+std::vector<Case> crowdCases();  // slow
 
 // Suite "accuracy", "cost", "stability" or "all".
 std::vector<Case> casesOf(const std::string& suite);

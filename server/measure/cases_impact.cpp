@@ -14,7 +14,14 @@ namespace spherule::measure {
 namespace {
 
 constexpr std::array<double, 6> restitutions = {0, 0.3, 0.5, 0.8, 0.9, 1};
-constexpr std::array<double, 4> massRatios = {1, 10, 1e3, 1e6};
+
+// The contact time of soft spheres goes as the root of the lightest mass, the substeps with it: they get fewer ratios.
+std::vector<double> massRatios(const Bench& bench) {
+    std::vector<double> ratios = {1, 10};
+    if (!bench.quick()) ratios.push_back(1e3);
+    if (!bench.accurate()) ratios.push_back(1e6);
+    return ratios;
+}
 
 struct Meeting {
     double restitution = 0;
@@ -22,16 +29,16 @@ struct Meeting {
 };
 
 // Every restitution with every mass ratio, the second sphere `aside` radii off the path of the first.
-std::vector<Meeting> addMeetings(scene::Scene& scene, double aside) {
+std::vector<Meeting> addMeetings(const Bench& bench, scene::Scene& scene, double aside) {
     constexpr double r = 0.05;
     std::vector<Meeting> meetings;
     double lane = -3;
     for (const double e : restitutions) {
-        for (const double ratio : massRatios) {
+        for (const double ratio : massRatios(bench)) {
             const auto light = addMaterial(scene, {.density = 1000, .restitution = e});
             const auto heavy = addMaterial(scene, {.density = 1000 * ratio, .restitution = e});
-            addSphere(scene, {-0.2, lane, 0}, r, {1.5, 0, 0}, heavy);
-            addSphere(scene, {0.1, lane, aside * r}, r, {-0.5, 0, 0}, light);
+            addSphere(scene, {-0.11, lane, 0}, r, {1.5, 0, 0}, heavy);
+            addSphere(scene, {0.03, lane, aside * r}, r, {-0.5, 0, 0}, light);
             meetings.push_back({e, ratio});
             lane += 0.25;
         }
@@ -55,21 +62,22 @@ Parting partingOf(const sim::State& before, const sim::State& after, std::uint32
 
 Result<void> meet(Bench& bench, double aside, const char* curve) {
     scene::Scene scene = openSpace(8);
-    const std::vector<Meeting> meetings = addMeetings(scene, aside);
+    const std::vector<Meeting> meetings = addMeetings(bench, scene, aside);
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());
     const sim::State before = (*opened)->snapshot();
-    if (auto done = bench.run(**opened, 0.25); !done) return done;
+    if (auto done = bench.run(**opened, 0.1); !done) return done;
     const sim::State after = (*opened)->snapshot();
-    std::vector<Figure> worst(restitutions.size());
+    Figure worst;
     double drift = 0;
     double turned = 0;
     for (std::uint32_t k = 0; k < meetings.size(); ++k) {
         const Parting parting = partingOf(before, after, 2 * k);
         const double e = meetings[k].restitution;
-        Figure figure = against(fmt::format("restitution {:g}", e), parting.restitution, e, "", 1);
-        Figure& slot = worst.at(k / massRatios.size());
-        if (slot.name.empty() || *figure.error > *slot.error) slot = figure;
+        const Figure figure = against(fmt::format("restitution {:g}, masses 1 : {:g}", e, meetings[k].massRatio),
+                                      parting.restitution, e, "", 1);
+        if (k == 0 || *figure.error > *worst.error) worst = figure;
+        bench.add(figure);
         const glm::dvec3 gained =
             massOf(before, 2 * k) * (velocityOf(after, 2 * k) - velocityOf(before, 2 * k)) +
             massOf(before, 2 * k + 1) * (velocityOf(after, 2 * k + 1) - velocityOf(before, 2 * k + 1));
@@ -79,14 +87,9 @@ Result<void> meet(Bench& bench, double aside, const char* curve) {
         const double off = std::acos(std::clamp(parting.normal.x, -1.0, 1.0)) - std::asin(aside / 2);
         turned = std::max(turned, std::abs(off));
     }
-    Figure headline = worst.front();
-    for (Figure& figure : worst) {
-        if (*figure.error > *headline.error) headline = figure;
-        bench.add(std::move(figure));
-    }
-    headline.name = "worst restitution";
-    headline.curve = curve;
-    bench.add(headline);
+    worst.name = "worst restitution";
+    worst.curve = curve;
+    bench.add(worst);
     bench.add(against("momentum gained over that put in", drift, 0, "", 1));
     bench.add(against("direction of the push, worst", turned, 0, "rad", 1));
     return {};
