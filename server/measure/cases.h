@@ -24,10 +24,13 @@ std::vector<Case> frictionCases();
 std::vector<Case> chainCases();
 std::vector<Case> gasCases();
 std::vector<Case> restCases();
+std::vector<Case> reposeCases();
 std::vector<Case> extremeCases();
 std::vector<Case> settingCases();
 std::vector<Case> commandCases();
 std::vector<Case> crowdCases();  // slow
+std::vector<Case> featureCostCases();
+std::vector<Case> bedCostCases();
 
 // Suite "accuracy", "cost", "stability" or "all".
 std::vector<Case> casesOf(const std::string& suite);

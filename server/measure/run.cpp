@@ -29,7 +29,8 @@ std::string nameOf(const Rung& rung) {
 std::vector<Case> casesOf(const std::string& suite) {
     std::vector<Case> chosen;
     for (const auto& family : {flightCases(), impactCases(), hertzCases(), frictionCases(), chainCases(), gasCases(),
-                               restCases(), extremeCases(), settingCases(), commandCases(), crowdCases()})
+                               restCases(), reposeCases(), extremeCases(), settingCases(), commandCases(),
+                               featureCostCases(), bedCostCases(), crowdCases()})
         for (const Case& item : family)
             if (suite == "all" || suite == item.suite) chosen.push_back(item);
     return chosen;
