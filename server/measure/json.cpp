@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "measure/report.h"
@@ -8,6 +12,11 @@ namespace spherule::measure {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// To four digits: what was measured has no more, and the file stays small.
+double brief(double value) {
+    return std::stod(fmt::format("{:.4g}", value));
+}
 
 // The rung's entry in its model's list; made where it is missing.
 Json& entryOf(Json& models, const Rung& rung) {
@@ -27,9 +36,9 @@ std::string jsonOf(const Report& report) {
     for (const Outcome& outcome : report.outcomes) {
         for (const Figure& figure : outcome.figures) {
             if (!figure.curve.empty() && figure.error)
-                entryOf(models, outcome.rung)["curves"][figure.curve] = {{"error", *figure.error},
-                                                                         {"cost", outcome.cost},
-                                                                         {"substep", outcome.substep},
+                entryOf(models, outcome.rung)["curves"][figure.curve] = {{"error", brief(*figure.error)},
+                                                                         {"cost", brief(outcome.cost)},
+                                                                         {"substep", brief(outcome.substep)},
                                                                          {"spheres", outcome.spheres}};
             if (!figure.verdict.empty())
                 verdicts.push_back({{"case", outcome.name},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "measure/overview.h"
 #include "measure/report.h"
 #include "scene/quality.h"
 
@@ -57,6 +58,7 @@ std::string markdownOf(const Report& report) {
         "\nA model's `x2` takes twice as many substeps as it would choose for the scene. Errors are fractions of what "
         "is "
         "expected, or of the scale that the figure names.\n";
+    text += overviewOf(report);
     std::string suite;
     for (std::size_t k = 0; k < report.outcomes.size();) {
         std::vector<const Outcome*> same;
