@@ -43,7 +43,7 @@ Result<void> radiusRatio(Bench& bench) {
     addSphere(scene, {0, 0, -1 + large + 2.2 * small}, large);
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());
-    return survive(bench, **opened, "1 : 100", 1);
+    return survive(bench, **opened, "1 : 100", 1, {.overlap = 1});
 }
 
 // From starts that differ, so that substeps end everywhere in the contact.
