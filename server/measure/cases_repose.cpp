@@ -60,8 +60,8 @@ Result<void> repose(Bench& bench) {
         if (!opened) return tl::unexpected(opened.error());
         if (auto done = bench.run(**opened, 3); !done) return done;
         const double slope = slopeOf((*opened)->snapshot(), scene.bounds.min.z);
-        bench.add(against(fmt::format("slope with friction {:g}", friction), slope,
-                          std::atan(friction) * 180 / std::numbers::pi, "degrees"));
+        // No law says what a fall leaves; poured piles lie at about atan(friction).
+        bench.add(plain(fmt::format("slope with friction {:g}", friction), slope, "degrees"));
     }
     return {};
 }
@@ -69,7 +69,11 @@ Result<void> repose(Bench& bench) {
 }  // namespace
 
 std::vector<Case> reposeCases() {
-    return {{.suite = "accuracy", .name = "angle of repose", .run = repose, .everyRung = false, .whenQuick = false}};
+    return {{.suite = "accuracy",
+             .name = "slope of a fallen column",
+             .run = repose,
+             .everyRung = false,
+             .whenQuick = false}};
 }
 
 }  // namespace spherule::measure

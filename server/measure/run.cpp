@@ -12,12 +12,14 @@ namespace spherule::measure {
 namespace {
 
 constexpr std::array<double, 5> fullFactors = {0.25, 0.5, 1, 2, 4};
+constexpr std::array<double, 5> fastFactors = {0.5, 1, 2, 4, 8};  // `fast` chooses two substeps a step
 constexpr std::array<double, 3> quickFactors = {0.5, 1, 2};
 constexpr std::array<double, 1> ownFactor = {1};
 
-std::span<const double> factorsOf(const Case& item, bool quick) {
+std::span<const double> factorsOf(const Case& item, scene::Model model, bool quick) {
     if (!item.everyRung) return ownFactor;
-    return quick ? std::span<const double>(quickFactors) : std::span<const double>(fullFactors);
+    if (quick) return quickFactors;
+    return model == scene::Model::Fast ? fastFactors : fullFactors;
 }
 
 }  // namespace
@@ -43,7 +45,7 @@ Result<Report> measure(compute::Device& device, const Options& options, const Pr
         if (options.quick && !item.whenQuick) continue;
         for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
             if (!item.everyModel && model != scene::Model::Accurate) continue;
-            for (const double factor : factorsOf(item, options.quick)) {
+            for (const double factor : factorsOf(item, model, options.quick)) {
                 const Rung rung{model, factor};
                 progress(fmt::format("{}: {}, {}", item.suite, item.name, nameOf(rung)));
                 Bench bench(device, rung, options.quick);
