@@ -27,6 +27,7 @@ int runCommand(int argc, char** argv) {
     addPlan(app, exitCode);
     addCtl(app, exitCode);
     addProbe(app, exitCode);
+    addMeasure(app, exitCode);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

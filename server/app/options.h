@@ -26,6 +26,7 @@ void addRun(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
 void addCtl(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);
+void addMeasure(CLI::App& app, int& exitCode);
 
 // --quality and --substeps.
 void addQuality(CLI::App& command, scene::Overrides& overrides);

@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 ALLOWED = {
-    "app": {"net", "sim", "frame", "scene", "compute", "core"},
+    "app": {"net", "measure", "sim", "frame", "scene", "compute", "core"},
+    "measure": {"sim", "scene", "compute", "core"},
     "sim": {"compute", "scene", "core"},
     "frame": {"scene", "core"},
     "net": {"frame", "core"},

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+// What `spherule measure` finds out: figures of cases, each at a model and at a number of substeps.
+namespace spherule::measure {
+
+// A model and how many substeps it gets, as a multiple of those it would choose itself.
+struct Rung {
+    scene::Model model = scene::Model::Balanced;
+    double factor = 1;
+};
+
+struct Figure {
+    std::string name;
+    double value = 0;
+    std::optional<double> expected{};
+    std::optional<double> error{};  // of one: relative to what is expected unless the case says otherwise
+    std::string unit{};             // of value and expected
+    std::string curve{};            // the work-precision curve that takes its error; empty: none
+    std::string verdict{};          // "pass", or what fails from where; empty: only measured
+};
+
+// With its error relative to what is expected, or to `scale` where that is not 0.
+Figure against(std::string name, double value, double expected, std::string unit, double scale = 0);
+
+// Nothing to compare it with.
+Figure plain(std::string name, double value, std::string unit);
+
+// What one case gave at one rung.
+struct Outcome {
+    std::string suite;
+    std::string name;
+    Rung rung;
+    std::uint32_t substeps = 0;  // per step
+    double substep = 0;          // s
+    std::uint32_t spheres = 0;
+    double cost = 0;  // device seconds per simulated second
+    std::vector<Figure> figures;
+    std::string trouble;  // why there are no more figures; empty: all are there
+};
+
+}  // namespace spherule::measure

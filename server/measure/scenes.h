@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "scene/scene.h"
+#include "sim/state.h"
+
+// Scenes of the cases, around the origin, so that places in a state are those of the scene; and what is read of a
+// state.
+namespace spherule::measure {
+
+constexpr double earth = 9.81;  // m/s^2
+
+// A cube of `side` m with open faces, without gravity or sleep, in steps of 1/60 s.
+scene::Scene openSpace(double side);
+
+// The same with closed faces and the earth's gravity.
+scene::Scene closedBox(double side);
+
+void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
+void setFriction(scene::Scene& scene, double friction);
+
+std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material);
+scene::Sphere& addSphere(scene::Scene& scene, glm::dvec3 position, double radius, glm::dvec3 velocity = {},
+                         std::uint8_t material = 0);
+
+// A lattice of `count` spheres with a tenth of a diameter between them, each moved a little, over the floor of a
+// closed box `across` diameters wide and deep and open above.
+scene::Scene lattice(std::uint32_t count, double radius, double across);
+
+glm::dvec3 positionOf(const sim::State& state, std::uint32_t id);
+glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id);
+glm::dvec3 spinOf(const sim::State& state, std::uint32_t id);
+double massOf(const sim::State& state, std::uint32_t id);  // kg
+double radiusOf(const sim::State& state, std::uint32_t id);
+double kineticEnergyOf(const sim::State& state);  // J, of translation and rotation
+glm::dvec3 momentumOf(const sim::State& state);   // N s
+double momentumScale(const sim::State& state);    // sum of m |v|
+
+}  // namespace spherule::measure

@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "measure/cases.h"
+#include "measure/scenes.h"
+#include "measure/stability.h"
+#include "scene/random.h"
+
+// What a user may do to a running simulation, and nothing at all for long.
+namespace spherule::measure {
+
+namespace {
+
+scene::Scene smallBed() {
+    scene::Scene scene = lattice(100, 0.05, 5);
+    scene.bounds.open.fill(false);
+    setFriction(scene, 0.3);
+    return scene;
+}
+
+v1::Command drawCommand(scene::Random& random, std::uint32_t spheres) {
+    v1::Command command;
+    v1::Set& set = *command.mutable_set();
+    switch (static_cast<int>(random.uniform(0, 7))) {
+        case 0:
+            for (int axis = 0; axis < 3; ++axis) set.add_gravity(random.uniform(-20, 20));
+            break;
+        case 1:
+            set.set_restitution(random.uniform());
+            break;
+        case 2:
+            set.set_friction(random.uniform(0, 2));
+            break;
+        case 3:
+            set.set_model(static_cast<v1::Model>(1 + static_cast<int>(random.uniform(0, 3))));
+            break;
+        case 4:
+            set.set_substeps(static_cast<std::uint32_t>(random.uniform(1, 40)));
+            break;
+        case 5: {
+            v1::Push& push = *command.mutable_push();
+            push.set_sphere(static_cast<std::uint32_t>(random.uniform(0, spheres)));
+            for (int axis = 0; axis < 3; ++axis) push.add_impulse(random.uniform(-5, 5));
+            break;
+        }
+        default:
+            command.mutable_reset();
+            break;
+    }
+    return command;
+}
+
+Result<void> randomCommands(Bench& bench) {
+    auto opened = bench.open(smallBed());
+    if (!opened) return tl::unexpected(opened.error());
+    scene::Random random(3);
+    const int commands = bench.quick() ? 30 : 200;
+    int refused = 0;
+    for (int k = 0; k < commands; ++k) {
+        if (!(*opened)->apply(drawCommand(random, (*opened)->count()))) ++refused;
+        for (int step = 0; step < 2; ++step)
+            if (auto done = bench.step(**opened); !done) return done;
+    }
+    const sim::Statistics s = (*opened)->statistics();
+    Figure figure = plain(fmt::format("after {} commands: fastest", commands), s.speedMax, "m/s");
+    figure.verdict =
+        s.nonFinite + s.outside == 0 ? "pass" : fmt::format("fails: {} not finite, {} outside", s.nonFinite, s.outside);
+    bench.add(std::move(figure));
+    bench.add(plain("commands refused", refused, ""));
+    return {};
+}
+
+// Nothing may go on when nothing is done to a bed at rest.
+Result<void> longRest(Bench& bench) {
+    auto opened = bench.open(smallBed());
+    if (!opened) return tl::unexpected(opened.error());
+    sim::Simulation& simulation = **opened;
+    if (auto done = bench.run(simulation, 2); !done) return done;
+    const double height = simulation.statistics().meanHeight;
+    const double seconds = bench.quick() ? 2 : 30;
+    if (auto done = survive(bench, simulation, fmt::format("{:g} s at rest", seconds), seconds); !done) return done;
+    const sim::Statistics s = simulation.statistics();
+    Figure sunk = plain("sinking of the centre of mass", height - s.meanHeight, "m");
+    constexpr double most = 0.001;
+    sunk.verdict = std::abs(sunk.value) < most ? "pass" : fmt::format("fails: it moves by {:.3g} m", sunk.value);
+    bench.add(std::move(sunk));
+    bench.add(plain("rms speed at the end", s.speedRms, "m/s"));
+    return {};
+}
+
+}  // namespace
+
+std::vector<Case> commandCases() {
+    return {{.suite = "stability", .name = "commands", .run = randomCommands, .everyRung = false},
+            {.suite = "stability", .name = "long rest", .run = longRest, .everyRung = false}};
+}
+
+}  // namespace spherule::measure
