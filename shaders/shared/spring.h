@@ -36,8 +36,8 @@ vec4 springImpulse(float overlap, float speed, float radius, float mobility, vec
         float covered = abs(speed) * h;
         if (speed < 0.0f && overlap < covered) part = 0.5f + overlap / covered;
     }
-    // The dashpot sees the mean of the speeds before and after: second order, and stable for any damping.
-    float c = damping * part;
+    // The dashpot sees the mean of the speeds before and after: second order, and never more than what stops the pair.
+    float c = min(damping * part, 2.0f / (h * mobility));
     float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * mobility), 0.0f);
     float drag = 2.0f * min(law.y, MOST_DRAG) * sqrt(tangential * mass);
     if (HAS(HERTZ)) drag = drag * 0.91287093f;

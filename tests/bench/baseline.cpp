@@ -29,7 +29,9 @@ class Sources final : public compute::SourceSet {
 }  // namespace
 
 Setting settingFor(compute::Device& device, sim::Simulation& simulation, bool count) {
-    return {device, sim::parametersFor(simulation.scene(), simulation.plan(), sim::radiiOf(simulation.scene()), {}),
+    return {device,
+            sim::parametersFor(simulation.scene(), simulation.plan(), sim::radiiOf(simulation.scene()), {},
+                               simulation.substeps()),
             count};
 }
 
