@@ -69,46 +69,4 @@ scene::Scene lattice(std::uint32_t count, double radius, double across) {
     return scene;
 }
 
-glm::dvec3 positionOf(const sim::State& state, std::uint32_t id) {
-    return glm::dvec3(state.position[id]);
-}
-
-glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id) {
-    return glm::dvec3(state.velocity[id]);
-}
-
-glm::dvec3 spinOf(const sim::State& state, std::uint32_t id) {
-    return glm::dvec3(state.spin[id]);
-}
-
-double massOf(const sim::State& state, std::uint32_t id) {
-    return 1 / std::abs(static_cast<double>(state.velocity[id].w));
-}
-
-double radiusOf(const sim::State& state, std::uint32_t id) {
-    return static_cast<double>(state.position[id].w);
-}
-
-double kineticEnergyOf(const sim::State& state) {
-    double sum = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id) {
-        const glm::dvec3 v = velocityOf(state, id);
-        const glm::dvec3 rim = radiusOf(state, id) * spinOf(state, id);
-        sum += massOf(state, id) * (glm::dot(v, v) / 2 + glm::dot(rim, rim) / 5);
-    }
-    return sum;
-}
-
-glm::dvec3 momentumOf(const sim::State& state) {
-    glm::dvec3 sum{};
-    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * velocityOf(state, id);
-    return sum;
-}
-
-double momentumScale(const sim::State& state) {
-    double sum = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * glm::length(velocityOf(state, id));
-    return sum;
-}
-
 }  // namespace spherule::measure

@@ -28,13 +28,4 @@ scene::Sphere& addSphere(scene::Scene& scene, glm::dvec3 position, double radius
 // closed box `across` diameters wide and deep and open above.
 scene::Scene lattice(std::uint32_t count, double radius, double across);
 
-glm::dvec3 positionOf(const sim::State& state, std::uint32_t id);
-glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id);
-glm::dvec3 spinOf(const sim::State& state, std::uint32_t id);
-double massOf(const sim::State& state, std::uint32_t id);  // kg
-double radiusOf(const sim::State& state, std::uint32_t id);
-double kineticEnergyOf(const sim::State& state);  // J, of translation and rotation
-glm::dvec3 momentumOf(const sim::State& state);   // N s
-double momentumScale(const sim::State& state);    // sum of m |v|
-
 }  // namespace spherule::measure

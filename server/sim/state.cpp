@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <xxhash.h>
+#include <glm/geometric.hpp>
 
 namespace spherule::sim {
 
@@ -20,6 +21,48 @@ State stateOf(const scene::Scene& scene) {
         state.spin.emplace_back(sphere.spin, 0.0F);
     }
     return state;
+}
+
+glm::dvec3 positionOf(const State& state, std::uint32_t id) {
+    return glm::dvec3(state.position[id]);
+}
+
+glm::dvec3 velocityOf(const State& state, std::uint32_t id) {
+    return glm::dvec3(state.velocity[id]);
+}
+
+glm::dvec3 spinOf(const State& state, std::uint32_t id) {
+    return glm::dvec3(state.spin[id]);
+}
+
+double massOf(const State& state, std::uint32_t id) {
+    return 1 / std::abs(static_cast<double>(state.velocity[id].w));
+}
+
+double radiusOf(const State& state, std::uint32_t id) {
+    return static_cast<double>(state.position[id].w);
+}
+
+double kineticEnergyOf(const State& state) {
+    double sum = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id) {
+        const glm::dvec3 v = velocityOf(state, id);
+        const glm::dvec3 rim = radiusOf(state, id) * spinOf(state, id);
+        sum += massOf(state, id) * (glm::dot(v, v) / 2 + glm::dot(rim, rim) / 5);
+    }
+    return sum;
+}
+
+glm::dvec3 momentumOf(const State& state) {
+    glm::dvec3 sum{};
+    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * velocityOf(state, id);
+    return sum;
+}
+
+double momentumScale(const State& state) {
+    double sum = 0;
+    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * glm::length(velocityOf(state, id));
+    return sum;
 }
 
 std::uint64_t hashOf(const State& state) {

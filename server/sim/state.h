@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "scene/scene.h"
@@ -19,6 +20,16 @@ struct State {
 };
 
 State stateOf(const scene::Scene& scene);
+
+// Figures of a state, in double and SI units; places relative to the bounds' centre.
+glm::dvec3 positionOf(const State& state, std::uint32_t id);
+glm::dvec3 velocityOf(const State& state, std::uint32_t id);
+glm::dvec3 spinOf(const State& state, std::uint32_t id);
+double massOf(const State& state, std::uint32_t id);
+double radiusOf(const State& state, std::uint32_t id);
+glm::dvec3 momentumOf(const State& state);
+double momentumScale(const State& state);    // sum of m |v|
+double kineticEnergyOf(const State& state);  // of translation and rotation
 
 // Of ids, positions, velocities and spins, bit by bit (XXH3).
 std::uint64_t hashOf(const State& state);

@@ -104,18 +104,6 @@ std::uint64_t touchingPairs(sim::Simulation& simulation) {
     return sum;
 }
 
-glm::dvec3 positionOf(const sim::State& state, std::uint32_t id) {
-    return glm::dvec3(state.position[id]);
-}
-
-glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id) {
-    return glm::dvec3(state.velocity[id]);
-}
-
-double massOf(const sim::State& state, std::uint32_t id) {
-    return 1 / std::abs(static_cast<double>(state.velocity[id].w));
-}
-
 bool asleep(const sim::State& state, std::uint32_t id) {
     return state.velocity[id].w < 0;
 }
@@ -133,27 +121,6 @@ bool allFinite(const sim::State& state) {
         if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
     }
     return true;
-}
-
-glm::dvec3 momentumOf(const sim::State& state) {
-    glm::dvec3 sum{};
-    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * velocityOf(state, id);
-    return sum;
-}
-
-double momentumScale(const sim::State& state) {
-    double sum = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * glm::length(velocityOf(state, id));
-    return sum;
-}
-
-double kineticEnergyOf(const sim::State& state) {
-    double sum = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id) {
-        const glm::dvec3 v = velocityOf(state, id);
-        sum += massOf(state, id) * glm::dot(v, v) / 2;
-    }
-    return sum;
 }
 
 }  // namespace spherule::physics

@@ -49,15 +49,8 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
 // Pairs that overlapped in the last substep and were pushed apart.
 std::uint64_t touchingPairs(sim::Simulation& simulation);
 
-// Figures of a state, in double.
-glm::dvec3 positionOf(const sim::State& state, std::uint32_t id);
-glm::dvec3 velocityOf(const sim::State& state, std::uint32_t id);
-double massOf(const sim::State& state, std::uint32_t id);
 bool asleep(const sim::State& state, std::uint32_t id);
 std::uint32_t sleepers(const sim::State& state);
 bool allFinite(const sim::State& state);
-glm::dvec3 momentumOf(const sim::State& state);
-double momentumScale(const sim::State& state);  // sum of m |v|
-double kineticEnergyOf(const sim::State& state);
 
 }  // namespace spherule::physics
