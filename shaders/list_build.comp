@@ -11,7 +11,8 @@ BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, readonly, uint, cellStart, CellBlock)
 BUFFER(2, coherent, uint, counters, CounterBlock)
 BUFFER(3, writeonly, uvec2, pairs, PairBlock)
-BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, listed, touching, whether it stirs
+BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, or the turn of one without a list, listed,
+                                              // touching, whether it stirs
 
 #define LOCAL_PAIRS 192u
 PRIVATE(uint, found)
@@ -37,12 +38,18 @@ void visitPair(uint a, uint b) {
 KERNEL(params.groups * 8u) {
     found = 0u;
     base = UNLISTED;
-    visitGroupNumber(invocation);
+    uint turn = counters[COUNTER_REBUILDS];
+    visitGroupNumber(invocation, turn);
     uint count = found;
+    if (crowded) {
+        // With every new list, other pairs have their turn: so there is a new one in every substep.
+        atomicAdd(counters[COUNTER_SAMPLED], 1u);
+        atomicOr(counters[COUNTER_REBUILD], 1u);
+    }
     uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
     if (count > params.pairCapacity || start > params.pairCapacity - count) {
         atomicAdd(counters[COUNTER_UNLISTED], 1u);
-        span[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
+        span[invocation] = uvec4(turn, UNLISTED, 0u, 1u);
         return;
     }
     span[invocation] = uvec4(start, count, 0u, 1u);
@@ -56,6 +63,6 @@ KERNEL(params.groups * 8u) {
     } else {
         found = 0u;
         base = start;
-        visitGroupNumber(invocation);
+        visitGroupNumber(invocation, turn);
     }
 }

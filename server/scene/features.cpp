@@ -20,6 +20,12 @@ bool hasWalls(const Scene& scene) {
     return !std::ranges::all_of(scene.bounds.open, [](bool face) { return face; });
 }
 
+bool needLevels(const std::vector<Sphere>& spheres) {
+    if (spheres.empty()) return false;
+    const auto [smallest, largest] = std::ranges::minmax(spheres, {}, &Sphere::radius);
+    return static_cast<double>(largest.radius) > levelsAbove * static_cast<double>(smallest.radius);
+}
+
 // The laws that can come to act: of the spheres' materials with each other, and with those of walls and obstacles.
 std::vector<PairLaw> actingLaws(const Scene& scene) {
     std::set<std::uint8_t> spheres;
@@ -50,6 +56,7 @@ Features featuresOf(const Scene& scene) {
         .gravity = glm::length(scene.gravity) > 0,
         .contacts = scene.sphereContacts,
         .radii = differ(scene.spheres, [](const Sphere& s) { return s.radius; }),
+        .levels = scene.sphereContacts && needLevels(scene.spheres),
         .restitution = std::ranges::any_of(laws, [](const PairLaw& law) { return law.restitution > 0; }),
         .materials = differ(scene.spheres, [](const Sphere& s) { return s.material; }),
         .friction = friction,
