@@ -1,6 +1,6 @@
 // Lists the pairs of each group whose gap is below the margin: one walk fills a local array, which is then copied to a
-// stretch of the pair array. A group with more pairs walks a second time; one that finds no room stays unlisted, and the
-// solvers then walk its cells themselves.
+// stretch of the pair array. A group with more pairs walks a second time. If one finds no room, none has a list (list_fit),
+// and the solvers then walk the cells themselves.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -48,8 +48,7 @@ KERNEL(params.groups * 8u) {
     }
     uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
     if (count > params.pairCapacity || start > params.pairCapacity - count) {
-        atomicAdd(counters[COUNTER_UNLISTED], 1u);
-        span[invocation] = uvec4(turn, UNLISTED, 0u, 1u);
+        span[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
         return;
     }
     span[invocation] = uvec4(start, count, 0u, 1u);

@@ -143,6 +143,7 @@ void planGrid(Plan& plan) {
                   LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "state_anchor.comp", {Position, Label, Anchor, SlotOf}, LAUNCH_SPHERES);
     add.onRebuild(Pass::Lists, "list_build.comp", {Position, CellStart, Counters, Pairs, Span}, LAUNCH_GROUPS);
+    add.onRebuild(Pass::Lists, "list_fit.comp", {Counters, Span}, LAUNCH_GROUPS);
     if (remembers)
         add.onRebuild(Pass::History, "history_fetch.comp", {Position, Label, Span, Pairs, History, KeptStart, Kept},
                       LAUNCH_GROUPS);

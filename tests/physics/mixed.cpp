@@ -40,15 +40,15 @@ void scatterMixed(scene::Scene& scene, std::uint32_t count, double largest, doub
 }
 
 scene::Scene bedUnderOne(std::uint32_t count, double ratio) {
-    constexpr double large = 0.5;
-    const double least = large / ratio;
-    const double most = ratio > 8 ? 4 * least : least;
+    const double least = ratio > 1 ? 0.005 : 0.012;
+    const double most = ratio > 1 ? 0.02 : 0.012;
+    const double large = least * ratio;
     const double spacing = 2.02 * most;
-    const double side = ratio > 1 ? 2.4 * large : std::cbrt(count) * spacing;
+    const double side = std::max(2.4 * large, std::cbrt(count) * spacing);
     const int perRow = static_cast<int>(side / spacing);
     const int layers = (static_cast<int>(count) + perRow * perRow - 1) / (perRow * perRow);
     scene::Scene scene = closedBox(side);
-    scene.bounds.max.z = scene.bounds.min.z + layers * spacing + 2.4 * large;
+    scene.bounds.max.z = scene.bounds.min.z + layers * spacing + 2.2 * large;
     scene.step = 1.0 / 60;
     scene.quality.substeps = 8;
     scene::Random random(5);

@@ -10,8 +10,8 @@ namespace spherule::physics {
 // are large, and there is one of each end.
 void scatterMixed(scene::Scene& scene, std::uint32_t count, double largest, double ratio, std::uint64_t seed = 1);
 
-// A sphere of 0.5 m above a bed of `count` spheres `ratio` times smaller, or up to four times as large as those, in a
-// box as wide as the large one; without it, the bed alone is as wide as its spheres ask for.
+// A bed of `count` spheres of 5 to 20 mm, and above it one that is `ratio` times as large as the smallest; none for a
+// ratio of 1, where all have 12 mm.
 scene::Scene bedUnderOne(std::uint32_t count, double ratio);
 
 }  // namespace spherule::physics

@@ -54,6 +54,7 @@ void Bed::rebuild() {
     counters[COUNTER_PAIRS] = 0;
     counters[COUNTER_UNLISTED] = 0;
     launch("list_build", {position, cellStart, counters, pairs, span}, launchOf());
+    launch("list_fit", {counters, span}, launchOf());
     launch("history_fetch", {position, label, span, pairs, history, keptStart_, kept_}, launchOf());
 }
 
