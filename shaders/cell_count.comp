@@ -10,5 +10,5 @@ BUFFER(1, coherent, uint, cellStart, CellBlock)
 BUFFER(2, writeonly, uint, place, PlaceBlock)
 
 KERNEL(params.spheres) {
-    place[invocation] = atomicAdd(cellStart[cellOf(vec3(position[invocation]))], 1u);
+    place[invocation] = atomicAdd(cellStart[cellOf(position[invocation])], 1u);
 }

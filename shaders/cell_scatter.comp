@@ -11,5 +11,5 @@ BUFFER(2, readonly, uint, place, PlaceBlock)
 BUFFER(3, writeonly, uint, order, OrderBlock)
 
 KERNEL(params.spheres) {
-    order[cellStart[cellOf(vec3(position[invocation]))] + place[invocation]] = invocation;
+    order[cellStart[cellOf(position[invocation])] + place[invocation]] = invocation;
 }

@@ -1,6 +1,6 @@
 // Lists the pairs of each group whose gap is below the margin: one walk fills a local array, which is then copied to a
-// stretch of the pair array. A group with more pairs walks a second time; one that finds no room stays unlisted, and the
-// solvers then walk its cells themselves.
+// stretch of the pair array. A group with more pairs walks a second time. If one finds no room, none has a list (list_fit),
+// and the solvers then walk the cells themselves.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -11,7 +11,8 @@ BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, readonly, uint, cellStart, CellBlock)
 BUFFER(2, coherent, uint, counters, CounterBlock)
 BUFFER(3, writeonly, uvec2, pairs, PairBlock)
-BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, listed, touching, whether it stirs
+BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, or the turn of one without a list, listed,
+                                              // touching, whether it stirs
 
 #define LOCAL_PAIRS 192u
 PRIVATE(uint, found)
@@ -37,11 +38,16 @@ void visitPair(uint a, uint b) {
 KERNEL(params.groups * 8u) {
     found = 0u;
     base = UNLISTED;
-    visitGroupNumber(invocation);
+    uint turn = counters[COUNTER_REBUILDS];
+    visitGroupNumber(invocation, turn);
     uint count = found;
+    if (crowded) {
+        // With every new list, other pairs have their turn: so there is a new one in every substep.
+        atomicAdd(counters[COUNTER_SAMPLED], 1u);
+        atomicOr(counters[COUNTER_REBUILD], 1u);
+    }
     uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
     if (count > params.pairCapacity || start > params.pairCapacity - count) {
-        atomicAdd(counters[COUNTER_UNLISTED], 1u);
         span[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
         return;
     }
@@ -56,6 +62,6 @@ KERNEL(params.groups * 8u) {
     } else {
         found = 0u;
         base = start;
-        visitGroupNumber(invocation);
+        visitGroupNumber(invocation, turn);
     }
 }

@@ -16,6 +16,7 @@ KERNEL(1u) {
         counters[COUNTER_REBUILD] = 0u;
         counters[COUNTER_PAIRS] = 0u;
         counters[COUNTER_UNLISTED] = 0u;
+        counters[COUNTER_SAMPLED] = 0u;
         counters[COUNTER_REBUILDS] = counters[COUNTER_REBUILDS] + 1u;
     }
 }

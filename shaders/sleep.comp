@@ -9,6 +9,7 @@ PARAMETERS
 
 BUFFER(0, restrict, vec4, velocity, VelocityBlock)
 BUFFER(1, restrict, vec4, before, BeforeBlock)  // w: s spent in one place
+BUFFER(2, readonly, vec4, position, PositionBlock)
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
@@ -23,7 +24,8 @@ KERNEL(params.spheres) {
         asleep = asleep && dot3(carried, carried) > 0.25f * dot3(pull, pull);
     }
     if (HAS(FRICTION)) {
-        vec3 spin = vec3(velocity[params.spheres + invocation]) * params.radius;
+        vec3 spin = vec3(velocity[params.spheres + invocation]) *
+                    (HAS(LEVELS) ? position[invocation].w : params.radius);
         asleep = asleep && dot3(spin, spin) < params.sleepSpeed * params.sleepSpeed;
     }
     if (!asleep) {

@@ -1,6 +1,6 @@
 // The model `accurate`: the forces between overlapping soft spheres, added up on both sides while velocities stay as they
 // are. (Were they changed at once, each pair would see the half-way sum of the others' forces, take it for slip, and wind
-// up its spring.) What the surfaces have slipped is remembered with the listed pair. `phase` is the colour of the groups.
+// up its spring.) What the surfaces have slipped is remembered with the listed pair. `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -76,13 +76,13 @@ void visitPair(uint a, uint b) {
 
 #include "shared/group.h"
 
-KERNEL(params.groups) {
-    uint group = groupOf(phase, invocation);
+KERNEL(groupsOfPhase()) {
+    uint group = groupOfPhase(invocation);
     uvec4 mine = span[group];
     if (mine.y == UNLISTED) {
         // Nowhere to remember: every substep, such a contact slips as if it had just begun.
         stretch = vec3(0.0f, 0.0f, 0.0f);
-        visitGroupNumber(group);
+        visitGroupNumber(group, mine.x);
         return;
     }
     uint touched = 0u;

@@ -1,6 +1,6 @@
 // Friction of the touching pairs, once all normal speeds are settled: while they are not, what a pair sees as slip is the
 // half-way sum of its neighbours' impulses. Coulomb's limit follows from the whole normal impulse of the substep.
-// `phase` is the colour of the groups.
+// `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -20,8 +20,8 @@ BUFFER(5, readonly, Law, laws, LawBlock)
 #include "shared/laws.h"
 #include "shared/rub_pair.h"
 
-KERNEL(params.groups) {
-    uvec4 mine = span[groupOf(phase, invocation)];
+KERNEL(groupsOfPhase()) {
+    uvec4 mine = span[groupOfPhase(invocation)];
     if (HAS(SLEEP) && mine.w == 0u) return;
     // Groups without lists know no impulses: they go without friction.
     if (mine.y == UNLISTED) return;

@@ -1,6 +1,6 @@
 // The model `fast`: one sweep over the listed pairs (Gauss-Seidel). A pair that approaches gets the impulse of
 // restitution and friction; an overlap is moved apart, by position alone, so that it never becomes speed. Both conserve
-// momentum, and no impulse adds energy. `phase` is the colour of the groups.
+// momentum, and no impulse adds energy. `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -67,12 +67,12 @@ void visitPair(uint a, uint b) {
 
 #include "shared/group.h"
 
-KERNEL(params.groups) {
-    uint group = groupOf(phase, invocation);
+KERNEL(groupsOfPhase()) {
+    uint group = groupOfPhase(invocation);
     uvec4 mine = span[group];
     if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
-        visitGroupNumber(group);
+        visitGroupNumber(group, mine.x);
         return;
     }
     for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);

@@ -1,5 +1,5 @@
 // Pushes overlapping spheres apart, pair after pair (Gauss-Seidel), both sides at once, so that momentum is conserved;
-// the push also becomes velocity, which is what carries the weight of a pile. `phase` is the colour of the groups.
+// the push also becomes velocity, which is what carries the weight of a pile. `phase` is the level and the colour of the groups.
 // Mueller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics"; Macklin et al. 2019,
 // "Small Steps in Physics Simulation": one iteration, small substeps.
 #include "shared/kernel.h"
@@ -75,12 +75,12 @@ void visitPair(uint a, uint b) {
 
 #include "shared/group.h"
 
-KERNEL(params.groups) {
-    uint group = groupOf(phase, invocation);
+KERNEL(groupsOfPhase()) {
+    uint group = groupOfPhase(invocation);
     uvec4 mine = span[group];
     if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
-        visitGroupNumber(group);
+        visitGroupNumber(group, mine.x);
         return;
     }
     uint touched = 0u;

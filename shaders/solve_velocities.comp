@@ -1,7 +1,7 @@
 // Gives each touching pair the normal speed that physics allows, pair after pair. Restitution works on running
 // velocities that start from those before the substep: an impact passes from pair to pair as it does in a cradle. The
 // position pass may have added separation speed: it is cut to what the impact, or the pair's own parting, justifies.
-// `phase` is the colour of the groups.
+// `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -67,12 +67,12 @@ void visitPair(uint a, uint b) {
 
 #include "shared/group.h"
 
-KERNEL(params.groups) {
-    uint group = groupOf(phase, invocation);
+KERNEL(groupsOfPhase()) {
+    uint group = groupOfPhase(invocation);
     uvec4 mine = span[group];
     if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
-        visitGroupNumber(group);
+        visitGroupNumber(group, mine.x);
         return;
     }
     uint first = params.pairCapacity + mine.x;

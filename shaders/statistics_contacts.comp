@@ -36,7 +36,7 @@ KERNEL(params.groups * 8u) {
     largest = 0.0f;
     uvec4 mine = span[invocation];
     if (mine.y == UNLISTED) {
-        visitGroupNumber(invocation);
+        visitGroupNumber(invocation, mine.x);
     } else {
         for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
     }

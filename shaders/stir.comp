@@ -1,4 +1,6 @@
-// Marks the groups that hold a sphere that is awake, with the number of the substep.
+// Marks the groups that hold a sphere that is awake, with the number of the substep: on its level, and on the coarser ones,
+// whose groups have the pairs that it makes with larger spheres. Not on finer ones: those pairs are its own group's, and who
+// is woken by it marks its own group in the next substep.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -12,5 +14,8 @@ BUFFER(3, coherent, uint, stirred, StirredBlock)
 
 KERNEL(params.spheres) {
     if (velocity[invocation].w < 0.0f) return;
-    atomicExchange(stirred[groupAt(vec3(anchor[invocation]))], counters[COUNTER_SUBSTEPS]);
+    vec4 sphere = anchor[invocation];
+    uint levels = HAS(LEVELS) ? params.levels : 1u;
+    for (uint level = levelOf(sphere.w); level < levels; ++level)
+        atomicExchange(stirred[groupAt(vec3(sphere), level)], counters[COUNTER_SUBSTEPS]);
 }

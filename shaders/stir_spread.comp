@@ -3,6 +3,8 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/math.h"
+#include "shared/grid.h"
 
 BUFFER(0, readonly, uint, counters, CounterBlock)
 BUFFER(1, readonly, uint, stirred, StirredBlock)
@@ -20,12 +22,14 @@ uint upper(uint at, uint count) {
 KERNEL(params.groups * 8u) {
     uvec4 mine = span[invocation];
     if (mine.y == 0u) return;  // no pairs
-    uint gx = params.cells.x / 2u;
-    uint gy = params.cells.y / 2u;
-    uint gz = params.cells.z / 2u;
+    uvec4 cells = cellsOf(levelOfGroup(invocation));
+    uint first = cells.w / 8u;
+    uint gx = cells.x / 2u;
+    uint gy = cells.y / 2u;
+    uint gz = cells.z / 2u;
     uint substep = counters[COUNTER_SUBSTEPS];
-    uint row = invocation / gx;
-    uint x = invocation - row * gx;
+    uint row = (invocation - first) / gx;
+    uint x = invocation - first - row * gx;
     uint west = lower(x, gx);
     uint east = upper(x, gx);
     uint y = lower(row / gz, gy);
@@ -34,7 +38,7 @@ KERNEL(params.groups * 8u) {
     for (uint k = 0u; k < 3u && !stirs; ++k) {
         uint z = below;
         for (uint j = 0u; j < 3u && !stirs; ++j) {
-            uint start = (y * gz + z) * gx;
+            uint start = first + (y * gz + z) * gx;
             stirs = stirred[start + west] == substep || stirred[start + x] == substep || stirred[start + east] == substep;
             z = upper(z, gz);
         }

@@ -39,7 +39,7 @@ void visitPair(uint a, uint b) {
 KERNEL(params.groups * 8u) {
     uvec4 mine = span[invocation];
     if (mine.y == UNLISTED) {
-        visitGroupNumber(invocation);
+        visitGroupNumber(invocation, mine.x);
         return;
     }
     for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);

@@ -67,9 +67,9 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, const v1::Wire
     set(facts.mutable_camera()->mutable_target(), scene.camera.target);
     facts.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
     *facts.mutable_grid() = grid;
-    facts.set_cell_size(static_cast<double>(plan.grid.cellSize));
+    facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
     if (plan.features.contacts)
-        for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.cells[axis]);
+        for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);
     return message;
 }
 

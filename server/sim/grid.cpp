@@ -12,30 +12,58 @@ constexpr double marginInRadii = 0.3;
 constexpr std::uint64_t cellsPerSphere = 2;
 constexpr std::uint64_t fewestCells = 4096;
 constexpr std::uint32_t mostPerAxis = 1U << 16U;
+// Many times what fits without overlap: a heap under load must never look like a crowd.
+constexpr double crowdInFull = 4;
+constexpr double smallestCrowd = 64;
 
 std::uint32_t cellsAlong(double extent, double cellSize) {
     const double wanted = std::ceil(extent / cellSize / 4) * 4;
     return static_cast<std::uint32_t>(std::clamp(wanted, 4.0, static_cast<double>(mostPerAxis)));
 }
 
-}  // namespace
-
-Grid gridFor(glm::dvec3 extent, double largestRadius, double meanRadius, std::uint32_t spheres) {
-    Grid grid;
-    const double margin = marginInRadii * meanRadius;
+Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint64_t budget) {
+    Level level;
     const double cellSize = 2 * largestRadius + margin;
-    grid.margin = static_cast<float>(margin);
-    grid.cellSize = static_cast<float>(cellSize);
-    for (int axis = 0; axis < 3; ++axis) grid.cells[axis] = cellsAlong(extent[axis], cellSize);
+    level.cellSize = static_cast<float>(cellSize);
+    level.largest = static_cast<float>(largestRadius);
+    for (int axis = 0; axis < 3; ++axis) level.cells[axis] = cellsAlong(extent[axis], cellSize);
 
-    const std::uint64_t budget = std::max(fewestCells, cellsPerSphere * spheres);
-    auto all = [&grid] { return std::uint64_t{grid.cells.x} * grid.cells.y * grid.cells.z; };
+    auto all = [&level] { return std::uint64_t{level.cells.x} * level.cells.y * level.cells.z; };
     while (all() > budget) {
         int longest = 0;
         for (int axis = 1; axis < 3; ++axis)
-            if (grid.cells[axis] > grid.cells[longest]) longest = axis;
-        grid.cells[longest] = grid.cells[longest] / 8 * 4;
+            if (level.cells[axis] > level.cells[longest]) longest = axis;
+        level.cells[longest] = level.cells[longest] / 8 * 4;
     }
+    return level;
+}
+
+// Of the smallest spheres of a class in one of its cells, packed as densely as spheres can be.
+double fullCell(const SizeClass& one, double cellSize) {
+    constexpr double densest = 0.74;
+    constexpr double ball = 4.18879;
+    return densest * std::pow(cellSize / one.smallest, 3) / ball;
+}
+
+}  // namespace
+
+Grid gridFor(glm::dvec3 extent, const Radii& radii, bool levels, std::uint32_t spheres) {
+    Grid grid;
+    const double margin = marginInRadii * (levels ? radii.listing : radii.mean);
+    grid.margin = static_cast<float>(margin);
+    std::vector<SizeClass> classes{{radii.smallest, radii.largest, spheres}};
+    if (levels) classes = radii.classes;
+    grid.levels.clear();
+    double crowd = smallestCrowd;
+    for (const SizeClass& one : classes) {
+        const std::uint64_t budget = std::max(fewestCells / classes.size(), cellsPerSphere * one.spheres);
+        Level level = levelFor(extent, one.largest, margin, budget);
+        level.spheres = one.spheres;
+        if (!grid.levels.empty()) level.first = grid.all();
+        crowd = std::max(crowd, std::ceil(crowdInFull * fullCell(one, static_cast<double>(level.cellSize))));
+        grid.levels.push_back(level);
+    }
+    grid.crowd = static_cast<std::uint32_t>(std::min(crowd, 1e6));
     return grid;
 }
 

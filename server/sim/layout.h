@@ -19,12 +19,16 @@ using uint = std::uint32_t;
 
 // std140 puts a uniform block's vectors on multiples of 16 and packs scalars; the struct keeps to it without padding.
 static_assert(sizeof(vec4) == 16 && sizeof(uvec4) == 16);
-static_assert(offsetof(Parameters, cells) == 96);
-static_assert(offsetof(Parameters, substep) == 112);
-static_assert(offsetof(Parameters, spheres) == 160);
-static_assert(sizeof(Parameters) == 208);
+static_assert(offsetof(Parameters, cells) == 224);
+static_assert(offsetof(Parameters, substep) == 368);
+static_assert(offsetof(Parameters, spheres) == 416);
+static_assert(sizeof(Parameters) == 480);
 // What the words of these are: 'r' a real number, 'u' an unsigned integer.
-constexpr std::string_view parameterWords = "rrrrrrrrrrrrrrrrrrrrrrrruuuurrrrrrrrrrrruuuuuuuuuuuu";
+constexpr std::string_view parameterWords =
+    "rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr"
+    "uuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuu"
+    "rrrrrrrrrrrr"
+    "uuuuuuuuuuuuuuuu";
 constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrruuuu";
 static_assert(parameterWords.size() * 4 == sizeof(Parameters));
 static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));

@@ -16,6 +16,21 @@ namespace {
 // moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
+void setGrid(layout::Parameters& p, const Grid& grid) {
+    auto inverse = [](const Level& level) { return level.cellSize > 0 ? 1 / level.cellSize : 0.0F; };
+    p.cells = glm::uvec4(grid.coarsest().cells, grid.all());
+    p.inverseCell = inverse(grid.coarsest());
+    p.levels = static_cast<std::uint32_t>(grid.levels.size());
+    for (std::size_t k = 0; k < grid.levels.size(); ++k) {
+        const Level& level = grid.levels[k];
+        p.levelSize[k] = glm::vec4(inverse(level), level.largest, 0, 0);
+        p.levelCells[k] = glm::uvec4(level.cells, level.first);
+    }
+    p.crowd = grid.crowd;
+    p.margin = grid.margin;
+    p.rebuildMove = static_cast<float>(rebuildShare) * grid.margin;
+}
+
 void setSleep(layout::Parameters& p, const scene::Scene& scene, const Plan& plan, double h) {
     const double g = glm::length(scene.gravity);
     // Well above what lets a sphere fall asleep, or the two would take turns; and above what the solver's pushes make
@@ -58,14 +73,11 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.wallMax = glm::vec4(glm::vec3(scene.bounds.max - centre), 0);
     p.wireOrigin = glm::vec4(glm::vec3(glm::dvec3(wire.origin_x(), wire.origin_y(), wire.origin_z()) - centre),
                              wire.quantum() > 0 ? static_cast<float>(1 / wire.quantum()) : 0.0F);
-    p.cells = glm::uvec4(plan.grid.cells, plan.grid.all());
+    setGrid(p, plan.grid);
 
     const double h = scene.step / substeps;
     p.substep = static_cast<float>(h);
     p.perSubstep = static_cast<float>(1 / h);
-    p.inverseCell = plan.grid.cellSize > 0 ? 1 / plan.grid.cellSize : 0.0F;
-    p.margin = plan.grid.margin;
-    p.rebuildMove = static_cast<float>(rebuildShare) * plan.grid.margin;
     p.radius = static_cast<float>(radii.largest);
     p.deadBand = static_cast<float>(2 * glm::length(scene.gravity) * h);
     p.materials = static_cast<std::uint32_t>(scene.materials.size());

@@ -189,7 +189,11 @@ void Pipeline::runStatistics() {
         std::ranges::copy_if(plan_.substep, std::back_inserter(rebuild), [](const LaunchSpec& launch) {
             return launch.pass == Pass::Grid || launch.pass == Pass::Lists || launch.pass == Pass::History;
         });
+        // Who only looks takes no turn: a crowd's next lists depend on how many there have been.
+        const auto before = read<std::uint32_t>(Array::Counters);
         run(rebuild);
+        for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
+            write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
         listsPending_ = false;
     }
     run(plan_.statistics);

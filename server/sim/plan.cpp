@@ -143,15 +143,18 @@ void planGrid(Plan& plan) {
                   LAUNCH_SPHERES);
     add.onRebuild(Pass::Grid, "state_anchor.comp", {Position, Label, Anchor, SlotOf}, LAUNCH_SPHERES);
     add.onRebuild(Pass::Lists, "list_build.comp", {Position, CellStart, Counters, Pairs, Span}, LAUNCH_GROUPS);
+    add.onRebuild(Pass::Lists, "list_fit.comp", {Counters, Span}, LAUNCH_GROUPS);
     if (remembers)
         add.onRebuild(Pass::History, "history_fetch.comp", {Position, Label, Span, Pairs, History, KeptStart, Kept},
                       LAUNCH_GROUPS);
 }
 
-// A kernel over all listed pairs, one colour of groups after the other.
+// A kernel over all listed pairs, one colour of groups after the other, level after level.
 void planPairs(Plan& plan, Planner& add, Pass pass, std::string_view kernel, const std::vector<Array>& slots) {
     if (!plan.features.contacts) return;
-    for (std::uint32_t colour = 0; colour < 8; ++colour) add.always(pass, kernel, slots, plan.groups() / 8, colour);
+    for (std::uint32_t level = 0; level < plan.grid.levels.size(); ++level)
+        for (std::uint32_t colour = 0; colour < 8; ++colour)
+            add.always(pass, kernel, slots, plan.grid.levels[level].all() / 64, 8 * level + colour);
 }
 
 void planWalls(Plan& plan, Planner& add, Pass pass, std::string_view kernel, const std::vector<Array>& slots) {
@@ -216,7 +219,7 @@ void planSubstep(Plan& plan) {
             planAccurate(plan, add);
             break;
     }
-    if (has.sleep) add.always(Pass::Sleep, "sleep.comp", {Velocity, Before}, n);
+    if (has.sleep) add.always(Pass::Sleep, "sleep.comp", {Velocity, Before, Position}, n);
 }
 
 void planOnDemand(Plan& plan) {
@@ -288,25 +291,13 @@ std::uint64_t Plan::bytes() const {
                            [](std::uint64_t sum, const ArraySpec& spec) { return sum + spec.bytes; });
 }
 
-Radii radiiOf(const scene::Scene& scene) {
-    if (scene.spheres.empty()) return {0.05, 0.05, 0.05};
-    Radii radii{1e30, 0, 0};
-    for (const scene::Sphere& sphere : scene.spheres) {
-        const auto r = static_cast<double>(sphere.radius);
-        radii.smallest = std::min(radii.smallest, r);
-        radii.largest = std::max(radii.largest, r);
-        radii.mean += r / static_cast<double>(scene.spheres.size());
-    }
-    return radii;
-}
-
 Plan planFor(const scene::Scene& scene, const scene::Features& features, std::uint32_t spheres, const Radii& radii,
              std::uint32_t pairCapacity) {
     Plan plan;
     plan.features = features;
     plan.spheres = spheres;
     if (features.contacts) {
-        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii.largest, radii.mean, spheres);
+        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii, features.levels, spheres);
         plan.pairCapacity = pairCapacity != 0 ? pairCapacity : std::max(fewestPairs, pairsPerSphere * spheres);
     }
     if (features.model == scene::Model::Accurate && features.obstructed())

@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 #include "sim/grid.h"
 #include "sim/pass.h"
+#include "sim/sizes.h"
 
 namespace spherule::sim {
 
@@ -93,12 +94,6 @@ struct Plan {
 };
 
 // `scene` without its spheres is enough; radii are those of the spheres to simulate. pairCapacity 0: the default.
-struct Radii {
-    double smallest = 0;
-    double largest = 0;
-    double mean = 0;
-};
-Radii radiiOf(const scene::Scene& scene);
 Plan planFor(const scene::Scene& scene, const scene::Features& features, std::uint32_t spheres, const Radii& radii,
              std::uint32_t pairCapacity = 0);
 

@@ -31,10 +31,23 @@ std::vector<Row> rowsOf(const Plan& plan) {
 }
 
 std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features& has) {
-    return {{"gravity", has.gravity},         {"contacts", has.contacts},   {"radii", has.radii},
-            {"restitution", has.restitution}, {"materials", has.materials}, {"friction", has.friction},
-            {"rolling", has.rolling},         {"hertz", has.hertz},         {"walls", has.walls},
-            {"planes", has.planes},           {"boxes", has.boxes},         {"sleep", has.sleep}};
+    return {{"gravity", has.gravity},   {"contacts", has.contacts},       {"radii", has.radii},
+            {"levels", has.levels},     {"restitution", has.restitution}, {"materials", has.materials},
+            {"friction", has.friction}, {"rolling", has.rolling},         {"hertz", has.hertz},
+            {"walls", has.walls},       {"planes", has.planes},           {"boxes", has.boxes},
+            {"sleep", has.sleep}};
+}
+
+std::string gridText(const Grid& grid) {
+    std::string text;
+    for (const Level& level : grid.levels) {
+        text += fmt::format("{:<11}{} x {} x {} cells of {:.4g} m", text.empty() ? "grid" : "", level.cells.x,
+                            level.cells.y, level.cells.z, level.cellSize);
+        if (grid.levels.size() > 1)
+            text += fmt::format(" for {} spheres of up to {:.4g} m,\n", level.spheres, level.largest);
+    }
+    return text + fmt::format("{}pairs listed up to a gap of {:.4g} m\n",
+                              grid.levels.size() > 1 ? std::string(11, ' ') : ", ", grid.margin);
 }
 
 // The springs of `accurate` and how finely their contacts are resolved.
@@ -78,10 +91,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan) {
     for (const auto& [name, on] : featureList(plan.features))
         if (on) text += fmt::format(" {}", name);
     text += "\n";
-    if (plan.features.contacts)
-        text +=
-            fmt::format("grid       {} x {} x {} cells of {:.4g} m, pairs listed up to a gap of {:.4g} m\n",
-                        plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z, plan.grid.cellSize, plan.grid.margin);
+    if (plan.features.contacts) text += gridText(plan.grid);
     if (plan.features.model == scene::Model::Accurate) text += contactText(scene);
     text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
     for (const ArraySpec& spec : plan.arrays)
@@ -102,8 +112,14 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
     json["substepsPerStep"] = scene.quality.substeps;
     json["quality"] = scene::nameOf(plan.features.model);
     for (const auto& [name, on] : featureList(plan.features)) json["features"][std::string(name)] = on;
-    json["cells"] = {plan.grid.cells.x, plan.grid.cells.y, plan.grid.cells.z};
-    json["cellSize"] = static_cast<double>(plan.grid.cellSize);
+    const Level& coarsest = plan.grid.coarsest();
+    json["cells"] = {coarsest.cells.x, coarsest.cells.y, coarsest.cells.z};
+    json["cellSize"] = static_cast<double>(coarsest.cellSize);
+    json["levels"] = nlohmann::ordered_json::array();
+    for (const Level& level : plan.grid.levels)
+        json["levels"].push_back({{"cells", {level.cells.x, level.cells.y, level.cells.z}},
+                                  {"cellSize", static_cast<double>(level.cellSize)},
+                                  {"spheres", level.spheres}});
     json["margin"] = static_cast<double>(plan.grid.margin);
     if (plan.features.model == scene::Model::Accurate) {
         const scene::ContactTime time = scene::contactTimeOf(scene);

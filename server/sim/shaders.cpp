@@ -28,6 +28,7 @@ std::vector<compute::Define> definesFor(const scene::Features& features) {
         define("GRAVITY", features.gravity),
         define("CONTACTS", features.contacts),
         define("RADII", features.radii),
+        define("LEVELS", features.levels),
         define("RESTITUTION", features.restitution),
         define("MATERIALS", features.materials),
         define("FRICTION", features.friction),

@@ -15,6 +15,9 @@ namespace spherule::sim {
 
 namespace {
 
+// Room for pairs ends here: as many as spheres in a heap can have only if they are deep in each other.
+constexpr std::uint64_t mostPairsPerSphere = 128;
+
 constexpr double keepEvery = 1;  // s simulated
 
 // In radii, in h seconds.
@@ -43,7 +46,8 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     radii_ = radii;
     pipeline_ = std::move(*made);
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
-    crowded_ = false;
+    sampled_ = false;
+    full_ = false;
     substeps_ = scene_.quality.substeps;
     put(state);
     uploadConstants();
@@ -99,7 +103,14 @@ Result<void> Simulation::step() {
 Result<void> Simulation::guard() {
     if (auto alive = device_.status(); !alive) return alive;
     readCounters();
-    if (counters_.unlisted > 0 && !crowded_) makeRoom();
+    if (counters_.sampled > 0 && !sampled_) {
+        sampled_ = true;
+        spdlog::warn("{} cell groups are so crowded that in a substep each sphere meets only some of the others",
+                     counters_.sampled);
+    }
+    // In time: once there is too little, contacts forget what they remember, and go without friction for a step.
+    const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
+    if ((counters_.unlisted > 0 || nearlyFull) && plan().features.contacts && !full_) makeRoom();
     fitToMotion(counters_.farthest);
     const double since = static_cast<double>(steps_ - goodStep_) * scene_.step;
     if (!counters_.nonFinite && since > keepEvery - 0.5 * scene_.step) keep();
@@ -156,14 +167,21 @@ void Simulation::fitToMotion(double radiiPerSubstep) {
     uploadParameters();
 }
 
-// On failure the groups in question go on without lists, and nothing is tried again for this scene.
+// On failure the simulation goes on without lists where it must, and nothing is tried again for this scene.
 void Simulation::makeRoom() {
-    const std::uint64_t wanted = 2 * std::max<std::uint64_t>(counters_.pairs, plan().pairCapacity);
-    const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, UNLISTED - 1));
-    spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
+    const std::uint64_t most = std::min<std::uint64_t>(mostPairsPerSphere * count(), UNLISTED - 1);
+    const std::uint64_t wanted = 2 * std::uint64_t{std::max(counters_.pairs, plan().pairCapacity)};
+    const auto capacity = static_cast<std::uint32_t>(std::min(wanted, most));
+    if (capacity <= plan().pairCapacity) {
+        full_ = true;
+        spdlog::warn("more than {} pairs per sphere; without lists while that is so, slower", mostPairsPerSphere);
+        return;
+    }
+    if (counters_.unlisted > 0)
+        spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
     if (auto grown = pipeline_->growPairs(capacity); !grown) {
-        crowded_ = true;
-        spdlog::warn("{}; those groups go on without lists, slower", grown.error().text());
+        full_ = true;
+        spdlog::warn("{}; without lists while there are more, slower", grown.error().text());
         return;
     }
     uploadParameters();
@@ -183,6 +201,7 @@ void Simulation::readCounters() {
     const auto words = pipeline_->read<std::uint32_t>(Array::Counters);
     counters_ = {.pairs = words[COUNTER_PAIRS],
                  .unlisted = words[COUNTER_UNLISTED],
+                 .sampled = words[COUNTER_SAMPLED],
                  .nonFinite = words[COUNTER_NON_FINITE] > 0,
                  .firstNonFinite = ~words[COUNTER_FIRST_ID],
                  .rebuilds = words[COUNTER_REBUILDS],

@@ -45,6 +45,7 @@ class Simulation {
     struct Counters {
         std::uint32_t pairs = 0;           // listed
         std::uint32_t unlisted = 0;        // cell groups without room for their pairs; served, but slowly
+        std::uint32_t sampled = 0;         // cell groups so crowded that only some of their pairs are listed
         bool nonFinite = false;            // some sphere has left the numbers,
         std::uint32_t firstNonFinite = 0;  // this one of them, by id
         std::uint32_t rebuilds = 0;        // of the lists, since the last change of the scene
@@ -95,7 +96,8 @@ class Simulation {
     v1::WireGrid wire_;
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
-    bool crowded_ = false;  // the device has no room for more pairs
+    bool full_ = false;     // there is no room for more pairs
+    bool sampled_ = false;  // it has been said that not all pairs are listed
     std::uint32_t substeps_ = 1;
     std::vector<std::string> notices_;
     State good_;  // the last one that was found finite

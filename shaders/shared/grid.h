@@ -1,5 +1,32 @@
 // The cell grid: a torus, so that memory is bounded wherever the spheres go. Cells per axis are multiples of 4: groups of
 // 2 x 2 x 2 cells then come in 8 colours, and two groups of one colour never touch the same cell.
+//
+// Where radii differ much, there is one such grid for each class of sizes, a level, with cells as wide as its largest
+// sphere: finest first, the cells of one after those of the other.
+
+// Cells of a level per axis; w: the first of them.
+uvec4 cellsOf(uint level) {
+    if (HAS(LEVELS)) return params.levelCells[level];
+    return uvec4(params.cells.x, params.cells.y, params.cells.z, 0u);
+}
+
+float inverseCellOf(uint level) {
+    return HAS(LEVELS) ? params.levelSize[level].x : params.inverseCell;
+}
+
+uint levelOf(float radius) {
+    uint level = 0u;
+    if (HAS(LEVELS))
+        while (level + 1u < params.levels && radius > params.levelSize[level].y) level = level + 1u;
+    return level;
+}
+
+uint levelOfGroup(uint group) {
+    uint level = 0u;
+    if (HAS(LEVELS))
+        while (level + 1u < params.levels && 8u * group >= params.levelCells[level + 1u].w) level = level + 1u;
+    return level;
+}
 
 uint wrapCell(float coordinate, uint cells) {
     // Far away coordinates are clamped before the conversion, which would be undefined for them; the shift, a multiple of
@@ -11,30 +38,48 @@ uint wrapCell(float coordinate, uint cells) {
 
 // By x, then z, then y. With a horizontal axis last, a share of the cells, the groups or the sorted spheres is a slice of the
 // scene from bottom to top: threads that take the same share of each find their own spheres, and as many, in a pile too.
-uint cellIndex(uint x, uint y, uint z) {
-    return (y * params.cells.z + z) * params.cells.x + x;
+uint cellIndex(uvec4 cells, uint x, uint y, uint z) {
+    return cells.w + (y * cells.z + z) * cells.x + x;
 }
 
-uint cellOf(vec3 point) {
+// Of a sphere on its level.
+uint cellOf(vec4 sphere) {
+    vec3 point = vec3(sphere);
     if (!finite3(point)) return 0u;
-    vec3 p = point * params.inverseCell;
-    return cellIndex(wrapCell(p.x, params.cells.x), wrapCell(p.y, params.cells.y), wrapCell(p.z, params.cells.z));
+    uint level = levelOf(sphere.w);
+    uvec4 cells = cellsOf(level);
+    vec3 p = point * inverseCellOf(level);
+    return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
 }
 
 // The group of the point's cell.
-uint groupAt(vec3 point) {
+uint groupAt(vec3 point, uint level) {
     if (!finite3(point)) return 0u;
-    vec3 p = point * params.inverseCell;
-    uint row = wrapCell(p.y, params.cells.y) / 2u * (params.cells.z / 2u) + wrapCell(p.z, params.cells.z) / 2u;
-    return row * (params.cells.x / 2u) + wrapCell(p.x, params.cells.x) / 2u;
+    uvec4 cells = cellsOf(level);
+    vec3 p = point * inverseCellOf(level);
+    uint row = wrapCell(p.y, cells.y) / 2u * (cells.z / 2u) + wrapCell(p.z, cells.z) / 2u;
+    return cells.w / 8u + row * (cells.x / 2u) + wrapCell(p.x, cells.x) / 2u;
 }
 
-// Group number `index` of a colour (0 .. 7): its place, as a number over all groups.
-uint groupOf(uint colour, uint index) {
-    uint gx = params.cells.x / 4u;
-    uint gz = params.cells.z / 4u;
-    uint x = 2u * (index % gx) + (colour & 1u);
-    uint y = 2u * (index / (gx * gz)) + ((colour >> 1u) & 1u);
-    uint z = 2u * ((index / gx) % gz) + (colour >> 2u);
-    return (y * (2u * gz) + z) * (2u * gx) + x;
+// What a launch over groups gets as its phase: level and colour (0 .. 7).
+uint levelOfPhase() {
+    return HAS(LEVELS) ? phase >> 3u : 0u;
+}
+
+// Groups of the launch's level that have its colour.
+uint groupsOfPhase() {
+    if (!HAS(LEVELS)) return params.groups;
+    uvec4 cells = cellsOf(levelOfPhase());
+    return cells.x * cells.y * cells.z / 64u;
+}
+
+// Number `index` of them: its place, as a number over all groups.
+uint groupOfPhase(uint index) {
+    uvec4 cells = cellsOf(levelOfPhase());
+    uint gx = cells.x / 4u;
+    uint gz = cells.z / 4u;
+    uint x = 2u * (index % gx) + (phase & 1u);
+    uint y = 2u * (index / (gx * gz)) + ((phase >> 1u) & 1u);
+    uint z = 2u * ((index / gx) % gz) + ((phase >> 2u) & 1u);
+    return cells.w / 8u + (y * (2u * gz) + z) * (2u * gx) + x;
 }

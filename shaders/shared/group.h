@@ -1,43 +1,98 @@
-// Pairs of a group of 2 x 2 x 2 cells: of its cells with themselves and with their 13 forward neighbours. The includer
-// defines `void visitPair(uint a, uint b)` before, and binds `cellStart`.
+// Pairs of a group of 2 x 2 x 2 cells: of its cells with themselves and with their 13 forward neighbours, and of their
+// spheres with those of finer levels. The includer defines `void visitPair(uint a, uint b)` before, and binds `cellStart`
+// and `position`.
+//
+// A smaller sphere within reach of a larger one lies within one cell of the larger one's cell, on the larger one's level:
+// two groups of one colour and level, whose cells are two or more apart, never touch the same sphere. (Without lists, they
+// may look at the same one; it is far away from one of them.)
+
+#include "shared/reach.h"
+
+// Of a crowd, each sphere meets so many others at a turn: fewer where there are very many, so that a cell's work is bounded.
+#define CROWD_MOST 32u
+#define CROWD_LEAST 4u
+#define CROWD_VISITS 32768u
+
+PRIVATE(bool, crowded)  // some cells held so many spheres that not all of their pairs were visited
+PRIVATE(Reach, reached)
+PRIVATE(Stretch, chord)
 
 // One call of visitPair in the text: GLSL compilers copy it to each place, which costs seconds.
-void visitCell(uint x, uint y, uint z) {
-    uint cell = cellIndex(x, y, z);
+void visitCell(uint level, uint x, uint y, uint z, uint turn) {
+    uvec4 cells = cellsOf(level);
+    uint cell = cellIndex(cells, x, y, z);
     uint first = cellStart[cell];
     uint last = cellStart[cell + 1u];
     if (first == last) return;
-    uint nx = params.cells.x;
-    uint ny = params.cells.y;
+    uint nx = cells.x;
     uint west = x == 0u ? nx - 1u : x - 1u;
     uint east = x + 1u == nx ? 0u : x + 1u;
-    uint north = y + 1u == ny ? 0u : y + 1u;
-    uint south = y == 0u ? ny - 1u : y - 1u;
-    uint above = z + 1u == params.cells.z ? 0u : z + 1u;
+    uint north = y + 1u == cells.y ? 0u : y + 1u;
+    uint south = y == 0u ? cells.y - 1u : y - 1u;
+    uint above = z + 1u == cells.z ? 0u : z + 1u;
     bool whole = x > 0u && x + 1u < nx;
-    // Row 0: the cell itself and the one to the east. The others: cells x - 1 .. x + 1 of the rows north, south above,
-    // above and north above, each one range of the sorted spheres unless the torus cuts it.
-    for (uint row = 0u; row < 5u; ++row) {
-        uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
-        uint start = cellIndex(0u, ry, row < 2u ? z : above);
-        uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
-        for (uint part = 0u; part < parts; ++part) {
-            uint from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
-            uint to = row > 0u && whole ? east : from;
-            uint begin = cellStart[start + from];
-            uint end = cellStart[start + to + 1u];
-            for (uint a = first; a < last; ++a)
-                for (uint b = row + part == 0u ? a + 1u : begin; b < end; ++b) visitPair(a, b);
+    uint sample = max(CROWD_LEAST, min(CROWD_VISITS / (last - first), CROWD_MOST));
+    // Once for the level itself, then for each sphere and each finer level.
+    uint passes = HAS(LEVELS) ? 1u + (last - first) * level : 1u;
+    for (uint pass = 0u; pass < passes; ++pass) {
+        bool finer = HAS(LEVELS) && pass > 0u;
+        uint one = first;
+        if (finer) {
+            one = first + (pass - 1u) / level;
+            reached = reachOf(position[one], (pass - 1u) % level);
+        }
+        // On the level itself, row 0: the cell itself and the one to the east. The others: cells x - 1 .. x + 1 of the rows
+        // north, south above, above and north above, each one range of the sorted spheres unless the torus cuts it.
+        uint rows = finer ? reached.rows : 5u;
+        for (uint row = 0u; row < rows; ++row) {
+            uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
+            uint start = finer ? rowStart(reached, row) : cellIndex(cells, 0u, ry, row < 2u ? z : above);
+            uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
+            if (finer) {
+                chord = rowStretch(reached, row);
+                uint ends = chord.start + chord.count;
+                parts = chord.count == 0u ? 0u : (ends > reached.cells.x ? 2u : 1u);
+            }
+            for (uint part = 0u; part < parts; ++part) {
+                uint from = row == 0u ? (part == 0u ? x : east) : (part == 0u ? west : (part == 1u ? x : east));
+                uint to = row > 0u && whole ? east : from;
+                if (finer) {
+                    uint ends = chord.start + chord.count - 1u;
+                    from = part == 0u ? chord.start : 0u;
+                    to = part == 0u ? min(ends, reached.cells.x - 1u) : ends - reached.cells.x;
+                }
+                uint begin = cellStart[start + from];
+                uint end = cellStart[start + to + 1u];
+                uint crowd = (to - from + 1u) * params.crowd;
+                uint until = finer ? one + 1u : last;
+                for (uint a = one; a < until; ++a) {
+                    uint b = row + part == 0u && !finer ? a + 1u : begin;
+                    uint stop = end;
+                    if (stop - b > crowd) {
+                        // A share of the others; another one at the next turn.
+                        uint shares = (stop - b + sample - 1u) / sample;
+                        b = b + turn % shares * sample;
+                        stop = min(b + sample, stop);
+                        crowded = true;
+                    }
+                    for (; b < stop; ++b) visitPair(a, b);
+                }
+            }
         }
     }
 }
 
-void visitGroup(uint x, uint y, uint z) {
-    for (uint k = 0u; k < 8u; ++k) visitCell(2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u));
-}
-
-void visitGroupNumber(uint group) {
-    uint gx = params.cells.x / 2u;
-    uint gz = params.cells.z / 2u;
-    visitGroup(group % gx, group / (gx * gz), (group / gx) % gz);
+// `turn` says which of the pairs of a crowd are visited: all are, one share after the other.
+void visitGroupNumber(uint group, uint turn) {
+    uint level = levelOfGroup(group);
+    uvec4 cells = cellsOf(level);
+    uint gx = cells.x / 2u;
+    uint gz = cells.z / 2u;
+    uint at = group - cells.w / 8u;
+    uint x = at % gx;
+    uint y = at / (gx * gz);
+    uint z = (at / gx) % gz;
+    crowded = false;
+    for (uint k = 0u; k < 8u; ++k)
+        visitCell(level, 2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u), turn);
 }

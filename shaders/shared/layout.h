@@ -1,5 +1,7 @@
 // What the host and the kernels agree on. Lengths in m, relative to the centre of the bounds; times in s.
 
+#define MOST_LEVELS 8u
+
 // The uniform block, std140: vectors first, then scalars in fours.
 struct Parameters {
     vec4 gravity;        // xyz in m/s^2; w = 0
@@ -8,7 +10,9 @@ struct Parameters {
     vec4 wireOrigin;     // of the packed grid; w = 1 / quantum
     vec4 law;            // of two spheres where all have one material: Law.contact
     vec4 stiffness;      // the same: Law.stiffness
-    uvec4 cells;         // per axis, multiples of 4; w = all cells
+    vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, 0, 0; from the finest level to the coarsest
+    uvec4 cells;         // per axis, multiples of 4; w = all cells, of all levels
+    uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 4; w = the first of them among all cells
 
     float substep;       // h
     float perSubstep;    // 1 / h
@@ -26,7 +30,7 @@ struct Parameters {
     float creep;         // m; who moves this far from where it was is no longer at rest
 
     uint spheres;
-    uint groups;         // of 2 x 2 x 2 cells, of one colour
+    uint groups;         // of 2 x 2 x 2 cells, of one colour, of all levels
     uint pairCapacity;
     uint closedFaces;    // bit per face: x- x+ y- y+ z- z+
 
@@ -38,7 +42,12 @@ struct Parameters {
     uint material;       // of every sphere where all have one
     uint wallMaterial;   // of the bounds
     uint wallContacts;   // that a sphere remembers
-    uint unused;         // keeps the size a multiple of 16 bytes
+    uint levels;
+
+    uint crowd;          // more spheres than this in a cell: not all of their pairs are visited at once
+    uint unused;         // keep the size a multiple of 16 bytes
+    uint unusedToo;
+    uint unusedThree;
 };
 
 // What holds between two materials. Row a, column b of the `laws`.
@@ -81,7 +90,8 @@ struct SphereStatistics {
 #define COUNTER_SUBSTEPS 6u     // since the start
 #define COUNTER_FORGOTTEN 7u    // contacts with walls that found no room for their history, since the start
 #define COUNTER_FASTEST 8u      // largest motion in a substep, in radii, as a float's bits; 0: none beyond FAR_MOTION
-#define COUNTER_WORDS 9u
+#define COUNTER_SAMPLED 9u      // cell groups so crowded that only some of their pairs are listed
+#define COUNTER_WORDS 10u
 
 // In a substep a sphere should move less than this share of its radius, or it may pass through what it should hit.
 #define FAR_MOTION 0.5f

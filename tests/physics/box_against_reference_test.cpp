@@ -82,7 +82,7 @@ std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simula
     const auto span = pipeline.read<glm::uvec4>(sim::Array::Span);
     const auto pairs = pipeline.read<glm::uvec2>(sim::Array::Pairs);
     const auto id = pipeline.read<std::uint32_t>(sim::Array::Label);  // all of one material
-    const glm::uvec3 groups = simulation.plan().grid.cells / 2U;
+    const glm::uvec3 groups = simulation.plan().grid.coarsest().cells / 2U;
     std::vector<std::pair<std::size_t, std::size_t>> order;
     for (unsigned colour = 0; colour < 8; ++colour) {
         for (unsigned group = 0; group < span.size(); ++group) {

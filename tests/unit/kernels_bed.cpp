@@ -22,6 +22,7 @@ Bed::Bed(std::vector<vec4> places, uint has)
     parameters.spheres = count;
     parameters.cells = uvec4(cells, cells, cells, cells * cells * cells);
     parameters.groups = parameters.cells.w / 64;
+    parameters.crowd = 64;
     parameters.inverseCell = 1 / 1.1F;
     parameters.margin = 0.1F;
     parameters.radius = 0.5F;
@@ -53,6 +54,7 @@ void Bed::rebuild() {
     counters[COUNTER_PAIRS] = 0;
     counters[COUNTER_UNLISTED] = 0;
     launch("list_build", {position, cellStart, counters, pairs, span}, launchOf());
+    launch("list_fit", {counters, span}, launchOf());
     launch("history_fetch", {position, label, span, pairs, history, keptStart_, kept_}, launchOf());
 }
 

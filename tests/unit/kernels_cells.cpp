@@ -15,6 +15,9 @@ struct Cells {
         parameters.spheres = static_cast<uint>(position.size());
         parameters.cells = uvec4(4, 4, 4, 64);
         parameters.inverseCell = 1;
+        parameters.levels = 1;
+        parameters.levelCells[0] = uvec4(4, 4, 4, 0);
+        parameters.levelSize[0] = vec4(1, 0.1F, 0, 0);
         id.resize(position.size());
         std::iota(id.begin(), id.end(), 0U);
         std::shuffle(id.begin(), id.end(), std::mt19937(2));

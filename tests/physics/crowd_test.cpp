@@ -1,0 +1,67 @@
+// Far more spheres in one place than there is room for.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <iostream>
+#include <optional>
+
+#include "scene/quality.h"
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+// All in one point: spheres of `radius`, or, if mixed, one in fifty ten times as large.
+scene::Scene crowdOf(std::uint32_t count, float radius, bool mixed, scene::Model model) {
+    scene::Scene scene = closedBox(2);
+    scene.quality.model = model;
+    if (model == scene::Model::Accurate) scene.quality.substeps = 8;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = mixed && k % 50 == 0 ? 10 * radius : radius;
+        sphere.position = {0.01, 0.02, 0.03};
+        scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
+TEST(Crowd, TenThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
+    for (const bool mixed : {false, true}) {
+        const scene::Scene scene = crowdOf(10'000, 0.005F, mixed, scene::Model::Balanced);
+        const auto simulation = simulate(scene);
+        const auto began = std::chrono::steady_clock::now();
+        run(*simulation, scene.step);
+        const double first = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        const sim::Simulation::Counters counters = simulation->counters();
+        std::cout << (mixed ? "mixed: " : "equal: ") << 1e3 * first << " ms for the first substep, " << counters.pairs
+                  << " pairs\n";
+        EXPECT_GT(counters.sampled, 0U);
+        EXPECT_LE(counters.pairs, 128U * simulation->count());
+        std::uint32_t most = 0;
+        for (int k = 0; k < 120; ++k) {
+            run(*simulation, scene.step);
+            ASSERT_FALSE(simulation->counters().nonFinite);
+            most = std::max(most, simulation->counters().pairs);
+        }
+        std::cout << "at most " << most << " pairs later, " << simulation->counters().sampled << " groups sampled\n";
+        EXPECT_TRUE(allFinite(simulation->snapshot()));
+        EXPECT_EQ(simulation->statistics().outside, 0U);
+    }
+}
+
+TEST(Crowd, AllNumbersOfThreadsGiveTheSameBits) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
+        std::optional<std::uint64_t> expected;
+        for (const char* const choice : {"cpu:1", "cpu:2", "cpu:3", "cpu:8"}) {
+            const auto on = compute::openDevice(choice).value();
+            auto simulation = sim::Simulation::create(*on, crowdOf(2'000, 0.01F, true, model)).value();
+            run(*simulation, 0.05);
+            const std::uint64_t hash = sim::hashOf(simulation->snapshot());
+            if (!expected) expected = hash;
+            EXPECT_EQ(hash, *expected) << scene::nameOf(model) << " on " << choice;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace spherule::physics
