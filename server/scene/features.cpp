@@ -14,12 +14,6 @@ bool differ(const std::vector<Sphere>& spheres, auto quantity) {
                        [&](const Sphere& s) { return quantity(s) != quantity(spheres.front()); });
 }
 
-bool needLevels(const std::vector<Sphere>& spheres) {
-    if (spheres.empty()) return false;
-    const auto [smallest, largest] = std::ranges::minmax(spheres, {}, &Sphere::radius);
-    return static_cast<double>(largest.radius) > levelsAbove * static_cast<double>(smallest.radius);
-}
-
 template <class Shape>
 bool has(const Scene& scene) {
     return std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
@@ -36,7 +30,6 @@ Features featuresOf(const Scene& scene) {
         .gravity = glm::length(scene.gravity) > 0,
         .contacts = scene.sphereContacts,
         .radii = differ(scene.spheres, [](const Sphere& s) { return s.radius; }),
-        .levels = scene.sphereContacts && needLevels(scene.spheres),
         .restitution = std::ranges::any_of(laws, [](const PairLaw& law) { return law.restitution > 0; }),
         .materials = differ(scene.spheres, [](const Sphere& s) { return s.material; }),
         .friction = friction,

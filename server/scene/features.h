@@ -4,15 +4,12 @@
 
 namespace spherule::scene {
 
-// Where the largest sphere is more than this times the smallest, each class of sizes has cells of its own.
-constexpr double levelsAbove = 2.5;
-
 // What a scene requires. What is false here is neither compiled, allocated nor dispatched.
 struct Features {
     bool gravity = false;
     bool contacts = false;     // sphere against sphere
     bool radii = false;        // radii differ
-    bool levels = false;       // so much that each class of sizes has cells of its own
+    bool levels = false;       // so much that each class of sizes has cells of its own: for the plan to say
     bool restitution = false;  // anything bounces (some e > 0)
     bool materials = false;    // spheres are of more than one material
     bool friction = false;     // anything rubs: spheres turn

@@ -7,8 +7,6 @@ namespace spherule::sim {
 
 namespace {
 
-// Gap up to which pairs are listed, in mean radii: a wider one lists more pairs, a narrower one rebuilds more often.
-constexpr double marginInRadii = 0.3;
 constexpr std::uint64_t cellsPerSphere = 2;
 constexpr std::uint64_t fewestCells = 4096;
 constexpr std::uint32_t mostPerAxis = 1U << 16U;
@@ -47,16 +45,14 @@ double fullCell(const SizeClass& one, double cellSize) {
 
 }  // namespace
 
-Grid gridFor(glm::dvec3 extent, const Radii& radii, bool levels, std::uint32_t spheres) {
+Grid gridFor(glm::dvec3 extent, const Radii& radii) {
     Grid grid;
-    const double margin = marginInRadii * (levels ? radii.listing : radii.mean);
+    const double margin = marginInRadii * (radii.classes.size() > 1 ? radii.listing : radii.mean);
     grid.margin = static_cast<float>(margin);
-    std::vector<SizeClass> classes{{radii.smallest, radii.largest, spheres}};
-    if (levels) classes = radii.classes;
     grid.levels.clear();
     double crowd = smallestCrowd;
-    for (const SizeClass& one : classes) {
-        const std::uint64_t budget = std::max(fewestCells / classes.size(), cellsPerSphere * one.spheres);
+    for (const SizeClass& one : radii.classes) {
+        const std::uint64_t budget = std::max(fewestCells / radii.classes.size(), cellsPerSphere * one.spheres);
         Level level = levelFor(extent, one.largest, margin, budget);
         level.spheres = one.spheres;
         if (!grid.levels.empty()) level.first = grid.all();

@@ -32,6 +32,6 @@ struct Grid {
 
 // Cells as wide as the largest sphere and the margin; as many as the domain needs, but at most about two per sphere.
 // Beyond that, far places share cells: more tests, the same contacts.
-Grid gridFor(glm::dvec3 extent, const Radii& radii, bool levels, std::uint32_t spheres);
+Grid gridFor(glm::dvec3 extent, const Radii& radii);
 
 }  // namespace spherule::sim

@@ -297,7 +297,8 @@ Plan planFor(const scene::Scene& scene, const scene::Features& features, std::ui
     plan.features = features;
     plan.spheres = spheres;
     if (features.contacts) {
-        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii, features.levels, spheres);
+        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii);
+        plan.features.levels = plan.grid.levels.size() > 1;
         plan.pairCapacity = pairCapacity != 0 ? pairCapacity : std::max(fewestPairs, pairsPerSphere * spheres);
     }
     if (features.model == scene::Model::Accurate && features.obstructed())

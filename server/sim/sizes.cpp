@@ -1,7 +1,9 @@
 #include "sim/sizes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "sim/layout.h"
 
@@ -9,32 +11,91 @@ namespace spherule::sim {
 
 namespace {
 
-constexpr double classWidth = 2;
+constexpr int mostBins = 12;
+constexpr double narrowestBin = std::numbers::sqrt2;
+constexpr double ball = 4.0 / 3 * std::numbers::pi;
 
-std::vector<SizeClass> classesOf(const scene::Scene& scene, const Radii& radii) {
-    const double octaves = std::log(radii.largest / radii.smallest) / std::log(classWidth);
-    const int count = std::clamp(static_cast<int>(std::ceil(octaves)), 1, static_cast<int>(MOST_LEVELS));
-    // From the largest down: the coarsest cells are then as full as they can be.
-    const double wide = std::max(octaves / count, 1.0);
-    std::vector<SizeClass> classes(static_cast<std::size_t>(count));
+// Spheres of like size, from the smallest to the largest: what classes are made of.
+std::vector<SizeClass> binsOf(const scene::Scene& scene, const Radii& radii) {
+    const double range = std::log(radii.largest / radii.smallest);
+    const double wide = std::max(std::log(narrowestBin), range / mostBins);
+    std::vector<SizeClass> bins(mostBins);
     for (const scene::Sphere& sphere : scene.spheres) {
         const auto r = static_cast<double>(sphere.radius);
-        const double below = std::log(radii.largest / r) / std::log(classWidth) / wide;
-        const int place = count - 1 - std::clamp(static_cast<int>(below), 0, count - 1);
-        SizeClass& mine = classes[static_cast<std::size_t>(place)];
+        const int place = std::clamp(static_cast<int>(std::log(r / radii.smallest) / wide), 0, mostBins - 1);
+        SizeClass& mine = bins[static_cast<std::size_t>(place)];
         mine.smallest = mine.spheres == 0 ? r : std::min(mine.smallest, r);
         mine.largest = std::max(mine.largest, r);
         ++mine.spheres;
     }
-    std::erase_if(classes, [](const SizeClass& one) { return one.spheres == 0; });
+    std::erase_if(bins, [](const SizeClass& one) { return one.spheres == 0; });
+    return bins;
+}
+
+// One class per run of bins: bit k of `cuts` says whether bin k + 1 begins another.
+std::vector<SizeClass> joined(const std::vector<SizeClass>& bins, std::uint32_t cuts) {
+    std::vector<SizeClass> classes{bins.front()};
+    for (std::size_t k = 1; k < bins.size(); ++k) {
+        if ((cuts >> (k - 1) & 1U) != 0) {
+            classes.push_back(bins[k]);
+            continue;
+        }
+        classes.back().largest = bins[k].largest;
+        classes.back().spheres += bins[k].spheres;
+    }
     return classes;
+}
+
+// What building the lists of a dense bed costs, in tests of pairs: those of spheres with their own class, and of larger
+// ones with the cells of finer classes, row by row. The weights were fitted to timings of beds on the CPU device.
+double costOf(const std::vector<SizeClass>& classes, double volume, double margin) {
+    constexpr double rowCost = 25;
+    constexpr double reachCost = 25;
+    constexpr double levelCost = 4000;  // launches of its own
+    constexpr double neighbours = 14;
+    double cost = 0;
+    for (std::size_t coarse = 0; coarse < classes.size(); ++coarse) {
+        const SizeClass& large = classes[coarse];
+        const double own = 2 * large.largest + margin;
+        double perSphere = neighbours * large.spheres * own * own * own / volume;
+        const double r = 0.5 * (large.smallest + large.largest);
+        for (std::size_t fine = 0; fine < coarse; ++fine) {
+            const SizeClass& small = classes[fine];
+            const double cell = 2 * small.largest + margin;
+            const double reach = r + small.largest + margin;
+            const double rows = std::numbers::pi * std::pow(reach / cell + 0.7, 2);
+            const double shell = ball * (std::pow(reach + 0.6 * cell, 3) - std::pow(r, 3));
+            perSphere += reachCost + rowCost * rows + shell * small.spheres / volume;
+        }
+        cost += levelCost + large.spheres * perSphere;
+    }
+    return cost;
+}
+
+// Of all ways to put the bins into classes, the one that costs least.
+std::vector<SizeClass> classesOf(const scene::Scene& scene, const Radii& radii, double volume) {
+    const std::vector<SizeClass> bins = binsOf(scene, radii);
+    std::vector<SizeClass> best = joined(bins, 0);
+    double least = costOf(best, volume, radii.mean * marginInRadii);
+    for (std::uint32_t cuts = 1; cuts < 1U << (bins.size() - 1); ++cuts) {
+        if (std::popcount(cuts) >= static_cast<int>(MOST_LEVELS)) continue;
+        std::vector<SizeClass> classes = joined(bins, cuts);
+        const double cost = costOf(classes, volume, radii.listing * marginInRadii);
+        if (cost < least) {
+            least = cost;
+            best = std::move(classes);
+        }
+    }
+    return best;
 }
 
 }  // namespace
 
 Radii radiiOf(const scene::Scene& scene) {
+    constexpr double packing = 0.6;
     if (scene.spheres.empty()) return {0.05, 0.05, 0.05, 0.05, {{0.05, 0.05, 0}}};
     Radii radii{1e30, 0, 0, 0, {}};
+    double inverses = 0;
     double cubes = 0;
     const auto count = static_cast<double>(scene.spheres.size());
     for (const scene::Sphere& sphere : scene.spheres) {
@@ -42,10 +103,11 @@ Radii radiiOf(const scene::Scene& scene) {
         radii.smallest = std::min(radii.smallest, r);
         radii.largest = std::max(radii.largest, r);
         radii.mean += r / count;
-        cubes += 1 / (r * r * r * count);
+        inverses += 1 / (r * r * r * count);
+        cubes += r * r * r;
     }
-    radii.listing = 1 / std::cbrt(cubes);
-    radii.classes = classesOf(scene, radii);
+    radii.listing = 1 / std::cbrt(inverses);
+    radii.classes = classesOf(scene, radii, ball * cubes / packing);
     return radii;
 }
 

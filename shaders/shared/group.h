@@ -31,7 +31,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
     uint south = y == 0u ? cells.y - 1u : y - 1u;
     uint above = z + 1u == cells.z ? 0u : z + 1u;
     bool whole = x > 0u && x + 1u < nx;
-    uint sample = max(CROWD_LEAST, min(CROWD_VISITS / (last - first), CROWD_MOST));
+    uint meets = max(CROWD_LEAST, min(CROWD_VISITS / (last - first), CROWD_MOST));
     // Once for the level itself, then for each sphere and each finer level.
     uint passes = HAS(LEVELS) ? 1u + (last - first) * level : 1u;
     for (uint pass = 0u; pass < passes; ++pass) {
@@ -46,10 +46,12 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
         uint rows = finer ? reached.rows : 5u;
         for (uint row = 0u; row < rows; ++row) {
             uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
-            uint start = finer ? rowStart(reached, row) : cellIndex(cells, 0u, ry, row < 2u ? z : above);
+            uint reachedY = finer ? row / reached.z.count : 0u;
+            uint reachedZ = row - reachedY * (finer ? reached.z.count : 0u);
+            uint start = finer ? rowStart(reached, reachedY, reachedZ) : cellIndex(cells, 0u, ry, row < 2u ? z : above);
             uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
             if (finer) {
-                chord = rowStretch(reached, row);
+                chord = rowStretch(reached, reachedY, reachedZ);
                 uint ends = chord.start + chord.count;
                 parts = chord.count == 0u ? 0u : (ends > reached.cells.x ? 2u : 1u);
             }
@@ -70,9 +72,9 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
                     uint stop = end;
                     if (stop - b > crowd) {
                         // A share of the others; another one at the next turn.
-                        uint shares = (stop - b + sample - 1u) / sample;
-                        b = b + turn % shares * sample;
-                        stop = min(b + sample, stop);
+                        uint shares = (stop - b + meets - 1u) / meets;
+                        b = b + turn % shares * meets;
+                        stop = min(b + meets, stop);
                         crowded = true;
                     }
                     for (; b < stop; ++b) visitPair(a, b);

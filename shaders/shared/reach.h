@@ -50,15 +50,15 @@ Reach reachOf(vec4 sphere, uint level) {
     return r;
 }
 
-// First cell of the row number `row`, and where on the row the sphere reaches: the chord of a ball. None: a count of 0.
-uint rowStart(Reach r, uint row) {
-    return cellIndex(r.cells, 0u, onRing(r.y.start + row / r.z.count, r.cells.y),
-                     onRing(r.z.start + row % r.z.count, r.cells.z));
+// First cell of the row at `y` and `z` of the sphere's stretches, and where on the row it reaches: the chord of a ball.
+// None: a count of 0.
+uint rowStart(Reach r, uint y, uint z) {
+    return cellIndex(r.cells, 0u, onRing(r.y.start + y, r.cells.y), onRing(r.z.start + z, r.cells.z));
 }
 
-Stretch rowStretch(Reach r, uint row) {
-    float y = distanceTo(r.y, row / r.z.count, r.centre.y, r.cells.y);
-    float z = distanceTo(r.z, row % r.z.count, r.centre.z, r.cells.z);
+Stretch rowStretch(Reach r, uint rowY, uint rowZ) {
+    float y = distanceTo(r.y, rowY, r.centre.y, r.cells.y);
+    float z = distanceTo(r.z, rowZ, r.centre.z, r.cells.z);
     precise float squared = r.radius * r.radius - y * y - z * z;
     Stretch s;
     s.from = 0.0f;

@@ -15,12 +15,12 @@
 // tangential damping c_t). `speed` is the normal speed before, positive when parting.
 vec4 springImpulse(float overlap, float speed, float radius, float mobility, vec4 law) {
     float h = params.substep;
-    float mass = 1.0f / mobility;
-    float stiffness;
-    float force;
-    float damping;
-    float tangential;
-    float part = 1.0f;
+    precise float mass = 1.0f / mobility;
+    precise float stiffness;
+    precise float force;
+    precise float damping;
+    precise float tangential;
+    precise float part = 1.0f;
     if (HAS(HERTZ)) {
         float disc = sqrt(radius * overlap);
         stiffness = 2.0f * law.x * disc;
@@ -33,13 +33,13 @@ vec4 springImpulse(float overlap, float speed, float radius, float mobility, vec
         damping = 2.0f * law.y * sqrt(stiffness * mass);
         tangential = 2.0f * law.z * radius;
         // The dashpot sets in with a jump: in the first substep, only for the time since the contact began.
-        float covered = abs(speed) * h;
+        precise float covered = abs(speed) * h;
         if (speed < 0.0f && overlap < covered) part = 0.5f + overlap / covered;
     }
     // The dashpot sees the mean of the speeds before and after: second order, and never more than what stops the pair.
-    float c = min(damping * part, 2.0f / (h * mobility));
-    float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * mobility), 0.0f);
-    float drag = 2.0f * min(law.y, MOST_DRAG) * sqrt(tangential * mass);
+    precise float c = min(damping * part, 2.0f / (h * mobility));
+    precise float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * mobility), 0.0f);
+    precise float drag = 2.0f * min(law.y, MOST_DRAG) * sqrt(tangential * mass);
     if (HAS(HERTZ)) drag = drag * 0.91287093f;
     return vec4(impulse, force, tangential, drag);
 }
@@ -48,8 +48,9 @@ vec4 springImpulse(float overlap, float speed, float radius, float mobility, vec
 // met, turned into the plane of the contact, and is brought up to date.
 vec3 tangentialImpulse(vec3 slip, float stiffness, float drag, float most) {
     float h = params.substep;
-    stretch = stretch + slip * h;
-    vec3 impulse = (stretch * stiffness + slip * drag) * -h;
+    precise vec3 longer = stretch + slip * h;
+    stretch = longer;
+    precise vec3 impulse = (stretch * stiffness + slip * drag) * -h;
     float squared = dot3(impulse, impulse);
     if (squared <= most * most) return impulse;
     impulse = impulse * (most / sqrt(squared));
@@ -59,7 +60,7 @@ vec3 tangentialImpulse(vec3 slip, float stiffness, float drag, float most) {
 
 // Into the plane across n, as long as before.
 vec3 turnedInto(vec3 path, vec3 n) {
-    vec3 within = path - n * dot3(path, n);
+    precise vec3 within = path - n * dot3(path, n);
     float was = dot3(path, path);
     float is = dot3(within, within);
     return is > 0.0f ? within * sqrt(was / is) : within;

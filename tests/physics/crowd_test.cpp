@@ -1,8 +1,6 @@
 // Far more spheres in one place than there is room for.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <iostream>
 #include <optional>
 
 #include "scene/quality.h"
@@ -25,25 +23,18 @@ scene::Scene crowdOf(std::uint32_t count, float radius, bool mixed, scene::Model
     return scene;
 }
 
-TEST(Crowd, TenThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
+TEST(Crowd, FourThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
     for (const bool mixed : {false, true}) {
-        const scene::Scene scene = crowdOf(10'000, 0.005F, mixed, scene::Model::Balanced);
+        const scene::Scene scene = crowdOf(4'000, 0.01F, mixed, scene::Model::Balanced);
         const auto simulation = simulate(scene);
-        const auto began = std::chrono::steady_clock::now();
         run(*simulation, scene.step);
-        const double first = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
         const sim::Simulation::Counters counters = simulation->counters();
-        std::cout << (mixed ? "mixed: " : "equal: ") << 1e3 * first << " ms for the first substep, " << counters.pairs
-                  << " pairs\n";
         EXPECT_GT(counters.sampled, 0U);
         EXPECT_LE(counters.pairs, 128U * simulation->count());
-        std::uint32_t most = 0;
-        for (int k = 0; k < 120; ++k) {
+        for (int k = 0; k < 40; ++k) {
             run(*simulation, scene.step);
             ASSERT_FALSE(simulation->counters().nonFinite);
-            most = std::max(most, simulation->counters().pairs);
         }
-        std::cout << "at most " << most << " pairs later, " << simulation->counters().sampled << " groups sampled\n";
         EXPECT_TRUE(allFinite(simulation->snapshot()));
         EXPECT_EQ(simulation->statistics().outside, 0U);
     }
@@ -54,7 +45,7 @@ TEST(Crowd, AllNumbersOfThreadsGiveTheSameBits) {
         std::optional<std::uint64_t> expected;
         for (const char* const choice : {"cpu:1", "cpu:2", "cpu:3", "cpu:8"}) {
             const auto on = compute::openDevice(choice).value();
-            auto simulation = sim::Simulation::create(*on, crowdOf(2'000, 0.01F, true, model)).value();
+            auto simulation = simulate(crowdOf(2'000, 0.01F, true, model), *on);
             run(*simulation, 0.05);
             const std::uint64_t hash = sim::hashOf(simulation->snapshot());
             if (!expected) expected = hash;

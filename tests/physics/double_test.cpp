@@ -22,7 +22,7 @@ double errorOfAGlide(const std::string& choice) {
     sphere.velocity = {1.37F, -0.71F, 0.013F};
     scene.spheres = {sphere};
     const auto device = compute::openDevice(choice).value();
-    const auto simulation = sim::Simulation::create(*device, scene).value();
+    const auto simulation = simulate(scene, *device);
     run(*simulation, 20);
     const glm::dvec3 wanted = sphere.position + 20.0 * glm::dvec3(sphere.velocity);
     return glm::length(positionOf(simulation->snapshot(), 0) - wanted);
@@ -39,7 +39,7 @@ TEST(Double, GivesTheSameStateAgain) {
     std::uint64_t first = 0;
     for (const char* const choice : {"cpu-double:1", "cpu-double:3"}) {
         const auto device = compute::openDevice(choice).value();
-        const auto simulation = sim::Simulation::create(*device, named("pour")).value();
+        const auto simulation = simulate(named("pour"), *device);
         run(*simulation, 0.3);
         EXPECT_TRUE(allFinite(simulation->snapshot()));
         const std::uint64_t hash = sim::hashOf(simulation->snapshot());

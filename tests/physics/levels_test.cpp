@@ -2,12 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <iostream>
-#include <optional>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -53,113 +49,77 @@ std::vector<Pair> listed(sim::Simulation& simulation) {
     return found;
 }
 
+// 400 spheres on and about the surfaces of each other, some of them far outside, where the torus of cells wraps around.
+// Each approaches another one, in m/s.
+scene::Scene cluster(double side, double ratio, double approach) {
+    scene::Scene scene = openSpace(side);
+    scene::Random random(7);
+    for (int k = 0; k < 400; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = static_cast<float>(0.5 * std::pow(ratio, -std::sqrt(random.uniform(0, 1))));
+        if (k < 2) sphere.radius = static_cast<float>(k == 0 ? 0.5 : 0.5 / ratio);
+        glm::dvec3 direction;
+        do {
+            for (int axis = 0; axis < 3; ++axis) direction[axis] = random.uniform(-1, 1);
+        } while (glm::length(direction) > 1 || glm::length(direction) < 0.1);
+        direction /= glm::length(direction);
+        if (k < 8) {
+            sphere.position = direction * random.uniform(0, 3 * side);
+        } else {
+            const scene::Sphere& host = scene.spheres[static_cast<std::size_t>(random.uniform(0, k))];
+            const double apart = static_cast<double>(host.radius + sphere.radius) * random.uniform(0.98, 1.1);
+            sphere.position = host.position + direction * apart;
+            sphere.velocity = glm::vec3(-approach * direction);
+        }
+        scene.spheres.push_back(sphere);
+    }
+    return scene;
+}
+
 class Ratio : public testing::TestWithParam<int> {};
 
-// Spheres on and about the surfaces of each other, some of them far outside, where the torus of cells wraps around.
 TEST_P(Ratio, ListsAreWhatBruteForceFinds) {
-    const double ratio = GetParam();
-    for (const double side : {1.0, 8.0}) {
-        scene::Scene scene = openSpace(side);
-        scene::Random random(7);
-        for (int k = 0; k < 1500; ++k) {
-            scene::Sphere sphere;
-            sphere.radius = static_cast<float>(0.5 * std::pow(ratio, -std::sqrt(random.uniform(0, 1))));
-            if (k < 2) sphere.radius = static_cast<float>(k == 0 ? 0.5 : 0.5 / ratio);
-            glm::dvec3 direction;
-            do {
-                for (int axis = 0; axis < 3; ++axis) direction[axis] = random.uniform(-1, 1);
-            } while (glm::length(direction) > 1 || glm::length(direction) < 0.1);
-            direction /= glm::length(direction);
-            if (k < 8) {
-                sphere.position = direction * random.uniform(0, 3 * side);
-            } else {
-                const scene::Sphere& host = scene.spheres[static_cast<std::size_t>(random.uniform(0, k))];
-                const double apart = static_cast<double>(host.radius + sphere.radius) * random.uniform(0.98, 1.1);
-                sphere.position = host.position + direction * apart;
-            }
-            scene.spheres.push_back(sphere);
-        }
+    for (const double side : {3.0, 12.0}) {
+        const scene::Scene scene = cluster(side, GetParam(), 0);
         const auto simulation = simulate(scene);
-        EXPECT_EQ(simulation->plan().features.levels, ratio > scene::levelsAbove);
+        EXPECT_EQ(simulation->plan().features.levels, GetParam() > 2);
         run(*simulation, 2 * scene.step);  // the first of them may have to make room
         ASSERT_EQ(simulation->counters().unlisted, 0U);
+        ASSERT_EQ(simulation->counters().sampled, 0U);
         const std::vector<Pair> expected = withinMargin(*simulation);
         EXPECT_GT(expected.size(), 300U);
         EXPECT_EQ(listed(*simulation), expected);
     }
 }
 
-TEST_P(Ratio, ACloudThatFallsTogetherKeepsItsMomentum) {
+TEST_P(Ratio, AClusterKeepsItsMomentum) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
         SCOPED_TRACE(scene::nameOf(model));
-        scene::Scene scene = openSpace(2);
+        scene::Scene scene = cluster(12, GetParam(), 0.5);
         scene.quality.model = model;
         if (model == scene::Model::Accurate) scene.quality.substeps = 20;
-        scatterMixed(scene, 250, 0.1, GetParam());
-        for (scene::Sphere& sphere : scene.spheres) sphere.velocity = glm::vec3(sphere.position * -2.0);
+        scene.materials[0].friction = 0.3;
         const auto simulation = simulate(scene);
         const glm::dvec3 before = momentumOf(simulation->snapshot());
         const double scale = momentumScale(simulation->snapshot());
         std::uint64_t contacts = 0;
-        for (int k = 0; k < 40; ++k) {
-            run(*simulation, 0.0125);
+        const int steps = model == scene::Model::Accurate ? 5 : 15;
+        for (int k = 0; k < steps; ++k) {
+            run(*simulation, scene.step);
             contacts += simulation->statistics().contacts;
         }
-        EXPECT_GT(contacts, 20U);
+        EXPECT_GT(contacts, 40U);
         EXPECT_LT(glm::length(momentumOf(simulation->snapshot()) - before), 1e-5 * scale);
         EXPECT_TRUE(allFinite(simulation->snapshot()));
     }
 }
 
-TEST_P(Ratio, AllDevicesGiveTheSameBits) {
-    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
-        std::optional<std::uint64_t> expected;
-        for (const char* const choice : {"cpu:1", "cpu:2", "cpu:3", "cpu:8", "cpu:8", "software"}) {
-            // Mesa's renderer rounds some term of the springs differently: with and without levels.
-            if (model == scene::Model::Accurate && std::string(choice) == "software") continue;
-            scene::Scene scene = sleepyBox(0.8);
-            scene.materials[0].friction = 0.4;
-            scene.quality = {.model = model, .substeps = model == scene::Model::Accurate ? 100U : 4U};
-            scatterMixed(scene, GetParam() < 10 ? 20 : 200, 0.1, GetParam());
-            for (scene::Sphere& sphere : scene.spheres) sphere.velocity.z = -3;
-            const auto on = compute::openDevice(choice).value();
-            auto simulation = sim::Simulation::create(*on, scene).value();
-            run(*simulation, model == scene::Model::Accurate ? 0.15 : 0.5);
-            if (GetParam() >= 10) {
-                EXPECT_GT(simulation->statistics().contacts, 0U);
-            }
-            const std::uint64_t hash = sim::hashOf(simulation->snapshot());
-            if (!expected) expected = hash;
-            EXPECT_EQ(hash, *expected) << scene::nameOf(model) << " on " << choice;
-        }
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(OneTo, Ratio, testing::Values(2, 10, 30, 100));
 
-// Costs of a bed of 20,000 of a size with one sphere above that is so many times larger.
-TEST_P(Ratio, CostsWhatItsContactsCost) {
-    const double ratio = GetParam() == 2 ? 1 : GetParam();
-    const scene::Scene scene = bedUnderOne(20'000, ratio);
-    const auto simulation = simulate(scene);
-    run(*simulation, 0.5);
-    const auto began = std::chrono::steady_clock::now();
-    const std::uint32_t rebuilt = simulation->counters().rebuilds;
-    run(*simulation, 0.1);
-    const sim::Statistics statistics = simulation->statistics();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    const sim::Simulation::Counters counters = simulation->counters();
-    std::cout << "1:" << ratio << ": " << 1e3 * seconds / 48 << " ms per substep, " << counters.rebuilds - rebuilt
-              << " rebuilds in 48, " << counters.pairs << " pairs listed, " << statistics.contacts << " contacts, "
-              << simulation->plan().grid.levels.size() << " levels\n";
-    EXPECT_EQ(counters.unlisted, 0U);
-    EXPECT_LT(counters.pairs, 16U * simulation->count());
-}
-
 TEST(Levels, ALargeSphereRestsOnABedOfSmallOnes) {
-    scene::Scene scene = bedUnderOne(3'000, 100);
+    scene::Scene scene = bedUnderOne(1'000, 100);
     const auto simulation = simulate(scene);
-    run(*simulation, 1.5);
+    run(*simulation, 1);
     const sim::State state = simulation->snapshot();
     const sim::Statistics statistics = simulation->statistics();
     EXPECT_TRUE(allFinite(state));
@@ -167,8 +127,6 @@ TEST(Levels, ALargeSphereRestsOnABedOfSmallOnes) {
     const std::uint32_t large = state.count() - 1;
     EXPECT_LT(glm::length(velocityOf(state, large)), 0.05);
     const double gap = positionOf(state, large).z - 0.5 + (scene.bounds.max.z - scene.bounds.min.z) / 2;
-    std::cout << "gap to the floor " << gap << " m, overlaps: mean " << statistics.overlapMean << ", largest "
-              << statistics.overlapMax << " of the smaller radius, " << statistics.contacts << " contacts\n";
     EXPECT_GT(gap, -0.005);
     EXPECT_LT(gap, 0.12);
     EXPECT_LT(statistics.overlapMean, 0.2);

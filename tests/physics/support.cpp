@@ -62,8 +62,8 @@ void setRestitution(scene::Scene& scene, double restitution) {
     for (scene::Material& material : scene.materials) material.restitution = restitution;
 }
 
-std::unique_ptr<sim::Simulation> simulate(scene::Scene scene) {
-    auto simulation = sim::Simulation::create(device(), std::move(scene));
+std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on) {
+    auto simulation = sim::Simulation::create(on, std::move(scene));
     if (!simulation) throw std::runtime_error(simulation.error().text());
     return std::move(*simulation);
 }

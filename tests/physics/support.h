@@ -38,7 +38,7 @@ void setRestitution(scene::Scene& scene, double restitution);  // of everything 
 constexpr double earth = 9.81;  // m/s^2
 
 // Ends the test with the reason when the scene cannot be simulated.
-std::unique_ptr<sim::Simulation> simulate(scene::Scene scene);
+std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on = device());
 
 void run(sim::Simulation& simulation, double seconds);
 
