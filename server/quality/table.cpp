@@ -3,9 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -101,6 +100,8 @@ Result<Table> parseTable(const std::string& text, std::string_view file) {
         const std::size_t offset = error.byte > 0 ? error.byte - 1 : 0;
         return fail(ErrorKind::Input, fmt::format("{}:{}", file, lineAndColumn(text, offset)),
                     fmt::format("is not JSON{}", advice));
+    } catch (const Json::exception&) {
+        return fail(ErrorKind::Input, std::string(file), fmt::format("holds a number that is too large{}", advice));
     } catch (const Wrong& wrong) {
         const std::string where = wrong.where.empty() ? std::string(file) : fmt::format("{}: {}", file, wrong.where);
         return fail(ErrorKind::Input, where, fmt::format("{}{}", wrong.what, advice));
@@ -108,13 +109,13 @@ Result<Table> parseTable(const std::string& text, std::string_view file) {
 }
 
 Result<Table> loadTable(const std::string& path) {
-    errno = 0;
+    std::error_code error;
+    const bool exists = std::filesystem::exists(path, error);
     std::ifstream file(path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    if (!file || file.bad())
+    if (!std::filesystem::is_regular_file(path, error) || !file)
         return fail(ErrorKind::Input, path,
-                    fmt::format("cannot be read: {}{}", errno != 0 ? std::strerror(errno) : "no file", advice));
-    return parseTable(text, path);
+                    fmt::format("{}{}", exists ? "cannot be read as a file" : "there is no such file", advice));
+    return parseTable({std::istreambuf_iterator<char>(file), {}}, path);
 }
 
 Table ownTable() {

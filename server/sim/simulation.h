@@ -105,6 +105,9 @@ class Simulation {
     bool full_ = false;     // there is no room for more pairs
     bool sampled_ = false;  // it has been said that not all pairs are listed
     std::uint32_t substeps_ = 1;
+    std::uint32_t calm_ = 0;      // steps since something moved too far
+    std::uint32_t patience_ = 0;  // steps of calm before substeps are lowered
+    bool lowered_ = false;        // since then
     std::vector<std::string> notices_;
     State good_;  // the last one that was found finite
     std::uint64_t goodStep_ = 0;

@@ -122,7 +122,7 @@ class Table(unittest.TestCase):
         self.assertRegex(self.refusal('{"device": "cpu"}'), r"table\.json: renderer: is missing; `spherule measure ")
         missing = call("serve", "bounce", "--device", "cpu", "--quality-table", "/no/such.json")
         self.assertEqual(missing.returncode, 2)
-        self.assertIn("/no/such.json: cannot be read", missing.stderr)
+        self.assertIn("/no/such.json: there is no such file", missing.stderr)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 import type { Dial as DialMessage, DialPosition, Settings } from "../gen/spherule/v1/control_pb";
-import { costWords, errorRows, nearest, substepWords } from "./dial_words";
+import { costRows, errorRows, nearest, substepWords } from "./dial_words";
 import { h, setText } from "./dom";
 import { models, nameOf } from "./models";
 
@@ -66,10 +66,9 @@ export class Dial {
     setText(this.substeps, `${substepWords(substeps)} a step`);
     this.model.title = models.find((one) => one.model === model)?.says ?? "";
     this.rows.hidden = !position;
-    const cost = position ? costWords(position, substeps, dial.calibrated, settings) : "";
-    this.slider.setAttribute("aria-valuetext", `${nameOf(model)}, ${substepWords(substeps)}; a step takes ${cost}`);
-    const rows = position ? errorRows(position) : [];
-    rows.push({ id: "cost", name: "A step", title: "Wall time in this scene as it is now, and whether the world keeps its pace", value: cost });
+    const rows = position ? [...errorRows(position), ...costRows(position, substeps, dial.calibrated, settings)] : [];
+    const spoken = rows.map(({ name, value }) => `${name} ${value}`).join(", ");
+    this.slider.setAttribute("aria-valuetext", `${nameOf(model)}, ${substepWords(substeps)}: ${spoken}`);
     this.rows.replaceChildren(
       ...rows.map(({ id, name, title, value }) => h("tr", { title }, h("th", {}, name), h("td", { "data-testid": `dial-${id}` }, value))),
     );

@@ -12,7 +12,7 @@ import { goalFrom, goalNames, goals, heldBy } from "./auto";
 import type { GoalName } from "./auto";
 import { Dial } from "./dial";
 import { presetOf, presets } from "./gravity";
-import { StatisticsTable } from "./statistics";
+import { StatisticsTables } from "./statistics";
 
 /** What the panel holds that only the page uses. */
 export interface Choices {
@@ -33,7 +33,7 @@ export interface PanelActions {
 export class Panel {
   readonly element: HTMLElement;
   private readonly gui: GUI;
-  private readonly statistics = new StatisticsTable();
+  private readonly statistics = new StatisticsTables();
   private readonly world = {
     scene: "",
     gravity: "Earth",
@@ -170,7 +170,8 @@ export class Panel {
       world.goal = goals[name].first;
       hold();
     }).domElement.title = "Moves the substeps of the model to hold a time per step, or a mean overlap";
-    this.goal = tag("auto-goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(hold).hide();
+    this.gui.addFolder("Now").$children.append(this.statistics.quality);
+    this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(hold).hide();
   }
 
   private addDrop(): void {
@@ -199,8 +200,7 @@ export class Panel {
   }
 
   private addStatistics(): void {
-    const folder = this.gui.addFolder("Now");
-    folder.$children.append(this.statistics.element);
+    this.gui.addFolder("Statistics").$children.append(this.statistics.rest);
   }
 }
 
