@@ -64,7 +64,7 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     return prometheus::TextSerializer().Serialize(to.registry.Collect());
 }
 
-// Of the last second while somebody watched or asked.
+// Of the last second; only while somebody watches, or has asked for metrics within some minutes.
 void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
     Families& to = *families_;
     const v1::Statistics& now = diagnostics.statistics();

@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto reportEvery = 1s;
-constexpr auto interest = 60s;  // in figures, after somebody asked for metrics
+constexpr auto interest = 150s;  // in figures, after somebody asked for metrics
 
 }  // namespace
 
@@ -68,10 +68,12 @@ void SimLoop::report() {
     if (now < nextReport_) return;
     nextReport_ = now + reportEvery;
     const auto times = world_.simulation().passSeconds();
-    if (watched_ || live_.askedWithin(interest))
+    if (watched_ || live_.askedWithin(interest)) {
         look(times);
-    else
+    } else {
+        seen_.reset();
         observer_.rest();
+    }
     live_.update([&](LiveReport& report) {
         if (report.state != "draining") report.state = world_.paused() ? "paused" : "running";
         report.scene = world_.simulation().scene().name;

@@ -35,13 +35,6 @@ double balancedSubstep(const Scene& scene) {
     return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
 }
 
-// Of springs that have their stiffness from the materials, for a contact to take ten of them; else one.
-double fewestSubsteps(const Scene& scene) {
-    constexpr double fewestPerContact = 10;
-    if (scene.quality.model != Model::Accurate || !followsHertz(scene)) return 1;
-    return std::ceil(fewestPerContact * scene.step / contactTimeOf(scene).contact);
-}
-
 // As if nobody had asked for substeps.
 Scene unpinned(const Scene& scene, Model model) {
     Scene free = scene;
@@ -105,12 +98,19 @@ Result<void> fitSubsteps(Scene& scene) {
     }
     if (quality.substeps < 1 || quality.substeps > maxSubsteps)
         return fail(ErrorKind::Input, field, fmt::format("is {}, must be 1 to {}", quality.substeps, maxSubsteps));
-    if (const double fewest = fewestSubsteps(scene); quality.substeps < fewest)
+    if (const std::uint32_t fewest = fewestSubsteps(scene, quality.model); quality.substeps < fewest)
         return fail(ErrorKind::Input, field,
                     fmt::format("is {}, but contacts of these materials would take less than 10 substeps then; give at "
-                                "least {:.0f}",
+                                "least {}",
                                 quality.substeps, fewest));
     return {};
+}
+
+std::uint32_t fewestSubsteps(const Scene& scene, Model model) {
+    constexpr double fewestPerContact = 10;  // of springs that have their stiffness from the materials
+    if (model != Model::Accurate || !followsHertz(scene)) return 1;
+    const double fewest = std::ceil(fewestPerContact * scene.step / contactTimeOf(scene).contact);
+    return static_cast<std::uint32_t>(std::clamp<double>(fewest, 1, maxSubsteps));
 }
 
 Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where) {
@@ -141,11 +141,11 @@ Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {
 }
 
 SubstepRange substepRange(const Scene& scene, Model model) {
-    constexpr double fewer = 4;  // times: what was measured of the models does not reach beyond
+    constexpr double fewer = 2;  // times: with less, piles are squeezed
     constexpr double more = 8;
-    const Scene free = unpinned(scene, model);
-    const double own = defaultSubsteps(free);
-    const double fewest = std::clamp<double>(std::max(std::floor(own / fewer), fewestSubsteps(free)), 1, maxSubsteps);
+    const double own = defaultSubsteps(unpinned(scene, model));
+    const double least = fewestSubsteps(scene, model);
+    const double fewest = std::clamp<double>(std::floor(own / fewer), least, maxSubsteps);
     return {.fewest = static_cast<std::uint32_t>(fewest),
             .most = static_cast<std::uint32_t>(std::clamp<double>(own * more, fewest, maxSubsteps))};
 }

@@ -27,6 +27,9 @@ Result<void> fitSubsteps(Scene& scene);
 // The substeps that the model would choose itself for the scene, or why it cannot have it.
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model);
 
+// That the model can do with at all.
+std::uint32_t fewestSubsteps(const Scene& scene, Model model);
+
 // Within which the model is of use for the scene, as far as was measured.
 struct SubstepRange {
     std::uint32_t fewest = 1;

@@ -97,14 +97,17 @@ TEST(SceneQuality, ACallersModelOrSubstepsEndTheScenesAuto) {
 
 TEST(SceneQuality, AModelIsOfUseWithinARange) {
     const Scene scene = sceneWith("");
-    EXPECT_EQ(substepRange(scene, Model::Balanced).fewest, 2U);
+    EXPECT_EQ(substepRange(scene, Model::Balanced).fewest, 4U);
     EXPECT_EQ(substepRange(scene, Model::Balanced).most, 64U);
     EXPECT_EQ(substepRange(scene, Model::Fast).fewest, 1U) << "none is too few";
     const Scene stiff = sceneWith(R"("materials": [{"young": 1e7}])", {.model = Model::Accurate});
     Scene fewest = stiff;
     fewest.quality.pinned = true;
-    fewest.quality.substeps = substepRange(stiff, Model::Accurate).fewest;
+    fewest.quality.substeps = fewestSubsteps(stiff, Model::Accurate);
     EXPECT_TRUE(fitSubsteps(fewest));
+    --fewest.quality.substeps;
+    EXPECT_FALSE(fitSubsteps(fewest));
+    EXPECT_GE(substepRange(stiff, Model::Accurate).fewest, fewestSubsteps(stiff, Model::Accurate));
     EXPECT_EQ(substepsFor(scene, Model::Balanced), 8U);
     EXPECT_FALSE(substepsFor(sceneWith(halfKnown), Model::Accurate));
 }
