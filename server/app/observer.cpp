@@ -9,6 +9,9 @@ namespace spherule::app {
 namespace {
 
 constexpr double noticeable = 1.2;  // times the cost that was last told
+// From which time per step can be told.
+constexpr std::uint64_t enoughSteps = 10;
+constexpr double enoughMs = 300;
 
 void addPasses(v1::Diagnostics& diagnostics, const std::vector<double>& seconds, std::uint64_t steps) {
     if (steps == 0) return;
@@ -38,6 +41,7 @@ bool Observer::refresh(const sim::Simulation& simulation, std::uint32_t epoch) {
     if (basis == basis_) return false;
     basis_ = std::move(basis);
     dial_ = quality::dialFor(table_, simulation.scene());
+    energy_ = {};
     rest();
     return true;
 }
@@ -51,13 +55,12 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
     addPasses(diagnostics, passSeconds, steps_);
     if (simulation.substeps() != substeps_) energy_.disturbed();
     substeps_ = simulation.substeps();
-    if (steps_ > 0) {
-        diagnostics.set_step_ms(ms_ / static_cast<double>(steps_));
-        sight.dialMoved = calibrate(simulation, diagnostics.step_ms());
+    if (steps_ > 0) diagnostics.set_step_ms(ms_ / static_cast<double>(steps_));
+    if (steps_ >= enoughSteps || ms_ >= enoughMs) sight.dialMoved = calibrate(simulation, diagnostics.step_ms());
+    if (steps_ > 0 || energy_.fresh())
         sight.alarm = energy_.take({.step = simulation.steps(),
                                     .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                     .potential = statistics.potentialEnergy});
-    }
     diagnostics.set_energy_rises(energy_.alarmed());
     rest();
     return sight;

@@ -71,6 +71,7 @@ void SimLoop::serve(const Request& request) {
     if (result.has_applied() && changesWorld(request.command)) {
         tuner_.forget();
         observer_.disturbed();
+        nextReport_ = {};  // what energy there is at the start is soon gone
     }
     if (!request.command.has_query() && result.has_applied()) announce();
     outlets_.reply(request.session, std::move(result));

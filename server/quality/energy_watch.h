@@ -22,6 +22,8 @@ class EnergyWatch {
     std::optional<std::string> take(const Reading& reading);
     // A command, or more substeps, may have given energy: what was read before says nothing of what comes.
     void disturbed();
+    // Nothing to compare with has been read.
+    [[nodiscard]] bool fresh() const { return recent_.empty(); }
     [[nodiscard]] bool alarmed() const { return alarmed_; }
 
   private:

@@ -85,6 +85,18 @@ class Metrics(Served):
 
 
 class Energy(Served):
+    def test_balls_that_touch_get_some_from_the_model_and_that_is_told(self):
+        # docs/accuracy.md has how much.
+        self.serve("cradle-touching", "--quality", "balanced")
+        self.metric("spherule_contacts")
+        self.ctl("reset")
+        self.eventually(lambda: self.metric("spherule_energy_rises") == 1, "the rise is seen")
+        self.assertRegex(self.logged(), r"mechanical energy is \S+ J and was \S+ J, though nothing gave any")
+        self.ctl("reset")
+        self.ctl("set", "model", "fast")
+        time.sleep(3)
+        self.eventually(lambda: self.metric("spherule_energy_rises") == 0, "it is quiet again")
+
     def test_a_rise_is_told_where_nothing_gave_any(self):
         # Spheres deep in each other fly apart: in a run by steps, so that there is a reading before they do.
         with tempfile.TemporaryDirectory() as folder:
