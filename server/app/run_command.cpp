@@ -98,11 +98,9 @@ Result<void> runSteps(sim::Simulation& simulation, std::uint64_t steps, std::uin
     for (std::uint64_t k = 1; k <= steps; ++k) {
         if (auto done = simulation.step(); !done) return done;
         for (const std::string& notice : simulation.takeNotices()) spdlog::warn("{}", notice);
-        // No goal of `run` looks at the clock.
-        if (const auto told = tuner.stepped(simulation, 0); !told)
-            return tl::unexpected(told.error());
-        else if (*told)
-            spdlog::info("at step {}, {}", simulation.steps(), **told);
+        const auto told = tuner.stepped(simulation, 0);  // no goal of `run` looks at the clock
+        if (!told) return tl::unexpected(told.error());
+        if (*told) spdlog::info("at step {}, {}", simulation.steps(), **told);
         if (simulation.counters().nonFinite)
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
         progress.at(k, simulation.time());

@@ -27,6 +27,7 @@ void addPosition(v1::Dial& dial, const Rung& rung, std::uint32_t substeps, doubl
     v1::DialPosition& position = *dial.add_positions();
     position.set_model(scene::messageOf(rung.model));
     position.set_substeps(substeps);
+    position.set_own(rung.factor == 1);
     for (const auto& [name, measured] : rung.curves) {
         v1::CurveError& error = *position.add_errors();
         error.set_curve(name);

@@ -97,6 +97,18 @@ test("turning the dial ends auto", async () => {
   assert.equal((await serverSays(page)).settings.auto, undefined);
 });
 
+test("where a model has its own substeps they are chosen anew when gravity changes, elsewhere they stay", async () => {
+  const own = await page.evaluate(() => spherule.dial.findIndex((position) => position.model === "balanced" && position.own));
+  await turn("Home");
+  for (let i = 0; i < own; i++) await turn("ArrowRight");
+  await server.ctl("set", "gravity", "0", "0", "-39.24"); // substeps go with its root
+  await when(page, () => spherule.settings.substeps === 16);
+  const next = await turn("ArrowRight");
+  await server.ctl("set", "gravity", "0", "0", "-9.81");
+  await when(page, () => spherule.settings.gravity[2] === -9.81);
+  assert.equal((await serverSays(page)).settings.substeps, next.substeps);
+});
+
 test("the figures of the world come by themselves", async () => {
   const step = await page.evaluate(() => spherule.diagnostics.step);
   await when(page, (then) => spherule.diagnostics.step > then, step);

@@ -97,6 +97,8 @@ TEST(Dial, HasTheRungsWithTheSubstepsOfTheScene) {
     EXPECT_EQ(dial.positions(1).substeps(), 8U);
     EXPECT_EQ(dial.positions(2).substeps(), 16U);
     EXPECT_EQ(dial.positions(1).errors_size(), 2);
+    EXPECT_TRUE(dial.positions(1).own());
+    EXPECT_FALSE(dial.positions(2).own());
     EXPECT_EQ(dial.measured_on(), "cpu, a processor");
     EXPECT_EQ(dial.missing_size(), 0);
     EXPECT_FALSE(dial.calibrated());

@@ -32,7 +32,7 @@ export interface Hook {
   /** The newest figures of the world that the server sent. */
   readonly diagnostics: { substeps: number; stepMs: number; energyRises: boolean; step: number } | undefined;
   /** The positions of the dial, from fast to accurate. */
-  readonly dial: { model: string; substeps: number; stepMs: number }[];
+  readonly dial: { model: string; substeps: number; stepMs: number; own: boolean }[];
   readonly camera: Pose & { eye: Vec3 };
   /** Answers to this page's commands, the newest last, at most 50. */
   readonly results: { what: string; outcome: string; step: number | undefined; words: string }[];
@@ -124,7 +124,12 @@ export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Ho
       return { substeps, stepMs, energyRises, step: Number(statistics?.step ?? 0) };
     },
     get dial() {
-      return (session.dial?.positions ?? []).map(({ model, substeps, stepMs }) => ({ model: Model[model].toLowerCase(), substeps, stepMs }));
+      return (session.dial?.positions ?? []).map(({ model, substeps, stepMs, own }) => ({
+        model: Model[model].toLowerCase(),
+        substeps,
+        stepMs,
+        own,
+      }));
     },
     get camera() {
       return { ...camera.pose, eye: camera.last.eye };

@@ -48,7 +48,7 @@ export class Panel {
   };
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly scene: OptionController;
-  private readonly dial = new Dial(({ model, substeps }) => void this.change("Quality", { model, substeps }));
+  private readonly dial = new Dial(({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }));
   private goal!: Controller;
   private facts: Facts | undefined;
   private settled: Settings | undefined;
