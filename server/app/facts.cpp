@@ -84,6 +84,7 @@ v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool 
     settings.set_step(scene.step);
     settings.set_model(scene::messageOf(scene.quality.model));
     settings.set_friction(scene.materials.front().friction);
+    if (scene.quality.goal) *settings.mutable_auto_() = scene::messageOf(*scene.quality.goal);
     return message;
 }
 

@@ -2,10 +2,11 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "spherule/v1/frame.pb.h"
+#include "spherule/v1/control.pb.h"
 
 namespace spherule::app {
 
@@ -22,7 +23,8 @@ struct LiveReport {
     std::uint32_t rebuilds = 0;
     std::uint64_t framesProduced = 0;
     v1::Status status;
-    std::vector<double> passSeconds;  // since the start, by sim::Pass
+    std::optional<v1::Diagnostics> diagnostics;  // once somebody has watched or asked for metrics
+    std::vector<double> passSeconds;             // since the start, by sim::Pass
     std::chrono::steady_clock::time_point heartbeat = std::chrono::steady_clock::now();
 };
 
@@ -39,8 +41,19 @@ class Live {
         return report_;
     }
 
+    // Somebody reads the figures, and will want newer ones before long.
+    void asked() {
+        const std::lock_guard lock(mutex_);
+        asked_ = std::chrono::steady_clock::now();
+    }
+    [[nodiscard]] bool askedWithin(std::chrono::seconds time) const {
+        const std::lock_guard lock(mutex_);
+        return asked_ && std::chrono::steady_clock::now() - *asked_ < time;
+    }
+
   private:
     mutable std::mutex mutex_;
+    std::optional<std::chrono::steady_clock::time_point> asked_;
     LiveReport report_;
 };
 

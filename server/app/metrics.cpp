@@ -46,6 +46,8 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
         to.counter("spherule_pass_seconds_total", "Device time per pass", live.passSeconds[pass],
                    {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
 
+    if (live.diagnostics) addDiagnostics(*live.diagnostics);
+
     to.gauge("spherule_sessions", "Open sessions", count(net.sessions));
     to.counter("spherule_sessions_accepted_total", "Sessions ever", count(net.accepted));
     to.counter("spherule_handshakes_refused_total", "WebSocket handshakes refused", count(net.handshakesRefused));
@@ -60,6 +62,27 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
         to.counter("spherule_sessions_closed_total", "Sessions ended, by cause", count(net.closed[cause]),
                    {{"cause", std::string(net::closeCauseNames[cause])}});
     return prometheus::TextSerializer().Serialize(to.registry.Collect());
+}
+
+// Of the last second; only while somebody watches, or has asked for metrics within some minutes.
+void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
+    Families& to = *families_;
+    const v1::Statistics& now = diagnostics.statistics();
+    to.gauge("spherule_substeps", "Substeps per step", diagnostics.substeps());
+    to.gauge("spherule_step_seconds", "Wall time per step", diagnostics.step_ms() / 1000);
+    to.gauge("spherule_energy_rises", "1 while energy has risen lately that nothing can have given",
+             diagnostics.energy_rises() ? 1 : 0);
+    constexpr const char* energy = "spherule_energy_joules";
+    constexpr const char* energyHelp = "Mechanical energy, the potential one above the floor of the bounds";
+    to.gauge(energy, energyHelp, now.kinetic_energy(), {{"kind", "kinetic"}});
+    to.gauge(energy, energyHelp, now.rotational_energy(), {{"kind", "rotational"}});
+    to.gauge(energy, energyHelp, now.potential_energy(), {{"kind", "potential"}});
+    to.gauge("spherule_contacts", "Pairs of spheres that overlap", static_cast<double>(now.contacts()));
+    to.gauge("spherule_overlap_mean_ratio", "Mean overlap of those, over the smaller radius", now.overlap_mean());
+    to.gauge("spherule_overlap_max_ratio", "Largest overlap", now.overlap_max());
+    to.gauge("spherule_wall_overlap_max_ratio", "Deepest sphere in a wall, over its radius", now.wall_overlap_max());
+    to.gauge("spherule_speed_max_metres_per_second", "Of the fastest sphere", now.speed_max());
+    to.gauge("spherule_speed_rms_metres_per_second", "Root of the mean square", now.speed_rms());
 }
 
 }  // namespace spherule::app

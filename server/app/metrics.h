@@ -19,6 +19,8 @@ class Metrics {
     std::string text(const LiveReport& live, const net::Counters& net);
 
   private:
+    void addDiagnostics(const v1::Diagnostics& diagnostics);
+
     struct Families;
     std::unique_ptr<Families> families_;
 };

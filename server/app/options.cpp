@@ -2,12 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 
 #include "app/exit_codes.h"
 #include "scene/quality.h"
 
 namespace spherule::app {
+
+namespace {
+
+// "16ms" or "0.5%"; nothing for what cannot be a goal.
+std::optional<scene::Goal> goalFrom(const std::string& text) {
+    double number = 0;
+    const char* end = text.data() + text.size();
+    const auto [unit, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc()) return std::nullopt;
+    const std::string_view name(unit, end);
+    v1::Auto message;
+    if (name == "ms")
+        message.set_budget_ms(number);
+    else if (name == "%")
+        message.set_overlap(number / 100);
+    const auto goal = scene::goalOf(message, "");
+    return goal ? *goal : std::nullopt;
+}
+
+}  // namespace
 
 void addQuality(CLI::App& command, scene::Overrides& overrides) {
     command
@@ -18,12 +39,23 @@ void addQuality(CLI::App& command, scene::Overrides& overrides) {
     command.add_option("--substeps", overrides.substeps, "per step, in place of the scene's");
 }
 
+void addGoal(CLI::App& command, scene::Overrides& overrides) {
+    command
+        .add_option_function<std::string>(
+            "--auto", [&overrides](const std::string& goal) { overrides.goal = goalFrom(goal); },
+            "move the substeps to hold this: wall time per step, such as 16ms, or mean overlap, such as 0.5%")
+        ->check([](const std::string& goal) {
+            return goalFrom(goal) ? "" : "'" + goal + "' is neither a time such as 16ms nor an overlap such as 0.5%";
+        });
+}
+
 void SceneOptions::addTo(CLI::App& command) {
     std::string known;
     for (const std::string& name : scene::names()) known += (known.empty() ? "" : ", ") + name;
     command.add_option("scene", scene, "a scene file, or one of: " + known)->capture_default_str();
     command.add_option("--device", device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")->capture_default_str();
     addQuality(command, overrides);
+    addGoal(command, overrides);
     command.add_option("--seed", overrides.seed, "in place of the scene's seeds");
     command.add_flag("--no-sleep", overrides.noSleep, "no sphere is put to sleep");
 }

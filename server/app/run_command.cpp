@@ -12,6 +12,7 @@
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/run_report.h"
+#include "app/tuner.h"
 #include "compute/device.h"
 #include "core/log.h"
 #include "sim/simulation.h"
@@ -93,9 +94,13 @@ class Watch {
 Result<void> runSteps(sim::Simulation& simulation, std::uint64_t steps, std::uint64_t stride,
                       const std::function<Result<void>()>& every) {
     Progress progress(steps);
+    Tuner tuner;
     for (std::uint64_t k = 1; k <= steps; ++k) {
         if (auto done = simulation.step(); !done) return done;
         for (const std::string& notice : simulation.takeNotices()) spdlog::warn("{}", notice);
+        const auto told = tuner.stepped(simulation, 0);  // no goal of `run` looks at the clock
+        if (!told) return tl::unexpected(told.error());
+        if (*told) spdlog::info("at step {}, {}", simulation.steps(), **told);
         if (simulation.counters().nonFinite)
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
         progress.at(k, simulation.time());
@@ -152,6 +157,10 @@ Result<void> run(const RunOptions& options) {
     spdlog::info("on {}: {}", (*device)->info().renderer, (*device)->info().reason);
     auto loaded = scene::load(options.scene.scene, (*device)->info().kind, options.scene.overrides);
     if (!loaded) return tl::unexpected(loaded.error());
+    if (loaded->quality.goal && loaded->quality.goal->of == scene::Goal::Of::StepTime)
+        return fail(ErrorKind::Input, "quality.auto",
+                    "holds a time per step, so that the result would depend on how busy the machine is: give `run` an "
+                    "overlap to hold, such as --auto 0.5%, or --substeps");
     if (!(*duration / loaded->step <= mostSteps))
         return fail(ErrorKind::Input, "--for",
                     fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));

@@ -6,12 +6,14 @@
 
 namespace spherule::app {
 
-Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const net::Options& listen) {
+Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const quality::Table& table,
+                                                const net::Options& listen) {
     std::promise<Result<void>> ready;  // outlives the thread that keeps it
     std::unique_ptr<Runtime> runtime(new Runtime());
     auto opened = ready.get_future();
-    runtime->simulation_ = std::jthread(
-        [self = runtime.get(), scene, &ready](const std::stop_token& stop) { self->simulate(stop, scene, ready); });
+    runtime->simulation_ = std::jthread([self = runtime.get(), scene, table, &ready](const std::stop_token& stop) {
+        self->simulate(stop, scene, table, ready);
+    });
     const Result<void> world = opened.get();
     Result<std::unique_ptr<net::Server>> server = tl::unexpected(Error{});
     if (world) server = net::startServer(listen, runtime->handlers());
@@ -40,7 +42,8 @@ Runtime::~Runtime() {
 }
 
 // The thread that owns the device, for its whole life.
-void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, std::promise<Result<void>>& ready) {
+void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, const quality::Table& table,
+                       std::promise<Result<void>>& ready) {
     auto world = World::open(scene.device, scene.scene, scene.overrides);
     if (!world) {
         ready.set_value(tl::unexpected(world.error()));
@@ -57,7 +60,7 @@ void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, s
     ready.set_value({});
     settled_.wait(false);
     if (stop.stop_requested()) return;
-    SimLoop loop(**world, requests_, live_, outlets());
+    SimLoop loop(**world, requests_, live_, table, outlets());
     Result<void> ended;
     try {
         ended = loop.run(stop);
@@ -74,7 +77,8 @@ void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, s
 Outlets Runtime::outlets() {
     return {.scene = [this](auto message) { server_->setScene(std::move(message)); },
             .settings = [this](auto message) { server_->setSettings(std::move(message)); },
-            .event = [this](auto message) { server_->broadcast(std::move(message)); },
+            .dial = [this](auto message) { server_->setDial(std::move(message)); },
+            .everybody = [this](auto message) { server_->broadcast(std::move(message)); },
             .state = [this](Encoder::Packed state) { encoder_->put(std::move(state)); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },

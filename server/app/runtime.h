@@ -20,7 +20,8 @@ namespace spherule::app {
 class Runtime {
   public:
     // Opens the device, loads the scene and listens; returns when all of that is done.
-    static Result<std::unique_ptr<Runtime>> start(const SceneOptions& scene, const net::Options& listen);
+    static Result<std::unique_ptr<Runtime>> start(const SceneOptions& scene, const quality::Table& table,
+                                                  const net::Options& listen);
     ~Runtime();
     Runtime(const Runtime&) = delete;
     Runtime& operator=(const Runtime&) = delete;
@@ -34,7 +35,8 @@ class Runtime {
 
   private:
     Runtime() = default;
-    void simulate(const std::stop_token& stop, const SceneOptions& scene, std::promise<Result<void>>& ready);
+    void simulate(const std::stop_token& stop, const SceneOptions& scene, const quality::Table& table,
+                  std::promise<Result<void>>& ready);
     void settle();
     Outlets outlets();
     net::Handlers handlers();

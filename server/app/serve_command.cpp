@@ -17,6 +17,7 @@ namespace {
 struct ServeOptions {
     SceneOptions scene;
     std::string listen = "127.0.0.1:8080";
+    std::string table;
 };
 
 // SIGINT and SIGTERM, blocked in all threads so that main can wait for them.
@@ -54,11 +55,14 @@ void announce(const ServeOptions& options, const Runtime& runtime, const Endpoin
 int serve(const ServeOptions& options) {
     const auto endpoint = endpointOf(options.listen);
     if (!endpoint) return report(endpoint.error());
+    const Result<quality::Table> table =
+        options.table.empty() ? quality::ownTable() : quality::loadTable(options.table);
+    if (!table) return report(table.error());
     const StopSignals signals;
     net::Options listen;
     listen.host = endpoint->host;
     listen.port = endpoint->port;
-    auto runtime = Runtime::start(options.scene, listen);
+    auto runtime = Runtime::start(options.scene, *table, listen);
     if (!runtime) return report(runtime.error());
     announce(options, **runtime, *endpoint);
     while (!signals.wait())
@@ -79,6 +83,10 @@ void addServe(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("serve", "simulate and show it in a browser");
     options->scene.addTo(*command);
     command->add_option("--listen", options->listen, "host:port; port 0 takes a free one")->capture_default_str();
+    command->add_option(
+        "--quality-table", options->table,
+        "a measure.json of `spherule measure`: what the dial says of errors and costs, in place of what "
+        "came with the program");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] { exitCode = serve(*options); });
 }

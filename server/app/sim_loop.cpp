@@ -14,18 +14,18 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then waits this long for a state
 constexpr auto copyWait = 1ms;
-constexpr auto reportEvery = 500ms;
 constexpr int commandsPerStep = 32;
 constexpr std::size_t mostPending = 2;  // copies that a device has under way at once
 
-frame::SharedMessage share(v1::ServerMessage message) {
-    return std::make_shared<const frame::Message>(std::move(message));
+// Whether the world, or how it goes on, may be another after it.
+bool changesWorld(const v1::Command& command) {
+    return command.has_set() || command.has_load() || command.has_reset() || command.has_spawn() || command.has_push();
 }
 
 }  // namespace
 
-SimLoop::SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, Outlets outlets)
-    : world_(world), requests_(requests), live_(live), outlets_(std::move(outlets)) {}
+SimLoop::SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, quality::Table table, Outlets outlets)
+    : world_(world), requests_(requests), live_(live), outlets_(std::move(outlets)), observer_(std::move(table)) {}
 
 Result<void> SimLoop::run(const std::stop_token& stop) {
     announce();
@@ -68,6 +68,11 @@ void SimLoop::serve(const Request& request) {
     } catch (const std::bad_alloc&) {
         result.mutable_refused()->set_reason("there is not enough memory for this");
     }
+    if (result.has_applied() && changesWorld(request.command)) {
+        tuner_.forget();
+        observer_.disturbed();
+        nextReport_ = {};  // what energy there is at the start is soon gone
+    }
     if (!request.command.has_query() && result.has_applied()) announce();
     outlets_.reply(request.session, std::move(result));
 }
@@ -77,48 +82,49 @@ void SimLoop::announce() {
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
         pending_.clear();
-        measured_ = {};
-        outlets_.scene(share(world_.facts()));
+        seen_.reset();
+        outlets_.scene(frame::share(world_.facts()));
     }
     v1::ServerMessage settings = world_.settings();
     if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
         settings_ = std::move(bytes);
-        outlets_.settings(share(std::move(settings)));
+        outlets_.settings(frame::share(std::move(settings)));
     }
+    if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
     stale_ = true;
     nextState_ = {};
 }
 
 Result<void> SimLoop::step() {
+    const auto start = Pacer::Clock::now();
     if (auto done = world_.step(); !done) return done;
-    world_.pacer().stepped(Pacer::Clock::now());
+    const auto end = Pacer::Clock::now();
+    const double wallMs = std::chrono::duration<double, std::milli>(end - start).count();
+    world_.pacer().stepped(end);
+    observer_.stepped(wallMs);
     stale_ = true;
-    for (const std::string& notice : world_.simulation().takeNotices()) warn(notice);
+    for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
     stopAtNonFinite();
-    return {};
+    return tune(wallMs);
 }
 
-void SimLoop::warn(const std::string& text) {
-    spdlog::warn("{}", text);
-    v1::ServerMessage message;
-    message.mutable_event()->set_kind(v1::Event::WARNING);
-    message.mutable_event()->set_step(world_.simulation().steps());
-    message.mutable_event()->set_text(text);
-    outlets_.event(share(std::move(message)));
+Result<void> SimLoop::tune(double wallMs) {
+    auto told = tuner_.stepped(world_.simulation(), wallMs);
+    if (!told) return tl::unexpected(told.error());
+    if (!*told) return {};
+    say(v1::Event::TUNED, **told);
+    announce();
+    return {};
 }
 
 void SimLoop::stopAtNonFinite() {
     if (!world_.simulation().counters().nonFinite) return;
     world_.pause();
-    v1::ServerMessage message;
-    v1::Event& event = *message.mutable_event();
-    event.set_kind(v1::Event::NON_FINITE);
-    event.set_step(world_.simulation().steps());
-    event.set_text(fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
-                               world_.simulation().divergence()));
+    say(v1::Event::NON_FINITE,
+        fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
+                    world_.simulation().divergence()));
     world_.simulation().restore();
-    spdlog::error("{}", event.text());
-    outlets_.event(share(std::move(message)));
+    observer_.disturbed();
     announce();
 }
 
@@ -155,44 +161,6 @@ void SimLoop::collect() {
         outlets_.state({std::move(pending_.front().head), {bytes->begin(), bytes->end()}});
         pending_.pop_front();
     }
-}
-
-v1::Status SimLoop::status(Pacer::Clock::time_point now) {
-    while (!produced_.empty() && now - produced_.front() > 2s) produced_.pop_front();
-    v1::Status status;
-    if (world_.running()) {
-        status.set_real_time_factor(world_.pacer().realTimeFactor(now));
-        status.set_steps_per_second(world_.pacer().stepsPerSecond(now));
-    }
-    if (produced_.size() > 1)
-        status.set_frames_per_second(static_cast<double>(produced_.size() - 1) /
-                                     std::chrono::duration<double>(now - produced_.front()).count());
-    status.set_paused(world_.paused());
-    status.set_viewers(outlets_.viewers());
-    status.set_sleeping(measured_.sleeping);
-    status.set_outside(measured_.outside);
-    status.set_non_finite(measured_.nonFinite);
-    return status;
-}
-
-void SimLoop::report() {
-    const auto now = Pacer::Clock::now();
-    if (now < nextReport_) return;
-    nextReport_ = now + reportEvery;
-    if (watched_) measured_ = world_.simulation().statistics();
-    const auto times = world_.simulation().passSeconds();
-    live_.update([&](LiveReport& report) {
-        if (report.state != "draining") report.state = world_.paused() ? "paused" : "running";
-        report.scene = world_.simulation().scene().name;
-        report.spheres = world_.simulation().count();
-        report.steps = world_.simulation().steps();
-        report.simSeconds = world_.simulation().time();
-        report.rebuilds = world_.simulation().counters().rebuilds;
-        report.framesProduced = sequence_;
-        report.status = status(now);
-        report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));
-        for (std::size_t pass = 0; pass < times.size(); ++pass) report.passSeconds[pass] += times[pass];
-    });
 }
 
 }  // namespace spherule::app

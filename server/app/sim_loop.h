@@ -8,6 +8,8 @@
 
 #include "app/encoder.h"
 #include "app/live.h"
+#include "app/observer.h"
+#include "app/tuner.h"
 #include "app/world.h"
 #include "core/bounded_queue.h"
 #include "frame/message.h"
@@ -23,7 +25,8 @@ struct Request {
 struct Outlets {
     std::function<void(frame::SharedMessage)> scene;
     std::function<void(frame::SharedMessage)> settings;
-    std::function<void(frame::SharedMessage)> event;
+    std::function<void(frame::SharedMessage)> dial;
+    std::function<void(frame::SharedMessage)> everybody;  // events, diagnostics
     std::function<void(Encoder::Packed)> state;
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;
     std::function<std::uint32_t()> viewers;
@@ -35,7 +38,7 @@ struct Outlets {
 // to end one, never for the network or for the copy of a state.
 class SimLoop {
   public:
-    SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, Outlets outlets);
+    SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, quality::Table table, Outlets outlets);
 
     // Until stopped or the device is lost.
     Result<void> run(const std::stop_token& stop);
@@ -49,11 +52,14 @@ class SimLoop {
     void serve(const Request& request);
     void announce();
     Result<void> step();
-    void warn(const std::string& text);
+    Result<void> tune(double wallMs);
+    void say(v1::Event::Kind kind, const std::string& text);
     void stopAtNonFinite();
     void produce(Pacer::Clock::time_point now);
     void collect();
     void report();
+    void look(const std::vector<double>& passSeconds);
+    void sendDial();
     [[nodiscard]] v1::Status status(Pacer::Clock::time_point now);
     [[nodiscard]] Pacer::Clock::duration patience(Pacer::Clock::time_point now) const;
 
@@ -65,7 +71,9 @@ class SimLoop {
     std::deque<Pacer::Clock::time_point> produced_;
     Pacer::Clock::time_point nextState_{};
     Pacer::Clock::time_point nextReport_{};
-    sim::Statistics measured_;  // of the last report while somebody watched
+    Tuner tuner_;
+    Observer observer_;
+    std::optional<v1::Diagnostics> seen_;  // of the last report while somebody watched
     std::uint64_t sequence_ = 0;
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent

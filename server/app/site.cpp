@@ -57,7 +57,10 @@ net::HttpAnswer readiness(const LiveReport& live) {
 net::HttpAnswer Site::get(const std::string& path, const net::Counters& counters) {
     if (path == "/healthz") return health(live_.read());
     if (path == "/readyz") return readiness(live_.read());
-    if (path == "/metrics") return {200, "text/plain; version=0.0.4", metrics_.text(live_.read(), counters)};
+    if (path == "/metrics") {
+        live_.asked();
+        return {200, "text/plain; version=0.0.4", metrics_.text(live_.read(), counters)};
+    }
     return file(path);
 }
 

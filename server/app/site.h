@@ -11,12 +11,12 @@ namespace spherule::app {
 // What GET answers: the page and its files, /healthz, /readyz and /metrics. Used by the io thread.
 class Site {
   public:
-    explicit Site(const Live& live) : live_(live) {}
+    explicit Site(Live& live) : live_(live) {}
     // `counters` are those of the server that asks.
     net::HttpAnswer get(const std::string& path, const net::Counters& counters);
 
   private:
-    const Live& live_;
+    Live& live_;
     Metrics metrics_;
 };
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "spherule/v1/control.pb.h"
 
@@ -26,5 +27,9 @@ class Message {
 };
 
 using SharedMessage = std::shared_ptr<const Message>;
+
+inline SharedMessage share(v1::ServerMessage message) {
+    return std::make_shared<const Message>(std::move(message));
+}
 
 }  // namespace spherule::frame

@@ -24,6 +24,7 @@ const std::string_view commandForms =
     "  load NAME | load FILE.json\n"
     "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
     "  set model fast|balanced|accurate | set substeps N\n"
+    "  set auto MSms | set auto PERCENT% | set auto off   substeps that hold a time per step, or a mean overlap\n"
     "  spawn JSON                                 a group of spheres\n"
     "  push SPHERE JX JY JZ                       an impulse in N s\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        at the first sphere that the ray meets\n"
@@ -97,6 +98,20 @@ Result<void> load(Words words, v1::Command& command) {
     return {};
 }
 
+// "16ms", "0.5%" or "off".
+Result<void> setAuto(const std::string& word, v1::Auto& goal) {
+    if (word == "off") return {};
+    const bool time = word.ends_with("ms");
+    if (!time && !word.ends_with('%')) return refuse("'" + word + "' is no goal for auto");
+    const auto value = number<double>(word.substr(0, word.size() - (time ? 2 : 1)));
+    if (!value) return tl::unexpected(value.error());
+    if (time)
+        goal.set_budget_ms(*value);
+    else
+        goal.set_overlap(*value / 100);
+    return {};
+}
+
 Result<void> set(Words words, v1::Command& command) {
     if (words.empty()) return refuse("'set' needs a name and a value");
     const std::string& name = words[0];
@@ -111,7 +126,7 @@ Result<void> set(Words words, v1::Command& command) {
         {"friction", &v1::Set::set_friction},
         {"speed", &v1::Set::set_speed}};
     const auto plainNumber = numbersByName.find(name);
-    if (plainNumber == numbersByName.end() && name != "substeps" && name != "model")
+    if (plainNumber == numbersByName.end() && name != "substeps" && name != "model" && name != "auto")
         return refuse("'" + name + "' cannot be set");
     if (auto right = wantWords(values, 1, "set " + name); !right) return right;
     if (name == "substeps") {
@@ -120,6 +135,7 @@ Result<void> set(Words words, v1::Command& command) {
         change.set_substeps(*count);
         return {};
     }
+    if (name == "auto") return setAuto(values[0], *change.mutable_auto_());
     if (name == "model") {
         std::string upper = values[0];
         std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });

@@ -30,22 +30,28 @@ void Hub::join(SessionId id, std::uint32_t rate) {
     if (rate > 0) ++joins_;
     if (scene_) entry.session->send(scene_);
     if (settings_) entry.session->send(settings_);
+    if (dial_) entry.session->send(dial_);
     if (rate > 0 && latest_) entry.session->offer(latest_);
 }
 
 void Hub::setScene(frame::SharedMessage facts) {
-    const std::lock_guard lock(mutex_);
-    scene_ = std::move(facts);
-    for (const auto& [id, entry] : entries_) {
-        if (entry.joined) entry.session->send(scene_);
-    }
+    keep(scene_, std::move(facts));
 }
 
 void Hub::setSettings(frame::SharedMessage settings) {
+    keep(settings_, std::move(settings));
+}
+
+void Hub::setDial(frame::SharedMessage dial) {
+    keep(dial_, std::move(dial));
+}
+
+// For newcomers, too.
+void Hub::keep(frame::SharedMessage& kept, frame::SharedMessage message) {
     const std::lock_guard lock(mutex_);
-    settings_ = std::move(settings);
+    kept = std::move(message);
     for (const auto& [id, entry] : entries_) {
-        if (entry.joined) entry.session->send(settings_);
+        if (entry.joined) entry.session->send(kept);
     }
 }
 

@@ -28,11 +28,12 @@ class Hub {
   public:
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
-    // After the welcome: the session gets facts, settings, and `rate` states per second.
+    // After the welcome: the session gets facts, settings, dial, and `rate` states per second.
     void join(SessionId id, std::uint32_t rate);
 
     void setScene(frame::SharedMessage facts);
     void setSettings(frame::SharedMessage settings);
+    void setDial(frame::SharedMessage dial);
     void publish(frame::SharedMessage state);
     void broadcast(const frame::SharedMessage& message);
     void sendTo(SessionId id, frame::SharedMessage message);
@@ -54,6 +55,7 @@ class Hub {
         std::uint32_t rate = 0;
     };
 
+    void keep(frame::SharedMessage& kept, frame::SharedMessage message);
     void countViewers();
 
     std::mutex mutex_;
@@ -63,6 +65,7 @@ class Hub {
     bool draining_ = false;
     frame::SharedMessage scene_;
     frame::SharedMessage settings_;
+    frame::SharedMessage dial_;
     frame::SharedMessage latest_;  // kept only while somebody watches: later it would be old
     std::atomic<std::uint32_t> viewers_ = 0;
     std::atomic<std::uint64_t> joins_ = 0;

@@ -12,9 +12,19 @@ void Outbox::setRate(std::uint32_t rate) {
     if (rate_ == 0) dropFrame();
 }
 
+namespace {
+
+// Of these an older one has nothing to say any more.
+bool replaceable(v1::ServerMessage::KindCase kind) {
+    return kind == v1::ServerMessage::kScene || kind == v1::ServerMessage::kSettings ||
+           kind == v1::ServerMessage::kDial || kind == v1::ServerMessage::kDiagnostics;
+}
+
+}  // namespace
+
 bool Outbox::push(frame::SharedMessage message) {
     const auto kind = message->content().kind_case();
-    if (kind == v1::ServerMessage::kScene || kind == v1::ServerMessage::kSettings)
+    if (replaceable(kind))
         std::erase_if(reliable_, [kind](const auto& waiting) { return waiting->content().kind_case() == kind; });
     if (reliable_.size() >= capacity_) return false;
     if (message->content().has_scene()) epoch_ = message->content().scene().epoch();

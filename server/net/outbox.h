@@ -21,8 +21,7 @@ class Outbox {
 
     void setRate(std::uint32_t rate);
 
-    // False when the lane is full. Scene facts and settings, which may be large, take the place of older ones that
-    // wait.
+    // False when the lane is full. Scene facts, settings, dials and diagnostics take the place of older ones that wait.
     [[nodiscard]] bool push(frame::SharedMessage message);
     // True when it replaced a frame that was due.
     bool offer(frame::SharedMessage frame, Clock::time_point now);

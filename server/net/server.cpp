@@ -40,6 +40,7 @@ class RunningServer final : public Server {
 
     void setScene(frame::SharedMessage facts) override { context_.hub.setScene(std::move(facts)); }
     void setSettings(frame::SharedMessage settings) override { context_.hub.setSettings(std::move(settings)); }
+    void setDial(frame::SharedMessage dial) override { context_.hub.setDial(std::move(dial)); }
     void publish(frame::SharedMessage state) override { context_.hub.publish(std::move(state)); }
     void broadcast(frame::SharedMessage message) override { context_.hub.broadcast(message); }
 

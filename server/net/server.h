@@ -51,10 +51,11 @@ class Server {
     // What a client gets after its welcome, and all clients when it changes.
     virtual void setScene(frame::SharedMessage facts) = 0;
     virtual void setSettings(frame::SharedMessage settings) = 0;
+    virtual void setDial(frame::SharedMessage dial) = 0;
     // Lossy lane: newest wins. A state of another epoch than the scene's waits for its facts. While somebody watches, a
     // newcomer first gets the latest state; for the first viewer the owner publishes one, even when paused.
     virtual void publish(frame::SharedMessage state) = 0;
-    // Reliable lane.
+    // Reliable lane; diagnostics, as what is set above, take the place of older ones that wait.
     virtual void broadcast(frame::SharedMessage message) = 0;
     virtual void reply(SessionId session, v1::CommandResult result) = 0;
 

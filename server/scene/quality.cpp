@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> modelNames = {"fast", "balanced", "accurate"};
 
+constexpr double mostStepTime = 60'000;  // ms
+
 double smallestRadius(const Scene& scene) {
     double smallest = 0;
     for (const Sphere& sphere : scene.spheres)
@@ -31,6 +33,14 @@ double balancedSubstep(const Scene& scene) {
     const double gravity = glm::length(scene.gravity);
     const double radius = smallestRadius(scene);
     return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
+}
+
+// As if nobody had asked for substeps.
+Scene unpinned(const Scene& scene, Model model) {
+    Scene free = scene;
+    free.quality.model = model;
+    free.quality.pinned = false;
+    return free;
 }
 
 }  // namespace
@@ -88,15 +98,56 @@ Result<void> fitSubsteps(Scene& scene) {
     }
     if (quality.substeps < 1 || quality.substeps > maxSubsteps)
         return fail(ErrorKind::Input, field, fmt::format("is {}, must be 1 to {}", quality.substeps, maxSubsteps));
-    if (quality.model != Model::Accurate || !followsHertz(scene)) return {};
-    constexpr double fewestPerContact = 10;
-    const double fewest = std::ceil(fewestPerContact * scene.step / contactTimeOf(scene).contact);
-    if (quality.substeps < fewest)
+    if (const std::uint32_t fewest = fewestSubsteps(scene, quality.model); quality.substeps < fewest)
         return fail(ErrorKind::Input, field,
-                    fmt::format("is {}, but contacts of these materials would take less than {} substeps then; give at "
-                                "least {:.0f}",
-                                quality.substeps, fewestPerContact, fewest));
+                    fmt::format("is {}, but contacts of these materials would take less than 10 substeps then; give at "
+                                "least {}",
+                                quality.substeps, fewest));
     return {};
+}
+
+std::uint32_t fewestSubsteps(const Scene& scene, Model model) {
+    constexpr double fewestPerContact = 10;  // of springs that have their stiffness from the materials
+    if (model != Model::Accurate || !followsHertz(scene)) return 1;
+    const double fewest = std::ceil(fewestPerContact * scene.step / contactTimeOf(scene).contact);
+    return static_cast<std::uint32_t>(std::clamp<double>(fewest, 1, maxSubsteps));
+}
+
+Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where) {
+    Check check;
+    std::optional<Goal> goal;
+    if (message.goal_case() == v1::Auto::kBudgetMs)
+        goal = {Goal::Of::StepTime, check.upTo(message.budget_ms(), mostStepTime, at(where, "budgetMs"), " ms")};
+    if (message.goal_case() == v1::Auto::kOverlap)
+        goal = {Goal::Of::Overlap, check.within(message.overlap(), 1e-6, 0.5, at(where, "overlap"))};
+    if (!check.ok()) return check.error();
+    return goal;
+}
+
+v1::Auto messageOf(const Goal& goal) {
+    v1::Auto message;
+    if (goal.of == Goal::Of::StepTime)
+        message.set_budget_ms(goal.most);
+    else
+        message.set_overlap(goal.most);
+    return message;
+}
+
+Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {
+    Scene free = unpinned(scene, model);
+    if (auto fits = checkModel(free); !fits) return tl::unexpected(fits.error());
+    if (auto fits = fitSubsteps(free); !fits) return tl::unexpected(fits.error());
+    return free.quality.substeps;
+}
+
+SubstepRange substepRange(const Scene& scene, Model model) {
+    constexpr double fewer = 2;  // times: with less, piles are squeezed
+    constexpr double more = 8;
+    const double own = defaultSubsteps(unpinned(scene, model));
+    const double least = fewestSubsteps(scene, model);
+    const double fewest = std::clamp<double>(std::floor(own / fewer), least, maxSubsteps);
+    return {.fewest = static_cast<std::uint32_t>(fewest),
+            .most = static_cast<std::uint32_t>(std::clamp<double>(own * more, fewest, maxSubsteps))};
 }
 
 void readQuality(Check& check, const v1::Quality& message, const Overrides& overrides, Scene& scene) {
@@ -108,6 +159,13 @@ void readQuality(Check& check, const v1::Quality& message, const Overrides& over
         quality.model = modelOf(message.model());
     }
     quality.model = overrides.model.value_or(quality.model);
+    if (auto goal = goalOf(message.auto_(), "quality.auto")) {
+        // Whoever asks for a model or for substeps means them to stay.
+        const bool asked = overrides.model || overrides.substeps;
+        quality.goal = overrides.goal || asked ? overrides.goal : *goal;
+    } else {
+        check.refuse(goal.error().where, goal.error().message);
+    }
     if (message.has_overlap()) quality.overlap = check.within(message.overlap(), 1e-6, 0.5, "quality.overlap");
     if (const auto fits = checkModel(scene); !fits) check.refuse(fits.error().where, fits.error().message);
     if (!check.ok()) return;

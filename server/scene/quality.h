@@ -17,8 +17,25 @@ v1::Model messageOf(Model model);
 // Whether the materials have what the model needs.
 Result<void> checkModel(const Scene& scene);
 
+// The goal of a message, none where it names none; Input for one that makes no sense, with the field below `where`.
+Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where);
+v1::Auto messageOf(const Goal& goal);
+
 // Chooses the substeps anew, unless they are pinned; then says whether the model can do with them.
 Result<void> fitSubsteps(Scene& scene);
+
+// The substeps that the model would choose itself for the scene, or why it cannot have it.
+Result<std::uint32_t> substepsFor(const Scene& scene, Model model);
+
+// That the model can do with at all.
+std::uint32_t fewestSubsteps(const Scene& scene, Model model);
+
+// Within which the model is of use for the scene, as far as was measured.
+struct SubstepRange {
+    std::uint32_t fewest = 1;
+    std::uint32_t most = 1;
+};
+SubstepRange substepRange(const Scene& scene, Model model);
 
 // Sets the scene's quality, which depends on all the rest of it.
 void readQuality(Check& check, const v1::Quality& message, const Overrides& overrides, Scene& scene);

@@ -44,11 +44,20 @@ struct MaterialPair {
 
 enum class Model : std::uint8_t { Fast, Balanced, Accurate };
 
+// What substeps are moved for while a scene runs: the most that a step may take, or that spheres may overlap.
+struct Goal {
+    enum class Of : std::uint8_t { StepTime, Overlap } of = Of::StepTime;
+    double most = 0;  // wall ms per step; mean overlap over the radius
+
+    bool operator==(const Goal&) const = default;
+};
+
 struct Quality {
     Model model = Model::Balanced;
     std::uint32_t substeps = 1;  // per step
     bool pinned = true;          // substeps were asked for, not chosen
     double overlap = 0.1;        // of the radius: what `accurate` aims at where it chooses stiffness and substeps
+    std::optional<Goal> goal{};  // none: substeps stay as they are
 };
 
 struct Group {

@@ -65,6 +65,7 @@ Result<void> setModel(scene::Scene& scene, const v1::Set& set) {
                     fmt::format("is {}, must be FAST, BALANCED or ACCURATE", static_cast<int>(set.model())));
     scene.quality.model = scene::modelOf(set.model());
     scene.quality.pinned = false;
+    scene.quality.goal.reset();
     if (auto fits = scene::checkModel(scene); !fits) return refusal(fits.error());
     return {};
 }
@@ -73,6 +74,15 @@ Result<void> setSubsteps(scene::Scene& scene, const v1::Set& set) {
     if (!set.has_substeps()) return {};
     scene.quality.pinned = true;
     scene.quality.substeps = set.substeps();
+    scene.quality.goal.reset();
+    return {};
+}
+
+Result<void> setGoal(scene::Scene& scene, const v1::Set& set) {
+    if (!set.has_auto_()) return {};
+    auto goal = scene::goalOf(set.auto_(), "auto");
+    if (!goal) return refusal(goal.error());
+    scene.quality.goal = *goal;
     return {};
 }
 
@@ -97,13 +107,9 @@ Result<v1::Applied> Simulation::apply(const v1::Command& command) {
         case v1::Command::kReset:
             done = reset();
             break;
-        case v1::Command::kQuery: {
-            *applied.mutable_statistics() = messageOf(statistics());
-            applied.mutable_statistics()->set_step(steps_);
-            applied.mutable_statistics()->set_sim_time(time_);
-            applied.mutable_statistics()->set_spheres(count());
+        case v1::Command::kQuery:
+            *applied.mutable_statistics() = message(statistics());
             break;
-        }
         default:
             return fail(ErrorKind::Refused, "", "this command is not one for a simulation");
     }
@@ -114,10 +120,21 @@ Result<v1::Applied> Simulation::apply(const v1::Command& command) {
 
 Result<void> Simulation::set(const v1::Set& set) {
     const bool disturbs = !set.gravity().empty() || set.has_restitution() || set.has_friction() || set.has_model();
-    if (!disturbs && !set.has_substeps()) return {};
+    if (!disturbs && !set.has_substeps() && !set.has_auto_()) return {};
     scene::Scene changed = scene_;
-    for (auto change : {setGravity, setRestitution, setFriction, setModel, setSubsteps})
-        if (auto done = change(changed, set); !done) return done;
+    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
+        if (auto done = part(changed, set); !done) return done;
+    return change(std::move(changed), disturbs);
+}
+
+Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
+    scene::Scene changed = scene_;
+    changed.quality.pinned = true;
+    changed.quality.substeps = substeps;
+    return change(std::move(changed), false);
+}
+
+Result<void> Simulation::change(scene::Scene changed, bool disturbs) {
     // Gravity and the model have a say in how short a substep must be.
     if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     if (scene::featuresOf(changed) == plan().features) {
@@ -191,8 +208,11 @@ Result<std::uint32_t> Simulation::push(const v1::Push& push) {
     return id;
 }
 
-v1::Statistics messageOf(const Statistics& s) {
+v1::Statistics Simulation::message(const Statistics& s) const {
     v1::Statistics message;
+    message.set_step(steps_);
+    message.set_sim_time(time_);
+    message.set_spheres(count());
     message.set_kinetic_energy(s.kineticEnergy);
     message.set_rotational_energy(s.rotationalEnergy);
     message.set_potential_energy(s.potentialEnergy);

@@ -140,20 +140,27 @@ void Simulation::restore() {
 }
 
 // Raises the substeps at once when the fastest sphere has moved too far in one, and lowers them by and by when nothing
-// does any more.
+// does any more: with more patience each time that this was too early.
 void Simulation::fitToMotion(double radiiPerSubstep) {
     constexpr double easier = 0.8;
     constexpr double mostTimes = 256;
+    constexpr std::uint32_t mostPatience = 256;  // steps
     const std::uint32_t asked = scene_.quality.substeps;
     const double most = std::max(1.0 * substeps_, std::min<double>(mostTimes * asked, scene::maxSubsteps));
     std::uint32_t wanted = substeps_;
     bool enough = true;
+    ++calm_;
     if (radiiPerSubstep > static_cast<double>(FAR_MOTION)) {
         const double needed = std::ceil(substeps_ * radiiPerSubstep / static_cast<double>(FAR_MOTION));
         enough = needed <= most;
         wanted = static_cast<std::uint32_t>(std::min(needed, most));
-    } else if (substeps_ > asked) {
+        if (calm_ > 2 * mostPatience) patience_ = 0;
+        if (lowered_) patience_ = std::clamp(2 * patience_, 4U, mostPatience);
+        lowered_ = false;
+        calm_ = 0;
+    } else if (substeps_ > asked && calm_ > patience_) {
         wanted = std::max(asked, static_cast<std::uint32_t>(easier * substeps_));
+        lowered_ = true;
     }
     if (wanted == substeps_) return;
     if (substeps_ == asked)

@@ -30,6 +30,8 @@ class Simulation {
     Result<v1::Applied> apply(const v1::Command& command);
 
     [[nodiscard]] Statistics statistics() { return measure(*pipeline_, scene_); }
+    // With the step and the time that they are of: now.
+    [[nodiscard]] v1::Statistics message(const Statistics& statistics) const;
     [[nodiscard]] State snapshot() { return pipeline_->download(); }
     void put(const State& state);  // of as many spheres
 
@@ -55,6 +57,9 @@ class Simulation {
 
     // Of the next step: those of the scene, or more while something moves too far in one of them.
     [[nodiscard]] std::uint32_t substeps() const { return substeps_; }
+
+    // Changes the substeps of the steps to come to what the scene's goal needs; disturbs nobody.
+    Result<void> chooseSubsteps(std::uint32_t substeps);
 
     // What users should hear of, in sentences, since the last call.
     [[nodiscard]] std::vector<std::string> takeNotices() { return std::exchange(notices_, {}); }
@@ -85,6 +90,7 @@ class Simulation {
     void keep();
 
     Result<void> set(const v1::Set& set);
+    Result<void> change(scene::Scene changed, bool disturbs);
     Result<void> spawn(const v1::Spawn& spawn);
     Result<std::uint32_t> push(const v1::Push& push);
     Result<void> reset();
@@ -99,6 +105,9 @@ class Simulation {
     bool full_ = false;     // there is no room for more pairs
     bool sampled_ = false;  // it has been said that not all pairs are listed
     std::uint32_t substeps_ = 1;
+    std::uint32_t calm_ = 0;      // steps since something moved too far
+    std::uint32_t patience_ = 0;  // steps of calm before substeps are lowered
+    bool lowered_ = false;        // since then
     std::vector<std::string> notices_;
     State good_;  // the last one that was found finite
     std::uint64_t goodStep_ = 0;
@@ -107,7 +116,5 @@ class Simulation {
     double time_ = 0;
     std::uint32_t generation_ = 0;
 };
-
-v1::Statistics messageOf(const Statistics& statistics);
 
 }  // namespace spherule::sim

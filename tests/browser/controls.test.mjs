@@ -65,58 +65,20 @@ test("gravity from the panel is the world's gravity", async () => {
   await when(page, () => spherule.settings.gravity.every((part) => part === 0));
 });
 
-test("restitution, substeps and speed from the panel reach the world", async () => {
+test("restitution, friction and speed from the panel reach the world", async () => {
   await type("restitution", 0.35);
-  await type("substeps", 9);
-  await type("speed", 0.5);
-  await when(page, () => spherule.settings.restitution === 0.35 && spherule.settings.substeps === 9 && spherule.settings.speed === 0.5);
-  const { settings } = await serverSays(page);
-  assert.deepEqual([settings.restitution, settings.substeps, settings.speed], [0.35, 9, 0.5]);
-});
-
-test("quality and friction from the panel reach the world, quality with the substeps that suit it", async () => {
-  const typed = 4321; // as no model chooses
-  await type("substeps", typed);
   await type("friction", 0.25);
-  await when(page, (count) => spherule.settings.substeps === count && spherule.settings.friction === 0.25, typed);
-  for (const model of ["Accurate", "Fast", "Balanced"]) {
-    await page.selectOption(control("model"), model);
-    await when(page, (wanted) => spherule.settings.model === wanted, model.toLowerCase());
-    const { settings } = await serverSays(page);
-    assert.equal(settings.model, model.toUpperCase());
-    assert.equal(settings.friction, 0.25);
-    assert.notEqual(settings.substeps, typed);
-    await shows("substeps", settings.substeps);
-  }
-  assert.equal((await answer("Quality")).outcome, "applied");
+  await type("speed", 0.5);
+  await when(page, () => spherule.settings.restitution === 0.35 && spherule.settings.friction === 0.25 && spherule.settings.speed === 0.5);
+  const { settings } = await serverSays(page);
+  assert.deepEqual([settings.restitution, settings.friction, settings.speed], [0.35, 0.25, 0.5]);
 });
 
 test("a setting that another client changed shows on the panel", async () => {
   await server.ctl("set", "restitution", "0.65");
   await server.ctl("set", "friction", "0.3");
-  await server.ctl("set", "model", "fast");
   await shows("restitution", 0.65);
   await shows("friction", 0.3);
-  await shows("model", "Fast");
-  await server.ctl("set", "model", "balanced");
-  await shows("model", "Balanced");
-});
-
-test("a quality that the scene has no numbers for is refused, and the panel goes back to what holds", async () => {
-  const half = {
-    name: "half",
-    bounds: { min: [0, 0, 0], max: [1, 1, 1] },
-    materials: [{ name: "known", young: 1e6 }, { name: "unknown" }],
-    groups: [{ name: "one", list: { spheres: [{ position: [0.5, 0.5, 0.5] }] }, radius: { constant: 0.1 } }],
-  };
-  await server.ctl(JSON.stringify({ load: { scene: half } }));
-  await when(page, () => spherule.scene === "half");
-  await page.selectOption(control("model"), "Accurate");
-  await when(page, () => spherule.results.some(({ what, outcome }) => what === "Quality" && outcome === "refused"));
-  assert.match(await page.locator('[data-testid="toast"][data-tone="bad"]').last().textContent(), /materials\[1\]\.young/);
-  await shows("model", "Balanced");
-  await server.ctl("load", "cradle");
-  await when(page, () => spherule.scene === "cradle");
 });
 
 test("a refused command says why", async () => {
@@ -168,12 +130,6 @@ test("a scene from the list replaces the world, and drops add to it", async () =
   const said = await serverSays(page);
   assert.equal(said.positions.length, before.count + 25);
   for (const [, , z] of said.positions) assert.ok(z > 0);
-});
-
-test("statistics come in a table", async () => {
-  await page.click(control("query"));
-  await when(page, () => document.querySelector('[data-testid="statistics-step"]'));
-  assert.match(await page.textContent(control("statistics-kinetic")), / J$/);
 });
 
 test("each way of colouring has its legend", async () => {

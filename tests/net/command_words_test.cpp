@@ -31,6 +31,9 @@ TEST(CommandWords, BecomeCommands) {
     EXPECT_EQ(parsed({"set", "model", "balanced"}), "set { model: BALANCED }");
     EXPECT_EQ(parsed({"set", "model", "accurate"}), "set { model: ACCURATE }");
     EXPECT_EQ(parsed({"set", "substeps", "16"}), "set { substeps: 16 }");
+    EXPECT_EQ(parsed({"set", "auto", "16ms"}), "set { auto { budget_ms: 16 } }");
+    EXPECT_EQ(parsed({"set", "auto", "0.5%"}), "set { auto { overlap: 0.005 } }");
+    EXPECT_EQ(parsed({"set", "auto", "off"}), "set { auto { } }");
     EXPECT_EQ(parsed({"set", "speed", "0.25"}), "set { speed: 0.25 }");
     EXPECT_EQ(parsed({"push", "17", "0", "0", "2"}), "push { sphere: 17 impulse: 0 impulse: 0 impulse: 2 }");
     EXPECT_EQ(parsed({"push", "ray", "1", "2", "3", "4", "5", "6", "7", "8", "9"}),
@@ -57,6 +60,8 @@ TEST(CommandWords, ThatAreWrongAreAnErrorThatListsWhatIsAccepted) {
         {"dance"},
         {"pause", "now"},
         {"step", "many"},
+        {"set", "auto", "16"},
+        {"set", "auto", "fastms"},
         {"step", "-1"},
         {"step", "1.5"},
         {"step", "1", "2"},

@@ -46,6 +46,21 @@ TEST(Outbox, KeepsOnlyTheNewestFactsThatWait) {
     EXPECT_EQ(outbox.next(start), nullptr);
 }
 
+TEST(Outbox, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
+    Outbox outbox(2, 60);
+    for (std::uint32_t substeps = 1; substeps < 100; ++substeps) {
+        v1::ServerMessage dial;
+        dial.mutable_dial()->add_positions()->set_substeps(substeps);
+        v1::ServerMessage diagnostics;
+        diagnostics.mutable_diagnostics()->set_substeps(substeps);
+        EXPECT_TRUE(outbox.push(frame::share(std::move(dial))));
+        EXPECT_TRUE(outbox.push(frame::share(std::move(diagnostics))));
+    }
+    EXPECT_EQ(outbox.next(start)->content().dial().positions(0).substeps(), 99U);
+    EXPECT_EQ(outbox.next(start)->content().diagnostics().substeps(), 99U);
+    EXPECT_EQ(outbox.next(start), nullptr);
+}
+
 TEST(Outbox, KeepsTheNewestStateAndTellsOfTheOneThatItReplaced) {
     Outbox outbox(2, 60);
     describe(outbox, 1);

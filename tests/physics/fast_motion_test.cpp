@@ -55,6 +55,21 @@ TEST(FastMotion, RaisesTheSubstepsSaysSoAndTakesThemBack) {
     EXPECT_NE(lowered[0].find("back to 8 substeps"), std::string::npos) << lowered[0];
 }
 
+TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
+    // 0.6 radii in a step of one substep: two are enough, one is not.
+    scene::Scene scene = shots(scene::Model::Fast, 0, {0});
+    scene.gravity = {};
+    scene.bounds.min = glm::dvec3(-100);
+    scene.bounds.max = glm::dvec3(100);
+    scene.quality = {.model = scene::Model::Fast, .substeps = 1, .pinned = true};
+    scene.spheres[0].velocity = {0, 0, -0.6F * 0.05F * 60};
+    const auto simulation = simulate(scene);
+    run(*simulation, 5);
+    const auto notices = simulation->takeNotices();
+    EXPECT_GE(notices.size(), 2U) << "it is tried whether one is enough by now";
+    EXPECT_LE(notices.size(), 20U) << "of 300 steps";
+}
+
 TEST(FastMotion, OfAPushIsSeenBeforeTheNextStep) {
     scene::Scene scene = shots(scene::Model::Balanced, 0, {-1.9});
     const auto simulation = simulate(scene);

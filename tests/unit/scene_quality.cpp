@@ -76,6 +76,42 @@ TEST(SceneQuality, OverlapHasARange) {
     EXPECT_EQ(refusalOf(quality(R"("overlap": -0.01)")), "quality.overlap: is -0.01, must be 1e-06 to 0.5");
 }
 
+TEST(SceneQuality, AutoHasOneGoalWithARange) {
+    EXPECT_FALSE(sceneWith("").quality.goal);
+    EXPECT_EQ(sceneWith(quality(R"("auto": {"budgetMs": 16})")).quality.goal, (Goal{Goal::Of::StepTime, 16}));
+    EXPECT_EQ(sceneWith(quality(R"("auto": {"overlap": 0.005})")).quality.goal, (Goal{Goal::Of::Overlap, 0.005}));
+    EXPECT_FALSE(sceneWith(quality(R"("auto": {})")).quality.goal);
+    EXPECT_EQ(refusalOf(quality(R"("auto": {"budgetMs": 0})")), "quality.auto.budgetMs: is 0, must be positive");
+    EXPECT_EQ(refusalOf(quality(R"("auto": {"budgetMs": 60001})")),
+              "quality.auto.budgetMs: is 60001, must be at most 60000 ms");
+    EXPECT_EQ(refusalOf(quality(R"("auto": {"overlap": 0.6})")), "quality.auto.overlap: is 0.6, must be 1e-06 to 0.5");
+}
+
+TEST(SceneQuality, ACallersModelOrSubstepsEndTheScenesAuto) {
+    const std::string held = quality(R"("auto": {"budgetMs": 16})");
+    EXPECT_FALSE(sceneWith(held, {.substeps = 4}).quality.goal);
+    EXPECT_FALSE(sceneWith(held, {.model = Model::Fast}).quality.goal);
+    const Goal other{Goal::Of::Overlap, 0.01};
+    EXPECT_EQ(sceneWith(held, {.substeps = 4, .goal = other}).quality.goal, other);
+}
+
+TEST(SceneQuality, AModelIsOfUseWithinARange) {
+    const Scene scene = sceneWith("");
+    EXPECT_EQ(substepRange(scene, Model::Balanced).fewest, 4U);
+    EXPECT_EQ(substepRange(scene, Model::Balanced).most, 64U);
+    EXPECT_EQ(substepRange(scene, Model::Fast).fewest, 1U) << "none is too few";
+    const Scene stiff = sceneWith(R"("materials": [{"young": 1e7}])", {.model = Model::Accurate});
+    Scene fewest = stiff;
+    fewest.quality.pinned = true;
+    fewest.quality.substeps = fewestSubsteps(stiff, Model::Accurate);
+    EXPECT_TRUE(fitSubsteps(fewest));
+    --fewest.quality.substeps;
+    EXPECT_FALSE(fitSubsteps(fewest));
+    EXPECT_GE(substepRange(stiff, Model::Accurate).fewest, fewestSubsteps(stiff, Model::Accurate));
+    EXPECT_EQ(substepsFor(scene, Model::Balanced), 8U);
+    EXPECT_FALSE(substepsFor(sceneWith(halfKnown), Model::Accurate));
+}
+
 TEST(SceneQuality, AccurateNeedsEveryModulusOrNone) {
     const std::string accurate = quality(R"("model": "ACCURATE")");
     EXPECT_EQ(refusalOf(std::string(halfKnown) + ", " + accurate), felt);

@@ -27,6 +27,12 @@ export interface Hook {
   readonly scene: string;
   readonly facts: Facts | undefined;
   readonly settings: HeldSettings | undefined;
+  /** What holds the substeps: a time in ms or a mean overlap over the radius; undefined: nothing. */
+  readonly auto: { budgetMs?: number; overlap?: number } | undefined;
+  /** The newest figures of the world that the server sent. */
+  readonly diagnostics: { substeps: number; stepMs: number; energyRises: boolean; step: number } | undefined;
+  /** The positions of the dial, from fast to accurate. */
+  readonly dial: { model: string; substeps: number; stepMs: number; own: boolean }[];
   readonly camera: Pose & { eye: Vec3 };
   /** Answers to this page's commands, the newest last, at most 50. */
   readonly results: { what: string; outcome: string; step: number | undefined; words: string }[];
@@ -107,6 +113,23 @@ export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Ho
       const { gravity, restitution, friction, substeps, speed, paused } = session.settings;
       const model = Model[session.settings.model].toLowerCase();
       return { gravity, restitution, friction, model, substeps, speed, paused };
+    },
+    get auto() {
+      const goal = session.settings?.auto?.goal;
+      return goal?.case ? { [goal.case]: goal.value } : undefined;
+    },
+    get diagnostics() {
+      const { substeps, stepMs, energyRises, statistics } = session.diagnostics ?? {};
+      if (substeps === undefined || stepMs === undefined || energyRises === undefined) return undefined;
+      return { substeps, stepMs, energyRises, step: Number(statistics?.step ?? 0) };
+    },
+    get dial() {
+      return (session.dial?.positions ?? []).map(({ model, substeps, stepMs, own }) => ({
+        model: Model[model].toLowerCase(),
+        substeps,
+        stepMs,
+        own,
+      }));
     },
     get camera() {
       return { ...camera.pose, eye: camera.last.eye };

@@ -47,6 +47,8 @@ export class Viewer {
         this.drawn = "";
       },
       settled: (settings) => this.page.panel.settle(settings),
+      dialled: (dial) => this.page.panel.setDial(dial),
+      diagnosed: (diagnostics) => this.page.panel.diagnose(diagnostics),
       happened: (event) => this.page.toasts.show("Server", event.text, "plain"),
       broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });

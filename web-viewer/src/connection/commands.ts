@@ -4,14 +4,12 @@ import {
   LoadSceneSchema,
   PauseSchema,
   PushSchema,
-  QuerySchema,
   ResetSchema,
   ResumeSchema,
   SetSchema,
   SpawnSchema,
   StepSchema,
 } from "../gen/spherule/v1/control_pb";
-import type { Statistics } from "../gen/spherule/v1/control_pb";
 import type { Ray } from "../camera/ray";
 import type { Vec3 } from "../scene/facts";
 import type { CommandKind, Link, Outcome } from "./link";
@@ -78,11 +76,6 @@ export class Commands {
     const target = sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: sphere };
     const what = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
     return this.give(what, { case: "push", value: create(PushSchema, { target, impulse }) });
-  }
-
-  async query(): Promise<Statistics | undefined> {
-    const outcome = await this.give("Statistics", { case: "query", value: create(QuerySchema) });
-    return outcome.case === "applied" ? outcome.value.statistics : undefined;
   }
 
   private async give(what: string, kind: CommandKind): Promise<Outcome> {

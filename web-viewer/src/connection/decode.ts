@@ -23,6 +23,10 @@ export function decode(data: ArrayBuffer, arrival: number, take: Take): FromWork
       return { kind: "result", result: kind.value };
     case "event":
       return { kind: "event", event: kind.value };
+    case "diagnostics":
+      return { kind: "diagnostics", diagnostics: kind.value };
+    case "dial":
+      return { kind: "dial", dial: kind.value };
     case "frame": {
       const frame = kind.value;
       return {

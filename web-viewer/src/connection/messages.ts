@@ -1,4 +1,4 @@
-import type { Command, CommandResult, Event, SceneFacts, Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Command, CommandResult, Diagnostics, Dial, Event, SceneFacts, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 
 /** What passes between the page and the worker that holds its connection. */
@@ -29,6 +29,8 @@ export type FromWorker =
   | { kind: "frame"; frame: Received }
   | { kind: "result"; result: CommandResult }
   | { kind: "event"; event: Event }
+  | { kind: "diagnostics"; diagnostics: Diagnostics }
+  | { kind: "dial"; dial: Dial }
   | { kind: "broken"; reason: string }; // a message that could not be read
 
 export type ToWorker =

@@ -1,4 +1,4 @@
-import type { Event, Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Dial, Event, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
@@ -11,6 +11,8 @@ export interface SessionEvents {
   welcomed(welcome: Welcome): void;
   sceneChanged(facts: Facts, before: Facts | undefined): void;
   settled(settings: Settings): void;
+  dialled(dial: Dial): void;
+  diagnosed(diagnostics: Diagnostics): void;
   happened(event: Event): void;
   broken(reason: string): void;
 }
@@ -24,6 +26,8 @@ export class Session {
   facts: Facts | undefined;
   settings: Settings | undefined;
   status: Status | undefined;
+  dial: Dial | undefined;
+  diagnostics: Diagnostics | undefined;
   lastArrival = 0; // ms, of a frame of this epoch
   frames = 0; // taken since the page was loaded
   skipped = 0; // that newer ones replaced on the way
@@ -76,6 +80,14 @@ export class Session {
         this.status = status;
         break;
       }
+      case "dial":
+        this.dial = message.dial;
+        this.events.dialled(message.dial);
+        break;
+      case "diagnostics":
+        this.diagnostics = message.diagnostics;
+        this.events.diagnosed(message.diagnostics);
+        break;
       case "event":
         this.events.happened(message.event);
         break;

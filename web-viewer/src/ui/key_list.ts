@@ -9,7 +9,6 @@ export interface KeyActions {
   push(): void;
   lock(): void;
   drop(): void;
-  measure(): void;
   help(): void;
   forget(): void;
   commands: Commands;
@@ -47,7 +46,6 @@ export function keysFor(act: KeyActions): Key[] {
     one("r", "reset the scene", () => void commands.reset()),
     one("d", "drop spheres", act.drop),
     one("p", "push mode", act.push),
-    one("m", "measure: statistics", act.measure),
     ...each("1 – 5", "colour by speed, radius, id, grid cell, group", Object.fromEntries(colours.map((key, i) => [key, i])), act.colour),
     one("l", "lock the range of colours", act.lock),
     one("f", "reset the view", () => camera.reset()),

@@ -7,4 +7,6 @@ export const models = [
   { model: Model.ACCURATE, name: "Accurate", says: "soft spheres that forces push apart; many substeps, so it is slow" },
 ];
 
-export const mostSubsteps = 1_000_000; // that the server takes
+export function nameOf(model: Model): string {
+  return models.find((candidate) => candidate.model === model)?.name ?? "Unknown";
+}

@@ -70,7 +70,6 @@ export class Page {
       },
       lock: () => this.legend.toggleLock(),
       drop: () => this.panel.dropNow(),
-      measure: () => void this.panel.query(),
       help: () => this.help.toggle(),
       forget: () => {
         this.inspector.select(undefined);

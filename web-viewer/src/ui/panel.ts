@@ -1,7 +1,6 @@
 import GUI from "lil-gui";
 import type { Controller, OptionController } from "lil-gui";
-import type { Settings, Welcome } from "../gen/spherule/v1/control_pb";
-import { Model } from "../gen/spherule/v1/scene_pb";
+import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import { modeFor, modeList, modeNames } from "../colour/modes";
 import type { Mode } from "../colour/modes";
 import type { Commands } from "../connection/commands";
@@ -9,9 +8,11 @@ import type { QualityChoice } from "../renderer/quality";
 import type { ThemeName } from "../renderer/theme";
 import type { Facts } from "../scene/facts";
 import { dropFor, impulseFor, impulseNote } from "./amounts";
+import { goalFrom, goalNames, goals, heldBy } from "./auto";
+import type { GoalName } from "./auto";
+import { Dial } from "./dial";
 import { presetOf, presets } from "./gravity";
-import { models, mostSubsteps } from "./models";
-import { StatisticsTable } from "./statistics";
+import { StatisticsTables } from "./statistics";
 
 /** What the panel holds that only the page uses. */
 export interface Choices {
@@ -32,7 +33,7 @@ export interface PanelActions {
 export class Panel {
   readonly element: HTMLElement;
   private readonly gui: GUI;
-  private readonly statistics = new StatisticsTable();
+  private readonly statistics = new StatisticsTables();
   private readonly world = {
     scene: "",
     gravity: "Earth",
@@ -41,12 +42,14 @@ export class Panel {
     z: 0,
     restitution: 0.5,
     friction: 0,
-    model: Model.BALANCED,
-    substeps: 1,
     speed: 1,
+    auto: "off" as GoalName,
+    goal: 0, // in the unit of what is held
   };
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly scene: OptionController;
+  private readonly dial = new Dial(({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }));
+  private goal!: Controller;
   private facts: Facts | undefined;
   private settled: Settings | undefined;
 
@@ -60,6 +63,7 @@ export class Panel {
     this.element.dataset.testid = "panel";
     this.scene = tag("scene", this.gui.add(this.world, "scene", [""]).name("Scene")) as OptionController;
     this.scene.onFinishChange((name: string) => void commands.load(name));
+    this.addQuality();
     this.addWorld();
     this.addDrop();
     this.addPush();
@@ -87,12 +91,23 @@ export class Panel {
   settle(settings: Settings): void {
     this.settled = settings;
     const [x = 0, y = 0, z = 0] = settings.gravity;
-    const { restitution, friction, model, substeps, speed } = settings;
-    const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, friction, model, substeps, speed };
+    const { restitution, friction, speed } = settings;
+    const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, friction, speed, ...heldBy(settings.auto) };
     const edited = this.edited();
     if (edited) delete (settled as Partial<typeof settled>)[edited as keyof typeof settled];
     Object.assign(this.world, settled);
+    this.dial.settle(settings);
+    const held = goals[this.world.auto];
+    this.goal.show(this.world.auto !== "off").name(held.unit);
     this.refresh();
+  }
+
+  setDial(dial: DialMessage): void {
+    this.dial.offer(dial);
+  }
+
+  diagnose(diagnostics: Diagnostics): void {
+    this.statistics.show(diagnostics, this.settled);
   }
 
   refresh(): void {
@@ -103,11 +118,6 @@ export class Panel {
     this.choices.mode = mode;
     this.choices.modeChosen = true;
     this.refresh();
-  }
-
-  async query(): Promise<void> {
-    const statistics = await this.commands.query();
-    if (statistics) this.statistics.show(statistics);
   }
 
   /** Asks for a change; when it is refused, the control goes back to what holds. */
@@ -146,23 +156,22 @@ export class Panel {
     tag("friction", folder.add(world, "friction", 0, 1, 0.01).name("Friction")).onFinishChange(
       (friction: number) => void this.change("Friction", { friction }),
     );
-    this.addQuality(folder);
     tag("speed", folder.add(world, "speed", 0.05, 4, 0.05).name("Speed, ×")).onFinishChange(
       (speed: number) => void this.change("Speed", { speed }),
     );
   }
 
-  private addQuality(folder: GUI): void {
+  private addQuality(): void {
     const { world } = this;
-    const names = Object.fromEntries(models.map(({ name, model }) => [name, model]));
-    const quality = tag("model", folder.add(world, "model", names).name("Quality")) as OptionController;
-    quality.onFinishChange((model: Model) => void this.change("Quality", { model }));
-    quality.domElement.title = models.map(({ name, says }) => `${name}: ${says}`).join("\n");
-    models.forEach(({ says }, i) => quality.$select.options.item(i)?.setAttribute("title", says));
-    // Without a slider: one that reaches what Accurate takes would be too coarse for the few that the others take.
-    tag("substeps", folder.add(world, "substeps").min(1).step(1).name("Substeps"))
-      .onChange(() => (world.substeps = Math.min(world.substeps, mostSubsteps)))
-      .onFinishChange((substeps: number) => void this.change("Substeps", { substeps }));
+    const folder = this.gui.addFolder("Quality");
+    folder.$children.append(this.dial.element);
+    const hold = (): void => void this.change("Automatic", { auto: goalFrom(world.auto, world.goal) });
+    tag("auto", folder.add(world, "auto", goalNames).name("Automatic")).onFinishChange((name: GoalName) => {
+      world.goal = goals[name].first;
+      hold();
+    }).domElement.title = "Moves the substeps of the model to hold a time per step, or a mean overlap";
+    this.gui.addFolder("Now").$children.append(this.statistics.quality);
+    this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(hold).hide();
   }
 
   private addDrop(): void {
@@ -191,9 +200,7 @@ export class Panel {
   }
 
   private addStatistics(): void {
-    const folder = this.gui.addFolder("Statistics");
-    tag("query", folder.add({ act: () => void this.query() }, "act").name("Measure now"));
-    folder.$children.append(this.statistics.element);
+    this.gui.addFolder("Statistics").$children.append(this.statistics.rest);
   }
 }
 

@@ -1,0 +1,78 @@
+#include "app/observer.h"
+
+#include <algorithm>
+
+#include "app/facts.h"
+
+namespace spherule::app {
+
+namespace {
+
+constexpr double noticeable = 1.2;  // times the cost that was last told
+// From which time per step can be told.
+constexpr std::uint64_t enoughSteps = 10;
+constexpr double enoughMs = 300;
+
+void addPasses(v1::Diagnostics& diagnostics, const std::vector<double>& seconds, std::uint64_t steps) {
+    if (steps == 0) return;
+    for (std::size_t pass = 0; pass < seconds.size(); ++pass) {
+        if (!(seconds[pass] > 0)) continue;
+        v1::PassTime& time = *diagnostics.add_passes();
+        time.set_pass(std::string(sim::nameOf(static_cast<sim::Pass>(pass))));
+        time.set_step_ms(1000 * seconds[pass] / static_cast<double>(steps));
+    }
+    std::ranges::sort(*diagnostics.mutable_passes(), std::greater(), &v1::PassTime::step_ms);
+}
+
+}  // namespace
+
+void Observer::stepped(double wallMs) {
+    ++steps_;
+    ms_ += wallMs;
+}
+
+bool Observer::refresh(const sim::Simulation& simulation, std::uint32_t epoch) {
+    // Choosing substeps looks at every sphere, so it is done only for what has a say in it.
+    v1::ServerMessage settings = settingsMessage(simulation.scene(), 1, false);
+    settings.mutable_settings()->clear_model();
+    settings.mutable_settings()->clear_substeps();
+    settings.mutable_settings()->clear_auto_();
+    std::string basis = std::to_string(epoch) + settings.SerializeAsString();
+    if (basis == basis_) return false;
+    basis_ = std::move(basis);
+    dial_ = quality::dialFor(table_, simulation.scene());
+    energy_ = {};
+    rest();
+    return true;
+}
+
+Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<double>& passSeconds) {
+    Sight sight;
+    v1::Diagnostics& diagnostics = sight.diagnostics;
+    const sim::Statistics statistics = simulation.statistics();
+    *diagnostics.mutable_statistics() = simulation.message(statistics);
+    diagnostics.set_substeps(simulation.substeps());
+    addPasses(diagnostics, passSeconds, steps_);
+    if (simulation.substeps() != substeps_) energy_.disturbed();
+    substeps_ = simulation.substeps();
+    if (steps_ > 0) diagnostics.set_step_ms(ms_ / static_cast<double>(steps_));
+    if (steps_ >= enoughSteps || ms_ >= enoughMs) sight.dialMoved = calibrate(simulation, diagnostics.step_ms());
+    if (steps_ > 0 || energy_.fresh())
+        sight.alarm = energy_.take({.step = simulation.steps(),
+                                    .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
+                                    .potential = statistics.potentialEnergy});
+    diagnostics.set_energy_rises(energy_.alarmed());
+    rest();
+    return sight;
+}
+
+bool Observer::calibrate(const sim::Simulation& simulation, double stepMs) {
+    const double estimate = quality::estimateMs(dial_, simulation.scene().quality.model, simulation.substeps());
+    if (!(estimate > 0) || !(stepMs > 0)) return false;
+    const double ratio = stepMs / estimate;
+    if (ratio_ > 0 && ratio < noticeable * ratio_ && ratio_ < noticeable * ratio) return false;
+    ratio_ = ratio;
+    return true;
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,92 @@
+// What the simulation thread says of itself, beside the states.
+#include <algorithm>
+
+#include "app/sim_loop.h"
+#include "core/log.h"
+
+namespace spherule::app {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto reportEvery = 1s;
+constexpr auto interest = 150s;  // in figures, after somebody asked for metrics
+
+}  // namespace
+
+void SimLoop::say(v1::Event::Kind kind, const std::string& text) {
+    const auto level = kind == v1::Event::TUNED     ? spdlog::level::info
+                       : kind == v1::Event::WARNING ? spdlog::level::warn
+                                                    : spdlog::level::err;
+    spdlog::log(level, "{}", text);
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(kind);
+    message.mutable_event()->set_step(world_.simulation().steps());
+    message.mutable_event()->set_text(text);
+    outlets_.everybody(frame::share(std::move(message)));
+}
+
+void SimLoop::sendDial() {
+    v1::ServerMessage message;
+    *message.mutable_dial() = observer_.dial();
+    outlets_.dial(frame::share(std::move(message)));
+}
+
+v1::Status SimLoop::status(Pacer::Clock::time_point now) {
+    while (!produced_.empty() && now - produced_.front() > 2s) produced_.pop_front();
+    v1::Status status;
+    if (world_.running()) {
+        status.set_real_time_factor(world_.pacer().realTimeFactor(now));
+        status.set_steps_per_second(world_.pacer().stepsPerSecond(now));
+    }
+    if (produced_.size() > 1)
+        status.set_frames_per_second(static_cast<double>(produced_.size() - 1) /
+                                     std::chrono::duration<double>(now - produced_.front()).count());
+    status.set_paused(world_.paused());
+    status.set_viewers(outlets_.viewers());
+    if (seen_) {
+        status.set_sleeping(seen_->statistics().sleeping());
+        status.set_outside(seen_->statistics().outside());
+        status.set_non_finite(seen_->statistics().non_finite());
+    }
+    return status;
+}
+
+void SimLoop::look(const std::vector<double>& passSeconds) {
+    Observer::Sight sight = observer_.look(world_.simulation(), passSeconds);
+    if (sight.alarm) say(v1::Event::WARNING, *sight.alarm);
+    if (sight.dialMoved) sendDial();
+    seen_ = std::move(sight.diagnostics);
+    v1::ServerMessage message;
+    *message.mutable_diagnostics() = *seen_;
+    outlets_.everybody(frame::share(std::move(message)));
+}
+
+void SimLoop::report() {
+    const auto now = Pacer::Clock::now();
+    if (now < nextReport_) return;
+    nextReport_ = now + reportEvery;
+    const auto times = world_.simulation().passSeconds();
+    if (watched_ || live_.askedWithin(interest)) {
+        look(times);
+    } else {
+        seen_.reset();
+        observer_.rest();
+    }
+    live_.update([&](LiveReport& report) {
+        if (report.state != "draining") report.state = world_.paused() ? "paused" : "running";
+        report.scene = world_.simulation().scene().name;
+        report.spheres = world_.simulation().count();
+        report.steps = world_.simulation().steps();
+        report.simSeconds = world_.simulation().time();
+        report.rebuilds = world_.simulation().counters().rebuilds;
+        report.framesProduced = sequence_;
+        report.status = status(now);
+        report.diagnostics = seen_;
+        report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));
+        for (std::size_t pass = 0; pass < times.size(); ++pass) report.passSeconds[pass] += times[pass];
+    });
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,46 @@
+#include "app/tuner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spherule::app {
+
+namespace {
+
+constexpr double readEvery = 0.25;  // s simulated: the same on every run, which a goal for the overlap relies on
+constexpr double slowMs = 500;      // of steps that are slow, a few are enough
+constexpr int fewSteps = 3;
+
+}  // namespace
+
+bool Tuner::full(const scene::Scene& scene) const {
+    if (steps_ >= std::max(1L, std::lround(readEvery / scene.step))) return true;
+    return scene.quality.goal->of == scene::Goal::Of::StepTime && steps_ >= fewSteps && ms_ >= slowMs;
+}
+
+Result<std::optional<std::string>> Tuner::stepped(sim::Simulation& simulation, double wallMs) {
+    const scene::Scene& scene = simulation.scene();
+    if (!scene.quality.goal) return std::nullopt;
+    ++steps_;
+    ms_ += wallMs;
+    if (!full(scene)) return std::nullopt;
+    quality::Reading reading{.stepMs = ms_ / steps_};
+    steps_ = 0;
+    ms_ = 0;
+    // What is measured while fast motion asks for more substeps says nothing about those of the scene.
+    const std::uint32_t substeps = scene.quality.substeps;
+    if (simulation.substeps() != substeps) return std::nullopt;
+    if (scene.quality.goal->of == scene::Goal::Of::Overlap) {
+        const sim::Statistics statistics = simulation.statistics();
+        reading.contacts = statistics.contacts;
+        reading.overlapMean = statistics.overlapMean;
+    }
+    if (!quality_) quality_.emplace(*scene.quality.goal, scene::substepRange(scene, scene.quality.model));
+    auto decision = quality_->take(reading, substeps);
+    if (!decision) return std::nullopt;
+    if (decision->substeps != substeps)
+        if (auto done = simulation.chooseSubsteps(decision->substeps); !done) return tl::unexpected(done.error());
+    return std::move(decision->text);
+}
+
+}  // namespace spherule::app

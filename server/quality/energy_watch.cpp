@@ -1,0 +1,51 @@
+#include "quality/energy_watch.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spherule::quality {
+
+namespace {
+
+constexpr std::size_t several = 5;
+constexpr std::size_t quietReadings = 10;
+constexpr double tolerated = 0.01;  // of the energy there is
+
+}  // namespace
+
+std::optional<std::string> EnergyWatch::take(const Reading& reading) {
+    const double energy = reading.kinetic + reading.potential;
+    if (!std::isfinite(energy)) return std::nullopt;
+    // Far below the bounds potential energy is negative, and the sum says little of how much there is.
+    const double scale = reading.kinetic + std::abs(reading.potential);
+    std::optional<std::string> told;
+    if (!recent_.empty()) {
+        const double highest = *std::ranges::max_element(recent_);
+        if (recent_.size() == several) ceiling_ = std::min(ceiling_.value_or(highest), highest);
+        const double before = ceiling_.value_or(highest);
+        if (energy - before > tolerated * scale) {
+            if (!alarmed_)
+                told = fmt::format(
+                    "at step {}, mechanical energy is {:.3g} J and was {:.3g} J, though nothing gave any: the model is "
+                    "beyond its range here; use more substeps or another model",
+                    reading.step, energy, before);
+            alarmed_ = true;
+            disturbed();
+        } else if (alarmed_ && ++quiet_ >= quietReadings) {
+            alarmed_ = false;
+        }
+    }
+    recent_.push_back(energy);
+    if (recent_.size() > several) recent_.pop_front();
+    return told;
+}
+
+void EnergyWatch::disturbed() {
+    recent_.clear();
+    ceiling_.reset();
+    quiet_ = 0;
+}
+
+}  // namespace spherule::quality

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+namespace spherule::quality {
+
+// Notices when mechanical energy rises though nothing can have given it. What soft spheres store while they touch is
+// not seen in a reading, so one that is low for a moment proves nothing: a rise is one above the highest of several.
+class EnergyWatch {
+  public:
+    struct Reading {
+        std::uint64_t step = 0;
+        double kinetic = 0;    // J, of motion and rotation
+        double potential = 0;  // J, zero at the lowest place of the scene
+    };
+
+    // What to say of a rise, once until it has been quiet for a while.
+    std::optional<std::string> take(const Reading& reading);
+    // A command, or more substeps, may have given energy: what was read before says nothing of what comes.
+    void disturbed();
+    // Nothing to compare with has been read.
+    [[nodiscard]] bool fresh() const { return recent_.empty(); }
+    [[nodiscard]] bool alarmed() const { return alarmed_; }
+
+  private:
+    std::deque<double> recent_;      // J
+    std::optional<double> ceiling_;  // J: the lowest that the highest of several in a row has been
+    bool alarmed_ = false;
+    std::size_t quiet_ = 0;  // readings since the last rise
+};
+
+}  // namespace spherule::quality

@@ -1,0 +1,78 @@
+#include "quality/energy_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace spherule::quality {
+namespace {
+
+// Reads motions with this energy, `times` in a row; how often something was said.
+int read(EnergyWatch& watch, double joules, int times = 1) {
+    int said = 0;
+    for (int k = 0; k < times; ++k) said += watch.take({.step = 7, .kinetic = joules, .potential = 0}) ? 1 : 0;
+    return said;
+}
+
+TEST(EnergyWatch, IsSilentWhileEnergyFallsOrStays) {
+    EnergyWatch watch;
+    for (double joules = 100; joules > 1; joules *= 0.9) EXPECT_EQ(read(watch, joules), 0);
+    EXPECT_EQ(read(watch, 1, 20), 0);
+    EXPECT_FALSE(watch.alarmed());
+}
+
+TEST(EnergyWatch, TellsOfARiseOnceWithBothFigures) {
+    EnergyWatch watch;
+    read(watch, 100, 3);
+    const auto told = watch.take({.step = 42, .kinetic = 60, .potential = 42});
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->find("at step 42, mechanical energy is 102 J and was 100 J"), 0U) << *told;
+    EXPECT_TRUE(watch.alarmed());
+    EXPECT_EQ(read(watch, 110) + read(watch, 120) + read(watch, 140), 0) << "once until it is quiet";
+}
+
+TEST(EnergyWatch, LetsRoundingPass) {
+    EnergyWatch watch;
+    read(watch, 100, 3);
+    EXPECT_EQ(read(watch, 100.9, 20), 0);
+}
+
+TEST(EnergyWatch, TellsAgainAfterAQuietTime) {
+    EnergyWatch watch;
+    read(watch, 100);
+    EXPECT_EQ(read(watch, 105), 1);
+    read(watch, 105, 12);
+    EXPECT_FALSE(watch.alarmed());
+    EXPECT_EQ(read(watch, 110), 1);
+}
+
+TEST(EnergyWatch, NoticesWhatRisesSlowly) {
+    EnergyWatch watch;
+    int said = 0;
+    double joules = 100;
+    for (int k = 0; k < 40; ++k) said += read(watch, joules *= 1.002);
+    EXPECT_GE(said, 1);
+}
+
+TEST(EnergyWatch, IsNotFooledByWhatContactsHoldForAMoment) {
+    EnergyWatch watch;
+    for (int k = 0; k < 20; ++k) {
+        EXPECT_EQ(read(watch, 100), 0);
+        EXPECT_EQ(read(watch, 60), 0);
+    }
+}
+
+TEST(EnergyWatch, StartsAnewAfterACommand) {
+    EnergyWatch watch;
+    read(watch, 100, 10);
+    watch.disturbed();
+    EXPECT_EQ(read(watch, 500, 10), 0);
+    EXPECT_FALSE(watch.alarmed());
+}
+
+TEST(EnergyWatch, MeasuresFarFallsByWhatTheyAreMadeOf) {
+    EnergyWatch watch;
+    watch.take({.step = 1, .kinetic = 1000, .potential = -999});
+    EXPECT_FALSE(watch.take({.step = 2, .kinetic = 2000, .potential = -1998.5})) << "half a joule of 4000 is rounding";
+}
+
+}  // namespace
+}  // namespace spherule::quality
