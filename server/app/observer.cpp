@@ -60,7 +60,7 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
     if (steps_ > 0 || energy_.fresh())
         sight.alarm = energy_.take({.step = simulation.steps(),
                                     .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
-                                    .potential = statistics.potentialEnergy});
+                                    .potential = statistics.potentialEnergy - statistics.pushWork});
     diagnostics.set_energy_rises(energy_.alarmed());
     rest();
     return sight;

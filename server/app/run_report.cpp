@@ -47,6 +47,7 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"kineticEnergy", s.kineticEnergy},
         {"rotationalEnergy", s.rotationalEnergy},
         {"potentialEnergy", s.potentialEnergy},
+        {"pushWork", s.pushWork},
         {"momentum", {s.momentum.x, s.momentum.y, s.momentum.z}},
         {"angularMomentum", {s.angularMomentum.x, s.angularMomentum.y, s.angularMomentum.z}},
         {"contacts", s.contacts},

@@ -25,6 +25,9 @@ struct Features {
     // Impacts and sleep ask for the velocity before a substep.
     [[nodiscard]] bool needBefore() const { return sleep || (model == Model::Balanced && (contacts || restitution)); }
 
+    // Soft spheres add up forces before any acts.
+    [[nodiscard]] bool forces() const { return model == Model::Accurate && (contacts || obstructed()); }
+
     bool operator==(const Features&) const = default;
 };
 

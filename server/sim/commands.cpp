@@ -216,6 +216,7 @@ v1::Statistics Simulation::message(const Statistics& s) const {
     message.set_kinetic_energy(s.kineticEnergy);
     message.set_rotational_energy(s.rotationalEnergy);
     message.set_potential_energy(s.potentialEnergy);
+    message.set_push_work(s.pushWork);
     for (int axis = 0; axis < 3; ++axis) message.add_momentum(s.momentum[axis]);
     for (int axis = 0; axis < 3; ++axis) message.add_angular_momentum(s.angularMomentum[axis]);
     message.set_contacts(s.contacts);

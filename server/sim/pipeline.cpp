@@ -34,6 +34,22 @@ bool holdsPairs(Array array) {
 
 }  // namespace
 
+State inIdOrder(const SlotState& slots) {
+    const std::size_t spheres = slots.label.size();
+    const bool spins = slots.velocity.size() > spheres;
+    State state;
+    state.position.resize(spheres);
+    state.velocity.resize(spheres);
+    state.spin.resize(spheres);
+    for (std::size_t slot = 0; slot < spheres; ++slot) {
+        const std::uint32_t id = slots.label[slot] & idMask;
+        state.position[id] = slots.position[slot];
+        state.velocity[id] = slots.velocity[slot];
+        if (spins) state.spin[id] = glm::vec4(glm::vec3(slots.velocity[spheres + slot]), 0);
+    }
+    return state;
+}
+
 Result<std::unique_ptr<Pipeline>> Pipeline::create(compute::Device& device, Plan plan) {
     std::unique_ptr<Pipeline> pipeline(new Pipeline(device, std::move(plan)));
     if (auto done = pipeline->allocate(); !done) return tl::unexpected(done.error());
@@ -96,28 +112,18 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
     if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
     for (std::uint32_t id = 0; id < state.count(); ++id) ids[id] |= std::uint32_t{materials[id]} << idBits;
     write<std::uint32_t>(Array::Label, ids);
-    if (plan_.has(Array::Stirred)) device_.fill(buffer(Array::Stirred), 0);
+    for (const Array array : {Array::Stirred, Array::History, Array::WallHistory, Array::Work})
+        if (plan_.has(array)) device_.fill(buffer(array), 0);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
     write<std::uint32_t>(Array::Counters, counters);
     listsPending_ = true;
 }
 
-State Pipeline::download() {
-    const auto position = read<glm::vec4>(Array::Position);
-    const auto velocity = read<glm::vec4>(Array::Velocity);
-    const auto label = read<std::uint32_t>(Array::Label);
-    State state;
-    state.spin.resize(plan_.spheres);
-    state.position.resize(plan_.spheres);
-    state.velocity.resize(plan_.spheres);
-    for (std::uint32_t slot = 0; slot < plan_.spheres; ++slot) {
-        const std::uint32_t id = label[slot] & idMask;
-        state.position[id] = position[slot];
-        state.velocity[id] = velocity[slot];
-        if (plan_.features.friction) state.spin[id] = glm::vec4(glm::vec3(velocity[plan_.spheres + slot]), 0);
-    }
-    return state;
+SlotState Pipeline::download() {
+    const std::size_t velocities = (plan_.features.friction ? 2 : 1) * std::size_t{plan_.spheres};
+    return {read<glm::vec4>(Array::Position, plan_.spheres), read<glm::vec4>(Array::Velocity, velocities),
+            read<std::uint32_t>(Array::Label, plan_.spheres)};
 }
 
 std::uint32_t Pipeline::slotOf(std::uint32_t id) {

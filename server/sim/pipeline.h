@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +14,15 @@
 
 namespace spherule::sim {
 
+// What the device holds of the spheres, as it lies there.
+struct SlotState {
+    std::vector<glm::vec4> position;
+    std::vector<glm::vec4> velocity;  // with friction, then angular velocities
+    std::vector<std::uint32_t> label;
+};
+
+State inIdOrder(const SlotState& slots);
+
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
@@ -20,16 +31,17 @@ class Pipeline {
     void setParameters(const layout::Parameters& parameters);
     // In id order, as are the materials of the spheres; the lists are rebuilt in the next substep.
     void upload(const State& state, std::span<const std::uint8_t> materials);
-    [[nodiscard]] State download();  // in id order; waits for the device
+    [[nodiscard]] SlotState download();  // waits for the device
 
     void substep();
     void runStatistics();  // of the state as it is: builds the lists first where they are not those of this state
     void runPack() { run(plan_.pack); }
 
-    // Whole array as elements of T; waits for the device. Empty where the plan has no such array.
+    // Whole array as elements of T, or the first `most` of them; waits for the device. Empty where the plan has no such
+    // array.
     template <class T>
-    std::vector<T> read(Array array) {
-        std::vector<T> values(static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T));
+    std::vector<T> read(Array array, std::size_t most = SIZE_MAX) {
+        std::vector<T> values(std::min(static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T), most));
         if (!values.empty()) device_.download(buffer(array), 0, std::as_writable_bytes(std::span(values)));
         return values;
     }

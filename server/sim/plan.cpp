@@ -50,7 +50,7 @@ void planArrays(Plan& plan, const scene::Scene& scene) {
     const std::uint64_t materials = scene.materials.size();
     const std::uint64_t sections = 2 + (has.needBefore() ? 1 : 0) + (has.friction ? 1 : 0) + (accurate ? 1 : 0);
     add.array(Array::Position, accurate ? 2 * n : n, 16);
-    add.array(Array::Velocity, (has.friction ? 2 : 1) * (accurate ? 2 : 1) * n, 16);
+    add.array(Array::Velocity, (has.friction ? 2 : 1) * (has.forces() ? 2 : 1) * n, 16);
     if (has.needBefore()) add.array(Array::Before, n, 16);
     add.array(Array::Label, n, 4);
     if (has.materials || has.obstructed()) add.array(Array::Laws, materials * materials, sizeof(layout::Law));
@@ -189,8 +189,7 @@ void planAccurate(Plan& plan, Planner& add) {
               {Position, Velocity, Label, CellStart, Span, Pairs, History, Laws});
     planWalls(plan, add, Pass::WallForces, "walls_forces.comp",
               {Position, Velocity, Obstacles, Label, Laws, WallHistory, Counters});
-    if (plan.features.contacts || plan.features.obstructed())
-        add.always(Pass::Forces, "apply_forces.comp", {Velocity}, plan.spheres);
+    if (plan.features.forces()) add.always(Pass::Forces, "apply_forces.comp", {Velocity}, plan.spheres);
 }
 
 // The table of contents of a substep.

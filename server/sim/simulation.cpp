@@ -47,14 +47,13 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     pipeline_ = std::move(*made);
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
     sampled_ = false;
+    forgot_ = false;
     full_ = false;
     substeps_ = scene_.quality.substeps;
     put(state);
     uploadConstants();
     fitToMotion(farthestMotion(state, scene_.step / substeps_));
-    good_ = std::move(state);
-    goodStep_ = steps_;
-    goodTime_ = time_;
+    keep();
     return {};
 }
 
@@ -105,8 +104,15 @@ Result<void> Simulation::guard() {
     readCounters();
     if (counters_.sampled > 0 && !sampled_) {
         sampled_ = true;
-        spdlog::warn("{} cell groups are so crowded that in a substep each sphere meets only some of the others",
-                     counters_.sampled);
+        notices_.push_back(fmt::format(
+            "at step {}, {} cell groups are so crowded that in a substep each sphere meets only some of the others",
+            steps_, counters_.sampled));
+    }
+    if (counters_.forgotten > 0 && !forgot_) {
+        forgot_ = true;
+        notices_.push_back(fmt::format(
+            "at step {}, a sphere touches more than {} walls at once: further ones do not hold it by friction", steps_,
+            plan().wallContacts));
     }
     // In time: once there is too little, contacts forget what they remember, and go without friction for a step.
     const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
@@ -118,22 +124,23 @@ Result<void> Simulation::guard() {
 }
 
 void Simulation::keep() {
-    good_ = snapshot();
+    good_ = pipeline_->download();
     goodStep_ = steps_;
     goodTime_ = time_;
 }
 
 std::string Simulation::divergence() const {
     const std::uint32_t id = counters_.firstNonFinite;
-    const glm::dvec3 x = glm::dvec3(good_.position.at(id)) + scene_.bounds.centre();
+    const State good = inIdOrder(good_);
+    const glm::dvec3 x = positionOf(good, id) + scene_.bounds.centre();
     return fmt::format(
         "sphere {} has no finite position any more at step {}; at step {} it was at {:.4g} {:.4g} {:.4g} m "
         "with {:.3g} m/s",
-        id, steps_, goodStep_, x.x, x.y, x.z, glm::length(glm::dvec3(good_.velocity.at(id))));
+        id, steps_, goodStep_, x.x, x.y, x.z, glm::length(velocityOf(good, id)));
 }
 
 void Simulation::restore() {
-    put(good_);
+    put(inIdOrder(good_));
     steps_ = goodStep_;
     time_ = goodTime_;
     counters_ = {};
@@ -209,6 +216,7 @@ void Simulation::readCounters() {
     counters_ = {.pairs = words[COUNTER_PAIRS],
                  .unlisted = words[COUNTER_UNLISTED],
                  .sampled = words[COUNTER_SAMPLED],
+                 .forgotten = words[COUNTER_FORGOTTEN],
                  .nonFinite = words[COUNTER_NON_FINITE] > 0,
                  .firstNonFinite = ~words[COUNTER_FIRST_ID],
                  .rebuilds = words[COUNTER_REBUILDS],

@@ -32,7 +32,7 @@ class Simulation {
     [[nodiscard]] Statistics statistics() { return measure(*pipeline_, scene_); }
     // With the step and the time that they are of: now.
     [[nodiscard]] v1::Statistics message(const Statistics& statistics) const;
-    [[nodiscard]] State snapshot() { return pipeline_->download(); }
+    [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download()); }
     void put(const State& state);  // of as many spheres
 
     // Once counters().nonFinite: which sphere has left the numbers, since when, and how fast it was before.
@@ -48,6 +48,7 @@ class Simulation {
         std::uint32_t pairs = 0;           // listed
         std::uint32_t unlisted = 0;        // cell groups without room for their pairs; served, but slowly
         std::uint32_t sampled = 0;         // cell groups so crowded that only some of their pairs are listed
+        std::uint32_t forgotten = 0;       // contacts with walls that found no room for what they remember
         bool nonFinite = false;            // some sphere has left the numbers,
         std::uint32_t firstNonFinite = 0;  // this one of them, by id
         std::uint32_t rebuilds = 0;        // of the lists, since the last change of the scene
@@ -102,6 +103,7 @@ class Simulation {
     v1::WireGrid wire_;
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
+    bool forgot_ = false;   // it has been said that contacts forget
     bool full_ = false;     // there is no room for more pairs
     bool sampled_ = false;  // it has been said that not all pairs are listed
     std::uint32_t substeps_ = 1;
@@ -109,7 +111,7 @@ class Simulation {
     std::uint32_t patience_ = 0;  // steps of calm before substeps are lowered
     bool lowered_ = false;        // since then
     std::vector<std::string> notices_;
-    State good_;  // the last one that was found finite
+    SlotState good_;  // the last one that was found finite
     std::uint64_t goodStep_ = 0;
     double goodTime_ = 0;
     std::uint64_t steps_ = 0;

@@ -51,6 +51,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
         sum.outside += part.outside;
         sum.nonFinite += part.nonFinite;
     }
+    for (const float work : pipeline.read<float>(Array::Work)) sum.pushWork += static_cast<double>(work);
     addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
     sum.potentialEnergy = potentialEnergy(scene, weighted);
     sum.speedMax = std::sqrt(fastest);

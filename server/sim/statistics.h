@@ -14,6 +14,7 @@ struct Statistics {
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
     double potentialEnergy = 0;  // zero at the lowest corner of the bounds
+    double pushWork = 0;  // of `fast`'s pushes out of walls against gravity, since the spheres were last put there
     glm::dvec3 momentum{};
     glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre
     std::uint64_t contacts = 0;

@@ -97,8 +97,7 @@ TEST_P(Bits, OfSizesOneToAHundredAreTheSame) {
     expectTheSameBits(mixedBed(GetParam(), 100), GetParam() == scene::Model::Accurate ? 0.05 : 0.2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Bits,
-                         testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),
+INSTANTIATE_TEST_SUITE_P(Of, Bits, testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),
                          [](const auto& parameter) { return std::string(scene::nameOf(parameter.param)); });
 
 INSTANTIATE_TEST_SUITE_P(Of, SceneBits, testing::ValuesIn(scene::names()), [](const auto& parameter) {
