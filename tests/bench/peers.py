@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Spherule beside LAMMPS on one bed, in one run: peers.py [--sizes 10000,50000] [--rounds 3] [--markdown FILE]
+"""Spherule beside LAMMPS on one bed, in one run:
+peers.py [--sizes 10000,50000] [--rounds 3] [--friction 0.3] [--rest SECONDS] [--markdown FILE]
 
-N spheres (r = 5 cm, 1000 kg/m3, e = 0.5, no friction) fall from a jittered lattice of 1.25 d into an open box of the width
+N spheres (r = 5 cm, 1000 kg/m3, e = 0.5) fall from a jittered lattice of 1.25 d into an open box of the width
 d sqrt(N / 20). Each round runs every contestant from the same positions, one after the other. Needs Debian's `lammps` and
 `openmpi-bin`, and build/release/spherule. Overlaps of both are measured by Spherule, from the positions at the end.
+
+With --rest, the beds fall for 10 s instead and are then watched for so long: how far they sink, and how they move.
 """
 import argparse
 import csv
@@ -27,16 +30,17 @@ THREADS = os.cpu_count()
 BINARY = os.environ.get("SPHERULE", "build/release/spherule")
 WINDOWS = {"fall": (0, 1), "settled": (3, 3.5)}
 
+SETTLED_AFTER = 10  # s, before a bed at rest is watched
+
 OURS = {
     f"Spherule, {THREADS} threads, 1/480 s": ["--device", f"cpu:{THREADS}", "--no-sleep"],
     "Spherule, 1 thread, 1/480 s": ["--device", "cpu:1", "--no-sleep"],
-    "Spherule, Mesa's software renderer, 1/480 s": ["--device", "software", "--no-sleep"],
-    f"Spherule, {THREADS} threads, 1/960 s": ["--device", f"cpu:{THREADS}", "--no-sleep", "--substeps", "16"],
+    f"Spherule, {THREADS} threads, 1/1200 s": ["--device", f"cpu:{THREADS}", "--no-sleep", "--substeps", "20"],
     f"Spherule, {THREADS} threads, 1/480 s, with sleep": ["--device", f"cpu:{THREADS}"],
 }
 LAMMPS = {
-    f"LAMMPS gran/hooke, {THREADS} ranks, k = 5e5 N/m, 1e-4 s": (5e5, 1e-4),
-    f"LAMMPS gran/hooke, {THREADS} ranks, k = 5e4 N/m, 3e-4 s": (5e4, 3e-4),
+    f"LAMMPS, {THREADS} ranks, k = 5e5 N/m, 1e-4 s": (5e5, 1e-4),
+    f"LAMMPS, {THREADS} ranks, k = 5e4 N/m, 3e-4 s": (5e4, 3e-4),
 }
 
 
@@ -54,14 +58,14 @@ def bed(count):
     return spheres, width
 
 
-def scene_of(folder, name, spheres, width):
+def scene_of(folder, name, spheres, width, friction):
     """Writes a scene with these positions; returns its path."""
     with open(os.path.join(folder, name + ".csv"), "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow("xyz")
         writer.writerows(spheres)
     scene = {"bounds": {"min": [0, 0, 0], "max": [width, width, 8], "open": ["Z_MAX"]},
-             "gravity": [0, 0, -GRAVITY], "materials": [{"density": DENSITY, "restitution": RESTITUTION}],
+             "gravity": [0, 0, -GRAVITY], "materials": [{"density": DENSITY, "restitution": RESTITUTION, "friction": friction}],
              "groups": [{"radius": {"constant": RADIUS}, "csv": {"file": name + ".csv"}}]}
     path = os.path.join(folder, name + ".json")
     with open(path, "w", encoding="utf-8") as file:
@@ -77,7 +81,7 @@ def reports(path, *options):
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
-def run_ours(path, options):
+def race_ours(path, options):
     stretches = reports(path, "--for", "3.5s", "--every", "0.5s", *options)
     row = {}
     for window, (begin, end) in WINDOWS.items():
@@ -87,14 +91,19 @@ def run_ours(path, options):
     return row | {key: last[key] for key in ("overlapMean", "overlapMax", "speedRms", "sleeping")}
 
 
-def lammps_input(count, width, stiffness, step):
+def lammps_input(count, width, stiffness, step, friction, phases):
     mass = DENSITY * 4 / 3 * math.pi * RADIUS ** 3
     decay = -math.log(RESTITUTION)
     ratio = decay / math.hypot(math.pi, decay)  # damping ratio of a linear spring with this restitution
     pair, wall = (2 * ratio * math.sqrt(stiffness / m) for m in (mass / 2, mass))
-    faces = "\n".join(f"fix {axis} all wall/gran hooke {stiffness} 0 {wall} 0 0 0 {axis}plane 0 {far}"
+    style = "hooke/history" if friction else "hooke"
+
+    def law(damping):
+        return f"{stiffness} {stiffness * 2 / 7} {damping} " + (f"NULL {friction} 1" if friction else "0 0 0")
+    faces = "\n".join(f"fix {axis} all wall/gran {style} {law(wall)} {axis}plane 0 {far}"
                       for axis, far in (("x", width), ("y", width), ("z", "NULL")))
-    runs = "\n".join(f"run {round(seconds / step)}" for seconds in (1, 2, 0.5))
+    runs = "\n".join(f"run {round(seconds / step)}\nwrite_dump all custom {number}.dump id x y z vx vy vz "
+                     "modify sort id format float %.9g" for number, seconds in enumerate(phases))
     return f"""units si
 atom_style sphere
 boundary f f f
@@ -104,7 +113,7 @@ processors {THREADS} 1 1
 read_data bed{count}.data
 neighbor 0.02 bin
 neigh_modify delay 0 every 1 check yes
-pair_style gran/hooke {stiffness} 0 {pair} 0 0 0
+pair_style gran/{style} {law(pair)}
 pair_coeff * *
 {faces}
 fix gravity all gravity {GRAVITY} vector 0 0 -1
@@ -112,32 +121,90 @@ fix move all nve/sphere
 timestep {step}
 thermo_modify lost warn norm no
 {runs}
-write_dump all custom end.dump id x y z vx vy vz modify sort id format float %.9g
 """
 
 
-def run_lammps(folder, count, spheres, width, stiffness, step):
+def run_lammps(folder, spheres, width, friction, stiffness, step, phases):
+    """Wall seconds of each phase (s simulated), and [id, x, y, z, vx, vy, vz] of every sphere after it."""
+    count = len(spheres)
     with open(os.path.join(folder, f"bed{count}.data"), "w", encoding="utf-8") as file:
         top = spheres[-1][2] + 1
         file.write(f"bed\n\n{count} atoms\n1 atom types\n\n0 {width} xlo xhi\n0 {width} ylo yhi\n-0.2 {top} zlo zhi\n\nAtoms\n\n")
         for number, (x, y, z) in enumerate(spheres, 1):
             file.write(f"{number} 1 {2 * RADIUS} {DENSITY} {x} {y} {z}\n")
     with open(os.path.join(folder, "bed.in"), "w", encoding="utf-8") as file:
-        file.write(lammps_input(count, width, stiffness, step))
+        file.write(lammps_input(count, width, stiffness, step, friction, phases))
     command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", str(THREADS), "lmp", "-in", "bed.in", "-log", "none"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False,
                           env=os.environ | {"OMPI_MCA_mpi_yield_when_idle": "1", "OMP_NUM_THREADS": "1"})
     loops = [float(seconds) for seconds in re.findall(r"Loop time of (\S+) on", done.stdout)]
-    if done.returncode != 0 or len(loops) != 3:
+    if done.returncode != 0 or len(loops) != len(phases):
         sys.exit(f"{' '.join(command)} in {folder}: {done.stdout[-2000:]}{done.stderr}")
-    with open(os.path.join(folder, "end.dump"), encoding="utf-8") as file:
-        rows = [[float(value) for value in line.split()] for line in file.read().split("vz")[-1].strip().splitlines()]
+    ends = []
+    for number in range(len(phases)):
+        with open(os.path.join(folder, f"{number}.dump"), encoding="utf-8") as file:
+            lines = file.read().split("vz")[-1].strip().splitlines()
+        ends.append([[float(value) for value in line.split()] for line in lines])
+    return loops, ends
+
+
+def rms_of(rows):
+    return math.sqrt(sum(v * v for row in rows for v in row[4:7]) / len(rows))
+
+
+def race_lammps(folder, spheres, width, friction, stiffness, step):
+    loops, ends = run_lammps(folder, spheres, width, friction, stiffness, step, (1, 2, 0.5))
     # A soft sphere may reach into a wall, where a scene may not: the faces of this one are out of the way.
-    raised = [[axis + 1 for axis in row[1:4]] for row in rows]
-    overlaps = reports(scene_of(folder, "lammps_end", raised, width + 2), "--device", "cpu", "--for", "0s")[0]
-    rms = math.sqrt(sum(v * v for row in rows for v in row[4:7]) / len(rows))
-    return {"fall": loops[0], "settled": 2 * loops[2], "speedRms": rms, "sleeping": 0,
+    raised = [[axis + 1 for axis in row[1:4]] for row in ends[-1]]
+    overlaps = reports(scene_of(folder, "lammps_end", raised, width + 2, friction), "--device", "cpu", "--for", "0s")[0]
+    return {"fall": loops[0], "settled": 2 * loops[2], "speedRms": rms_of(ends[-1]), "sleeping": 0,
             "overlapMean": overlaps["overlapMean"], "overlapMax": overlaps["overlapMax"]}
+
+
+def rest_ours(path, options, seconds):
+    stretches = reports(path, "--for", f"{SETTLED_AFTER + seconds}s", "--every", f"{SETTLED_AFTER}s", *options)
+    return {"height": stretches[0]["meanHeight"], "sinking": stretches[0]["meanHeight"] - stretches[-1]["meanHeight"],
+            "speedRms": stretches[-1]["speedRms"], "speedMax": stretches[-1]["speedMax"]}
+
+
+def rest_lammps(folder, spheres, width, friction, stiffness, step, seconds):
+    _, ends = run_lammps(folder, spheres, width, friction, stiffness, step, (SETTLED_AFTER, seconds))
+    heights = [statistics.fmean(row[3] for row in rows) for rows in ends]
+    return {"height": heights[0], "sinking": heights[0] - heights[1], "speedRms": rms_of(ends[1]),
+            "speedMax": max(math.hypot(*row[4:7]) for row in ends[1])}
+
+
+def rest_table(count, seconds, results):
+    lines = [f"### {count:,} spheres at rest for {seconds} s", "",
+             f"| | mean height after {SETTLED_AFTER} s, m | sinking in {seconds} s, mm | then: rms speed, mm/s | fastest, mm/s |",
+             "|---|--:|--:|--:|--:|"]
+    for name, row in results.items():
+        lines.append(f"| {name} | {row['height']:.4f} | {1e3 * row['sinking']:.3g} | {1e3 * row['speedRms']:.3g} "
+                     f"| {1e3 * row['speedMax']:.3g} |")
+    return "\n".join(lines) + "\n"
+
+
+def race(folder, path, spheres, width, options):
+    results = {}
+    for number in range(options.rounds):
+        for name, more in OURS.items():
+            results.setdefault(name, []).append(race_ours(path, more))
+            print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
+        for name, (stiffness, step) in LAMMPS.items():
+            results.setdefault(name, []).append(race_lammps(folder, spheres, width, options.friction, stiffness, step))
+            print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
+    return table(len(spheres), results)
+
+
+def rest(folder, path, spheres, width, options):
+    results = {}
+    for name, more in OURS.items():
+        results[name] = rest_ours(path, more, options.rest)
+        print(name, results[name], file=sys.stderr)
+    for name, (stiffness, step) in LAMMPS.items():
+        results[name] = rest_lammps(folder, spheres, width, options.friction, stiffness, step, options.rest)
+        print(name, results[name], file=sys.stderr)
+    return rest_table(len(spheres), options.rest, results)
 
 
 def table(count, results):
@@ -155,22 +222,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sizes", default="10000,50000")
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--friction", type=float, default=0.3)
+    parser.add_argument("--rest", type=int, metavar="SECONDS")
     parser.add_argument("--markdown")
     options = parser.parse_args()
     text = ""
     for count in map(int, options.sizes.split(",")):
         spheres, width = bed(count)
-        results = {}
         with tempfile.TemporaryDirectory() as folder:
-            path = scene_of(folder, "bed", spheres, width)
-            for number in range(options.rounds):
-                for name, more in OURS.items():
-                    results.setdefault(name, []).append(run_ours(path, more))
-                    print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
-                for name, (stiffness, step) in LAMMPS.items():
-                    results.setdefault(name, []).append(run_lammps(folder, count, spheres, width, stiffness, step))
-                    print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
-        text += table(count, results) + "\n"
+            path = scene_of(folder, "bed", spheres, width, options.friction)
+            text += (rest if options.rest else race)(folder, path, spheres, width, options) + "\n"
     print(text)
     if options.markdown:
         with open(options.markdown, "w", encoding="utf-8") as file:

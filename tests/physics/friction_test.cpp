@@ -96,14 +96,14 @@ TEST_P(Friction, TurnsAnObliqueImpactAsCoulombSays) {
         scene.bounds.open[scene::ZMin] = false;
         scene.materials = {{.density = 4000, .restitution = e, .friction = mu, .young = 3.8e11, .poisson = 0.23}};
         scene.quality = {.model = GetParam(), .pinned = false};
-        scene.step = 1e-3;
+        scene.step = 1e-4;
         scene.spheres = {
-            {.position = {0, 0, -0.4965},
+            {.position = {0, 0, -0.4974},
              .velocity = {static_cast<float>(3.9 * std::sin(angle)), 0, static_cast<float>(-3.9 * std::cos(angle))},
              .radius = 0.0025F}};
         ASSERT_TRUE(scene::fitSubsteps(scene));
         const auto simulation = simulate(scene);
-        run(*simulation, 0.004);
+        run(*simulation, 0.0004);
         const sim::State end = simulation->snapshot();
         const double expected = 1 - mu * (1 + e) / std::tan(angle);
         EXPECT_NEAR(velocityOf(end, 0).x / (3.9 * std::sin(angle)), expected, 0.016 * expected) << degrees;
