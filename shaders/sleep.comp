@@ -25,7 +25,7 @@ KERNEL(params.spheres) {
     }
     if (HAS(FRICTION)) {
         vec3 spin = vec3(velocity[params.spheres + invocation]) *
-                    (HAS(LEVELS) ? position[invocation].w : params.radius);
+                    (HAS(RADII) ? position[invocation].w : params.radius);
         asleep = asleep && dot3(spin, spin) < params.sleepSpeed * params.sleepSpeed;
     }
     if (!asleep) {

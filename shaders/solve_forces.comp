@@ -21,6 +21,7 @@ BUFFER(7, readonly, Law, laws, LawBlock)
 
 PRIVATE(vec3, stretch)
 PRIVATE(bool, touches)
+PRIVATE(bool, listed)     // the contact remembers; another slips in every substep as if it had just begun
 
 #include "shared/laws.h"
 #include "shared/kicks.h"
@@ -61,6 +62,7 @@ void visitPair(uint a, uint b) {
     float reach = ra + rb;
     touches = squared < reach * reach;
     if (!touches) return;
+    if (!listed) stretch = vec3(0.0f, 0.0f, 0.0f);
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     float inverse = va.w + vb.w;
@@ -79,9 +81,8 @@ void visitPair(uint a, uint b) {
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
     uvec4 mine = span[group];
-    if (mine.y == UNLISTED) {
-        // Nowhere to remember: every substep, such a contact slips as if it had just begun.
-        stretch = vec3(0.0f, 0.0f, 0.0f);
+    listed = mine.y != UNLISTED;
+    if (!listed) {
         visitGroupNumber(group, mine.x);
         return;
     }

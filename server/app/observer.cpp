@@ -37,6 +37,8 @@ bool Observer::refresh(const sim::Simulation& simulation, std::uint32_t epoch) {
     settings.mutable_settings()->clear_model();
     settings.mutable_settings()->clear_substeps();
     settings.mutable_settings()->clear_auto_();
+    if (epoch != epoch_) ratio_ = 0;
+    epoch_ = epoch;
     std::string basis = std::to_string(epoch) + settings.SerializeAsString();
     if (basis == basis_) return false;
     basis_ = std::move(basis);
@@ -60,7 +62,8 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
     if (steps_ > 0 || energy_.fresh())
         sight.alarm = energy_.take({.step = simulation.steps(),
                                     .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
-                                    .potential = statistics.potentialEnergy - statistics.pushWork});
+                                    .potential = statistics.potentialEnergy,
+                                    .given = statistics.pushWork});
     diagnostics.set_energy_rises(energy_.alarmed());
     rest();
     return sight;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +17,11 @@ class Observer {
     explicit Observer(quality::Table table) : table_(std::move(table)) {}
 
     void stepped(double wallMs);
-    void rest() { steps_ = 0, ms_ = 0; }  // nobody looks: what was stepped does not count
+    // Nobody looks: what was stepped does not count.
+    void rest() {
+        steps_ = 0;
+        ms_ = 0;
+    }
     // Something besides the steps has changed the world: energies before and after cannot be compared.
     void disturbed() { energy_.disturbed(); }
     // The spheres or what else substeps depend on may be others; says whether the dial is.
@@ -41,7 +45,8 @@ class Observer {
     quality::EnergyWatch energy_;
     v1::Dial dial_;      // not calibrated
     std::string basis_;  // what it follows from
-    double ratio_ = 0;   // of a step's time to the estimate; 0: unknown
+    std::uint32_t epoch_ = 0;
+    double ratio_ = 0;  // of a step's time to the estimate; 0: unknown
     std::uint32_t substeps_ = 0;
     std::uint64_t steps_ = 0;  // since the last look
     double ms_ = 0;

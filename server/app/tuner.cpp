@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace spherule::app {
 
@@ -23,13 +24,15 @@ Result<std::optional<std::string>> Tuner::stepped(sim::Simulation& simulation, d
     if (!scene.quality.goal) return std::nullopt;
     ++steps_;
     ms_ += wallMs;
+    const std::uint32_t substeps = scene.quality.substeps;
+    raised_ = raised_ || simulation.substeps() != substeps;
     if (!full(scene)) return std::nullopt;
     quality::Reading reading{.stepMs = ms_ / steps_};
+    // What is measured while fast motion asks for more substeps says nothing about those of the scene.
+    const bool raised = std::exchange(raised_, false);
     steps_ = 0;
     ms_ = 0;
-    // What is measured while fast motion asks for more substeps says nothing about those of the scene.
-    const std::uint32_t substeps = scene.quality.substeps;
-    if (simulation.substeps() != substeps) return std::nullopt;
+    if (raised) return std::nullopt;
     if (scene.quality.goal->of == scene::Goal::Of::Overlap) {
         const sim::Statistics statistics = simulation.statistics();
         reading.contacts = statistics.contacts;

@@ -22,6 +22,7 @@ class Tuner {
     std::optional<quality::AutoQuality> quality_;
     int steps_ = 0;  // since the last reading
     double ms_ = 0;
+    bool raised_ = false;  // substeps, by fast motion in one of them
 };
 
 }  // namespace spherule::app

@@ -54,8 +54,11 @@ v1::Dial dialFor(const Table& table, const scene::Scene& scene) {
         for (const Rung& rung : table.rungs) {
             if (rung.model != model) continue;
             const double substeps = std::round(rung.factor * *own);
-            // Two rungs may be the same where there are few.
-            if (substeps < fewest || substeps > scene::maxSubsteps || substeps == last) continue;
+            // Two rungs may be the same where there are few: then the model's own counts, or else the first.
+            if (substeps == last && rung.factor == 1)
+                dial.mutable_positions()->RemoveLast();
+            else if (substeps < fewest || substeps > scene::maxSubsteps || substeps == last)
+                continue;
             last = static_cast<std::uint32_t>(substeps);
             addPosition(dial, rung, last, static_cast<double>(scene.spheres.size()));
         }

@@ -16,7 +16,7 @@ constexpr double tolerated = 0.01;  // of the energy there is
 }  // namespace
 
 std::optional<std::string> EnergyWatch::take(const Reading& reading) {
-    const double energy = reading.kinetic + reading.potential;
+    const double energy = reading.kinetic + reading.potential - reading.given;
     if (!std::isfinite(energy)) return std::nullopt;
     // Far below the bounds potential energy is negative, and the sum says little of how much there is.
     const double scale = reading.kinetic + std::abs(reading.potential);
@@ -28,9 +28,10 @@ std::optional<std::string> EnergyWatch::take(const Reading& reading) {
         if (energy - before > tolerated * scale) {
             if (!alarmed_)
                 told = fmt::format(
-                    "at step {}, mechanical energy is {:.3g} J and was {:.3g} J, though nothing gave any: the model is "
-                    "beyond its range here; use more substeps or another model",
-                    reading.step, energy, before);
+                    "at step {}, mechanical energy has risen by {:.3g} J to {:.3g} J, though nothing gave any: the "
+                    "model "
+                    "is beyond its range here; use more substeps or another model",
+                    reading.step, energy - before, reading.kinetic + reading.potential);
             alarmed_ = true;
             disturbed();
         } else if (alarmed_ && ++quiet_ >= quietReadings) {

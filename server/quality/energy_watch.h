@@ -16,6 +16,7 @@ class EnergyWatch {
         std::uint64_t step = 0;
         double kinetic = 0;    // J, of motion and rotation
         double potential = 0;  // J, zero at the lowest place of the scene
+        double given = 0;      // J, of pushes out of walls, which are known to give some
     };
 
     // What to say of a rise, once until it has been quiet for a while.

@@ -137,7 +137,9 @@ Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
 Result<void> Simulation::change(scene::Scene changed, bool disturbs) {
     // Gravity and the model have a say in how short a substep must be.
     if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
-    if (scene::featuresOf(changed) == plan().features) {
+    scene::Features features = scene::featuresOf(changed);
+    features.levels = plan().features.levels;  // a matter of the spheres alone
+    if (features == plan().features) {
         scene_ = std::move(changed);
         substeps_ = scene_.quality.substeps;
         uploadConstants();

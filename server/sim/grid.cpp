@@ -50,16 +50,15 @@ Grid gridFor(glm::dvec3 extent, const Radii& radii) {
     const double margin = marginInRadii * (radii.classes.size() > 1 ? radii.listing : radii.mean);
     grid.margin = static_cast<float>(margin);
     grid.levels.clear();
-    double crowd = smallestCrowd;
     for (const SizeClass& one : radii.classes) {
         const std::uint64_t budget = std::max(fewestCells / radii.classes.size(), cellsPerSphere * one.spheres);
         Level level = levelFor(extent, one.largest, margin, budget);
         level.spheres = one.spheres;
         if (!grid.levels.empty()) level.first = grid.all();
-        crowd = std::max(crowd, std::ceil(crowdInFull * fullCell(one, static_cast<double>(level.cellSize))));
+        const double crowd = std::ceil(crowdInFull * fullCell(one, static_cast<double>(level.cellSize)));
+        level.crowd = static_cast<float>(std::clamp(crowd, smallestCrowd, 1e6));
         grid.levels.push_back(level);
     }
-    grid.crowd = static_cast<std::uint32_t>(std::min(crowd, 1e6));
     return grid;
 }
 

@@ -16,6 +16,7 @@ struct Level {
     glm::uvec3 cells{0};      // per axis, multiples of 4
     std::uint32_t first = 0;  // of its cells among those of all levels
     std::uint32_t spheres = 0;
+    float crowd = 0;  // more spheres than this in a cell can only be in each other
 
     [[nodiscard]] std::uint32_t all() const { return cells.x * cells.y * cells.z; }
 };
@@ -24,7 +25,6 @@ struct Level {
 struct Grid {
     float margin = 0;                                   // m; pairs are listed up to this gap
     std::vector<Level> levels = std::vector<Level>(1);  // from the finest to the coarsest; one where radii are alike
-    std::uint32_t crowd = 0;                            // more spheres than this in a cell can only be in each other
 
     [[nodiscard]] std::uint32_t all() const { return levels.back().first + levels.back().all(); }
     [[nodiscard]] const Level& coarsest() const { return levels.back(); }

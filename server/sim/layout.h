@@ -22,13 +22,13 @@ static_assert(sizeof(vec4) == 16 && sizeof(uvec4) == 16);
 static_assert(offsetof(Parameters, cells) == 224);
 static_assert(offsetof(Parameters, substep) == 368);
 static_assert(offsetof(Parameters, spheres) == 416);
-static_assert(sizeof(Parameters) == 480);
+static_assert(sizeof(Parameters) == 464);
 // What the words of these are: 'r' a real number, 'u' an unsigned integer.
 constexpr std::string_view parameterWords =
     "rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr"
     "uuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuu"
     "rrrrrrrrrrrr"
-    "uuuuuuuuuuuuuuuu";
+    "uuuuuuuuuuuu";
 constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrruuuu";
 static_assert(parameterWords.size() * 4 == sizeof(Parameters));
 static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));

@@ -23,10 +23,9 @@ void setGrid(layout::Parameters& p, const Grid& grid) {
     p.levels = static_cast<std::uint32_t>(grid.levels.size());
     for (std::size_t k = 0; k < grid.levels.size(); ++k) {
         const Level& level = grid.levels[k];
-        p.levelSize[k] = glm::vec4(inverse(level), level.largest, 0, 0);
+        p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.crowd, 0);
         p.levelCells[k] = glm::uvec4(level.cells, level.first);
     }
-    p.crowd = grid.crowd;
     p.margin = grid.margin;
     p.rebuildMove = static_cast<float>(rebuildShare) * grid.margin;
 }

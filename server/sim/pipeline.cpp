@@ -104,6 +104,10 @@ void Pipeline::setParameters(const layout::Parameters& parameters) {
 }
 
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
+    // Whatever else there is of the spheres that were in these slots goes.
+    for (const Array array : {Array::Position, Array::Velocity, Array::Before, Array::Woken, Array::Span,
+                              Array::Stirred, Array::History, Array::WallHistory, Array::Work})
+        if (plan_.has(array)) device_.fill(buffer(array), 0);
     write<glm::vec4>(Array::Position, state.position);
     write<glm::vec4>(Array::Velocity, state.velocity);
     if (plan_.features.friction) write<glm::vec4>(Array::Velocity, state.spin, state.count());
@@ -112,8 +116,6 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
     if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
     for (std::uint32_t id = 0; id < state.count(); ++id) ids[id] |= std::uint32_t{materials[id]} << idBits;
     write<std::uint32_t>(Array::Label, ids);
-    for (const Array array : {Array::Stirred, Array::History, Array::WallHistory, Array::Work})
-        if (plan_.has(array)) device_.fill(buffer(array), 0);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
     write<std::uint32_t>(Array::Counters, counters);

@@ -46,8 +46,12 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     radii_ = radii;
     pipeline_ = std::move(*made);
     for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
+    counters_ = {};
     sampled_ = false;
     forgot_ = false;
+    calm_ = 0;
+    patience_ = 0;
+    lowered_ = false;
     full_ = false;
     substeps_ = scene_.quality.substeps;
     put(state);
@@ -132,6 +136,7 @@ void Simulation::keep() {
 std::string Simulation::divergence() const {
     const std::uint32_t id = counters_.firstNonFinite;
     const State good = inIdOrder(good_);
+    if (id >= good.count()) return fmt::format("a sphere has no finite position any more at step {}", steps_);
     const glm::dvec3 x = positionOf(good, id) + scene_.bounds.centre();
     return fmt::format(
         "sphere {} has no finite position any more at step {}; at step {} it was at {:.4g} {:.4g} {:.4g} m "
@@ -187,6 +192,7 @@ void Simulation::makeRoom() {
     const std::uint64_t wanted = 2 * std::uint64_t{std::max(counters_.pairs, plan().pairCapacity)};
     const auto capacity = static_cast<std::uint32_t>(std::min(wanted, most));
     if (capacity <= plan().pairCapacity) {
+        if (counters_.unlisted == 0) return;
         full_ = true;
         spdlog::warn("more than {} pairs per sphere; without lists while that is so, slower", mostPairsPerSphere);
         return;

@@ -14,6 +14,11 @@ float inverseCellOf(uint level) {
     return HAS(LEVELS) ? params.levelSize[level].x : params.inverseCell;
 }
 
+// More spheres of a level than this in one of its cells: not all of their pairs are visited at once.
+uint crowdOf(uint level) {
+    return uint(params.levelSize[level].z);
+}
+
 uint levelOf(float radius) {
     uint level = 0u;
     if (HAS(LEVELS))

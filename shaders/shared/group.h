@@ -65,7 +65,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
                 }
                 uint begin = cellStart[start + from];
                 uint end = cellStart[start + to + 1u];
-                uint crowd = (to - from + 1u) * params.crowd;
+                uint crowd = (to - from + 1u) * crowdOf(finer ? (pass - 1u) % level : level);
                 uint until = finer ? one + 1u : last;
                 for (uint a = one; a < until; ++a) {
                     uint b = row + part == 0u && !finer ? a + 1u : begin;

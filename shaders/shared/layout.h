@@ -10,7 +10,7 @@ struct Parameters {
     vec4 wireOrigin;     // of the packed grid; w = 1 / quantum
     vec4 law;            // of two spheres where all have one material: Law.contact
     vec4 stiffness;      // the same: Law.stiffness
-    vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, 0, 0; from the finest level to the coarsest
+    vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, crowdOf, 0; from the finest level to the coarsest
     uvec4 cells;         // per axis, multiples of 4; w = all cells, of all levels
     uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 4; w = the first of them among all cells
 
@@ -43,11 +43,6 @@ struct Parameters {
     uint wallMaterial;   // of the bounds
     uint wallContacts;   // that a sphere remembers
     uint levels;
-
-    uint crowd;          // more spheres than this in a cell: not all of their pairs are visited at once
-    uint unused;         // keep the size a multiple of 16 bytes
-    uint unusedToo;
-    uint unusedThree;
 };
 
 // What holds between two materials. Row a, column b of the `laws`.

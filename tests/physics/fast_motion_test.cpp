@@ -55,6 +55,17 @@ TEST(FastMotion, RaisesTheSubstepsSaysSoAndTakesThemBack) {
     EXPECT_NE(lowered[0].find("back to 8 substeps"), std::string::npos) << lowered[0];
 }
 
+TEST(FastMotion, IsForgottenWithTheRunItWasIn) {
+    const auto simulation = simulate(shots(scene::Model::Balanced, 200, {0, 0.3, 0.5}));
+    run(*simulation, 0.3);
+    const std::uint64_t first = sim::hashOf(simulation->snapshot());
+    v1::Command reset;
+    reset.mutable_reset();
+    ASSERT_TRUE(simulation->apply(reset));
+    run(*simulation, 0.3);
+    EXPECT_EQ(sim::hashOf(simulation->snapshot()), first);
+}
+
 TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
     // 0.6 radii in a step of one substep: two are enough, one is not.
     scene::Scene scene = shots(scene::Model::Fast, 0, {0});

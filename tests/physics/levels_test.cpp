@@ -151,6 +151,10 @@ TEST(Levels, SleepersWakeWhenSpheresOfOtherSizesComeToThem) {
     ASSERT_TRUE(simulation->plan().features.levels);
     run(*simulation, 3);
     ASSERT_EQ(sleepers(simulation->snapshot()), simulation->count());
+    v1::Command finer;
+    finer.mutable_set()->set_substeps(10);
+    ASSERT_TRUE(simulation->apply(finer));
+    EXPECT_EQ(sleepers(simulation->snapshot()), simulation->count()) << "other substeps wake nobody";
     auto push = [&](std::uint32_t id, double x, double y) {
         const double mass = massOf(simulation->snapshot(), id);
         v1::Command command;

@@ -91,7 +91,7 @@ class Energy(Served):
         self.metric("spherule_contacts")
         self.ctl("reset")
         self.eventually(lambda: self.metric("spherule_energy_rises") == 1, "the rise is seen")
-        self.assertRegex(self.logged(), r"mechanical energy is \S+ J and was \S+ J, though nothing gave any")
+        self.assertRegex(self.logged(), r"mechanical energy has risen by \S+ J to \S+ J, though nothing gave any")
         self.ctl("reset")
         self.ctl("set", "model", "fast")
         time.sleep(3)

@@ -22,7 +22,7 @@ Bed::Bed(std::vector<vec4> places, uint has)
     parameters.spheres = count;
     parameters.cells = uvec4(cells, cells, cells, cells * cells * cells);
     parameters.groups = parameters.cells.w / 64;
-    parameters.crowd = 64;
+    parameters.levelSize[0] = vec4(1 / 1.1F, 0.5F, 64, 0);
     parameters.inverseCell = 1 / 1.1F;
     parameters.margin = 0.1F;
     parameters.radius = 0.5F;

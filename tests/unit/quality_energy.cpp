@@ -24,7 +24,7 @@ TEST(EnergyWatch, TellsOfARiseOnceWithBothFigures) {
     read(watch, 100, 3);
     const auto told = watch.take({.step = 42, .kinetic = 60, .potential = 42});
     ASSERT_TRUE(told);
-    EXPECT_EQ(told->find("at step 42, mechanical energy is 102 J and was 100 J"), 0U) << *told;
+    EXPECT_EQ(told->find("at step 42, mechanical energy has risen by 2 J to 102 J"), 0U) << *told;
     EXPECT_TRUE(watch.alarmed());
     EXPECT_EQ(read(watch, 110) + read(watch, 120) + read(watch, 140), 0) << "once until it is quiet";
 }

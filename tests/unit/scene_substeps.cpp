@@ -102,10 +102,10 @@ TEST(SceneSubsteps, SpringsAreAsStiffAsPinnedOnesAllow) {
     for (const std::uint32_t substeps : {1U, 40U, 1000U}) {
         const Scene scene = sceneOf(accurate, "", {.substeps = substeps});
         const double substep = scene.step / substeps;
-        EXPECT_NEAR(contactTimeOf(scene).contact, 50 * substep, 1e-9);
+        EXPECT_NEAR(contactTimeOf(scene).contact, 70 * substep, 1e-9);
         const double mass = 4.0 / 3 * pi * std::pow(0.05, 3) * 1000;
         const double stiffness = springModulus(scene) * 0.05;
-        EXPECT_NEAR(pi * std::sqrt(mass / 2 / stiffness) / substep, 50, 1e-4);
+        EXPECT_NEAR(pi * std::sqrt(mass / 2 / stiffness) / substep, 70, 1e-4);
     }
 }
 
@@ -133,14 +133,14 @@ TEST(SceneSubsteps, PinnedOnesSufficeForTheSmallestAndTheLightest) {
     EXPECT_NEAR(springModulus(scene) / modulus, 0.25, 1e-9);
     scene.spheres[0].radius /= 2;
     EXPECT_NEAR(springModulus(scene) / modulus, 0.0625, 1e-6);
-    EXPECT_NEAR(contactTimeOf(scene).contact, 50 * scene.step / 500, 1e-9);
+    EXPECT_NEAR(contactTimeOf(scene).contact, 70 * scene.step / 500, 1e-9);
 }
 
 TEST(SceneSubsteps, ChosenOnesFitTheSpringsThatAreChosen) {
     for (const std::string overlap : {"0.1", "0.01"}) {
         const Scene scene = sceneOf(accurate + (R"(, "overlap": )" + overlap));
         const double contact = contactTimeOf(scene).contact;
-        EXPECT_EQ(scene.quality.substeps, std::ceil(50 * scene.step / contact));
+        EXPECT_EQ(scene.quality.substeps, std::ceil(70 * scene.step / contact));
     }
 }
 

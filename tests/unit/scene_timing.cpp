@@ -56,16 +56,16 @@ TEST(SceneTiming, FastTakesAQuarter) {
     EXPECT_EQ(substepsFor(1.0 / 480, 0, 1, Model::Fast), 1);
 }
 
-TEST(SceneTiming, AccurateTakesFiftySubstepsForAContact) {
+TEST(SceneTiming, AccurateTakesSeventySubstepsForAContact) {
     // A spring that the slowest impact that is expected, 0.1 m/s, presses by a hundredth of 5 cm holds it for pi times
-    // 5 ms: 53.05 substeps.
+    // 5 ms: 74.27 substeps.
     const auto substeps = [](const std::string& overlap) {
         const std::string quality = R"("quality": {"model": "ACCURATE", "overlap": )" + overlap + "}, ";
         return sceneWith(R"("gravity": [0, 0, 0], )" + quality + sphereOf("0.05")).quality.substeps;
     };
-    EXPECT_EQ(substeps("0.01"), 54U);
-    EXPECT_EQ(substeps("0.001"), 531U);
-    EXPECT_EQ(substeps("0.1"), 6U);
+    EXPECT_EQ(substeps("0.01"), 75U);
+    EXPECT_EQ(substeps("0.001"), 743U);
+    EXPECT_EQ(substeps("0.1"), 8U);
 }
 
 TEST(SceneTiming, AbsurdSubstepsDoNotOverflow) {

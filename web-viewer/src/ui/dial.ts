@@ -34,6 +34,12 @@ export class Dial {
       const position = this.dial?.positions[this.slider.valueAsNumber];
       if (position) turned(position);
     });
+    // Let go where it was, there is no change to hear of.
+    for (const end of ["pointerup", "keyup", "blur"])
+      this.slider.addEventListener(end, () => {
+        this.turning = false;
+        this.show();
+      });
   }
 
   offer(dial: DialMessage): void {
