@@ -50,10 +50,12 @@ Result<void> slipToRoll(Bench& bench) {
 Result<double> acceleration(Bench& bench, const scene::Scene& scene) {
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());
-    if (auto done = bench.run(**opened, 0.3); !done) return tl::unexpected(done.error());
+    const double settle = bench.quick() ? 0.1 : 0.3;
+    const double watch = bench.quick() ? 0.1 : 0.5;
+    if (auto done = bench.run(**opened, settle); !done) return tl::unexpected(done.error());
     const double before = velocityOf((*opened)->snapshot(), 0).x;
     const double began = (*opened)->time();
-    if (auto done = bench.run(**opened, 0.5); !done) return tl::unexpected(done.error());
+    if (auto done = bench.run(**opened, watch); !done) return tl::unexpected(done.error());
     return (velocityOf((*opened)->snapshot(), 0).x - before) / ((*opened)->time() - began);
 }
 

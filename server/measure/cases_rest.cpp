@@ -99,7 +99,7 @@ Result<void> bed(Bench& bench, const BedSize& size, const char* curve) {
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());
     // Falls are as long as the square root of the lengths says.
-    const double settle = (bench.quick() ? 1.5 : 3) * std::sqrt(size.radius / 0.05);
+    const double settle = (bench.quick() ? 1.2 : 3) * std::sqrt(size.radius / 0.05);
     if (auto done = bench.run(**opened, settle); !done) return done;
     bench.startClock();
     if (auto done = bench.run(**opened, 0.25); !done) return done;

@@ -41,7 +41,8 @@ Result<void> beds(Bench& bench) {
 // Of many spheres of one size with one above that is so many times as large.
 Result<void> sizes(Bench& bench) {
     constexpr double radius = 0.01;
-    const std::uint32_t count = bench.quick() ? 2'000 : 20'000;
+    const std::uint32_t count = (bench.quick() ? 2'000 : 20'000) / (bench.accurate() ? 10 : 1);
+    const double settle = (bench.quick() ? 0.1 : 0.5) / (bench.accurate() ? 5 : 1);
     for (const double ratio : {1.0, 10.0, 30.0, 100.0}) {
         scene::Scene scene = lattice(count, radius, std::max(1.2 * ratio, std::sqrt(count / 10.0)));
         double top = scene.bounds.min.z;
@@ -51,10 +52,10 @@ Result<void> sizes(Bench& bench) {
         auto opened = bench.open(std::move(scene));
         if (!opened) return tl::unexpected(opened.error());
         sim::Simulation& simulation = **opened;
-        if (auto done = bench.run(simulation, bench.quick() ? 0.1 : 0.5); !done) return done;
+        if (auto done = bench.run(simulation, settle); !done) return done;
         bench.startClock();
         std::uint32_t substeps = 0;
-        for (int k = 0; k < 6; ++k) {
+        for (int k = 0; k < (bench.accurate() ? 1 : 6); ++k) {
             substeps += simulation.substeps();
             if (auto done = bench.step(simulation); !done) return done;
         }
