@@ -34,8 +34,8 @@ struct ContactTime {
     double substep = 0;  // s: the longest
 };
 
-// Of the scene's smallest spheres: the substep is a seventieth of the shortest contact, and a tenth of the Rayleigh time
-// where there is a Young's modulus.
+// Of the scene's smallest spheres: the substep is a seventieth of the shortest contact, and a tenth of the Rayleigh
+// time where there is a Young's modulus.
 ContactTime contactTimeOf(const Scene& scene);
 
 }  // namespace spherule::scene

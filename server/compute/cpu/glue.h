@@ -138,8 +138,8 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define HAS(feature) ((binding.features & (feature)) != 0U)
 #define BUFFER(number, access, type, name, block) SPHERULE_ACCESS_##access(type) name = slot<type>(number);
 #define PARAMETERS const Parameters params = copyOfParameters<Parameters>();
-#define KERNEL(count)                        \
-    [[nodiscard]] uint kernelCount() {       \
-        return count;                        \
-    }                                        \
+#define KERNEL(count)                  \
+    [[nodiscard]] uint kernelCount() { \
+        return count;                  \
+    }                                  \
     void kernelBody([[maybe_unused]] uint invocation)
