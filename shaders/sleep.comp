@@ -1,7 +1,8 @@
 // Puts a sphere to sleep that has stayed in one place for the sleep time, and is slow and carried now. Staying is told by
 // its place, not by its speed in every substep: under load, the solver's pushes make it jitter about where it is. Slow
 // and in place is not enough: so is every sphere at the top of its flight, if gravity is weak. Carried means that contacts
-// took up at least half of gravity's pull in this substep.
+// took up at least half of gravity's pull in this substep. A spin about the normal of its only friction is slow to end:
+// the longer a sphere has stayed, the faster it may turn.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -26,7 +27,8 @@ KERNEL(params.spheres) {
     if (HAS(FRICTION)) {
         vec3 spin = vec3(velocity[params.spheres + invocation]) *
                     (HAS(RADII) ? position[invocation].w : params.radius);
-        asleep = asleep && dot3(spin, spin) < params.sleepSpeed * params.sleepSpeed;
+        float turning = params.sleepSpeed * min(spent / params.sleepTime, 4.0f);
+        asleep = asleep && dot3(spin, spin) < turning * turning;
     }
     if (!asleep) {
         before[invocation] = vec4(vec3(u), spent);

@@ -48,7 +48,9 @@ bool separate(uint a, uint b) {
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
     if (ma + mb == 0.0f) return false;
-    float inverse = 1.0f / (ma + mb);
+    // A sleeper stays, but its share of the push is not the other's: of an overlap that both have borne under load, all
+    // would throw the one out that falls asleep last.
+    float inverse = 1.0f / (abs(va.w) + abs(vb.w));
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
     float depth = reach - normal.w;

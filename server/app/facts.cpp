@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "scene/goal.h"
 #include "scene/quality.h"
 
 namespace spherule::app {

@@ -63,7 +63,8 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
         sight.alarm = energy_.take({.step = simulation.steps(),
                                     .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                     .potential = statistics.potentialEnergy,
-                                    .given = statistics.pushWork});
+                                    .given = statistics.pushWork,
+                                    .soft = simulation.scene().quality.model == scene::Model::Accurate});
     diagnostics.set_energy_rises(energy_.alarmed());
     rest();
     return sight;

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 
 #include "app/exit_codes.h"
+#include "core/quantity.h"
+#include "scene/goal.h"
 #include "scene/quality.h"
 
 namespace spherule::app {
@@ -13,17 +14,12 @@ namespace spherule::app {
 namespace {
 
 // "16ms" or "0.5%"; nothing for what cannot be a goal.
-std::optional<scene::Goal> goalFrom(const std::string& text) {
-    double number = 0;
-    const char* end = text.data() + text.size();
-    const auto [unit, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc()) return std::nullopt;
-    const std::string_view name(unit, end);
+std::optional<scene::Goal> goalFrom(const std::string& words) {
+    const auto given = quantityOf(words);
+    if (!given) return std::nullopt;
     v1::Auto message;
-    if (name == "ms")
-        message.set_budget_ms(number);
-    else if (name == "%")
-        message.set_overlap(number / 100);
+    if (given->unit == "ms") message.set_budget_ms(given->number);
+    if (given->unit == "%") message.set_overlap(given->number / 100);
     const auto goal = scene::goalOf(message, "");
     return goal ? *goal : std::nullopt;
 }

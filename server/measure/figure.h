@@ -23,7 +23,7 @@ struct Figure {
     std::optional<double> error{};  // of one: relative to what is expected unless the case says otherwise
     std::string unit{};             // of value and expected
     std::string curve{};            // the work-precision curve that takes its error; empty: none
-    std::string verdict{};          // "pass", or what fails from where; empty: only measured
+    std::string verdict{};          // "pass", what fails from where, or why it is refused; empty: only measured
 };
 
 // With its error relative to what is expected, or to `scale` where that is not 0.

@@ -20,6 +20,7 @@ scene::Scene closedBox(double side);
 void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
 void setFriction(scene::Scene& scene, double friction);
 
+// The index to give to spheres and walls.
 std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material);
 scene::Sphere& addSphere(scene::Scene& scene, glm::dvec3 position, double radius, glm::dvec3 velocity = {},
                          std::uint8_t material = 0);

@@ -5,6 +5,7 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 #include "measure/stability.h"
+#include "scene/quality.h"
 
 // Some spheres, with settings at the ends of what is allowed.
 namespace spherule::measure {
@@ -23,6 +24,12 @@ Result<void> substeps(Bench& bench) {
         scene::Scene scene = heap(64);
         scene.step = substep;
         scene.quality = {.model = bench.model(), .substeps = 1, .pinned = true};
+        if (const auto fits = scene::fitSubsteps(scene); !fits) {
+            Figure refused = plain(fmt::format("substeps of {:g} s", substep), 0, "of the energy");
+            refused.verdict = "refused: " + fits.error().text();
+            bench.add(std::move(refused));
+            continue;
+        }
         auto opened = bench.openAsIs(scene);
         if (!opened) return tl::unexpected(opened.error());
         if (auto done = survive(bench, **opened, fmt::format("substeps of {:g} s", substep), 2); !done) return done;

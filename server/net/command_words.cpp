@@ -12,6 +12,7 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include "core/quantity.h"
 #include "net/ctl.h"
 
 namespace spherule::net {
@@ -99,16 +100,15 @@ Result<void> load(Words words, v1::Command& command) {
 }
 
 // "16ms", "0.5%" or "off".
-Result<void> setAuto(const std::string& word, v1::Auto& goal) {
-    if (word == "off") return {};
-    const bool time = word.ends_with("ms");
-    if (!time && !word.ends_with('%')) return refuse("'" + word + "' is no goal for auto");
-    const auto value = number<double>(word.substr(0, word.size() - (time ? 2 : 1)));
-    if (!value) return tl::unexpected(value.error());
-    if (time)
-        goal.set_budget_ms(*value);
+Result<void> setAuto(const std::string& words, v1::Auto& goal) {
+    if (words == "off") return {};
+    const auto given = quantityOf(words);
+    if (given && given->unit == "ms")
+        goal.set_budget_ms(given->number);
+    else if (given && given->unit == "%")
+        goal.set_overlap(given->number / 100);
     else
-        goal.set_overlap(*value / 100);
+        return refuse("'" + words + "' is no goal for auto");
     return {};
 }
 

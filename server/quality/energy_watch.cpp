@@ -25,12 +25,13 @@ std::optional<std::string> EnergyWatch::take(const Reading& reading) {
         const double highest = *std::ranges::max_element(recent_);
         if (recent_.size() == several) ceiling_ = std::min(ceiling_.value_or(highest), highest);
         const double before = ceiling_.value_or(highest);
-        if (energy - before > tolerated * scale) {
+        const bool enough = !reading.soft || recent_.size() == several;
+        if (enough && energy - before > tolerated * scale) {
             if (!alarmed_)
                 told = fmt::format(
                     "at step {}, mechanical energy has risen by {:.3g} J to {:.3g} J, though nothing gave any: the "
-                    "model "
-                    "is beyond its range here; use more substeps or another model",
+                    "model is "
+                    "beyond its range here; use more substeps or another model",
                     reading.step, energy - before, reading.kinetic + reading.potential);
             alarmed_ = true;
             disturbed();

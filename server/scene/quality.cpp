@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/goal.h"
 #include "scene/load.h"
 #include "scene/stiffness.h"
 
@@ -15,9 +16,13 @@ namespace spherule::scene {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> modelNames = {"fast", "balanced", "accurate"};
+// What `accurate` can do with at the least: substeps per contact of springs that have their stiffness from the
+// materials; and of springs that have it from the substeps, the overlap of the fastest impact: with more, spheres pass
+// each other and walls.
+constexpr double fewestPerContact = 10;
+constexpr double softest = 0.5;  // of the radius
 
-constexpr double mostStepTime = 60'000;  // ms
+constexpr std::array<std::string_view, 3> modelNames = {"fast", "balanced", "accurate"};
 
 double smallestRadius(const Scene& scene) {
     double smallest = 0;
@@ -98,39 +103,30 @@ Result<void> fitSubsteps(Scene& scene) {
     }
     if (quality.substeps < 1 || quality.substeps > maxSubsteps)
         return fail(ErrorKind::Input, field, fmt::format("is {}, must be 1 to {}", quality.substeps, maxSubsteps));
-    if (const std::uint32_t fewest = fewestSubsteps(scene, quality.model); quality.substeps < fewest)
-        return fail(ErrorKind::Input, field,
-                    fmt::format("is {}, but contacts of these materials would take less than 10 substeps then; give at "
-                                "least {}",
-                                quality.substeps, fewest));
-    return {};
+    const std::uint32_t fewest = fewestSubsteps(scene, quality.model);
+    if (quality.substeps >= fewest) return {};
+    if (quality.goal) {
+        quality.substeps = fewest;  // nobody asked for the others
+        return {};
+    }
+    const std::string reason =
+        followsHertz(scene) ? "contacts of these materials would take less than 10 substeps then"
+                            : fmt::format("springs so soft would give way by {:.0f} % of a radius", 100 * softest);
+    return fail(ErrorKind::Input, field,
+                fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest));
 }
 
 std::uint32_t fewestSubsteps(const Scene& scene, Model model) {
-    constexpr double fewestPerContact = 10;  // of springs that have their stiffness from the materials
-    if (model != Model::Accurate || !followsHertz(scene)) return 1;
-    const double fewest = std::ceil(fewestPerContact * scene.step / contactTimeOf(scene).contact);
-    return static_cast<std::uint32_t>(std::clamp<double>(fewest, 1, maxSubsteps));
-}
-
-Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where) {
-    Check check;
-    std::optional<Goal> goal;
-    if (message.goal_case() == v1::Auto::kBudgetMs)
-        goal = {Goal::Of::StepTime, check.upTo(message.budget_ms(), mostStepTime, at(where, "budgetMs"), " ms")};
-    if (message.goal_case() == v1::Auto::kOverlap)
-        goal = {Goal::Of::Overlap, check.within(message.overlap(), 1e-6, 0.5, at(where, "overlap"))};
-    if (!check.ok()) return check.error();
-    return goal;
-}
-
-v1::Auto messageOf(const Goal& goal) {
-    v1::Auto message;
-    if (goal.of == Goal::Of::StepTime)
-        message.set_budget_ms(goal.most);
-    else
-        message.set_overlap(goal.most);
-    return message;
+    if (model != Model::Accurate) return 1;
+    double fewest = 0;
+    if (followsHertz(scene)) {
+        fewest = fewestPerContact * scene.step / contactTimeOf(scene).contact;
+    } else {
+        Scene soft = unpinned(scene, model);
+        soft.quality.overlap = softest;
+        fewest = scene.step / contactTimeOf(soft).substep;
+    }
+    return static_cast<std::uint32_t>(std::clamp<double>(std::ceil(fewest), 1, maxSubsteps));
 }
 
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {

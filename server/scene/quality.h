@@ -17,10 +17,6 @@ v1::Model messageOf(Model model);
 // Whether the materials have what the model needs.
 Result<void> checkModel(const Scene& scene);
 
-// The goal of a message, none where it names none; Input for one that makes no sense, with the field below `where`.
-Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where);
-v1::Auto messageOf(const Goal& goal);
-
 // Chooses the substeps anew, unless they are pinned; then says whether the model can do with them.
 Result<void> fitSubsteps(Scene& scene);
 

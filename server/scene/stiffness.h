@@ -15,7 +15,7 @@ struct Stiffness {
 bool followsHertz(const Scene& scene);
 
 // The effective modulus of all linear springs, Pa; 0 with Hertz's law, which has that of the materials. Where the
-// substeps are pinned, as stiff as they allow: a contact of the smallest spheres then takes 50 of them. Where they are
+// substeps are pinned, as stiff as they allow: a contact of the smallest spheres then takes 70 of them. Where they are
 // not, such that the fastest impact reaches the wanted overlap (m* v^2 = k d^2), and the weight of all spheres a fifth
 // of it.
 double springModulus(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scene/goal.h"
 #include "scene/load.h"
 #include "scene/materials.h"
 #include "scene/quality.h"

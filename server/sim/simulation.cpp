@@ -9,7 +9,9 @@
 
 #include "core/log.h"
 #include "scene/load.h"
+#include "scene/quality.h"
 #include "sim/parameters.h"
+#include "sim/relax.h"
 
 namespace spherule::sim {
 
@@ -56,8 +58,27 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     substeps_ = scene_.quality.substeps;
     put(state);
     uploadConstants();
+    if (auto done = takeApart(state); !done) return done;
     fitToMotion(farthestMotion(state, scene_.step / substeps_));
     keep();
+    return {};
+}
+
+// Spheres that begin deep in each other would fly apart.
+Result<void> Simulation::takeApart(State& state) {
+    const double tolerated = deepestBearable(scene_);
+    const Statistics now = statistics();
+    const double deepest = std::max(now.overlapMax, now.wallOverlapMax);
+    if (!(deepest > tolerated)) return {};
+    spdlog::info("spheres are in each other by up to {:.2g} radii; pushing them apart first", deepest);
+    auto relaxed = relax(device_, scene_, state, tolerated);
+    if (!relaxed) return tl::unexpected(relaxed.error());
+    notices_.push_back(fmt::format(
+        "at step {}, spheres were in each other by up to {:.2g} radii, from where {} would make them fly apart: moved "
+        "apart beforehand, to {:.2g}, in {} sweeps",
+        steps_, deepest, scene::nameOf(scene_.quality.model), relaxed->overlap, relaxed->sweeps));
+    state = std::move(relaxed->state);
+    put(state);
     return {};
 }
 

@@ -81,6 +81,7 @@ class Simulation {
 
     // Makes arrays and kernels anew for `scene` in `state`; everybody wakes. Nothing changes on failure.
     Result<void> adopt(scene::Scene scene, State state);
+    Result<void> takeApart(State& state);
     void uploadConstants();
     Result<State> liveState();  // DeviceLost, rather than what a lost device gives
     Result<void> guard();

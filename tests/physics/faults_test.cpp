@@ -95,6 +95,7 @@ TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
     sphere.radius = 0.02F;
     scene.spheres.assign(3000, sphere);
     const auto simulation = simulate(scene);
+    simulation->put(sim::stateOf(scene));
     run(*simulation, scene.step);
     EXPECT_GT(simulation->counters().unlisted, 0U);
     ASSERT_TRUE(allFinite(simulation->snapshot()));

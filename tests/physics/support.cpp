@@ -27,13 +27,9 @@ scene::Scene named(const std::string& name, const scene::Overrides& overrides) {
 }
 
 scene::Scene openSpace(double side) {
-    scene::Scene scene;
-    scene.bounds.min = glm::dvec3(-side / 2);
-    scene.bounds.max = glm::dvec3(side / 2);
-    scene.bounds.open.fill(true);
+    scene::Scene scene = measure::openSpace(side);
     scene.step = 1.0 / 480;
     scene.quality.substeps = 1;
-    scene.sleep.enabled = false;
     return scene;
 }
 
@@ -51,15 +47,6 @@ scene::Scene sleepyBox(double side) {
     scene.sleep.enabled = true;
     setRestitution(scene, 0.3);
     return scene;
-}
-
-std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material) {
-    scene.materials.push_back(material);
-    return static_cast<std::uint8_t>(scene.materials.size() - 1);
-}
-
-void setRestitution(scene::Scene& scene, double restitution) {
-    for (scene::Material& material : scene.materials) material.restitution = restitution;
 }
 
 std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on) {

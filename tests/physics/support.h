@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "compute/device.h"
+#include "measure/scenes.h"
 #include "reference.h"
 #include "scene/load.h"
 #include "scene/scene.h"
@@ -30,12 +31,9 @@ scene::Scene closedBox(double side);
 // The same in steps of 1/60 s, eight substeps each, with sleep; everything has a restitution of 0.3.
 scene::Scene sleepyBox(double side);
 
-// A material of its own; the index to give to spheres and walls.
-std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material);
-
-void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
-
-constexpr double earth = 9.81;  // m/s^2
+using measure::addMaterial;
+using measure::earth;
+using measure::setRestitution;
 
 // Ends the test with the reason when the scene cannot be simulated.
 std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on = device());

@@ -55,9 +55,17 @@ class Run(unittest.TestCase):
 
     def test_contacts_are_counted_before_the_first_step(self):
         with tempfile.TemporaryDirectory() as folder:
-            report = run_json(scene_in(folder, "pair.json", 0.1, [0.4, 0.5, 0.5], [0.55, 0.5, 0.5]), "--for", "0s")
+            report = run_json(scene_in(folder, "pair.json", 0.1, [0.4, 0.5, 0.5], [0.58, 0.5, 0.5]), "--for", "0s")
         self.assertEqual((report["steps"], report["contacts"]), (0, 1))
-        self.assertAlmostEqual(report["overlapMax"], 0.5, places=5)
+        self.assertAlmostEqual(report["overlapMax"], 0.2, places=5)
+
+    def test_spheres_deep_in_each_other_are_moved_apart_and_it_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = scene_in(folder, "pair.json", 0.1, [0.4, 0.5, 0.5], [0.45, 0.5, 0.5])
+            done = call("run", path, "--for", "0s", "--device", DEVICE, "--json")
+            self.assertLess(json.loads(done.stdout)["overlapMax"], 0.25)
+            self.assertIn("pushing them apart first", done.stderr)
+            self.assertAlmostEqual(run_json(path, "--for", "0s", "--quality", "fast")["overlapMax"], 1.5, places=5)
 
     def test_substeps_and_sleep_follow_the_options(self):
         self.assertEqual(run_json("bounce", "--for", "0.05s", "--substeps", "3")["substepsPerStep"], 3)

@@ -60,6 +60,13 @@ TEST(EnergyWatch, IsNotFooledByWhatContactsHoldForAMoment) {
     }
 }
 
+TEST(EnergyWatch, OfSoftSpheresReadsSeveralBeforeItTells) {
+    EnergyWatch watch;
+    EXPECT_FALSE(watch.take({.kinetic = 60, .soft = true})) << "in the middle of an impact";
+    for (int k = 0; k < 8; ++k) EXPECT_FALSE(watch.take({.kinetic = 100, .soft = true}));
+    EXPECT_TRUE(watch.take({.kinetic = 110, .soft = true}));
+}
+
 TEST(EnergyWatch, StartsAnewAfterACommand) {
     EnergyWatch watch;
     read(watch, 100, 10);

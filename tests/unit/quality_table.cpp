@@ -55,7 +55,7 @@ TEST(QualityTable, OfTheProgramHasEveryModel) {
     for (const Rung& rung : table.rungs) EXPECT_TRUE(rung.curves.contains("bed overlap"));
 }
 
-TEST(QualityTable, ThatIsWrongSaysWhereAndWhatToDo) {
+TEST(QualityTable, ThatIsWrongSaysWhereAndHowToMendIt) {
     const std::string advice = "; `spherule measure --suite accuracy --out FOLDER` writes FOLDER/measure.json";
     EXPECT_EQ(refusalOf("{\n \"device\": }"), "t.json:2:12: is not JSON" + advice);
     EXPECT_EQ(refusalOf(""), "t.json:1:1: is not JSON" + advice);

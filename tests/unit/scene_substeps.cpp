@@ -95,11 +95,25 @@ TEST(SceneSubsteps, OfKnownMaterialsAreCheckedAsASceneIsBuilt) {
                         group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.05}]})"))
                   .find("quality.substeps: is 2, but contacts of these materials"),
               0U);
-    EXPECT_EQ(sceneOf(half).quality.substeps, 2U) << "springs can be as soft as need be";
+}
+
+TEST(SceneSubsteps, SpringsAreNotSoSoftThatSpheresPassThroughEachOther) {
+    Scene softest = sceneOf(R"("model": "ACCURATE", "overlap": 0.5)");
+    const std::uint32_t fewest = softest.quality.substeps;
+    EXPECT_EQ(fewestSubsteps(sceneOf(accurate), Model::Accurate), fewest) << "whatever overlap is asked for";
+    softest.quality.pinned = true;
+    EXPECT_EQ(refusalBy(softest), "accepted");
+    softest.quality.substeps = fewest - 1;
+    EXPECT_EQ(refusalBy(softest), "quality.substeps: is " + std::to_string(fewest - 1) +
+                                      ", but springs so soft would give way by 50 % of a radius; give at least " +
+                                      std::to_string(fewest));
+    softest.quality.goal = {Goal::Of::StepTime, 16};
+    EXPECT_EQ(refusalBy(softest), "accepted") << "nobody asked for these";
+    EXPECT_EQ(softest.quality.substeps, fewest);
 }
 
 TEST(SceneSubsteps, SpringsAreAsStiffAsPinnedOnesAllow) {
-    for (const std::uint32_t substeps : {1U, 40U, 1000U}) {
+    for (const std::uint32_t substeps : {100U, 400U, 1000U}) {
         const Scene scene = sceneOf(accurate, "", {.substeps = substeps});
         const double substep = scene.step / substeps;
         EXPECT_NEAR(contactTimeOf(scene).contact, 70 * substep, 1e-9);

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "core/result.h"
+#include "scene/scene.h"
+#include "spherule/v1/scene.pb.h"
+
+// What `auto` quality holds.
+namespace spherule::scene {
+
+// The goal of a message, none where it names none; Input for one that makes no sense, with the field below `where`.
+Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where);
+v1::Auto messageOf(const Goal& goal);
+
+}  // namespace spherule::scene

@@ -1,0 +1,71 @@
+#include "sim/relax.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scene/stiffness.h"
+#include "sim/simulation.h"
+
+namespace spherule::sim {
+
+namespace {
+
+constexpr std::uint32_t mostSweeps = 1024;
+constexpr std::uint32_t sweepsPerLook = 16;
+
+// In `fast`, where pushing makes no speed.
+scene::Scene withoutForces(const scene::Scene& scene) {
+    scene::Scene still = scene;
+    still.gravity = {};
+    still.sleep.enabled = false;
+    still.step = 1.0 / 480;
+    still.quality = {.model = scene::Model::Fast, .substeps = 1, .pinned = true};
+    still.pairs.clear();
+    for (scene::Material& material : still.materials) material = {.name = material.name, .density = material.density};
+    for (scene::Material& material : still.materials) material.restitution = 0;
+    return still;
+}
+
+double deepest(const Statistics& s) {
+    return std::max(s.overlapMax, s.wallOverlapMax);
+}
+
+State atRest(State state) {
+    for (glm::vec4& velocity : state.velocity) velocity = glm::vec4(0, 0, 0, std::abs(velocity.w));
+    for (glm::vec4& spin : state.spin) spin = {};
+    return state;
+}
+
+}  // namespace
+
+double deepestBearable(const scene::Scene& scene) {
+    constexpr double shallow = 0.25;  // in beds that are squeezed, but not in spheres put in each other
+    if (scene.quality.model == scene::Model::Fast) return std::numeric_limits<double>::infinity();
+    if (scene.quality.model == scene::Model::Balanced) return shallow;
+    double smallest = 0;
+    for (const scene::Sphere& sphere : scene.spheres)
+        if (smallest == 0 || static_cast<double>(sphere.radius) < smallest)
+            smallest = static_cast<double>(sphere.radius);
+    const scene::ContactTime time = scene::contactTimeOf(scene);
+    return smallest > 0 ? time.speed * time.contact / std::numbers::pi / smallest : 0;
+}
+
+Result<Relaxed> relax(compute::Device& device, const scene::Scene& scene, const State& state, double most) {
+    auto made = Simulation::create(device, withoutForces(scene));
+    if (!made) return tl::unexpected(made.error());
+    Simulation& world = **made;
+    Relaxed relaxed{.state = state};
+    world.put(atRest(state));
+    do {
+        for (std::uint32_t k = 0; k < sweepsPerLook; ++k)
+            if (auto done = world.step(); !done) return tl::unexpected(done.error());
+        relaxed.sweeps += sweepsPerLook;
+        relaxed.overlap = deepest(world.statistics());
+    } while (relaxed.overlap > most && relaxed.sweeps < mostSweeps);
+    relaxed.state.position = world.snapshot().position;
+    return relaxed;
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""A bed with friction comes to rest and stays there: rest_test.py BINARY."""
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BINARY = sys.argv.pop()
+RADIUS = 0.05  # m
+PITCH = 2.5 * RADIUS
+ACROSS = 6
+LAYERS = 28
+
+
+def write_bed(folder):
+    """A lattice of jittered spheres over the floor of an open box; returns the path of the scene, and how many."""
+    rng = random.Random(1)
+    width = ACROSS * PITCH
+
+    def place(index):
+        return (index + 0.5) * PITCH + rng.uniform(-0.2, 0.2) * RADIUS
+    spheres = [{"position": [place(i), place(j), place(k)]}
+               for k in range(LAYERS) for j in range(ACROSS) for i in range(ACROSS)]
+    scene = {"bounds": {"min": [0, 0, 0], "max": [width, width, 4], "open": ["Z_MAX"]},
+             "gravity": [0, 0, -9.81],
+             "materials": [{"restitution": 0.5, "friction": 0.3}],
+             "groups": [{"radius": {"constant": RADIUS}, "list": {"spheres": spheres}}]}
+    path = os.path.join(folder, "bed.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(scene, file)
+    return path, len(spheres)
+
+
+class Rest(unittest.TestCase):
+    def test_after_ten_seconds_all_sleep_and_a_minute_later_no_bit_has_changed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, count = write_bed(folder)
+            done = subprocess.run([BINARY, "run", path, "--device", "cpu", "--for", "70s", "--every", "10s", "--json"],
+                                  capture_output=True, text=True, timeout=250, check=True)
+        reports = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual(len(reports), 7)
+        self.assertLess(reports[0]["speedMax"], 1e-3)
+        self.assertEqual(reports[0]["sleeping"], count)
+        self.assertLess(reports[0]["overlapMean"], 0.02)
+        self.assertEqual({report["stateHash"] for report in reports}, {reports[0]["stateHash"]})
+
+
+if __name__ == "__main__":
+    unittest.main()
