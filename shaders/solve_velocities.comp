@@ -21,10 +21,6 @@ BUFFER(7, readonly, Law, laws, LawBlock)
 
 #include "shared/laws.h"
 
-// Of an unlisted group, pairs this much further apart than their radii count as touching: the push apart leaves them
-// within rounding of it.
-#define TOUCH_TOLERANCE 1.0e-4f
-
 // Returns the impulse along the normal, N s; negative where it takes from the push of the position pass.
 float collide(uint a, uint b, bool known) {
     vec4 pa = position[a];

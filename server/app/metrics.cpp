@@ -6,6 +6,7 @@
 #include <prometheus/text_serializer.h>
 
 #include <algorithm>
+#include <array>
 
 #include "sim/pass.h"
 
@@ -77,6 +78,20 @@ void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
     to.gauge(energy, energyHelp, now.kinetic_energy(), {{"kind", "kinetic"}});
     to.gauge(energy, energyHelp, now.rotational_energy(), {{"kind", "rotational"}});
     to.gauge(energy, energyHelp, now.potential_energy(), {{"kind", "potential"}});
+    to.gauge("spherule_push_work_joules", "Of the pushes of fast out of walls, against gravity", now.push_work());
+    const auto vector = [&to](const char* name, const char* help, const auto& values) {
+        constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+        for (int axis = 0; axis < values.size(); ++axis) to.gauge(name, help, values[axis], {{"axis", axes[axis]}});
+    };
+    vector("spherule_momentum_newton_seconds", "Sum of mass times velocity", now.momentum());
+    vector("spherule_angular_momentum_newton_metre_seconds", "About the centre of the bounds, spins included",
+           now.angular_momentum());
+    if (now.has_restitution()) {
+        to.gauge("spherule_restitution_achieved_ratio",
+                 "Of spheres that met, in some of the steps of the last second in which any did: parting over approach",
+                 now.restitution());
+        to.gauge("spherule_restitution_asked_ratio", "What the scene asks for of the same", now.restitution_asked());
+    }
     to.gauge("spherule_contacts", "Pairs of spheres that overlap", static_cast<double>(now.contacts()));
     to.gauge("spherule_overlap_mean_ratio", "Mean overlap of those, over the smaller radius", now.overlap_mean());
     to.gauge("spherule_overlap_max_ratio", "Largest overlap", now.overlap_max());

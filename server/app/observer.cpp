@@ -1,6 +1,7 @@
 #include "app/observer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/facts.h"
 
@@ -37,7 +38,10 @@ bool Observer::refresh(const sim::Simulation& simulation, std::uint32_t epoch) {
     settings.mutable_settings()->clear_model();
     settings.mutable_settings()->clear_substeps();
     settings.mutable_settings()->clear_auto_();
-    if (epoch != epoch_) ratio_ = 0;
+    if (epoch != epoch_) {
+        ratio_ = 0;
+        impacts_ = {};
+    }
     epoch_ = epoch;
     std::string basis = std::to_string(epoch) + settings.SerializeAsString();
     if (basis == basis_) return false;
@@ -51,7 +55,8 @@ bool Observer::refresh(const sim::Simulation& simulation, std::uint32_t epoch) {
 Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<double>& passSeconds) {
     Sight sight;
     v1::Diagnostics& diagnostics = sight.diagnostics;
-    const sim::Statistics statistics = simulation.statistics();
+    sim::Statistics statistics = simulation.statistics();
+    statistics.impacts = statistics.impacts.since(std::exchange(impacts_, statistics.impacts));
     *diagnostics.mutable_statistics() = simulation.message(statistics);
     diagnostics.set_substeps(simulation.substeps());
     addPasses(diagnostics, passSeconds, steps_);

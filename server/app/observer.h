@@ -43,8 +43,9 @@ class Observer {
 
     quality::Table table_;
     quality::EnergyWatch energy_;
-    v1::Dial dial_;      // not calibrated
-    std::string basis_;  // what it follows from
+    sim::Impacts impacts_;  // that have been told
+    v1::Dial dial_;         // not calibrated
+    std::string basis_;     // what it follows from
     std::uint32_t epoch_ = 0;
     double ratio_ = 0;  // of a step's time to the estimate; 0: unknown
     std::uint32_t substeps_ = 0;

@@ -71,6 +71,7 @@ class Watch {
         static_cast<void>(device_.takeTimes());
         simTime_ = simulation_.time();
         rebuilds_ = simulation_.counters().rebuilds;
+        impacts_ = simulation_.impacts();
         began_ = Clock::now();
     }
     // Waits for the device.
@@ -79,7 +80,8 @@ class Watch {
         return {.simSeconds = simulation_.time() - simTime_,
                 .wallSeconds = secondsSince(began_),
                 .passSeconds = device_.takeTimes(),
-                .rebuilds = simulation_.counters().rebuilds - rebuilds_};
+                .rebuilds = simulation_.counters().rebuilds - rebuilds_,
+                .before = impacts_};
     }
 
   private:
@@ -87,6 +89,7 @@ class Watch {
     compute::Device& device_;
     double simTime_ = 0;
     std::uint64_t rebuilds_ = 0;
+    sim::Impacts impacts_;
     Clock::time_point began_;
 };
 

@@ -28,6 +28,8 @@ nlohmann::ordered_json passesOf(const Stretch& stretch) {
 nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation,
                                 const Stretch& stretch) {
     const sim::Statistics s = simulation.statistics();
+    const sim::Impacts impacts = s.impacts.since(stretch.before);
+    const auto ofImpacts = [&impacts](double ratio) { return impacts.count > 0 ? nlohmann::json(ratio) : nullptr; };
     const sim::State state = simulation.snapshot();
     return {
         {"scene", simulation.scene().name},
@@ -60,6 +62,9 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"sleeping", s.sleeping},
         {"outside", s.outside},
         {"nonFinite", s.nonFinite},
+        {"impacts", static_cast<std::uint64_t>(impacts.count)},
+        {"restitution", ofImpacts(impacts.restitution())},
+        {"restitutionAsked", ofImpacts(impacts.restitutionAsked())},
         {"stateHash", fmt::format("{:016x}", sim::hashOf(state))},
     };
 }

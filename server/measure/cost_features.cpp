@@ -19,7 +19,11 @@ struct Feature {
     Change off;
     Change on;
     bool statistics = false;  // after every step of the one with it
+    bool observed = false;    // the one without looks at no impacts; elsewhere both do
 };
+
+// So that one step of a round is observed.
+constexpr int stepsPerRound = sim::observedEvery;
 
 double medianOf(std::vector<double> values) {
     std::ranges::sort(values);
@@ -64,13 +68,14 @@ Result<void> compare(Bench& bench, const scene::Scene& scene, const sim::State& 
     if (!without) return tl::unexpected(without.error());
     auto with = open(bench, scene, state, feature.on);
     if (!with) return tl::unexpected(with.error());
-    const int rounds = bench.quick() ? 15 : 41;
+    if (feature.observed) (*without)->observe(false);
+    const int rounds = bench.quick() ? 9 : 21;
     std::vector<double> off;
     std::vector<double> on;
     // The first round, with lists to build and caches to fill, does not count.
     for (int round = 0; round <= rounds; ++round) {
-        const auto first = timed(bench, **without, 8, false);
-        const auto second = timed(bench, **with, 8, feature.statistics);
+        const auto first = timed(bench, **without, stepsPerRound, false);
+        const auto second = timed(bench, **with, stepsPerRound, feature.statistics);
         if (!first) return tl::unexpected(first.error());
         if (!second) return tl::unexpected(second.error());
         if (round == 0) continue;
@@ -123,6 +128,7 @@ const std::vector<Feature> features{
              scene.sleep.enabled = true;
              scene.sleep.time = 1e6;
          }},
+    {.name = "impacts observed", .off = [](scene::Scene&) {}, .on = [](scene::Scene&) {}, .observed = true},
     {.name = "statistics every substep", .off = [](scene::Scene&) {}, .on = [](scene::Scene&) {}, .statistics = true},
 };
 

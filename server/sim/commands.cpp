@@ -180,6 +180,7 @@ Result<void> Simulation::spawn(const v1::Spawn& spawn) {
     grown.spheres.insert(grown.spheres.end(), added->begin(), added->end());
     if (auto fits = scene::fitSubsteps(grown); !fits) return refusal(fits.error());
     if (auto done = adopt(std::move(grown), std::move(state)); !done) return done;
+    impacts_ = {};
     ++generation_;
     return {};
 }
@@ -232,6 +233,11 @@ v1::Statistics Simulation::message(const Statistics& s) const {
     message.set_sleeping(s.sleeping);
     message.set_outside(s.outside);
     message.set_non_finite(s.nonFinite);
+    if (s.impacts.count > 0) {
+        message.set_impacts(static_cast<std::uint64_t>(s.impacts.count));
+        message.set_restitution(s.impacts.restitution());
+        message.set_restitution_asked(s.impacts.restitutionAsked());
+    }
     return message;
 }
 

@@ -106,7 +106,7 @@ void Pipeline::setParameters(const layout::Parameters& parameters) {
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
     // Whatever else there is of the spheres that were in these slots goes.
     for (const Array array : {Array::Position, Array::Velocity, Array::Before, Array::Woken, Array::Span,
-                              Array::Stirred, Array::History, Array::WallHistory, Array::Work})
+                              Array::Stirred, Array::History, Array::WallHistory, Array::Work, Array::Impacts})
         if (plan_.has(array)) device_.fill(buffer(array), 0);
     write<glm::vec4>(Array::Position, state.position);
     write<glm::vec4>(Array::Velocity, state.velocity);
@@ -186,9 +186,18 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
     return {};
 }
 
-void Pipeline::substep() {
-    run(plan_.substep);
+void Pipeline::substep(bool observed) {
+    run(plan_.substep, observed);
     listsPending_ = false;
+    impactsPending_ = impactsPending_ || observed;
+}
+
+std::vector<glm::vec4> Pipeline::takeImpacts() {
+    if (!impactsPending_ || !plan_.has(Array::Impacts)) return {};
+    auto taken = read<glm::vec4>(Array::Impacts);
+    device_.fill(buffer(Array::Impacts), 0);
+    impactsPending_ = false;
+    return taken;
 }
 
 void Pipeline::runStatistics() {
@@ -207,10 +216,11 @@ void Pipeline::runStatistics() {
     run(plan_.statistics);
 }
 
-void Pipeline::run(const std::vector<LaunchSpec>& launches) {
+void Pipeline::run(const std::vector<LaunchSpec>& launches, bool observed) {
     std::optional<Pass> timed;
     std::array<compute::Buffer*, 8> bound{};
     for (const LaunchSpec& spec : launches) {
+        if (spec.observing && !observed) continue;
         if (timed != spec.pass) {
             if (timed) device_.endTimer();
             device_.beginTimer(static_cast<unsigned>(spec.pass));

@@ -33,7 +33,10 @@ class Pipeline {
     void upload(const State& state, std::span<const std::uint8_t> materials);
     [[nodiscard]] SlotState download();  // waits for the device
 
-    void substep();
+    void substep(bool observed);
+    // Of each cell group what the observed steps since the last call have seen, as statistics_impacts.comp adds it up;
+    // empty when there were none. Waits for the device.
+    std::vector<glm::vec4> takeImpacts();
     void runStatistics();  // of the state as it is: builds the lists first where they are not those of this state
     void runPack() { run(plan_.pack); }
 
@@ -70,11 +73,12 @@ class Pipeline {
     Result<void> compile();
     std::uint32_t slotOf(std::uint32_t id);
     void adopt(Array array, std::unique_ptr<compute::Buffer> made);
-    void run(const std::vector<LaunchSpec>& launches);
+    void run(const std::vector<LaunchSpec>& launches, bool observed = false);
 
     compute::Device& device_;
     Plan plan_;
     bool listsPending_ = false;
+    bool impactsPending_ = false;
     std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;
     std::array<compute::Buffer*, arrayCount> slots_{};  // where the plan has none: a small one that nothing touches
     std::unique_ptr<compute::Buffer> absent_;

@@ -38,6 +38,10 @@ class Planner {
         plan_.substep.push_back({pass, kernel, std::move(slots), plan_.fullLaunches.at(row), row, phase});
     }
 
+    void whenObserved(std::string_view kernel, std::vector<Array> slots, std::uint32_t count) {
+        plan_.substep.push_back({Pass::Statistics, kernel, std::move(slots), count, std::nullopt, 0, true});
+    }
+
   private:
     Plan& plan_;
 };
@@ -88,6 +92,7 @@ void planArrays(Plan& plan, const scene::Scene& scene) {
         add.array(Array::FullLaunches, LAUNCH_ROWS, 16);
         add.array(Array::Launches, LAUNCH_ROWS, 16);
         add.array(Array::Overlaps, plan.groups(), 16);
+        if (!accurate) add.array(Array::Impacts, plan.groups(), 16);
     }
     add.array(Array::Counters, COUNTER_WORDS, 4);
     add.array(Array::SphereParts, blocksOf(plan.spheres, STATISTIC_BLOCK), sizeof(layout::SphereStatistics));
@@ -207,6 +212,8 @@ void planSubstep(Plan& plan) {
             add.always(Pass::Sleep, "stir_spread.comp", {Counters, Stirred, Span}, plan.groups());
         }
     }
+    const bool impacts = plan.has(Impacts);
+    if (impacts) add.whenObserved("velocity_keep.comp", {Velocity, Saved}, n);
     switch (has.model) {
         case scene::Model::Fast:
             planFast(plan, add);
@@ -218,6 +225,9 @@ void planSubstep(Plan& plan) {
             planAccurate(plan, add);
             break;
     }
+    if (impacts)
+        add.whenObserved("statistics_impacts.comp", {Position, Velocity, Saved, Label, Span, Pairs, Laws, Impacts},
+                         plan.groups());
     if (has.sleep) add.always(Pass::Sleep, "sleep.comp", {Velocity, Before, Position}, n);
 }
 
@@ -262,6 +272,7 @@ std::string_view wordsOf(Array array) {
         case Array::Anchor:
         case Array::Resting:
         case Array::Overlaps:
+        case Array::Impacts:
             return "r";
         case Array::SphereParts:
             return layout::statisticsWords;

@@ -28,7 +28,7 @@ enum class Array : std::uint8_t {
     SuperSums,
     Place,  // of a sphere in its cell
     Order,
-    Saved,  // state while it is put in cell order
+    Saved,  // state while it is put in cell order; in observed steps then velocities before the solver
     SavedLabel,
     Anchor,     // position when the lists were built
     Resting,    // by id: position when it was last found to have crept
@@ -48,9 +48,14 @@ enum class Array : std::uint8_t {
     Launches,
     SphereParts,  // partial statistics
     Overlaps,
+    Impacts,  // per cell group, until they are taken: how many were observed and sums of their speeds
     Packed,
     Count,  // how many arrays there are; not one itself
 };
+
+// Every so many steps, one is observed: what only looks at how the solver works is launched too. By the number of the
+// step, so that it is the same in every run.
+constexpr std::uint64_t observedEvery = 16;
 
 constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 
@@ -70,6 +75,7 @@ struct LaunchSpec {
     std::uint32_t count = 0;                 // invocations
     std::optional<std::uint32_t> launchRow;  // of the launch table, for launches that only a rebuild needs
     std::uint32_t phase = 0;
+    bool observing = false;  // only in observed steps
 };
 
 // What a scene requires: made before anything is allocated, and all that is allocated and launched.

@@ -15,6 +15,7 @@ struct Row {
     std::uint32_t launches = 0;
     std::uint32_t invocations = 0;
     bool onRebuild = false;
+    bool observing = false;
 };
 
 // Launches of one kernel in a row are one row of the plan.
@@ -23,7 +24,8 @@ std::vector<Row> rowsOf(const Plan& plan) {
     for (const auto* launches : {&plan.substep, &plan.statistics, &plan.pack}) {
         for (const LaunchSpec& launch : *launches) {
             if (rows.empty() || rows.back().kernel != launch.kernel)
-                rows.push_back({launch.pass, launch.kernel, 0, launch.count, launch.launchRow.has_value()});
+                rows.push_back(
+                    {launch.pass, launch.kernel, 0, launch.count, launch.launchRow.has_value(), launch.observing});
             ++rows.back().launches;
         }
     }
@@ -65,7 +67,8 @@ double perSphere(const Plan& plan, std::uint64_t bytes) {
     return plan.spheres == 0 ? 0.0 : static_cast<double>(bytes) / plan.spheres;
 }
 
-std::string_view whenOf(const Row& row) {
+std::string whenOf(const Row& row) {
+    if (row.observing) return fmt::format("every {}th step", observedEvery);
     if (row.pass == Pass::Statistics || row.pass == Pass::Pack) return "on demand";
     return row.onRebuild ? "on rebuild" : "every substep";
 }
@@ -74,11 +77,11 @@ std::string_view whenOf(const Row& row) {
 
 std::string_view nameOf(Array array) {
     static constexpr std::array<std::string_view, arrayCount> names = {
-        "position",   "velocity",     "before",       "label",   "laws",  "obstacles",   "cell-start",
-        "block-sums", "super-sums",   "place",        "order",   "saved", "saved-label", "anchor",
-        "resting",    "woken",        "stirred",      "slot-of", "pairs", "history",     "kept-start",
-        "kept",       "pressed",      "wall-history", "work",    "span",  "counters",    "full-launches",
-        "launches",   "sphere-parts", "overlaps",     "packed",
+        "position",   "velocity",     "before",       "label",   "laws",   "obstacles",   "cell-start",
+        "block-sums", "super-sums",   "place",        "order",   "saved",  "saved-label", "anchor",
+        "resting",    "woken",        "stirred",      "slot-of", "pairs",  "history",     "kept-start",
+        "kept",       "pressed",      "wall-history", "work",    "span",   "counters",    "full-launches",
+        "launches",   "sphere-parts", "overlaps",     "impacts", "packed",
     };
     return names.at(static_cast<std::size_t>(array));
 }

@@ -112,15 +112,24 @@ Result<void> Simulation::reset() {
     time_ = 0;
     goodStep_ = 0;
     goodTime_ = 0;
+    impacts_ = {};
     ++generation_;
     return {};
 }
 
 Result<void> Simulation::step() {
-    for (std::uint32_t k = 0; k < substeps_; ++k) pipeline_->substep();
+    const bool observed = observing_ && steps_ % observedEvery == 0;
+    for (std::uint32_t k = 0; k < substeps_; ++k) pipeline_->substep(observed);
     ++steps_;
     time_ += scene_.step;
     return guard();
+}
+
+Statistics Simulation::statistics() {
+    Statistics now = measure(*pipeline_, scene_);
+    addImpacts(impacts_, *pipeline_);
+    now.impacts = impacts_;
+    return now;
 }
 
 // Once a step: the device is still there, and every cell group has found room for its pairs.

@@ -29,7 +29,11 @@ class Simulation {
     // set, spawn, push, reset and query; Refused, with nothing changed, for what cannot be done.
     Result<v1::Applied> apply(const v1::Command& command);
 
-    [[nodiscard]] Statistics statistics() { return measure(*pipeline_, scene_); }
+    [[nodiscard]] Statistics statistics();
+    // As they were in the last statistics().
+    [[nodiscard]] const Impacts& impacts() const { return impacts_; }
+    // Whether some steps are observed: they are, until this says otherwise. Never changes the state.
+    void observe(bool on) { observing_ = on; }
     // With the step and the time that they are of: now.
     [[nodiscard]] v1::Statistics message(const Statistics& statistics) const;
     [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download()); }
@@ -104,6 +108,8 @@ class Simulation {
     v1::WireGrid wire_;
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
+    bool observing_ = true;
+    Impacts impacts_;
     bool forgot_ = false;   // it has been said that contacts forget
     bool full_ = false;     // there is no room for more pairs
     bool sampled_ = false;  // it has been said that not all pairs are listed

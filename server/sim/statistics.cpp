@@ -29,6 +29,22 @@ void addOverlaps(Statistics& sum, const std::vector<glm::vec4>& groups) {
 
 }  // namespace
 
+Impacts Impacts::since(const Impacts& before) const {
+    if (count < before.count) return *this;  // of another world
+    return {count - before.count, approach - before.approach, parting - before.parting, asked - before.asked};
+}
+
+void addImpacts(Impacts& sum, Pipeline& pipeline) {
+    glm::dvec4 added{};
+    for (const glm::vec4& group : pipeline.takeImpacts()) added += glm::dvec4(group);
+    // A state on its way out of the numbers tells nothing.
+    if (!std::isfinite(added.y + added.z + added.w)) return;
+    sum.count += added.x;
+    sum.approach += added.y;
+    sum.parting += added.z;
+    sum.asked += added.w;
+}
+
 Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     Statistics sum;
     if (pipeline.plan().spheres == 0) return sum;

@@ -9,6 +9,21 @@
 
 namespace spherule::sim {
 
+// What was observed, in some of the steps, of spheres that met spheres. In the models `fast` and `balanced`: in
+// `accurate` an impact takes many substeps, which nobody adds up.
+struct Impacts {
+    double count = 0;
+    double approach = 0;  // sum of their speeds along the normal, m/s
+    double parting = 0;
+    double asked = 0;  // sum of the partings that the scene's restitution asks for
+
+    // Weighted by the speed of approach. Only where there are impacts.
+    [[nodiscard]] double restitution() const { return parting / approach; }
+    [[nodiscard]] double restitutionAsked() const { return asked / approach; }
+    // Without those of before.
+    [[nodiscard]] Impacts since(const Impacts& before) const;
+};
+
 // SI units; overlaps as fractions of the (smaller) radius.
 struct Statistics {
     double kineticEnergy = 0;
@@ -27,9 +42,13 @@ struct Statistics {
     std::uint32_t sleeping = 0;
     std::uint32_t outside = 0;
     std::uint32_t nonFinite = 0;
+    Impacts impacts;  // since the spheres were last placed or added to
 };
 
 // Summed on the device in blocks, the blocks in double here. Waits for the device.
 Statistics measure(Pipeline& pipeline, const scene::Scene& scene);
+
+// Adds what has been observed since the last time. Waits for the device.
+void addImpacts(Impacts& sum, Pipeline& pipeline);
 
 }  // namespace spherule::sim

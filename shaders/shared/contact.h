@@ -1,5 +1,9 @@
 // The geometry of a pair of spheres.
 
+// After the push apart, which leaves pairs within rounding of touching, those count as touching that are this much further
+// apart than their radii.
+#define TOUCH_TOLERANCE 1.0e-4f
+
 // A direction for coincident centres, from the ids, so that it is the same on every run.
 vec3 directionFromIds(uint a, uint b) {
     uint hash = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;

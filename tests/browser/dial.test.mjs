@@ -115,6 +115,8 @@ test("the figures of the world come by themselves", async () => {
   assert.match(await text("statistics-energy"), / J$/);
   assert.match(await text("statistics-overlap-mean"), / %$/);
   assert.match(await text("statistics-step-time"), / ms$/);
+  assert.match(await text("statistics-restitution"), /^not observed$|^\S+ of 0\.\d+$|^–$/);
+  assert.match(await text("statistics-impacts"), /^[\d\u202f]+$|^–$/);
   assert.equal(Number(await text("statistics-substeps")), await page.evaluate(() => spherule.diagnostics.substeps));
 });
 

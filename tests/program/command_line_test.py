@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.request
 
@@ -15,7 +16,8 @@ DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
 KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds stretchSeconds wallSeconds realTimeFactor
 deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy pushWork momentum angularMomentum contacts
-overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite stateHash""".split()
+overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite impacts restitution
+restitutionAsked stateHash""".split()
 
 
 def call(*arguments):
@@ -46,6 +48,14 @@ class Run(unittest.TestCase):
         self.assertEqual((report["steps"], report["spheres"], report["device"]), (6, 2, DEVICE))
         self.assertEqual((len(report["momentum"]), len(report["angularMomentum"])), (3, 3))
         self.assertRegex(report["stateHash"], "^[0-9a-f]{16}$")
+
+    def test_impacts_are_those_of_each_stretch(self):
+        done = call("run", "cradle", "--for", "2s", "--every", "1s", "--device", DEVICE, "--json")
+        first, second = (json.loads(line) for line in done.stdout.splitlines())
+        self.assertGreater(first["impacts"], 0)
+        self.assertAlmostEqual(first["restitution"], 1, places=4)
+        self.assertEqual(first["restitutionAsked"], 1)
+        self.assertEqual((second["impacts"], second["restitution"], second["restitutionAsked"]), (0, None, None))
 
     def test_same_scene_and_seed_give_the_same_hash_and_another_seed_another(self):
         def hash_of(*more):
@@ -184,6 +194,15 @@ class Serve(unittest.TestCase):
         self.assertEqual((ready["device"], ready["scene"], ready["spheres"]), (DEVICE, "cradle", 5))
         self.assertIn(ready["state"], ("running", "paused"))
         self.assertIn("spherule_spheres 5", self.get("/metrics"))
+        for _ in range(100):  # figures come once somebody has asked
+            metrics = self.get("/metrics")
+            if "spherule_momentum" in metrics:
+                break
+            time.sleep(0.1)
+        for name in ("momentum_newton_seconds", "angular_momentum_newton_metre_seconds"):
+            for axis in "xyz":
+                self.assertIn(f'spherule_{name}{{axis="{axis}"}}', metrics)
+        self.assertIn("spherule_push_work_joules 0", metrics)
         self.assertIn("<!doctype html>", self.get("/").lower())
 
     def test_sigterm_drains_and_exits_0(self):

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { DialSchema } from "../src/gen/spherule/v1/control_pb";
+import { DialSchema, StatisticsSchema } from "../src/gen/spherule/v1/control_pb";
 import { AutoSchema, Model } from "../src/gen/spherule/v1/scene_pb";
 import { goalFrom, heldBy } from "../src/ui/auto";
-import { costRows, errorRows, nearest, substepWords } from "../src/ui/dial_words";
+import { costRows, errorRows, impactWords, nearest, substepWords } from "../src/ui/dial_words";
 
 const dial = create(DialSchema, {
   positions: [
@@ -58,4 +58,12 @@ test("a goal is the same on its way to the server and back", () => {
     assert.deepEqual(heldBy(create(AutoSchema, goalFrom(held.auto, held.goal))), held);
   }
   assert.deepEqual(heldBy(undefined), { auto: "off", goal: 0 });
+});
+
+test("impacts are told with what was asked of them, and not where there were none", () => {
+  const wordsOf = (impacts: bigint, restitution?: number, restitutionAsked?: number): ReturnType<typeof impactWords> =>
+    impactWords(create(StatisticsSchema, { impacts, restitution, restitutionAsked }));
+  assert.deepEqual(wordsOf(1312n, 0.4978, 0.5), { restitution: "0.498 of 0.5", over: "1\u202f312" });
+  assert.deepEqual(wordsOf(1n, 0, 0), { restitution: "0 of 0", over: "1" });
+  assert.equal(wordsOf(0n), undefined);
 });

@@ -1,4 +1,4 @@
-import type { Dial, DialPosition, Settings } from "../gen/spherule/v1/control_pb";
+import type { Dial, DialPosition, Settings, Statistics } from "../gen/spherule/v1/control_pb";
 import type { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure } from "./format";
 
@@ -64,4 +64,10 @@ export function costRows(position: DialPosition, substeps: number, calibrated: b
 
 export function substepWords(substeps: number): string {
   return substeps === 1 ? "1 substep" : `${count(substeps)} substeps`;
+}
+
+/** The restitution that impacts had, of the one that their materials ask for; nothing where there were none. */
+export function impactWords({ impacts, restitution, restitutionAsked }: Statistics): { restitution: string; over: string } | undefined {
+  if (restitution === undefined || restitutionAsked === undefined) return undefined;
+  return { restitution: `${figure(restitution)} of ${figure(restitutionAsked)}`, over: count(Number(impacts)) };
 }

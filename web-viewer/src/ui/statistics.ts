@@ -1,13 +1,22 @@
 import type { Diagnostics, Settings } from "../gen/spherule/v1/control_pb";
+import { Model } from "../gen/spherule/v1/scene_pb";
+import { impactWords } from "./dial_words";
 import { h } from "./dom";
 import { count, figure, seconds, vector } from "./format";
 
-type Row = [id: string, name: string, value: string, warning?: string];
+type Row = [id: string, name: string, value: string, warning?: string, title?: string];
+
+const seen = "Of spheres that met spheres, seen in every 16th step: less than asked where one meets several within a substep";
+
+const none = { restitution: "–", over: "–" };
 
 /** What the world is like now, as two small tables: what goes with the dial, and the rest. */
 export class StatisticsTables {
   readonly quality = h("table", { class: "statistics", hidden: true });
   readonly rest = h("table", { class: "statistics", hidden: true });
+
+  /** Of the last impacts that were told: where they are rare, most reports have none. */
+  private impacts = { ...none, step: 0n };
 
   show(now: Diagnostics, settings: Settings | undefined): void {
     const s = now.statistics;
@@ -15,11 +24,17 @@ export class StatisticsTables {
     const percent = (share: number): string => `${figure(100 * share)} %`;
     const raised = settings && now.substeps > settings.substeps ? "More than set, because something moves very fast" : undefined;
     const rises = now.energyRises ? "It has risen where nothing can have given any: use more substeps or another model" : undefined;
+    if (s.step < this.impacts.step) this.impacts = { ...none, step: 0n }; // another scene
+    const told = impactWords(s);
+    if (told) this.impacts = { ...told, step: s.step };
+    const { restitution, over } = settings?.model === Model.ACCURATE ? { restitution: "not observed", over: "–" } : this.impacts;
     fill(this.quality, [
       ["substeps", "Substeps", count(now.substeps), raised],
       ["step-time", "A step takes", now.stepMs > 0 ? `${figure(now.stepMs)} ms` : "–"],
       ["overlap-mean", "Overlap, mean", percent(s.overlapMean)],
       ["overlap-max", "Overlap, most", percent(s.overlapMax)],
+      ["restitution", "Restitution", restitution, undefined, seen],
+      ["impacts", "Over impacts", over, undefined, seen],
       ["energy", "Energy", `${rises ? "rises: " : ""}${figure(s.kineticEnergy + s.rotationalEnergy + s.potentialEnergy)} J`, rises],
       ["speed-max", "Speed, most", `${figure(s.speedMax)} m/s`],
     ]);
@@ -46,7 +61,7 @@ function fill(table: HTMLElement, rows: Row[]): void {
   table.replaceChildren(...rows.map(rowOf));
 }
 
-function rowOf([id, name, value, warning]: Row): HTMLElement {
+function rowOf([id, name, value, warning, title]: Row): HTMLElement {
   const figures = h("td", { class: warning ? "warning" : "", title: warning ?? "", "data-testid": `statistics-${id}` }, value);
-  return h("tr", {}, h("th", {}, name), figures);
+  return h("tr", { title: title ?? "" }, h("th", {}, name), figures);
 }

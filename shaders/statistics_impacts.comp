@@ -1,0 +1,50 @@
+// In an observed step, after the solver: how fast the pairs of each group that met have approached and have parted.
+// `fast` and `balanced` carry an impact out within one substep. Groups without lists are left out of what is observed, and
+// so is what meets as slowly as the weight of a pile makes it, which `fast` lets go without a bounce.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/label.h"
+#include "shared/contact.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, vec4, saved, SavedBlock)  // the velocities before
+BUFFER(3, readonly, uint, label, LabelBlock)
+BUFFER(4, readonly, uvec4, span, SpanBlock)
+BUFFER(5, readonly, uvec2, pairs, PairBlock)
+BUFFER(6, readonly, Law, laws, LawBlock)
+BUFFER(7, restrict, vec4, impacts, ImpactBlock)  // per group, until the host takes them: impacts, sums of the speeds of
+                                                 // approach, of parting, and of the parting that was asked for
+
+#include "shared/laws.h"
+
+// Of speeds in dead bands.
+#define WEIGHTLESS 10.0f
+
+PRIVATE(vec4, sum)
+
+void visitPair(uint a, uint b) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    float squared = dot3(d, d);
+    float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) * (1.0f + TOUCH_TOLERANCE);
+    if (!(squared < reach * reach)) return;
+    vec3 n = vec3(normalAndDistance(d, squared, a, b));
+    float approach = dot3(vec3(saved[b]) - vec3(saved[a]), n);
+    if (!(approach > WEIGHTLESS * params.deadBand)) return;
+    float parting = dot3(vec3(velocity[a]) - vec3(velocity[b]), n);
+    // One that goes on as it came has not met yet: it is within the tolerance only.
+    if (!(parting > -0.5f * approach)) return;
+    sum = sum + vec4(1.0f, approach, parting, contactLaw(a, b).x * approach);
+}
+
+KERNEL(params.groups * 8u) {
+    uvec4 mine = span[invocation];
+    if (mine.y == UNLISTED || (HAS(SLEEP) && mine.w == 0u)) return;
+    sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+    if (sum.x > 0.0f) impacts[invocation] = impacts[invocation] + sum;
+}

@@ -1,0 +1,141 @@
+// What is observed of impacts on the device is what happens, and looking changes nothing.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "scene/quality.h"
+#include "scene/random.h"
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+constexpr double within = 0.005;
+
+// A gas of two hundred spheres in flight between walls.
+scene::Scene gas(scene::Model model, double restitution) {
+    scene::Scene scene = closedBox(2);
+    scene.gravity = {};
+    scene.quality.model = model;
+    scene::Random random(3);
+    const auto speed = [&random] { return static_cast<float>(random.uniform(-3, 3)); };
+    for (int k = 0; k < 200; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = k % 2 == 0 ? 0.04F : 0.06F;
+        sphere.position = 0.3 * (glm::dvec3(k % 6, k / 6 % 6, k / 36) - 2.5);
+        sphere.velocity = {speed(), speed(), speed()};
+        scene.spheres.push_back(sphere);
+    }
+    setRestitution(scene, restitution);
+    return scene;
+}
+
+// Thirty-two pairs, each in a lane of its own, that meet head-on in the middle of the first step, of the second, and so
+// on.
+scene::Scene headOn(scene::Model model, double restitution) {
+    scene::Scene scene = openSpace(8);
+    scene.quality.model = model;
+    for (int k = 0; k < 32; ++k) {
+        const double half = 0.05 + (k + 0.5) * scene.step;
+        const glm::dvec3 lane(0, 0.4 * (k % 8) - 1.4, 0.4 * (k / 8) - 0.6);
+        scene.spheres.push_back({lane - glm::dvec3(half, 0, 0), {1, 0, 0}, 0.05F});
+        scene.spheres.push_back({lane + glm::dvec3(half, 0, 0), {-1, 0, 0}, 0.05F});
+    }
+    setRestitution(scene, restitution);
+    return scene;
+}
+
+class Impacts : public testing::TestWithParam<std::tuple<scene::Model, double>> {
+  protected:
+    [[nodiscard]] static scene::Model model() { return std::get<0>(GetParam()); }
+    [[nodiscard]] static double restitution() { return std::get<1>(GetParam()); }
+};
+
+TEST_P(Impacts, OfPairsAreSeenInEverySixteenthStep) {
+    const auto simulation = simulate(headOn(model(), restitution()));
+    run(*simulation, 40 * simulation->scene().step);
+    const sim::Impacts seen = simulation->statistics().impacts;
+    ASSERT_EQ(seen.count, 2);
+    EXPECT_NEAR(seen.approach, 4, 1e-5);
+    EXPECT_NEAR(seen.restitution(), restitution(), 1e-5);
+    EXPECT_NEAR(seen.restitutionAsked(), restitution(), 1e-6);
+    EXPECT_EQ(simulation->statistics().impacts.count, 2) << "looking again adds nothing";
+}
+
+TEST_P(Impacts, OfAGasPartAsItsMaterialsAsk) {
+    const auto simulation = simulate(gas(model(), restitution()));
+    run(*simulation, 2);
+    const sim::Impacts seen = simulation->statistics().impacts;
+    EXPECT_GT(seen.count, 10);
+    EXPECT_NEAR(seen.restitutionAsked(), restitution(), 1e-5);
+    EXPECT_NEAR(seen.restitution(), restitution(), within);
+    RecordProperty("impacts", std::to_string(seen.count));
+    RecordProperty("restitution", std::to_string(seen.restitution()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Impacts,
+                         testing::Combine(testing::Values(scene::Model::Fast, scene::Model::Balanced),
+                                          testing::Values(0.5, 0.9)),
+                         [](const auto& parameter) {
+                             const bool half = std::get<1>(parameter.param) < 0.7;
+                             return std::string(scene::nameOf(std::get<0>(parameter.param))) + (half ? "Half" : "High");
+                         });
+
+TEST(Observing, ChangesNothing) {
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
+        const auto hashOf = [model](bool observed) {
+            scene::Scene scene = gas(model, 0.7);
+            scene.gravity = {0, 0, -earth};
+            scene.sleep.enabled = true;
+            for (scene::Material& material : scene.materials) material.friction = 0.3;
+            const auto simulation = simulate(scene);
+            simulation->observe(observed);
+            for (int k = 0; k < 10; ++k) {
+                run(*simulation, 0.05);
+                if (observed) static_cast<void>(simulation->statistics());
+            }
+            EXPECT_EQ(simulation->statistics().impacts.count > 0, observed);
+            return sim::hashOf(simulation->snapshot());
+        };
+        EXPECT_EQ(hashOf(true), hashOf(false)) << scene::nameOf(model);
+    }
+}
+
+TEST(Observing, LeavesOutWhatRestsOnOthersAndSlidesPast) {
+    scene::Scene scene = closedBox(0.4);
+    scene.spheres = {{{0, 0, -0.15}, {}, 0.05F}, {{0, 0, -0.05}, {}, 0.05F}, {{0.1, 0.1, -0.15}, {}, 0.05F}};
+    for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
+        scene.quality.model = model;
+        const auto simulation = simulate(scene);
+        run(*simulation, 0.5);
+        EXPECT_EQ(simulation->statistics().impacts.count, 0) << scene::nameOf(model);
+    }
+}
+
+TEST(Observing, BeginsAnewWithTheScene) {
+    const auto simulation = simulate(headOn(scene::Model::Balanced, 0.5));
+    run(*simulation, 40 * simulation->scene().step);
+    const sim::Impacts before = simulation->statistics().impacts;
+    EXPECT_EQ(before.since(before).count, 0);
+    v1::Command reset;
+    reset.mutable_reset();
+    ASSERT_TRUE(simulation->apply(reset));
+    EXPECT_EQ(simulation->statistics().impacts.count, 0);
+    run(*simulation, 4 * simulation->scene().step);
+    EXPECT_EQ(simulation->statistics().impacts.since(before).count, 1) << "those of before are of another world";
+}
+
+// A bounce in `accurate` takes many substeps: nothing is said of it, and nothing spent on it.
+TEST(Observing, IsNotForForces) {
+    scene::Scene scene = headOn(scene::Model::Accurate, 0.5);
+    scene.quality.substeps = 100;
+    const auto simulation = simulate(scene);
+    run(*simulation, 4 * scene.step);
+    EXPECT_FALSE(simulation->plan().has(sim::Array::Impacts));
+    const v1::Statistics message = simulation->message(simulation->statistics());
+    EXPECT_EQ(message.impacts(), 0U);
+    EXPECT_FALSE(message.has_restitution() || message.has_restitution_asked());
+}
+
+}  // namespace
+}  // namespace spherule::physics
