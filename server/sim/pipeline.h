@@ -33,7 +33,7 @@ class Pipeline {
     void upload(const State& state, std::span<const std::uint8_t> materials);
     [[nodiscard]] SlotState download();  // waits for the device
 
-    void substep(bool observed);
+    void substep(bool observed = false);
     // Of each cell group what the observed steps since the last call have seen, as statistics_impacts.comp adds it up;
     // empty when there were none. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
