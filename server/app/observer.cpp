@@ -65,11 +65,13 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
     if (steps_ > 0) diagnostics.set_step_ms(ms_ / static_cast<double>(steps_));
     if (steps_ >= enoughSteps || ms_ >= enoughMs) sight.dialMoved = calibrate(simulation, diagnostics.step_ms());
     if (steps_ > 0 || energy_.fresh())
-        sight.alarm = energy_.take({.step = simulation.steps(),
-                                    .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
-                                    .potential = statistics.potentialEnergy,
-                                    .given = statistics.pushWork,
-                                    .soft = simulation.scene().quality.model == scene::Model::Accurate});
+        if (auto told = energy_.take({.step = simulation.steps(),
+                                      .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
+                                      .potential = statistics.potentialEnergy,
+                                      .given = statistics.pushWork,
+                                      .soft = simulation.scene().quality.model == scene::Model::Accurate}))
+            sight.alarms.push_back(std::move(*told));
+    if (auto told = overlap_.take(simulation.steps(), statistics.deepest())) sight.alarms.push_back(std::move(*told));
     diagnostics.set_energy_rises(energy_.alarmed());
     rest();
     return sight;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "quality/dial.h"
 #include "quality/energy_watch.h"
+#include "quality/overlap_watch.h"
 #include "sim/simulation.h"
 
 namespace spherule::app {
@@ -29,7 +29,7 @@ class Observer {
 
     struct Sight {
         v1::Diagnostics diagnostics;
-        std::optional<std::string> alarm;
+        std::vector<std::string> alarms;
         bool dialMoved = false;  // it costs something else than it last said
     };
     // Measures. Device seconds per pass are those since the last time.
@@ -43,6 +43,7 @@ class Observer {
 
     quality::Table table_;
     quality::EnergyWatch energy_;
+    quality::OverlapWatch overlap_;
     sim::Impacts impacts_;  // that have been told
     v1::Dial dial_;         // not calibrated
     std::string basis_;     // what it follows from

@@ -15,6 +15,7 @@
 #include "app/tuner.h"
 #include "compute/device.h"
 #include "core/log.h"
+#include "quality/overlap_watch.h"
 #include "sim/simulation.h"
 
 namespace spherule::app {
@@ -133,7 +134,10 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
     Watch watch(simulation, device);
     if (options.dump.empty()) {
         if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
+        quality::OverlapWatch overlap;
         const auto report = [&]() -> Result<void> {
+            const auto told = overlap.take(simulation.steps(), simulation.statistics().deepest());
+            if (told) spdlog::warn("{}", *told);
             print(options, device.info(), simulation, watch.take());
             watch.start();
             return {};

@@ -55,7 +55,7 @@ v1::Status SimLoop::status(Pacer::Clock::time_point now) {
 
 void SimLoop::look(const std::vector<double>& passSeconds) {
     Observer::Sight sight = observer_.look(world_.simulation(), passSeconds);
-    if (sight.alarm) say(v1::Event::WARNING, *sight.alarm);
+    for (const std::string& alarm : sight.alarms) say(v1::Event::WARNING, alarm);
     if (sight.dialMoved) sendDial();
     seen_ = std::move(sight.diagnostics);
     v1::ServerMessage message;

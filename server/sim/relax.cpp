@@ -1,6 +1,5 @@
 #include "sim/relax.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,10 +25,6 @@ scene::Scene withoutForces(const scene::Scene& scene) {
     for (scene::Material& material : still.materials) material = {.name = material.name, .density = material.density};
     for (scene::Material& material : still.materials) material.restitution = 0;
     return still;
-}
-
-double deepest(const Statistics& s) {
-    return std::max(s.overlapMax, s.wallOverlapMax);
 }
 
 State atRest(State state) {
@@ -62,7 +57,7 @@ Result<Relaxed> relax(compute::Device& device, const scene::Scene& scene, const 
         for (std::uint32_t k = 0; k < sweepsPerLook; ++k)
             if (auto done = world.step(); !done) return tl::unexpected(done.error());
         relaxed.sweeps += sweepsPerLook;
-        relaxed.overlap = deepest(world.statistics());
+        relaxed.overlap = world.statistics().deepest();
     } while (relaxed.overlap > most && relaxed.sweeps < mostSweeps);
     relaxed.state.position = world.snapshot().position;
     return relaxed;

@@ -67,8 +67,7 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
 // Spheres that begin deep in each other would fly apart.
 Result<void> Simulation::takeApart(State& state) {
     const double tolerated = deepestBearable(scene_);
-    const Statistics now = statistics();
-    const double deepest = std::max(now.overlapMax, now.wallOverlapMax);
+    const double deepest = statistics().deepest();
     if (!(deepest > tolerated)) return {};
     spdlog::info("spheres are in each other by up to {:.2g} radii; pushing them apart first", deepest);
     auto relaxed = relax(device_, scene_, state, tolerated);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -43,6 +44,9 @@ struct Statistics {
     std::uint32_t outside = 0;
     std::uint32_t nonFinite = 0;
     Impacts impacts;  // since the spheres were last placed or added to
+
+    // The largest overlap with anything.
+    [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }
 };
 
 // Summed on the device in blocks, the blocks in double here. Waits for the device.
