@@ -59,6 +59,13 @@ inline real uintBitsToFloat(uint x) {
 inline uint floatBitsToUint(real x) {
     return std::bit_cast<uint>(static_cast<float>(x));
 }
+// Of the highest and the lowest bit that is set; -1 where none is.
+inline int findMSB(uint x) {
+    return 31 - std::countl_zero(x);
+}
+inline int findLSB(uint x) {
+    return x == 0 ? -1 : std::countr_zero(x);
+}
 
 inline uint atomicAdd(uint& memory, uint value) {
     return std::atomic_ref<uint>(memory).fetch_add(value, std::memory_order_relaxed);
