@@ -26,38 +26,40 @@ void put(uint value, uint bits) {
     }
 }
 
+// A run's values are eight apart.
 void putRun(uint first, uint width) {
     if (width == 0u) return;
     if (width <= 8u) {
-        for (uint k = first; k < first + CODEC_RUN; k += 4u)
-            put(values[k] | (values[k + 1u] << width) | (values[k + 2u] << (2u * width)) | (values[k + 3u] << (3u * width)),
+        for (uint k = first; k < first + 64u; k += 32u)
+            put(values[k] | (values[k + 8u] << width) | (values[k + 16u] << (2u * width)) | (values[k + 24u] << (3u * width)),
                 4u * width);
     } else if (width <= 16u) {
-        for (uint k = first; k < first + CODEC_RUN; k += 2u) put(values[k] | (values[k + 1u] << width), 2u * width);
+        for (uint k = first; k < first + 64u; k += 16u) put(values[k] | (values[k + 8u] << width), 2u * width);
     } else {
-        for (uint k = first; k < first + CODEC_RUN; ++k) put(values[k], width);
+        for (uint k = first; k < first + 64u; k += 8u) put(values[k], width);
     }
 }
 
 // The values that are not 0, and before them which these are.
 void putChanged(uint first, uint header) {
-    for (uint run = 0u; run < CODEC_RUNS; ++run) {
-        uint bits = 0u;
-        for (uint k = 0u; k < CODEC_RUN; ++k)
-            bits = bits | (values[first + run * CODEC_RUN + k] != 0u ? 1u << k : 0u);
-        changed[run] = bits;
-    }
     for (uint axis = 0u; axis < 3u; ++axis) {
-        uint bits = 0u;
-        for (uint run = 0u; run < 8u; ++run) bits = bits | (changed[8u * axis + run] != 0u ? 1u << run : 0u);
-        put(bits, 8u);
+        uint there = 0u;
+        for (uint run = 0u; run < 8u; ++run) {
+            uint bits = 0u;
+            for (uint k = 0u; k < CODEC_RUN; ++k)
+                bits = bits | (values[first + axis * 64u + 8u * k + run] != 0u ? 1u << k : 0u);
+            changed[8u * axis + run] = bits;
+            there = there | (bits != 0u ? 1u << run : 0u);
+        }
+        put(there, 8u);
     }
     for (uint run = 0u; run < CODEC_RUNS; ++run)
         if (changed[run] != 0u) put(changed[run], 8u);
     for (uint run = 0u; run < CODEC_RUNS; ++run) {
         uint width = widthOf((header >> (4u + run / 8u * 4u)) & 15u);
+        uint from = first + run / 8u * 64u + run % 8u;
         for (uint rest = changed[run]; rest != 0u; rest = rest & (rest - 1u))
-            put(values[first + run * CODEC_RUN + uint(findLSB(rest))] - 1u, width);
+            put(values[from + 8u * uint(findLSB(rest))] - 1u, width);
     }
 }
 
@@ -81,7 +83,7 @@ KERNEL(params.blocks) {
         uint code = (header >> (4u + 4u * axis)) & 15u;
         uint selectors = mode < CODEC_SELECT ? 0u : (axis == 2u ? high : low >> (16u * axis));
         for (uint run = 0u; run < 8u && mode != CODEC_MASK; ++run)
-            putRun(first + CODEC_RUN * run, widthOf(code - min(code, (selectors >> (2u * run)) & 3u)));
+            putRun(first + run, widthOf(code - min(code, (selectors >> (2u * run)) & 3u)));
     }
     if (mode == CODEC_MASK) putChanged(invocation * CODEC_VALUES, header);
     if (fill > 16u) frame[at] = word;

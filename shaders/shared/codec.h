@@ -1,14 +1,21 @@
 // Arithmetic of the codec that several kernels share.
 
-// Bits that a width code stands for.
-uint widthOf(uint code) {
-    return code < 13u ? code : (code == 13u ? 14u : (code == 14u ? 18u : 32u));
+// Where sphere k of a block lies in it, on each axis: the eight of a run are eight apart, so that processors with vectors go
+// through all runs at once.
+uint laneOf(uint k) {
+    return (k % 8u) * 8u + k / 8u;
 }
 
-// The narrowest width code that holds `value`.
+// Bits that a width code stands for. Sums of comparisons, because compilers make branches of choices.
+uint widthOf(uint code) {
+    return min(code, 12u) + 2u * uint(code > 12u) + 4u * uint(code > 13u) + 14u * uint(code > 14u);
+}
+
+// The narrowest width code that holds `value`: from the exponent of a float, which processors with vectors have for many
+// at once. Whatever has 19 bits or more has the same code.
 uint codeFor(uint value) {
-    uint bits = uint(findMSB(value) + 1);
-    return bits < 13u ? bits : (bits < 15u ? 13u : (bits < 19u ? 14u : 15u));
+    uint bits = max(floatBitsToUint(float(int(min(value, 262144u)))) >> 23u, 126u) - 126u;
+    return min(bits, 13u) + uint(bits > 14u) + uint(bits > 18u);
 }
 
 uint zigzag(uint value) {

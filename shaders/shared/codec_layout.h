@@ -1,7 +1,7 @@
 // What the host and the kernels of the codec agree on; docs/codec.md says what the words of a frame are.
 
 #define CODEC_BLOCK 64u         // spheres
-#define CODEC_VALUES 192u       // of a block: 64 x, 64 y, 64 z; so lie states and codes
+#define CODEC_VALUES 192u       // of a block: 64 x, 64 y, 64 z; within each, laneOf(k) is sphere k
 #define CODEC_RUN 8u            // spheres that share their widths
 #define CODEC_RUNS 24u          // of a block
 #define CODEC_GROUP 32u         // blocks

@@ -78,13 +78,21 @@ Positions positionsAt(const std::vector<glm::ivec3>& cells) {
 }
 
 Motion::Motion(std::uint32_t spheres, std::uint64_t seed) : random_(seed), cells_(spheres), steps_(spheres) {
-    for (auto& cell : cells_) cell = glm::ivec3(draw(2000), draw(2000), draw(2000)) - 1000;
-    for (auto& step : steps_) step = glm::ivec3(draw(41), draw(41), draw(41)) - 20;
+    for (auto& cell : cells_) cell = draw(2000, 2000, 2000) - 1000;
+    for (auto& step : steps_) step = draw(41, 41, 41) - 20;
 }
 
 std::uint32_t Motion::draw(std::uint32_t below) {
     random_ = random_ * 6364136223846793005U + 1442695040888963407U;
     return static_cast<std::uint32_t>((random_ >> 33U) % below);
+}
+
+glm::ivec3 Motion::draw(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    glm::ivec3 drawn;
+    drawn.x = static_cast<int>(draw(x));
+    drawn.y = static_cast<int>(draw(y));
+    drawn.z = static_cast<int>(draw(z));
+    return drawn;
 }
 
 const std::vector<glm::ivec3>& Motion::next() {
@@ -97,33 +105,33 @@ const std::vector<glm::ivec3>& Motion::next() {
                 if ((frame_ + block / 8) % 5 == 0) q += 1000;
                 break;
             case 1:  // creeps, one sphere of ten
-                if (draw(10) == 0) q += glm::ivec3(draw(3), draw(3), draw(3)) - 1;
+                if (draw(10) == 0) q += draw(3, 3, 3) - 1;
                 break;
             case 2:  // flies, all with the same acceleration
                 steps_[k].z -= 17;
-                q += steps_[k] + glm::ivec3(draw(3)) - 1;
+                q += steps_[k] + draw(3, 3, 3) - 1;
                 break;
             case 3:  // slows down
                 for (int axis = 0; axis < 3; ++axis) steps_[k][axis] = steps_[k][axis] >> 1;
                 q += steps_[k];
-                if (frame_ % 6 == 0) steps_[k] = glm::ivec3(draw(4001), draw(4001), draw(4001)) - 2000;
+                if (frame_ % 6 == 0) steps_[k] = draw(4001, 4001, 4001) - 2000;
                 break;
             case 4: {  // jitters, in each run by something else
-                const auto reach = static_cast<int>(1U << ((k / 8 + frame_) % 13));
-                q = glm::ivec3(draw(2 * reach), draw(2 * reach), draw(2 * reach)) - reach;
+                const std::uint32_t reach = 1U << ((k / 8 + frame_) % 13);
+                q = draw(2 * reach, 2 * reach, 2 * reach) - static_cast<int>(reach);
                 break;
             }
             case 5: {  // as far as a float holds whole numbers
-                const auto reach = static_cast<int>(1U << (10 + (block / 8 + frame_) % 14));
-                q = glm::ivec3(draw(2 * reach), draw(2 * reach), draw(2 * reach)) - reach;
+                const std::uint32_t reach = 1U << (10 + (block / 8 + frame_) % 14);
+                q = draw(2 * reach, 2 * reach, 2 * reach) - static_cast<int>(reach);
                 break;
             }
             case 6:  // a common motion
-                q += glm::ivec3(300, -5000, 70) + glm::ivec3(draw(2));
+                q += glm::ivec3(300, -5000, 70) + draw(2, 2, 2);
                 if (q.y < -10000000) q.y = 0;
                 break;
             default:
-                q += glm::ivec3(draw(9), draw(5), 0) - glm::ivec3(4, 2, 0);
+                q += draw(9, 3U << 2 * (block / 8 % 8), 1) - glm::ivec3(4, 2, 0);
         }
     }
     return cells_;

@@ -57,6 +57,7 @@ class Motion {
     std::uint32_t frame_ = 0;
     std::vector<glm::ivec3> cells_, steps_;
     std::uint32_t draw(std::uint32_t below);
+    glm::ivec3 draw(std::uint32_t x, std::uint32_t y, std::uint32_t z);
 };
 
 }  // namespace spherule::codec

@@ -142,6 +142,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 
 #define precise  // C++ compilers take no such liberties
 #define PRIVATE(type, name) type name;
+#define PREFETCH(element) __builtin_prefetch(&(element));
 #define HAS(feature) ((binding.features & (feature)) != 0U)
 #define BUFFER(number, access, type, name, block) SPHERULE_ACCESS_##access(type) name = slot<type>(number);
 #define PARAMETERS const Parameters params = copyOfParameters<Parameters>();
