@@ -4,6 +4,7 @@
 //                                            coherent (atomics); `block` is a second, unused name that GLSL asks for
 //   KERNEL(count) { ... }                    the body; `invocation` runs over 0 .. count - 1
 //   HAS(FEATURE)                             whether the scene requires it: a constant in GLSL, a value in C++
+//   PREFETCH(element)                        of a buffer: it will be read soon; means something to processors only
 //   PRIVATE(type, name)                      a variable of the invocation that functions share
 #ifndef __cplusplus
 
@@ -14,6 +15,7 @@ layout(local_size_x = LOCAL_SIZE) in;
 layout(location = 0) uniform uint phase;
 
 #define PRIVATE(type, name) type name;
+#define PREFETCH(element)
 #define HAS(feature) (feature)
 #define BUFFER(slot, access, type, name, block) \
     layout(std430, binding = slot) access buffer block { type name[]; };

@@ -59,6 +59,13 @@ inline real uintBitsToFloat(uint x) {
 inline uint floatBitsToUint(real x) {
     return std::bit_cast<uint>(static_cast<float>(x));
 }
+// Of the highest and the lowest bit that is set; -1 where none is.
+inline int findMSB(uint x) {
+    return 31 - std::countl_zero(x);
+}
+inline int findLSB(uint x) {
+    return x == 0 ? -1 : std::countr_zero(x);
+}
 
 inline uint atomicAdd(uint& memory, uint value) {
     return std::atomic_ref<uint>(memory).fetch_add(value, std::memory_order_relaxed);
@@ -135,6 +142,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 
 #define precise  // C++ compilers take no such liberties
 #define PRIVATE(type, name) type name;
+#define PREFETCH(element) __builtin_prefetch(&(element));
 #define HAS(feature) ((binding.features & (feature)) != 0U)
 #define BUFFER(number, access, type, name, block) SPHERULE_ACCESS_##access(type) name = slot<type>(number);
 #define PARAMETERS const Parameters params = copyOfParameters<Parameters>();

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "frame/codec_format.h"
+
+namespace spherule::frame::codec {
+
+// A block of a frame, read but for its values. Offsets are in units of 16 bits within `words`.
+class Block {
+  public:
+    // Reads the header at `unit` and what its mode asks for. False: the block goes beyond the unit `end`, or the words.
+    bool read(std::span<const std::uint32_t> words, std::size_t unit, std::size_t end);
+
+    [[nodiscard]] Mode mode() const { return mode_; }
+    [[nodiscard]] Predictor predictor() const { return predictor_; }
+    [[nodiscard]] std::size_t end() const { return end_; }  // the unit behind it
+
+    // The new positions of its 64 spheres into `before`; `words` as above and at least one word more.
+    void decode(const std::uint32_t* words, const glm::ivec3* newest, glm::ivec3* before) const;
+
+  private:
+    bool readMask(std::span<const std::uint32_t> words, std::size_t unit, std::size_t end);
+    void readBase(std::span<const std::uint32_t> words, std::size_t unit);
+    [[nodiscard]] std::size_t valueBits() const;
+    void readValues(const std::uint32_t* words, std::array<std::uint32_t, blockValues>& values) const;
+
+    Mode mode_{};
+    Predictor predictor_{};
+    std::array<std::array<std::uint8_t, runsPerAxis>, 3> changed_{};  // in mode Mask: bit per value, by axis and run
+    std::array<std::array<std::uint8_t, runsPerAxis>, 3> width_{};    // bits, by axis and run
+    std::array<std::uint32_t, 3> base_{};
+    std::size_t values_ = 0;  // the bit where they begin
+    std::size_t end_ = 0;
+};
+
+}  // namespace spherule::frame::codec

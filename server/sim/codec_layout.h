@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include <glm/vec4.hpp>
+
+// The buffer layouts of shaders/shared/codec_layout.h, as C++.
+namespace spherule::sim::codec_layout {
+
+using glm::vec4;
+using uint = std::uint32_t;
+
+#include "shared/codec_layout.h"
+
+static_assert(sizeof(Parameters) == 48);
+static_assert(offsetof(Parameters, spheres) == 16);
+// What the words are: 'r' a real number, 'u' an unsigned integer.
+constexpr std::string_view parameterWords = "rrrruuuuuuuu";
+
+}  // namespace spherule::sim::codec_layout

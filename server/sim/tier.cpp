@@ -1,0 +1,186 @@
+#include "sim/tier.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <string_view>
+
+#include "sim/layout.h"
+#include "sim/shaders.h"
+
+namespace spherule::sim {
+
+namespace {
+
+constexpr std::size_t word = 4;
+constexpr std::size_t likelySpare = std::size_t{64} << 10U;  // bytes
+
+constexpr std::array kernelFiles =
+    std::to_array<std::string_view>({"codec_choose.comp", "codec_sum.comp", "scan_reduce.comp", "scan_top.comp",
+                                     "scan_spread.comp", "codec_layout.comp", "codec_pack.comp", "codec_hash.comp"});
+
+std::uint32_t over(std::uint32_t values, std::uint32_t per) {
+    return values / per + (values % per != 0 ? 1 : 0);
+}
+
+std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t index) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, &bytes[word * index], sizeof value);
+    return value;
+}
+
+}  // namespace
+
+TierTools::TierTools(compute::Device& device, std::uint32_t spheres)
+    : device_(device),
+      spheres_(spheres),
+      blocks_(over(spheres, CODEC_BLOCK)),
+      groups_(over(blocks_, CODEC_GROUP)),
+      chunks_(over(groups_, CODEC_CHUNK)) {}
+
+Result<std::unique_ptr<TierTools>> TierTools::create(compute::Device& device, std::uint32_t spheres, bool slots) {
+    std::unique_ptr<TierTools> tools(new TierTools(device, spheres));
+    const std::array defines = {compute::Define{"CONTACTS", slots ? "true" : "false"}};
+    for (std::size_t k = 0; k < KernelCount; ++k) {
+        auto kernel = device.createKernel(shaders(), kernelFiles[k], defines);
+        if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
+        tools->kernels_[k] = std::move(*kernel);
+    }
+    struct Wanted {
+        std::unique_ptr<compute::Buffer>& buffer;
+        std::string_view label;
+        std::size_t words;
+        std::string_view kinds = "u";
+    };
+    const std::size_t blocks = tools->blocks_;
+    for (const Wanted& wanted :
+         {Wanted{tools->order_, "codec order", spheres}, Wanted{tools->values_, "codec values", blocks * CODEC_VALUES},
+          Wanted{tools->scratch_, "codec scratch", blocks * CODEC_SCRATCH},
+          Wanted{tools->groupWords_, "codec groups", tools->groups_},
+          Wanted{tools->sums_, "codec sums", over(tools->groups_, SCAN_BLOCK)},
+          Wanted{tools->parameters_, "codec parameters", codec_layout::parameterWords.size(),
+                 codec_layout::parameterWords}}) {
+        auto made = device.createBuffer(wanted.label, word * wanted.words, wanted.kinds);
+        if (!made) return tl::unexpected(made.error());
+        wanted.buffer = std::move(*made);
+    }
+    std::vector<std::uint32_t> ids(spheres);
+    std::iota(ids.begin(), ids.end(), 0U);
+    tools->setOrder(ids);
+    return tools;
+}
+
+void TierTools::setOrder(std::span<const std::uint32_t> order) {
+    device_.upload(*order_, 0, std::as_bytes(order));
+}
+
+void TierTools::run(Kernel kernel, std::initializer_list<compute::Buffer*> buffers, std::uint32_t count,
+                    std::uint32_t phase) {
+    device_.launch({.kernel = kernels_[kernel].get(),
+                    .buffers = std::span(buffers.begin(), buffers.size()),
+                    .parameters = parameters_.get(),
+                    .phase = phase,
+                    .count = count});
+}
+
+Result<std::unique_ptr<Tier>> Tier::create(TierTools& tools, const Grid& grid) {
+    std::unique_ptr<Tier> tier(new Tier(tools, grid));
+    const std::size_t blocks = tools.blocks_;
+    const std::size_t frameWords =
+        CODEC_FRAME_HEAD + tools.chunks_ + tools.groups_ * (1 + CODEC_GROUP * std::size_t{CODEC_MOST_WORDS});
+    for (auto& [buffer, words] :
+         {std::pair(&tier->newest_, blocks * CODEC_VALUES), std::pair(&tier->before_, blocks * CODEC_VALUES),
+          std::pair(&tier->frame_, frameWords)}) {
+        auto made = tools.device_.createBuffer("codec tier", word * words);
+        if (!made) return tl::unexpected(made.error());
+        *buffer = std::move(*made);
+    }
+    tier->likely_ = likelySpare;
+    return tier;
+}
+
+void Tier::begin(const TierSource& source, bool hash) {
+    encode(Kind::Begin, source, hash);
+}
+
+void Tier::next(const TierSource& source, bool hash) {
+    encode(Kind::Next, source, hash);
+}
+
+void Tier::join(bool hash) {
+    encode(Kind::Join, {.position = tools_.order_.get(), .slotOf = tools_.order_.get()}, hash);
+}
+
+void Tier::encode(Kind kind, const TierSource& source, bool hash) {
+    keyframe_ = kind != Kind::Next;
+    if (kind != Kind::Join) ++number_;
+    const bool previousOnly = still_;
+    still_ = keyframe_;
+
+    codec_layout::Parameters parameters{};
+    parameters.grid = glm::vec4(grid_.origin, static_cast<float>(1 / grid_.quantum));
+    parameters.spheres = tools_.spheres_;
+    parameters.blocks = tools_.blocks_;
+    parameters.groups = tools_.groups_;
+    parameters.chunks = tools_.chunks_;
+    parameters.number = number_;
+    parameters.flags = (keyframe_ ? CODEC_KEYFRAME : 0U) | (hash ? CODEC_HASHED : 0U);
+    parameters.predictors = 1U << CODEC_PREVIOUS;
+    if (keyframe_)
+        parameters.predictors = 1U << CODEC_NONE;
+    else if (!previousOnly)
+        parameters.predictors |= 1U << CODEC_LINEAR | 1U << CODEC_HALF;
+    parameters.fromState = kind == Kind::Join ? 1 : 0;
+    tools_.device_.upload(*tools_.parameters_, 0, std::as_bytes(std::span(&parameters, 1)));
+
+    using T = TierTools;
+    auto& t = tools_;
+    compute::Buffer* const slotOf = source.slotOf == nullptr ? t.order_.get() : source.slotOf;
+    const std::uint32_t sums = over(t.groups_, SCAN_BLOCK);
+    t.run(T::Choose,
+          {source.position, slotOf, t.order_.get(), newest_.get(), before_.get(), t.values_.get(), t.scratch_.get()},
+          t.blocks_);
+    if (kind != Kind::Join) std::swap(newest_, before_);
+    t.run(T::Sum, {t.scratch_.get(), t.groupWords_.get()}, t.groups_);
+    t.run(T::Reduce, {t.groupWords_.get(), t.sums_.get()}, sums, t.groups_);
+    t.run(T::Top, {t.sums_.get()}, 1, sums);
+    t.run(T::Spread, {t.groupWords_.get(), t.sums_.get()}, sums, t.groups_);
+    t.run(T::Layout, {t.scratch_.get(), t.groupWords_.get(), frame_.get()}, t.groups_);
+    t.run(T::Pack, {t.values_.get(), t.scratch_.get(), frame_.get()}, t.blocks_);
+    if (hash) t.run(T::Hash, {newest_.get(), frame_.get()}, t.blocks_);
+}
+
+std::size_t Tier::headBytes() const {
+    return word * (CODEC_FRAME_HEAD + tools_.chunks_);
+}
+
+std::size_t Tier::bytesOf(std::span<const std::byte> head) const {
+    return headBytes() + word * wordAt(head, CODEC_FRAME_HEAD + tools_.chunks_ - 1);
+}
+
+std::unique_ptr<compute::ReadBack> Tier::startReadBack() {
+    const std::size_t bytes = keyframe_ ? frame_->bytes() : std::min(frame_->bytes(), headBytes() + likely_);
+    return tools_.device_.startReadBack(*frame_, bytes);
+}
+
+std::optional<std::vector<std::byte>> Tier::finish(compute::ReadBack& copy) {
+    const auto arrived = copy.poll();
+    if (!arrived) return std::nullopt;
+    const std::size_t bytes = bytesOf(*arrived);
+    const std::size_t whole = std::min(bytes, arrived->size());
+    std::vector<std::byte> frame(arrived->begin(), arrived->begin() + static_cast<std::ptrdiff_t>(whole));
+    frame.resize(bytes);
+    if (whole < bytes) tools_.device_.download(*frame_, whole, std::span(frame).subspan(whole));
+    if ((wordAt(frame, 0) & CODEC_KEYFRAME) == 0) likely_ = bytes + bytes / 4 + likelySpare;
+    return frame;
+}
+
+std::vector<std::byte> Tier::download() {
+    std::vector<std::byte> frame(headBytes());
+    tools_.device_.download(*frame_, 0, frame);
+    frame.resize(bytesOf(frame));
+    tools_.device_.download(*frame_, headBytes(), std::span(frame).subspan(headBytes()));
+    return frame;
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "compute/device.h"
+#include "core/result.h"
+#include "sim/codec_layout.h"
+
+// The encoder of docs/codec.md on a device. Used by the thread that owns the device.
+namespace spherule::sim {
+
+// What all tiers of a scene share: the kernels, the order, and what a frame in the making needs.
+class TierTools {
+  public:
+    // For `spheres` (at least 1) in id order. `slots`: positions lie by slot, and slotOf says where.
+    static Result<std::unique_ptr<TierTools>> create(compute::Device& device, std::uint32_t spheres, bool slots);
+
+    // Ids in the order of the codec, a permutation of 0 .. spheres - 1. Every tier must begin() anew after it.
+    void setOrder(std::span<const std::uint32_t> order);
+
+    [[nodiscard]] std::uint32_t spheres() const { return spheres_; }
+
+  private:
+    friend class Tier;
+    enum Kernel : std::uint8_t { Choose, Sum, Reduce, Top, Spread, Layout, Pack, Hash, KernelCount };
+
+    TierTools(compute::Device& device, std::uint32_t spheres);
+    void run(Kernel kernel, std::initializer_list<compute::Buffer*> buffers, std::uint32_t count,
+             std::uint32_t phase = 0);
+
+    compute::Device& device_;
+    std::uint32_t spheres_, blocks_, groups_, chunks_;
+    std::array<std::unique_ptr<compute::Kernel>, KernelCount> kernels_;
+    std::unique_ptr<compute::Buffer> order_, values_, scratch_, groupWords_, sums_, parameters_;
+};
+
+// Where the positions are: vec4, xyz in m; slotOf by id (anything where the tools are without slots).
+struct TierSource {
+    compute::Buffer* position = nullptr;
+    compute::Buffer* slotOf = nullptr;
+};
+
+// One chain of frames with a quantum of its own. A frame stays in the tier until the next one is made.
+class Tier {
+  public:
+    struct Grid {
+        glm::vec3 origin{};  // m, where positions count from; best in the middle of the domain
+        double quantum = 0;  // m
+    };
+
+    // `tools` must outlive it. Refused where the device has no room.
+    static Result<std::unique_ptr<Tier>> create(TierTools& tools, const Grid& grid);
+
+    // With `hash`, the frame carries that of its state.
+    void begin(const TierSource& source, bool hash = false);  // a keyframe of the positions: a chain begins
+    void next(const TierSource& source, bool hash = false);   // the delta frame of the positions; after begin()
+    void join(bool hash = false);  // a keyframe of the state as it is: of the same number as the frame before
+
+    // Copies the frame to the host: as many bytes as it is likely to have. Nothing when the device copies too much
+    // already; the frame waits.
+    std::unique_ptr<compute::ReadBack> startReadBack();
+    // The frame, from the copy, once that has arrived; waits for the device where it is longer than was thought. To be
+    // called before the next frame is made, or else only the copies of keyframes are sure to be whole.
+    std::optional<std::vector<std::byte>> finish(compute::ReadBack& copy);
+    std::vector<std::byte> download();  // the frame; waits for the device
+
+    [[nodiscard]] std::uint32_t number() const { return number_; }  // of the frame
+
+  private:
+    Tier(TierTools& tools, const Grid& grid) : tools_(tools), grid_(grid) {}
+    enum class Kind : std::uint8_t { Begin, Next, Join };
+    void encode(Kind kind, const TierSource& source, bool hash);
+    [[nodiscard]] std::size_t bytesOf(std::span<const std::byte> head) const;
+    [[nodiscard]] std::size_t headBytes() const;
+
+    TierTools& tools_;
+    Grid grid_;
+    std::unique_ptr<compute::Buffer> newest_, before_, frame_;
+    std::uint32_t number_ = 0;
+    bool keyframe_ = false;   // the frame is one
+    bool still_ = false;      // a keyframe was made since the last delta frame
+    std::size_t likely_ = 0;  // bytes of a delta frame
+};
+
+}  // namespace spherule::sim

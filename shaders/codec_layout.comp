@@ -1,0 +1,38 @@
+// The codec, after the prefix sum over the groups' words, one invocation per group: tells the blocks where they go and who
+// comes next, and writes all that is no block: the frame's head, the table of chunks, the groups' bitmaps.
+#include "shared/kernel.h"
+#include "shared/codec_layout.h"
+PARAMETERS
+
+BUFFER(0, restrict, uint, scratch, ScratchBlock)
+BUFFER(1, readonly, uint, groupStart, GroupBlock)
+BUFFER(2, writeonly, uint, frame, FrameBlock)
+
+KERNEL(params.groups) {
+    uint start = groupStart[invocation];
+    uint first = invocation * CODEC_GROUP;
+    uint end = min(params.blocks, first + CODEC_GROUP);
+    uint units = 2u * start + 2u;
+    uint bitmap = 0u;
+    uint last = 0xffffffffu;
+    for (uint block = first; block < end; ++block) {
+        uint size = scratch[block * CODEC_SCRATCH + CODEC_SIZE];
+        if (size == 0u) continue;
+        bitmap = bitmap | (1u << (block - first));
+        scratch[block * CODEC_SCRATCH + CODEC_OFFSET] = units;
+        units += size;
+        uint header = scratch[block * CODEC_SCRATCH + CODEC_HEADER];
+        if (last != 0xffffffffu)
+            scratch[last] = scratch[last] | (header << 16u);
+        last = block * CODEC_SCRATCH + CODEC_HEADER;
+    }
+    uint chunkStart = CODEC_FRAME_HEAD + params.chunks;
+    frame[chunkStart + start] = bitmap;
+    if (invocation % CODEC_CHUNK == CODEC_CHUNK - 1u || invocation == params.groups - 1u)
+        frame[CODEC_FRAME_HEAD + invocation / CODEC_CHUNK] = (units + 1u) / 2u;
+    if (invocation != 0u) return;
+    frame[0] = CODEC_MAGIC | params.flags;
+    frame[1] = params.spheres;
+    frame[2] = params.number;
+    frame[3] = 0u;
+}

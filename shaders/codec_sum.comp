@@ -1,0 +1,14 @@
+// The codec, second pass, one invocation per group: how many words it takes.
+#include "shared/kernel.h"
+#include "shared/codec_layout.h"
+PARAMETERS
+
+BUFFER(0, readonly, uint, scratch, ScratchBlock)
+BUFFER(1, writeonly, uint, groupWords, GroupBlock)
+
+KERNEL(params.groups) {
+    uint end = min(params.blocks, (invocation + 1u) * CODEC_GROUP);
+    uint units = 0u;
+    for (uint block = invocation * CODEC_GROUP; block < end; ++block) units += scratch[block * CODEC_SCRATCH + CODEC_SIZE];
+    groupWords[invocation] = 1u + (units + 1u) / 2u;
+}

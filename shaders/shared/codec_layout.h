@@ -1,0 +1,46 @@
+// What the host and the kernels of the codec agree on; docs/codec.md says what the words of a frame are.
+
+#define CODEC_BLOCK 64u         // spheres
+#define CODEC_VALUES 192u       // of a block: 64 x, 64 y, 64 z; within each, laneOf(k) is sphere k
+#define CODEC_RUN 8u            // spheres that share their widths
+#define CODEC_RUNS 24u          // of a block
+#define CODEC_GROUP 32u         // blocks
+#define CODEC_CHUNK 8u          // groups
+#define CODEC_FRAME_HEAD 4u     // words
+#define CODEC_MOST_WORDS 197u   // of a block
+#define CODEC_MASK_WIDTHS 15u   // bits of x, y and z together above which a mask is not tried
+
+#define CODEC_MAGIC 0x00015053u
+#define CODEC_KEYFRAME 0x01000000u  // flags of a frame
+#define CODEC_HASHED 0x02000000u
+
+#define CODEC_PLAIN 0u          // modes
+#define CODEC_MASK 1u
+#define CODEC_SELECT 2u
+#define CODEC_BASE 3u
+
+#define CODEC_PREVIOUS 0u       // predictors
+#define CODEC_LINEAR 1u
+#define CODEC_HALF 2u
+#define CODEC_NONE 3u
+
+// Scratch of a block: HEADER (and in the upper half the header of the next block of the group that is there), SIZE (units;
+// 0: not there), OFFSET (units in the chunks), then what the mode asks for.
+#define CODEC_SCRATCH 8u        // words
+#define CODEC_HEADER 0u
+#define CODEC_SIZE 1u
+#define CODEC_OFFSET 2u
+#define CODEC_EXTRA 3u
+
+// The uniform block, std140.
+struct Parameters {
+    vec4 grid;           // origin in m; w = 1 / quantum
+    uint spheres;
+    uint blocks;
+    uint groups;
+    uint chunks;
+    uint number;         // of the frame
+    uint flags;
+    uint predictors;     // bit per predictor that blocks may have
+    uint fromState;      // not 0: the frame is made of `newest`, which stays as it is, and not of positions
+};

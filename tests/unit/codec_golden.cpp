@@ -1,0 +1,59 @@
+// The frames in tests/golden/codec, which the page's decoder reads in its tests too: the encoder still makes them, and
+// the decoder still reads them. With SPHERULE_WRITE_GOLDEN=1 they are written instead.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "codec_support.h"
+#include "frame/codec.h"
+
+namespace spherule::codec {
+namespace {
+
+constexpr std::uint32_t spheres = 9 * 64 + 7;
+
+std::string pathOf(const std::string& name) {
+    return SPHERULE_GOLDEN "/codec/" + name;
+}
+
+Bytes read(const std::string& name) {
+    std::ifstream file(pathOf(name), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+void write(const std::string& name, std::span<const std::byte> bytes) {
+    std::ofstream file(pathOf(name), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
+    const bool writing = std::getenv("SPHERULE_WRITE_GOLDEN") != nullptr;
+    Encoder encoder("cpu:1", spheres);
+    Motion motion(spheres, 2);
+    frame::codec::Decoder decoder(spheres);
+    for (int k = 0; k < 8; ++k) {
+        // Who joins begins with frame 5, a keyframe of the state after frame 4.
+        const Bytes made = k == 0   ? encoder.begin(positionsAt(motion.next()))
+                           : k == 5 ? encoder.join()
+                                    : encoder.next(positionsAt(motion.next()));
+        const std::string name = "frame-" + std::to_string(k) + ".spb";
+        if (writing) write(name, made);
+        const Bytes golden = read(name);
+        EXPECT_TRUE(made == golden) << name;
+        const auto head = decoder.apply(golden);
+        ASSERT_TRUE(head) << name << ": " << head.error().text();
+        EXPECT_TRUE(head->hash);
+    }
+    if (writing) write("positions.i32", std::as_bytes(decoder.newest()));
+    const Bytes positions = read("positions.i32");
+    ASSERT_EQ(positions.size(), spheres * sizeof(glm::ivec3));
+    EXPECT_EQ(std::memcmp(positions.data(), decoder.newest().data(), positions.size()), 0);
+}
+
+}  // namespace
+}  // namespace spherule::codec

@@ -1,0 +1,136 @@
+// What the encoder's kernels make on the CPU device, and the decoder back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "codec_support.h"
+#include "frame/codec.h"
+#include "frame/codec_block.h"
+
+namespace spherule::codec {
+namespace {
+
+using frame::codec::Decoder;
+
+std::vector<glm::ivec3> decoded(Decoder& decoder, const Bytes& frame) {
+    const auto head = decoder.apply(frame);
+    if (!head) {
+        ADD_FAILURE() << head.error().text();
+        return {};
+    }
+    return {decoder.newest().begin(), decoder.newest().end()};
+}
+
+class CodecCounts : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(CodecCounts, AllThatSpheresDoComesBackExactly) {
+    const std::uint32_t spheres = GetParam();
+    Encoder encoder("cpu:1", spheres);
+    Decoder decoder(spheres);
+    Motion motion(spheres);
+    const auto first = motion.next();
+    EXPECT_EQ(decoded(decoder, encoder.begin(positionsAt(first))), first);
+    for (int frame = 0; frame < 30; ++frame) {
+        const auto cells = motion.next();
+        ASSERT_EQ(decoded(decoder, encoder.next(positionsAt(cells))), cells) << "frame " << frame;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Spheres, CodecCounts,
+                         testing::Values(1, 2, 63, 64, 65, 127, 128, 2047, 2048, 2049, 16383, 16384, 16385, 70001));
+
+// Otherwise the test above says less than it seems to.
+TEST(Codec, EveryModePredictorAndWidthIsUsed) {
+    constexpr std::uint32_t spheres = 64 * 32;
+    Encoder encoder("cpu:1", spheres);
+    Motion motion(spheres, 3);
+    std::set<int> modes, predictors, codes;
+    encoder.begin(positionsAt(motion.next()));
+    for (int frame = 0; frame < 60; ++frame) {
+        const Bytes bytes = encoder.next(positionsAt(motion.next()));
+        std::vector<std::uint32_t> words(bytes.size() / 4 + 2);
+        std::memcpy(words.data(), bytes.data(), bytes.size());
+        std::size_t unit = 2 * (4 + 1 + 1);  // behind head, table and bitmap
+        for (std::uint32_t rest = words[5]; rest != 0; rest &= rest - 1) {
+            const std::uint32_t header = words[unit / 2] >> 16 * (unit % 2) & 0xffffU;
+            frame::codec::Block block;
+            ASSERT_TRUE(block.read(words, unit, bytes.size() / 2));
+            unit = block.end();
+            modes.insert(static_cast<int>(block.mode()));
+            predictors.insert(static_cast<int>(block.predictor()));
+            for (unsigned axis = 0; axis < 3; ++axis) codes.insert(header >> (4 + 4 * axis) & 15U);
+        }
+    }
+    EXPECT_EQ(modes.size(), 4U);
+    EXPECT_EQ(predictors.size(), 3U);
+    EXPECT_EQ(codes, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}));
+}
+
+TEST(Codec, PositionsBeyondTheGridOrNotFiniteGoToItsEdge) {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr int edge = 1 << 30;
+    Encoder encoder("cpu:1", 3, 0.5);
+    Decoder decoder(3);
+    const Positions wild{{inf, -inf, nan, 1}, {3e38F, -3e38F, -nan, 1}, {1e9F, -1e9F, 0.26F, 1}};
+    const std::vector<glm::ivec3> cells{{edge, -edge, -edge}, {edge, -edge, -edge}, {edge, -edge, 1}};
+    EXPECT_EQ(decoded(decoder, encoder.begin(wild)), cells);
+    const Positions tame{{0, 0, 0, 1}, {0.24F, 0.25F, -0.25F, 1}, {1, 2, 3, 1}};
+    const std::vector<glm::ivec3> tameCells{{0, 0, 0}, {0, 1, 0}, {2, 4, 6}};
+    EXPECT_EQ(decoded(decoder, encoder.next(tame)), tameCells);
+    EXPECT_EQ(decoded(decoder, encoder.next(wild)), cells);
+    EXPECT_EQ(decoded(decoder, encoder.next(tame)), tameCells);
+    EXPECT_EQ(decoded(decoder, encoder.next(wild)), cells);
+}
+
+TEST(Codec, TheGridsOriginAndQuantumHold) {
+    constexpr double quantum = 0.00064;
+    constexpr glm::vec3 origin(-1.5F, 2, 0.125F);
+    Encoder encoder("cpu:1", 1000, quantum, origin);
+    Decoder decoder(1000);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> place(-3, 3);
+    Positions positions(1000);
+    for (auto& p : positions) p = glm::vec4(place(random), place(random), place(random), 1);
+    const auto cells = decoded(decoder, encoder.begin(positions));
+    ASSERT_EQ(cells.size(), 1000U);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        EXPECT_EQ(cells[k], onGrid(positions[k], quantum, origin));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double x = static_cast<double>(origin[axis]) + quantum * cells[k][axis];
+            EXPECT_NEAR(x, static_cast<double>(positions[k][axis]), quantum * 0.501);
+        }
+    }
+}
+
+TEST(Codec, SpheresComeInTheOrderThatWasSet) {
+    constexpr std::uint32_t spheres = 3000;
+    Encoder encoder("cpu:1", spheres);
+    std::vector<std::uint32_t> order(spheres);
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::shuffle(order, std::mt19937(5));
+    encoder.setOrder(order);
+    Motion motion(spheres);
+    Decoder decoder(spheres);
+    const auto byId = motion.next();
+    const auto cells = decoded(decoder, encoder.begin(positionsAt(byId)));
+    ASSERT_EQ(cells.size(), byId.size());
+    for (std::uint32_t k = 0; k < spheres; ++k) ASSERT_EQ(cells[k], byId[order[k]]);
+}
+
+TEST(Codec, WhatDoesNotMoveCostsABitPerBlock) {
+    constexpr std::uint32_t spheres = 2048 * 8 * 2;
+    Encoder encoder("cpu:1", spheres);
+    Motion motion(spheres);
+    const Positions positions = positionsAt(motion.next());
+    encoder.begin(positions);
+    EXPECT_EQ(encoder.next(positions).size(), 4U * (4 + 2 + 16));
+}
+
+}  // namespace
+}  // namespace spherule::codec

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "compute/device.h"
+#include "sim/tier.h"
+
+namespace spherule::codec {
+
+using Bytes = std::vector<std::byte>;
+using Positions = std::vector<glm::vec4>;
+
+// An encoder with positions of its own, in slots that are a permutation of the ids. Throws what goes wrong.
+class Encoder {
+  public:
+    Encoder(const std::string& device, std::uint32_t spheres, double quantum = 1, glm::vec3 origin = {});
+
+    void setOrder(const std::vector<std::uint32_t>& order) { tools_->setOrder(order); }
+    Bytes begin(const Positions& byId);
+    Bytes next(const Positions& byId);
+    Bytes join();
+
+    [[nodiscard]] sim::Tier& tier() { return *tier_; }
+    [[nodiscard]] sim::TierSource put(const Positions& byId);
+
+  private:
+    std::unique_ptr<compute::Device> device_;
+    std::unique_ptr<sim::TierTools> tools_;
+    std::unique_ptr<sim::Tier> tier_;
+    std::unique_ptr<compute::Buffer> position_, slotOf_;
+    std::vector<std::uint32_t> slots_;  // by id
+};
+
+// What the encoder is to make of a position.
+glm::ivec3 onGrid(glm::vec4 position, double quantum = 1, glm::vec3 origin = {});
+std::vector<glm::ivec3> onGrid(const Positions& positions);
+
+// Positions whose cells are these, for a quantum of 1; |q| up to 2^24, or so coarse that float32 holds them.
+Positions positionsAt(const std::vector<glm::ivec3>& cells);
+
+// Frame after frame of spheres that do, group by group of some hundred, all that they can do: rest, creep one by one,
+// fly, slow down, jitter by 1 to 2^24 cells, jump.
+class Motion {
+  public:
+    explicit Motion(std::uint32_t spheres, std::uint64_t seed = 1);
+    const std::vector<glm::ivec3>& next();
+
+  private:
+    std::uint64_t random_;
+    std::uint32_t frame_ = 0;
+    std::vector<glm::ivec3> cells_, steps_;
+    std::uint32_t draw(std::uint32_t below);
+    glm::ivec3 draw(std::uint32_t x, std::uint32_t y, std::uint32_t z);
+};
+
+}  // namespace spherule::codec

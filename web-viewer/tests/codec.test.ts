@@ -1,0 +1,142 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import path from "node:path";
+import { test } from "node:test";
+import { Decoder } from "../src/codec/decoder";
+import { hashOf } from "../src/codec/hash";
+import { field, readRun } from "../src/codec/values";
+
+// Tests run in web-viewer/. The C++ tests read the same files.
+const golden = (name: string) => new Uint8Array(readFileSync(path.join("..", "tests", "golden", "codec", name)));
+const frames = Array.from({ length: 8 }, (_, k) => golden(`frame-${k}.spb`));
+const frame = (k: number): Uint8Array => frames[k] as Uint8Array;
+const expected = new Int32Array(golden("positions.i32").buffer);
+const spheres = 583;
+
+function positionsOf(decoder: Decoder): Int32Array {
+  return decoder.newest.subarray(0, 3 * spheres);
+}
+
+test("the golden frames give the golden positions", () => {
+  const decoder = new Decoder(spheres);
+  frames.forEach((bytes, k) => {
+    const head = decoder.apply(bytes);
+    assert.equal(head.keyframe, k === 0 || k === 5);
+    assert.equal(head.hash, hashOf(decoder.newest, spheres));
+  });
+  assert.deepEqual(positionsOf(decoder), expected);
+});
+
+test("who joins at a keyframe has the same positions as who was there", () => {
+  const decoder = new Decoder(spheres);
+  for (let k = 5; k < 8; k++) decoder.apply(frame(k));
+  assert.deepEqual(positionsOf(decoder), expected);
+});
+
+test("a frame may lie anywhere in a message", () => {
+  const decoder = new Decoder(spheres);
+  frames.forEach((bytes, k) => {
+    const message = new Uint8Array(bytes.length + 16).fill(255);
+    message.set(bytes, 1 + k);
+    decoder.apply(message.subarray(1 + k, 1 + k + bytes.length));
+  });
+  assert.deepEqual(positionsOf(decoder), expected);
+});
+
+test("a missed frame is found, and a keyframe helps", () => {
+  const decoder = new Decoder(spheres);
+  assert.throws(() => decoder.apply(frame(1)), /is no keyframe, and none came before/);
+  decoder.apply(frame(0));
+  assert.throws(() => decoder.apply(frame(2)), /is number 3, which does not follow 1/);
+  assert.ok(decoder.wantsKeyframe);
+  decoder.apply(frame(5));
+  assert.ok(!decoder.wantsKeyframe);
+});
+
+test("a velocity right after a keyframe is refused", () => {
+  const decoder = new Decoder(spheres);
+  decoder.apply(frame(0));
+  decoder.apply(frame(1));
+  const next = frame(2).slice();
+  new DataView(next.buffer).setUint32(8, 6, true); // as if it followed frame 5
+  decoder.apply(frame(5));
+  assert.throws(() => decoder.apply(next), /block \d+: is predicted from a velocity right after a keyframe/);
+});
+
+/** One block of 64 spheres at (5, 6, -7); then a delta frame of these words of its group. */
+const still = Uint32Array.of(0x01015053, 64, 1, 0, 6, 1, 0x000f, 0, 5, 6, 0xfffffff9);
+function after(group: number[]): Int32Array {
+  const decoder = new Decoder(64);
+  decoder.apply(new Uint8Array(still.buffer));
+  decoder.apply(new Uint8Array(Uint32Array.of(0x00015053, 64, 2, 0, group.length, ...group).buffer));
+  return decoder.newest;
+}
+
+test("frames by hand mean what the document says", () => {
+  assert.deepEqual([...after([0]).subarray(0, 3)], [5, 6, -7]);
+  const masked = after([1, 0x20212011, 0x01010220, 0x00000a01]);
+  assert.deepEqual([...masked.subarray(0, 6)], [5, 6, -7, 4, 6, -7]);
+  assert.deepEqual([...masked.subarray(120, 123)], [6, 5, -9]);
+});
+
+test("what is wrong and where is said", () => {
+  const refused = (words: number[], reason: RegExp) =>
+    assert.throws(() => new Decoder(64).apply(new Uint8Array(Uint32Array.from(words).buffer)), reason);
+  const key = 0x01015053;
+  refused([key, 64, 1], /head: has 12 bytes of 16/);
+  refused([0x00025053, 64, 1, 0], /head: is not that of codec SPB, version 1/);
+  refused([key, 0, 1, 0], /head: has no spheres/);
+  refused([key, 65, 1, 0], /head: has 65 spheres where there are 64/);
+  refused([key, 64, 1, 0], /table: goes beyond the end/);
+  refused([key, 64, 1, 0, 0xffffffff], /chunk 0: ends outside of the frame/);
+  refused([key, 64, 1, 0, 0], /group of block 0: goes beyond its chunk/);
+  refused([key, 64, 1, 0, 1, 2], /group of block 0: has blocks that do not exist/);
+  refused([key, 64, 1, 0, 1, 0], /block 0: is missing in a keyframe/);
+  refused([key, 64, 1, 0, 1, 1], /block 0: goes beyond its chunk/);
+  refused([key, 64, 1, 0, 2, 1, 0], /block 0: is predicted in a keyframe/);
+  refused([key, 64, 1, 0, 2, 1, 0x000c], /block 0: has no base/);
+  refused([...still, 8], /end: is not that of the last chunk/);
+  assert.throws(() => after([1, 0xfff0]), /block 0: goes beyond its chunk/);
+  assert.throws(() => after([1, 0x000f, 0, 0, 0, 0]), /block 0: is not predicted in a delta frame/);
+  assert.throws(() => after([1, 0, 0]), /chunk 0: does not end where its groups do/);
+});
+
+test("garbled frames are refused or mean something", () => {
+  let random = 1;
+  const draw = (below: number): number => {
+    random = (Math.imul(random, 1664525) + 1013904223) >>> 0;
+    return Math.floor((random / 2 ** 32) * below);
+  };
+  let refused = 0;
+  for (let round = 0; round < 300; round++) {
+    const decoder = new Decoder(spheres);
+    for (const bytes of frames) {
+      const garbled = bytes.slice(0, draw(4) === 0 ? draw(bytes.length) : bytes.length);
+      for (let k = draw(3); k > 0; k--) {
+        const at = draw(garbled.length);
+        garbled[at] = (garbled[at] ?? 0) ^ (1 << draw(8));
+      }
+      try {
+        decoder.apply(garbled);
+      } catch (error) {
+        assert.match(String(error), /^Error: frame, /);
+        refused++;
+      }
+    }
+  }
+  assert.ok(refused > 300);
+});
+
+test("fields of every width are read at every bit", () => {
+  const words = new Uint32Array(20).map((_, k) => Math.imul(k + 1, 0x9e3779b1));
+  const bits = [...words].flatMap((word) => Array.from({ length: 32 }, (_, k) => (word >>> k) & 1));
+  const values = new Int32Array(8);
+  for (let width = 0; width <= 32; width++) {
+    for (let bit = 0; bit < 64; bit++) {
+      const plain = (at: number) => bits.slice(at, at + width).reduce((sum, one, k) => sum | (one << k), 0);
+      assert.equal(field(words, bit, width), plain(bit));
+      readRun(words, bit, width, values, 0);
+      values.forEach((value, k) => assert.equal(value, plain(bit + k * width)));
+    }
+  }
+});
