@@ -50,7 +50,7 @@ void setSpheres(v1::SceneFacts& facts, const scene::Scene& scene, bool radiiDiff
 
 }  // namespace
 
-v1::ServerMessage factsMessage(const sim::Simulation& simulation, const v1::WireGrid& grid, std::uint32_t epoch) {
+v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch) {
     const scene::Scene& scene = simulation.scene();
     const sim::Plan& plan = simulation.plan();
     v1::ServerMessage message;
@@ -67,7 +67,6 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, const v1::Wire
     set(facts.mutable_camera()->mutable_eye(), scene.camera.eye);
     set(facts.mutable_camera()->mutable_target(), scene.camera.target);
     facts.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
-    *facts.mutable_grid() = grid;
     facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
     if (plan.features.contacts)
         for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);

@@ -7,7 +7,7 @@
 
 namespace spherule::app {
 
-v1::ServerMessage factsMessage(const sim::Simulation& simulation, const v1::WireGrid& grid, std::uint32_t epoch);
+v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch);
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused);
 
 }  // namespace spherule::app

@@ -19,8 +19,6 @@ Result<std::unique_ptr<Runtime>> Runtime::start(const SceneOptions& scene, const
     if (world) server = net::startServer(listen, runtime->handlers());
     if (world && server) {
         runtime->server_ = std::move(*server);
-        runtime->encoder_ =
-            std::make_unique<Encoder>([self = runtime.get()](auto state) { self->server_->publish(std::move(state)); });
     } else {
         runtime->simulation_.request_stop();
     }
@@ -51,9 +49,9 @@ void Runtime::simulate(const std::stop_token& stop, const SceneOptions& scene, c
     }
     live_.update([&](LiveReport& report) {
         report.state = "running";
-        report.device = (*world)->device().kind;
-        report.renderer = (*world)->device().renderer;
-        report.reason = (*world)->device().reason;
+        report.device = (*world)->device().info().kind;
+        report.renderer = (*world)->device().info().renderer;
+        report.reason = (*world)->device().info().reason;
         report.scene = (*world)->simulation().scene().name;
         report.spheres = (*world)->simulation().count();
     });
@@ -79,11 +77,11 @@ Outlets Runtime::outlets() {
             .settings = [this](auto message) { server_->setSettings(std::move(message)); },
             .dial = [this](auto message) { server_->setDial(std::move(message)); },
             .everybody = [this](auto message) { server_->broadcast(std::move(message)); },
-            .state = [this](Encoder::Packed state) { encoder_->put(std::move(state)); },
+            .order = [this](auto message) { server_->setOrder(std::move(message)); },
+            .frame = [this](const frame::Link& link) { server_->publish(link); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },
-            .rate = [this] { return server_->rate(); },
-            .joins = [this] { return server_->joins(); }};
+            .demands = [this] { return server_->demands(); }};
 }
 
 net::Handlers Runtime::handlers() {

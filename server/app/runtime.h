@@ -16,7 +16,7 @@
 
 namespace spherule::app {
 
-// A served simulation: owns the simulation thread, the encoder and the server, and joins them.
+// A served simulation: owns the simulation thread and the server, and joins them.
 class Runtime {
   public:
     // Opens the device, loads the scene and listens; returns when all of that is done.
@@ -45,7 +45,6 @@ class Runtime {
     BoundedQueue<Request> requests_{256};
     Site site_{live_};
     std::unique_ptr<net::Server> server_;
-    std::unique_ptr<Encoder> encoder_;
     std::atomic<bool> settled_ = false;  // whether the server has started, or will not
     std::atomic<bool> failed_ = false;
     Error failure_;  // valid once failed_ is set

@@ -13,9 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then waits this long for a state
-constexpr auto copyWait = 1ms;
 constexpr int commandsPerStep = 32;
-constexpr std::size_t mostPending = 2;  // copies that a device has under way at once
 
 // Whether the world, or how it goes on, may be another after it.
 bool changesWorld(const v1::Command& command) {
@@ -25,7 +23,11 @@ bool changesWorld(const v1::Command& command) {
 }  // namespace
 
 SimLoop::SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, quality::Table table, Outlets outlets)
-    : world_(world), requests_(requests), live_(live), outlets_(std::move(outlets)), observer_(std::move(table)) {}
+    : world_(world), requests_(requests), live_(live), outlets_(std::move(outlets)),
+      chains_(
+          world.device(), [this](const frame::Link& link) { publish(link); },
+          [this](frame::SharedMessage order) { outlets_.order(std::move(order)); }),
+      observer_(std::move(table)) {}
 
 Result<void> SimLoop::run(const std::stop_token& stop) {
     announce();
@@ -41,8 +43,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
         } else if (auto request = requests_.popFor(patience(now))) {
             serve(*request);
         }
-        produce(Pacer::Clock::now());
-        collect();
+        if (auto done = produce(Pacer::Clock::now()); !done) return done;
         report();
     }
     return {};
@@ -51,7 +52,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
 Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
     Pacer::Clock::duration wait = longestWait;
     if (world_.running()) wait = std::min(wait, world_.pacer().untilDue(now));
-    if (!pending_.empty()) wait = std::min<Pacer::Clock::duration>(wait, copyWait);
+    if (const auto due = chains_.due()) wait = std::min(wait, std::max(*due - now, Pacer::Clock::duration{}));
     return wait;
 }
 
@@ -81,7 +82,6 @@ void SimLoop::serve(const Request& request) {
 void SimLoop::announce() {
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
-        pending_.clear();
         seen_.reset();
         outlets_.scene(frame::share(world_.facts()));
     }
@@ -91,8 +91,7 @@ void SimLoop::announce() {
         outlets_.settings(frame::share(std::move(settings)));
     }
     if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
-    stale_ = true;
-    nextState_ = {};
+    ++version_;
 }
 
 Result<void> SimLoop::step() {
@@ -102,7 +101,7 @@ Result<void> SimLoop::step() {
     const double wallMs = std::chrono::duration<double, std::milli>(end - start).count();
     world_.pacer().stepped(end);
     observer_.stepped(wallMs);
-    stale_ = true;
+    ++version_;
     for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
     stopAtNonFinite();
     return tune(wallMs);
@@ -128,39 +127,31 @@ void SimLoop::stopAtNonFinite() {
     announce();
 }
 
-// Nothing is packed, copied or encoded while nobody watches.
-void SimLoop::produce(Pacer::Clock::time_point now) {
-    watched_ = outlets_.viewers() > 0;
-    if (const std::uint64_t joins = outlets_.joins(); joins != joins_) {
-        joins_ = joins;
-        stale_ = true;  // whoever came wants to see the world, paused or not
-    }
-    if (!watched_ || !stale_ || pending_.size() >= mostPending || now < nextState_ || world_.simulation().count() == 0)
-        return;
-    auto copy = world_.simulation().pack();
-    if (!copy) return;
-    Pending next;
-    next.copy = std::move(copy);
-    next.head.set_sequence(++sequence_);
-    next.head.set_epoch(epoch_);
-    next.head.set_step(world_.simulation().steps());
-    next.head.set_sim_time(world_.simulation().time());
-    next.head.set_count(world_.simulation().count());
-    produced_.push_back(now);
-    *next.head.mutable_status() = status(now);
-    pending_.push_back(std::move(next));
-    stale_ = false;
-    const auto interval = std::chrono::duration_cast<Pacer::Clock::duration>(1s) / std::max(outlets_.rate(), 1U);
-    nextState_ = std::max(nextState_ + interval, now - interval);
+Result<void> SimLoop::produce(Pacer::Clock::time_point now) {
+    const auto demands = outlets_.demands();
+    watched_ = !demands.empty();
+    sim::Simulation& simulation = world_.simulation();
+    return chains_.serve({.source = simulation.tierSource(),
+                          .spheres = simulation.count(),
+                          .smallestRadius = sim::radiiOf(simulation.scene()).smallest,
+                          .epoch = epoch_,
+                          .version = version_,
+                          .positions = [&simulation] { return simulation.snapshot(); },
+                          .head = [this, now] { return head(now); }},
+                         demands, now);
 }
 
-void SimLoop::collect() {
-    while (!pending_.empty()) {
-        const auto bytes = pending_.front().copy->poll();
-        if (!bytes) return;
-        outlets_.state({std::move(pending_.front().head), {bytes->begin(), bytes->end()}});
-        pending_.pop_front();
-    }
+v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
+    v1::Frame head;
+    head.set_step(world_.simulation().steps());
+    head.set_sim_time(world_.simulation().time());
+    *head.mutable_status() = status(now);
+    return head;
+}
+
+void SimLoop::publish(const frame::Link& link) {
+    if (link.kind != frame::Link::Kind::Join) produced_.push_back(Pacer::Clock::now());
+    outlets_.frame(link);
 }
 
 }  // namespace spherule::app

@@ -6,7 +6,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "app/encoder.h"
+#include "app/chains.h"
 #include "app/live.h"
 #include "app/observer.h"
 #include "app/tuner.h"
@@ -27,11 +27,11 @@ struct Outlets {
     std::function<void(frame::SharedMessage)> settings;
     std::function<void(frame::SharedMessage)> dial;
     std::function<void(frame::SharedMessage)> everybody;  // events, diagnostics
-    std::function<void(Encoder::Packed)> state;
+    std::function<void(frame::SharedMessage)> order;
+    std::function<void(const frame::Link&)> frame;
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;
     std::function<std::uint32_t()> viewers;
-    std::function<std::uint32_t()> rate;
-    std::function<std::uint64_t()> joins;
+    std::function<std::vector<frame::Demand>()> demands;
 };
 
 // What the simulation thread does: commands, steps, states. It waits for a command, for the next step or for the device
@@ -44,19 +44,15 @@ class SimLoop {
     Result<void> run(const std::stop_token& stop);
 
   private:
-    struct Pending {
-        v1::Frame head;
-        std::unique_ptr<compute::ReadBack> copy;
-    };
-
     void serve(const Request& request);
     void announce();
     Result<void> step();
     Result<void> tune(double wallMs);
     void say(v1::Event::Kind kind, const std::string& text);
     void stopAtNonFinite();
-    void produce(Pacer::Clock::time_point now);
-    void collect();
+    Result<void> produce(Pacer::Clock::time_point now);
+    v1::Frame head(Pacer::Clock::time_point now);
+    void publish(const frame::Link& link);
     void report();
     void look(const std::vector<double>& passSeconds);
     void sendDial();
@@ -67,19 +63,16 @@ class SimLoop {
     BoundedQueue<Request>& requests_;
     Live& live_;
     Outlets outlets_;
-    std::deque<Pending> pending_;
+    Chains chains_;
     std::deque<Pacer::Clock::time_point> produced_;
-    Pacer::Clock::time_point nextState_{};
     Pacer::Clock::time_point nextReport_{};
     Tuner tuner_;
     Observer observer_;
     std::optional<v1::Diagnostics> seen_;  // of the last report while somebody watched
-    std::uint64_t sequence_ = 0;
+    std::uint64_t version_ = 0;  // of the world, as far as viewers can see
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
-    std::uint64_t joins_ = 0;
     bool watched_ = false;
-    bool stale_ = true;  // the viewers' picture is older than the world
 };
 
 }  // namespace spherule::app

@@ -81,7 +81,7 @@ void SimLoop::report() {
         report.steps = world_.simulation().steps();
         report.simSeconds = world_.simulation().time();
         report.rebuilds = world_.simulation().counters().rebuilds;
-        report.framesProduced = sequence_;
+        report.framesProduced = chains_.made();
         report.status = status(now);
         report.diagnostics = seen_;
         report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/facts.h"
-#include "frame/wire.h"
 
 namespace spherule::app {
 
@@ -45,16 +44,13 @@ Result<void> World::adopt(scene::Scene scene) {
     return {};
 }
 
-// The wire grid follows the smallest sphere, so it is made anew with the facts.
 void World::refreshFacts() {
-    grid_ = frame::wireGridFor(simulation_->scene().bounds, sim::radiiOf(simulation_->scene()).smallest);
-    simulation_->setWireGrid(grid_);
     generation_ = simulation_->generation();
     ++epoch_;
 }
 
 v1::ServerMessage World::facts() const {
-    return factsMessage(*simulation_, grid_, epoch_);
+    return factsMessage(*simulation_, epoch_);
 }
 
 v1::ServerMessage World::settings() const {

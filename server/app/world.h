@@ -32,7 +32,7 @@ class World {
     [[nodiscard]] v1::ServerMessage settings() const;
 
     [[nodiscard]] sim::Simulation& simulation() { return *simulation_; }
-    [[nodiscard]] const compute::DeviceInfo& device() const { return device_->info(); }
+    [[nodiscard]] compute::Device& device() { return *device_; }
     [[nodiscard]] Pacer& pacer() { return pacer_; }
 
   private:
@@ -48,7 +48,6 @@ class World {
     std::unique_ptr<compute::Device> device_;
     scene::Overrides overrides_;
     std::unique_ptr<sim::Simulation> simulation_;
-    v1::WireGrid grid_;
     Pacer pacer_;
     bool paused_ = false;
     std::uint32_t pendingSteps_ = 0;

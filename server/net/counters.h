@@ -35,7 +35,7 @@ struct Counters {
     Count commands = 0;
     Count commandsRefused = 0;  // by the network: queue full or unknown
     Count framesSent = 0;
-    Count framesReplaced = 0;  // by newer ones, because the session was still busy with an older one
+    Count chainsLost = 0;       // by sessions that were still busy with the frame before, or could not decode one
     Count bytesSent = 0;       // payload of messages
     std::array<Count, closeCauseNames.size()> closed{};  // by CloseCause
 

@@ -29,7 +29,7 @@ Result<v1::CommandResult> sendCommand(const std::string& url, v1::Command comman
 
     v1::ClientMessage hello;
     hello.mutable_hello()->set_client("spherule ctl");
-    hello.mutable_hello()->set_rate(0);
+    hello.mutable_hello()->mutable_view()->set_rate(0);
     if (auto sent = (*client)->send(hello); !sent) return tl::unexpected(sent.error());
 
     if (command.id() == 0) command.set_id(1);

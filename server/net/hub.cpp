@@ -19,23 +19,47 @@ void Hub::remove(SessionId id) {
     if (entries_.empty()) emptied_.notify_all();
 }
 
-void Hub::join(SessionId id, std::uint32_t rate) {
-    const std::lock_guard lock(mutex_);
+Hub::Entry* Hub::find(SessionId id) {
     const auto found = entries_.find(id);
-    if (found == entries_.end()) return;
-    Entry& entry = found->second;
-    entry.joined = true;
-    entry.rate = rate;
+    return found == entries_.end() ? nullptr : &found->second;
+}
+
+void Hub::join(SessionId id) {
+    const std::lock_guard lock(mutex_);
+    Entry* const entry = find(id);
+    if (entry == nullptr) return;
+    entry->joined = true;
+    for (const auto& kept : {scene_, settings_, dial_})
+        if (kept) entry->session->send(kept);
+}
+
+void Hub::watch(SessionId id, const frame::Channel& channel) {
+    const std::lock_guard lock(mutex_);
+    Entry* const entry = find(id);
+    if (entry == nullptr) return;
+    if (entry->channel.rate == 0 && channel.rate > 0 && order_) entry->session->send(order_);
+    entry->channel = channel;
+    entry->newcomer = channel.rate > 0;
+    entry->lost = false;
     countViewers();
-    if (rate > 0) ++joins_;
-    if (scene_) entry.session->send(scene_);
-    if (settings_) entry.session->send(settings_);
-    if (dial_) entry.session->send(dial_);
-    if (rate > 0 && latest_) entry.session->offer(latest_);
+}
+
+void Hub::askKeyframe(SessionId id) {
+    const std::lock_guard lock(mutex_);
+    if (Entry* const entry = find(id)) entry->lost = entry->channel.rate > 0;
 }
 
 void Hub::setScene(frame::SharedMessage facts) {
     keep(scene_, std::move(facts));
+    const std::lock_guard lock(mutex_);
+    order_.reset();  // that of the spheres that were
+}
+
+void Hub::setOrder(frame::SharedMessage order) {
+    const std::lock_guard lock(mutex_);
+    order_ = std::move(order);
+    for (const auto& [id, entry] : entries_)
+        if (entry.channel.rate > 0) entry.session->send(order_);
 }
 
 void Hub::setSettings(frame::SharedMessage settings) {
@@ -55,13 +79,28 @@ void Hub::keep(frame::SharedMessage& kept, frame::SharedMessage message) {
     }
 }
 
-void Hub::publish(frame::SharedMessage state) {
+void Hub::publish(const frame::Link& link) {
     const std::lock_guard lock(mutex_);
-    if (viewers_ == 0) return;
-    latest_ = std::move(state);
-    for (const auto& [id, entry] : entries_) {
-        if (entry.rate > 0) entry.session->offer(latest_);
+    for (auto& [id, entry] : entries_) {
+        if (entry.channel.rate == 0 || entry.channel != link.channel) continue;
+        const bool waits = entry.newcomer || entry.lost;
+        if (link.kind == frame::Link::Kind::Join && !waits) continue;
+        if (link.kind != frame::Link::Kind::Delta) entry.newcomer = entry.lost = false;
+        if (link.kind != frame::Link::Kind::Delta || !waits) entry.session->offer(link);
     }
+}
+
+std::vector<frame::Demand> Hub::demands() {
+    const std::lock_guard lock(mutex_);
+    std::vector<frame::Demand> demands;
+    for (const auto& [id, entry] : entries_) {
+        if (entry.channel.rate == 0) continue;
+        auto same = std::ranges::find(demands, entry.channel, &frame::Demand::channel);
+        if (same == demands.end()) same = demands.insert(demands.end(), frame::Demand{.channel = entry.channel});
+        same->newcomer = same->newcomer || entry.newcomer;
+        same->lost = same->lost || entry.lost;
+    }
+    return demands;
 }
 
 void Hub::broadcast(const frame::SharedMessage& message) {
@@ -94,15 +133,8 @@ bool Hub::waitEmpty(std::chrono::milliseconds timeout) {
 }
 
 void Hub::countViewers() {
-    std::uint32_t viewers = 0;
-    std::uint32_t rate = 0;
-    for (const auto& [id, entry] : entries_) {
-        if (entry.rate > 0) ++viewers;
-        rate = std::max(rate, entry.rate);
-    }
-    viewers_ = viewers;
-    rate_ = rate;
-    if (viewers == 0) latest_.reset();
+    viewers_ = static_cast<std::uint32_t>(
+        std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.channel.rate > 0; }));
 }
 
 }  // namespace spherule::net

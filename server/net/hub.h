@@ -7,8 +7,9 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <vector>
 
-#include "frame/message.h"
+#include "frame/channel.h"
 #include "net/server.h"
 
 namespace spherule::net {
@@ -18,7 +19,7 @@ class Subscriber {
   public:
     virtual ~Subscriber() = default;
     virtual void send(frame::SharedMessage message) = 0;  // reliable lane
-    virtual void offer(frame::SharedMessage state) = 0;   // lossy lane; not before the facts of its epoch
+    virtual void offer(frame::Link link) = 0;             // lossy lane
     virtual void drain() = 0;                             // close when the reliable lane is empty
     virtual void drop() = 0;                              // now, without a close frame
 };
@@ -28,19 +29,25 @@ class Hub {
   public:
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
-    // After the welcome: the session gets facts, settings, dial, and `rate` states per second.
-    void join(SessionId id, std::uint32_t rate);
+    // After the welcome: the session gets facts, settings and dial.
+    void join(SessionId id);
+    // The chain that the session is sent from now on, from its next keyframe on; rate 0: none.
+    void watch(SessionId id, const frame::Channel& channel);
+    // The session has lost its chain and needs a keyframe.
+    void askKeyframe(SessionId id);
 
     void setScene(frame::SharedMessage facts);
     void setSettings(frame::SharedMessage settings);
     void setDial(frame::SharedMessage dial);
-    void publish(frame::SharedMessage state);
+    // For the frames that come; to whoever watches.
+    void setOrder(frame::SharedMessage order);
+    void publish(const frame::Link& link);
     void broadcast(const frame::SharedMessage& message);
     void sendTo(SessionId id, frame::SharedMessage message);
 
     [[nodiscard]] std::uint32_t viewers() const { return viewers_; }
-    [[nodiscard]] std::uint64_t joins() const { return joins_; }
-    [[nodiscard]] std::uint32_t rate() const { return rate_; }
+    // Of each chain that somebody watches.
+    [[nodiscard]] std::vector<frame::Demand> demands();
 
     // Closes what is open and whatever comes later.
     void drain();
@@ -52,9 +59,12 @@ class Hub {
     struct Entry {
         std::shared_ptr<Subscriber> session;
         bool joined = false;
-        std::uint32_t rate = 0;
+        frame::Channel channel{};  // rate 0: none
+        bool newcomer = false;     // no frame of the chain has come yet
+        bool lost = false;
     };
 
+    Entry* find(SessionId id);
     void keep(frame::SharedMessage& kept, frame::SharedMessage message);
     void countViewers();
 
@@ -66,10 +76,8 @@ class Hub {
     frame::SharedMessage scene_;
     frame::SharedMessage settings_;
     frame::SharedMessage dial_;
-    frame::SharedMessage latest_;  // kept only while somebody watches: later it would be old
+    frame::SharedMessage order_;
     std::atomic<std::uint32_t> viewers_ = 0;
-    std::atomic<std::uint64_t> joins_ = 0;
-    std::atomic<std::uint32_t> rate_ = 0;
 };
 
 }  // namespace spherule::net

@@ -1,35 +1,37 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
 
-#include "frame/message.h"
+#include "frame/channel.h"
 
 namespace spherule::net {
 
-// What one session still has to send, in two lanes: a reliable one that is bounded, and one place for a state frame,
-// where the newest wins. A state goes out only after the scene facts of its epoch. One thread.
+// What one session still has to send, in two lanes: a reliable one that is bounded, and one place for a frame. A frame
+// follows the one before of its chain, or is a keyframe; it goes out only after the scene facts of its epoch and the order
+// that its spheres are in. One thread.
 class Outbox {
   public:
-    using Clock = std::chrono::steady_clock;
+    // `capacity` messages in the reliable lane.
+    explicit Outbox(std::size_t capacity) : capacity_(capacity) {}
 
-    // `capacity` messages in the reliable lane; `rate` state frames per second at most, 0 for none.
-    Outbox(std::size_t capacity, std::uint32_t rate);
+    // The chain to follow, from its next keyframe on; rate 0: none.
+    void follow(const frame::Channel& channel);
 
-    void setRate(std::uint32_t rate);
-
-    // False when the lane is full. Scene facts, settings, dials and diagnostics take the place of older ones that wait.
+    // False when the lane is full. Scene facts, orders, settings, dials, diagnostics and what is said of the stream take
+    // the place of older ones that wait.
     [[nodiscard]] bool push(frame::SharedMessage message);
-    // True when it replaced a frame that was due.
-    bool offer(frame::SharedMessage frame, Clock::time_point now);
+    // False when the chain is lost by it: the frame before could not be sent, or has never come.
+    bool offer(const frame::Link& link);
+    // The client has lost the chain.
+    void lose();
 
-    // The next message to send, the reliable lane first; nothing while there is none or the frame may not go yet.
-    frame::SharedMessage next(Clock::time_point now);
-    // When to ask again; nothing while there is no frame or its facts have not come.
-    [[nodiscard]] std::optional<Clock::time_point> frameDue() const;
+    // The next message to send, the reliable lane first; frames only where `frames` says so.
+    frame::SharedMessage next(bool frames);
+    // It follows a chain and has nothing to send of it before a keyframe comes.
+    [[nodiscard]] bool wantsKeyframe() const { return channel_.rate > 0 && !number_; }
 
     void dropFrame() { frame_.reset(); }
     void clear();
@@ -38,11 +40,12 @@ class Outbox {
     [[nodiscard]] bool frameIsDescribed() const;
 
     const std::size_t capacity_;
-    std::uint32_t rate_;
-    std::optional<std::uint32_t> epoch_;  // of the latest facts
+    frame::Channel channel_;
+    std::optional<std::uint32_t> epoch_;   // of the latest facts
+    std::optional<std::uint32_t> order_;   // the latest
+    std::optional<std::uint32_t> number_;  // of the newest frame taken
     std::deque<frame::SharedMessage> reliable_;
     frame::SharedMessage frame_;
-    Clock::time_point due_{};
 };
 
 }  // namespace spherule::net

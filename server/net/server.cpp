@@ -41,7 +41,8 @@ class RunningServer final : public Server {
     void setScene(frame::SharedMessage facts) override { context_.hub.setScene(std::move(facts)); }
     void setSettings(frame::SharedMessage settings) override { context_.hub.setSettings(std::move(settings)); }
     void setDial(frame::SharedMessage dial) override { context_.hub.setDial(std::move(dial)); }
-    void publish(frame::SharedMessage state) override { context_.hub.publish(std::move(state)); }
+    void setOrder(frame::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
+    void publish(const frame::Link& link) override { context_.hub.publish(link); }
     void broadcast(frame::SharedMessage message) override { context_.hub.broadcast(message); }
 
     void reply(SessionId session, v1::CommandResult result) override {
@@ -50,9 +51,8 @@ class RunningServer final : public Server {
         context_.hub.sendTo(session, std::make_shared<frame::Message>(std::move(message)));
     }
 
-    [[nodiscard]] std::uint64_t joins() const override { return context_.hub.joins(); }
     [[nodiscard]] std::uint32_t viewers() const override { return context_.hub.viewers(); }
-    [[nodiscard]] std::uint32_t rate() const override { return context_.hub.rate(); }
+    [[nodiscard]] std::vector<frame::Demand> demands() override { return context_.hub.demands(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }
 
     void drain() override {

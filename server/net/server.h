@@ -5,9 +5,10 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
-#include "frame/message.h"
+#include "frame/channel.h"
 #include "net/counters.h"
 #include "spherule/v1/control.pb.h"
 
@@ -33,8 +34,7 @@ struct HttpAnswer {
     std::string body;
 };
 
-// What the server asks of its owner. Called on the io thread: must neither wait nor throw. A welcome's rate is filled
-// in by the server.
+// What the server asks of its owner. Called on the io thread: must neither wait nor throw.
 struct Handlers {
     std::function<v1::Welcome(const v1::Hello&)> welcome;
     std::function<bool(SessionId, v1::Command)> submit;  // false: the queue is full
@@ -52,16 +52,18 @@ class Server {
     virtual void setScene(frame::SharedMessage facts) = 0;
     virtual void setSettings(frame::SharedMessage settings) = 0;
     virtual void setDial(frame::SharedMessage dial) = 0;
-    // Lossy lane: newest wins. A state of another epoch than the scene's waits for its facts. While somebody watches, a
-    // newcomer first gets the latest state; for the first viewer the owner publishes one, even when paused.
-    virtual void publish(frame::SharedMessage state) = 0;
+    // For who watches: the order of the spheres in the frames that come, once the scene has been set.
+    virtual void setOrder(frame::SharedMessage order) = 0;
+    // Lossy lane: who could not be sent the frame before has lost the chain, and is sent nothing more of it before a
+    // keyframe. A frame of another epoch than the scene's, or of another order, waits for that.
+    virtual void publish(const frame::Link& link) = 0;
     // Reliable lane; diagnostics, as what is set above, take the place of older ones that wait.
     virtual void broadcast(frame::SharedMessage message) = 0;
     virtual void reply(SessionId session, v1::CommandResult result) = 0;
 
-    [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want states
-    [[nodiscard]] virtual std::uint64_t joins() const = 0;    // such sessions ever: each wants to see a state
-    [[nodiscard]] virtual std::uint32_t rate() const = 0;     // highest state rate that one of them wants, 1/s
+    [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want frames
+    // The chains that are watched, and whether somebody waits for a keyframe: no frame comes to them before.
+    [[nodiscard]] virtual std::vector<frame::Demand> demands() = 0;
 
     // Stops accepting, closes sessions with 1012 after what is queued, waits up to drainTimeout.
     // Not from the io thread.

@@ -16,7 +16,6 @@ using websocket::close_code;
 namespace {
 
 constexpr std::uint32_t defaultRate = 30;
-constexpr std::uint32_t highestRate = 60;
 constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is given back after the message
 
 }  // namespace
@@ -25,12 +24,12 @@ Session::Session(beast::tcp_stream stream, Context& context)
     : context_(context),
       stream_(std::move(stream)),
       watchTimer_(stream_.get_executor()),
-      frameTimer_(stream_.get_executor()),
       liveness_({.hello = context.options.helloTimeout,
                  .progress = context.options.progressTimeout,
                  .idle = context.options.idleTimeout},
                 Liveness::Clock::now()),
-      outbox_(context.options.controlQueue, 0) {}
+      outbox_(context.options.controlQueue),
+      pace_(Pace::Clock::now()) {}
 
 void Session::run(const Request& upgrade) {
     id_ = context_.hub.add(shared_from_this());
@@ -85,6 +84,10 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
         } else if (!helloDone_) {
             encoding_ = encoding;
             onHello(message->hello());
+        } else if (message->has_view()) {
+            onView(message->view());
+        } else if (message->has_ack()) {
+            onAck(message->ack());
         } else {
             onCommand(std::move(*message->mutable_command()));
         }
@@ -95,17 +98,33 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
 }
 
 void Session::onHello(const v1::Hello& hello) {
-    const std::uint32_t rate = hello.has_rate() ? std::min(hello.rate(), highestRate) : defaultRate;
     helloDone_ = true;
     client_ = printable(hello.client());
     liveness_.helloCame();
-    outbox_.setRate(rate);
-    spdlog::debug("session {}: hello from {}, {} states per second", id_, client_, rate);
+    spdlog::debug("session {}: hello from {}", id_, client_);
     v1::ServerMessage message;
     *message.mutable_welcome() = context_.handlers.welcome(hello);
-    message.mutable_welcome()->set_rate(rate);
-    queue(std::make_shared<frame::Message>(std::move(message)));
-    context_.hub.join(id_, rate);
+    queue(frame::share(std::move(message)));
+    context_.hub.join(id_);
+    onView(hello.view());
+}
+
+void Session::onView(const v1::View& view) {
+    const v1::Tier tier = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED ? view.tier() : v1::NORMAL;
+    const std::uint32_t rate = frame::rateFor(view.has_rate() ? view.rate() : defaultRate);
+    pace_.want({tier, rate}, view.fixed(), Pace::Clock::now());
+    follow("");
+}
+
+void Session::onAck(const v1::Ack& ack) {
+    credit_.acked(ack.sequence());
+    if (ack.lost()) {
+        outbox_.lose();
+        missed();
+    }
+    if (const auto reason = pace_.acked(static_cast<double>(ack.draw_rate()), Pace::Clock::now())) follow(*reason);
+    askKeyframe();
+    pump();
 }
 
 void Session::onCommand(v1::Command command) {
@@ -127,7 +146,6 @@ void Session::finish(CloseCause cause) {
     if (finished_) return;
     finished_ = true;
     watchTimer_.cancel();
-    frameTimer_.cancel();
     outbox_.clear();
     beast::get_lowest_layer(stream_).close();
     --context_.counters.sessions;

@@ -14,10 +14,12 @@
 
 #include "core/latest_slot.h"
 #include "net/context.h"
+#include "net/credit.h"
 #include "net/decode.h"
 #include "net/hub.h"
 #include "net/liveness.h"
 #include "net/outbox.h"
+#include "net/pace.h"
 
 namespace spherule::net {
 
@@ -34,7 +36,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void run(const Request& upgrade);
 
     void send(frame::SharedMessage message) override;
-    void offer(frame::SharedMessage state) override;
+    void offer(frame::Link link) override;
     void drain() override;
     void drop() override;
 
@@ -46,13 +48,17 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void read();
     void onRead(ErrorCode error, std::size_t bytes);
     void onHello(const v1::Hello& hello);
+    void onView(const v1::View& view);
+    void onAck(const v1::Ack& ack);
     void onCommand(v1::Command command);
     void refuse(std::uint64_t command, const std::string& reason);
 
     void queue(frame::SharedMessage message);
     void pump();
     void onWritten(ErrorCode error, std::size_t bytes);
-    void waitForFrame();
+    void missed();
+    void askKeyframe();
+    void follow(const std::string& reason);
 
     void watch();
     void onWatch(ErrorCode error);
@@ -72,17 +78,19 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     Context& context_;
     boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;
     boost::asio::steady_timer watchTimer_;
-    boost::asio::steady_timer frameTimer_;
     boost::beast::flat_buffer incoming_;
     Liveness liveness_;
-    LatestSlot<frame::SharedMessage> offered_;
+    LatestSlot<frame::Link> offered_;
     Outbox outbox_;
+    Credit credit_;
+    Pace pace_;
     frame::SharedMessage writing_;
     Encoding encoding_ = Encoding::Binary;
     SessionId id_ = 0;
     std::string client_ = "a client";
     CloseCause cause_ = CloseCause::Left;
     bool helloDone_ = false;
+    bool asked_ = false;  // for a keyframe
     bool pinging_ = false;
     bool draining_ = false;
     bool closing_ = false;  // a close frame is on its way: nothing else may be written

@@ -14,7 +14,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using websocket::close_code;
-using Clock = Outbox::Clock;
+using Clock = Pace::Clock;
 
 void Session::send(frame::SharedMessage message) {
     asio::post(stream_.get_executor(), [self = shared_from_this(), message = std::move(message)]() mutable {
@@ -22,16 +22,44 @@ void Session::send(frame::SharedMessage message) {
     });
 }
 
-// However long the io thread is busy, one state waits for it, not a row of them.
-void Session::offer(frame::SharedMessage state) {
-    if (offered_.put(std::move(state))) return;
+// However long the io thread is busy, one frame waits for it, not a row of them.
+void Session::offer(frame::Link link) {
+    if (offered_.put(std::move(link))) return;
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
-        auto newest = self->offered_.take();
+        const auto newest = self->offered_.take();
         if (self->closing_ || self->finished_) return;
-        const bool replaced = self->outbox_.offer(std::move(*newest), Clock::now());
-        if (replaced && self->writing_) ++self->context_.counters.framesReplaced;
+        const bool keyframe = newest->kind != frame::Link::Kind::Delta;
+        if (keyframe && newest->channel == self->pace_.channel()) self->asked_ = false;
+        if (!self->outbox_.offer(*newest)) self->missed();
         self->pump();
     });
+}
+
+// The client lost the chain, because it did not take the frame before or could not decode it.
+void Session::missed() {
+    ++context_.counters.chainsLost;
+    if (const auto reason = pace_.lost(Clock::now())) follow(*reason);
+}
+
+// Only when it can go at once: what waits gets old.
+void Session::askKeyframe() {
+    if (asked_ || writing_ || !outbox_.wantsKeyframe() || !credit_.open()) return;
+    asked_ = true;
+    context_.hub.askKeyframe(id_);
+}
+
+void Session::follow(const std::string& reason) {
+    const frame::Channel channel = pace_.channel();
+    outbox_.follow(channel);
+    credit_.setRate(channel.rate);
+    asked_ = true;  // who comes to a chain is sent a keyframe of it
+    v1::ServerMessage message;
+    message.mutable_stream()->set_tier(channel.tier);
+    message.mutable_stream()->set_rate(channel.rate);
+    message.mutable_stream()->set_reduced(pace_.reduced());
+    message.mutable_stream()->set_reason(reason);
+    queue(frame::share(std::move(message)));
+    context_.hub.watch(id_, channel);
 }
 
 void Session::drain() {
@@ -57,11 +85,12 @@ void Session::queue(frame::SharedMessage message) {
 void Session::pump() {
     if (writing_ || closing_ || finished_ || !stream_.is_open()) return;
     if (draining_) outbox_.dropFrame();
-    writing_ = outbox_.next(Clock::now());
+    writing_ = outbox_.next(credit_.open());
     if (!writing_) {
-        if (draining_) return close(close_code::service_restart, "the server is stopping", CloseCause::Drained);
-        return waitForFrame();
+        if (draining_) close(close_code::service_restart, "the server is stopping", CloseCause::Drained);
+        return;
     }
+    if (writing_->content().has_frame()) credit_.sent(writing_->content().frame().sequence());
     const bool text = encoding_ == Encoding::Text;
     stream_.text(text);
     liveness_.writeBegan(Clock::now());
@@ -74,16 +103,8 @@ void Session::onWritten(ErrorCode error, std::size_t bytes) {
     if (error) return;  // the read under way fails too, and knows more
     context_.counters.bytesSent += bytes;
     if (written->content().has_frame()) ++context_.counters.framesSent;
+    askKeyframe();
     pump();
-}
-
-void Session::waitForFrame() {
-    const auto due = outbox_.frameDue();
-    if (!due) return;
-    frameTimer_.expires_at(*due);
-    frameTimer_.async_wait([self = shared_from_this()](ErrorCode error) {
-        if (!error) self->pump();
-    });
 }
 
 void Session::watch() {
@@ -122,7 +143,6 @@ void Session::close(close_code code, const std::string& reason, CloseCause cause
     closing_ = true;
     cause_ = cause;
     outbox_.clear();
-    frameTimer_.cancel();
     liveness_.closeBegan(Clock::now());
     if (!stream_.is_open()) return finish(cause);
     stream_.async_close({code, closeReason(reason)},

@@ -19,13 +19,13 @@ using uint = std::uint32_t;
 
 // std140 puts a uniform block's vectors on multiples of 16 and packs scalars; the struct keeps to it without padding.
 static_assert(sizeof(vec4) == 16 && sizeof(uvec4) == 16);
-static_assert(offsetof(Parameters, cells) == 224);
-static_assert(offsetof(Parameters, substep) == 368);
-static_assert(offsetof(Parameters, spheres) == 416);
-static_assert(sizeof(Parameters) == 464);
+static_assert(offsetof(Parameters, cells) == 208);
+static_assert(offsetof(Parameters, substep) == 352);
+static_assert(offsetof(Parameters, spheres) == 400);
+static_assert(sizeof(Parameters) == 448);
 // What the words of these are: 'r' a real number, 'u' an unsigned integer.
 constexpr std::string_view parameterWords =
-    "rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr"
+    "rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr"
     "uuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuu"
     "rrrrrrrrrrrr"
     "uuuuuuuuuuuu";

@@ -64,14 +64,12 @@ layout::Law lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, do
 }  // namespace
 
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
-                                 const v1::WireGrid& wire, std::uint32_t substeps) {
+                                 std::uint32_t substeps) {
     layout::Parameters p{};
     const glm::dvec3 centre = scene.bounds.centre();
     p.gravity = glm::vec4(glm::vec3(scene.gravity), 0);
     p.wallMin = glm::vec4(glm::vec3(scene.bounds.min - centre), 0);
     p.wallMax = glm::vec4(glm::vec3(scene.bounds.max - centre), 0);
-    p.wireOrigin = glm::vec4(glm::vec3(glm::dvec3(wire.origin_x(), wire.origin_y(), wire.origin_z()) - centre),
-                             wire.quantum() > 0 ? static_cast<float>(1 / wire.quantum()) : 0.0F);
     setGrid(p, plan.grid);
 
     const double h = scene.step / substeps;

@@ -5,13 +5,12 @@
 #include "scene/scene.h"
 #include "sim/layout.h"
 #include "sim/plan.h"
-#include "spherule/v1/frame.pb.h"
 
 namespace spherule::sim {
 
 // The uniform block for a scene and its plan, with so many substeps to a step.
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
-                                 const v1::WireGrid& wire, std::uint32_t substeps);
+                                 std::uint32_t substeps);
 
 // Between all materials, row by row.
 std::vector<layout::Law> lawsFor(const scene::Scene& scene);

@@ -86,7 +86,7 @@ Result<void> Pipeline::allocate() {
 
 Result<void> Pipeline::compile() {
     const std::vector<compute::Define> defines = definesFor(plan_.features);
-    for (const auto* launches : {&plan_.substep, &plan_.statistics, &plan_.pack}) {
+    for (const auto* launches : {&plan_.substep, &plan_.statistics}) {
         for (const LaunchSpec& launch : *launches) {
             if (std::ranges::any_of(kernels_, [&](const auto& known) { return known.first == launch.kernel; }))
                 continue;

@@ -38,7 +38,6 @@ class Pipeline {
     // empty when there were none. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
     void runStatistics();  // of the state as it is: builds the lists first where they are not those of this state
-    void runPack() { run(plan_.pack); }
 
     // Whole array as elements of T, or the first `most` of them; waits for the device. Empty where the plan has no such
     // array.

@@ -12,8 +12,6 @@ namespace {
 constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 5 within the margin
 constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t mostWallContacts = 8;
-constexpr std::uint32_t spheresPerBlock = 64;
-constexpr std::uint64_t packedBlockBytes = 384;
 
 std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
     return (values + block - 1) / block;
@@ -96,7 +94,6 @@ void planArrays(Plan& plan, const scene::Scene& scene) {
     }
     add.array(Array::Counters, COUNTER_WORDS, 4);
     add.array(Array::SphereParts, blocksOf(plan.spheres, STATISTIC_BLOCK), sizeof(layout::SphereStatistics));
-    add.array(Array::Packed, blocksOf(plan.spheres, spheresPerBlock), packedBlockBytes);
 }
 
 // Turns the values of an array into exclusive prefix sums, in blocks of blocks. `rows` of the launch table and `sizes`:
@@ -246,12 +243,6 @@ void planOnDemand(Plan& plan) {
                                    plan.groups(),
                                    std::nullopt,
                                    0});
-    plan.pack.push_back({Pass::Pack,
-                         "pack.comp",
-                         {Position, SlotOf, Packed},
-                         blocksOf(plan.spheres, spheresPerBlock),
-                         std::nullopt,
-                         0});
 }
 
 }  // namespace

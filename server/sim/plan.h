@@ -49,7 +49,6 @@ enum class Array : std::uint8_t {
     SphereParts,  // partial statistics
     Overlaps,
     Impacts,  // per cell group, until they are taken: how many were observed and sums of their speeds
-    Packed,
     Count,  // how many arrays there are; not one itself
 };
 
@@ -88,7 +87,6 @@ struct Plan {
     std::vector<ArraySpec> arrays;
     std::vector<LaunchSpec> substep;     // in order
     std::vector<LaunchSpec> statistics;  // on demand
-    std::vector<LaunchSpec> pack;
     std::vector<std::uint32_t> fullLaunches;  // invocations per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;

@@ -21,7 +21,7 @@ struct Row {
 // Launches of one kernel in a row are one row of the plan.
 std::vector<Row> rowsOf(const Plan& plan) {
     std::vector<Row> rows;
-    for (const auto* launches : {&plan.substep, &plan.statistics, &plan.pack}) {
+    for (const auto* launches : {&plan.substep, &plan.statistics}) {
         for (const LaunchSpec& launch : *launches) {
             if (rows.empty() || rows.back().kernel != launch.kernel)
                 rows.push_back(
@@ -69,7 +69,7 @@ double perSphere(const Plan& plan, std::uint64_t bytes) {
 
 std::string whenOf(const Row& row) {
     if (row.observing) return fmt::format("every {}th step", observedEvery);
-    if (row.pass == Pass::Statistics || row.pass == Pass::Pack) return "on demand";
+    if (row.pass == Pass::Statistics) return "on demand";
     return row.onRebuild ? "on rebuild" : "every substep";
 }
 
@@ -81,7 +81,7 @@ std::string_view nameOf(Array array) {
         "block-sums", "super-sums",   "place",        "order",   "saved",  "saved-label", "anchor",
         "resting",    "woken",        "stirred",      "slot-of", "pairs",  "history",     "kept-start",
         "kept",       "pressed",      "wall-history", "work",    "span",   "counters",    "full-launches",
-        "launches",   "sphere-parts", "overlaps",     "impacts", "packed",
+        "launches",   "sphere-parts", "overlaps",     "impacts",
     };
     return names.at(static_cast<std::size_t>(array));
 }

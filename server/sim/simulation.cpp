@@ -89,7 +89,7 @@ void Simulation::put(const State& state) {
 }
 
 void Simulation::uploadParameters() {
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, wire_, substeps_));
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, substeps_));
 }
 
 // What the kernels read of the scene besides the spheres' state.
@@ -236,14 +236,9 @@ void Simulation::makeRoom() {
     uploadParameters();
 }
 
-void Simulation::setWireGrid(const v1::WireGrid& grid) {
-    wire_ = grid;
-    uploadParameters();
-}
-
-std::unique_ptr<compute::ReadBack> Simulation::pack() {
-    pipeline_->runPack();
-    return device_.startReadBack(pipeline_->buffer(Array::Packed), plan().bytesOf(Array::Packed));
+TierSource Simulation::tierSource() {
+    return {.position = &pipeline_->buffer(Array::Position),
+            .slotOf = plan().has(Array::SlotOf) ? &pipeline_->buffer(Array::SlotOf) : nullptr};
 }
 
 void Simulation::readCounters() {

@@ -14,6 +14,7 @@
 #include "sim/plan.h"
 #include "sim/state.h"
 #include "sim/statistics.h"
+#include "sim/tier.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::sim {
@@ -44,9 +45,8 @@ class Simulation {
     // Back to the last state that is known to be good: less than a simulated second old.
     void restore();
 
-    // Positions packed for `setWireGrid`'s grid, on their way to the host; nothing when two are under way already.
-    void setWireGrid(const v1::WireGrid& grid);
-    std::unique_ptr<compute::ReadBack> pack();
+    // Where the positions lie now; until the next command.
+    [[nodiscard]] TierSource tierSource();
 
     struct Counters {
         std::uint32_t pairs = 0;           // listed
@@ -105,7 +105,6 @@ class Simulation {
     scene::Scene initial_;
     scene::Scene scene_;
     Radii radii_;
-    v1::WireGrid wire_;
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
     bool observing_ = true;

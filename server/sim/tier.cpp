@@ -13,7 +13,6 @@ namespace spherule::sim {
 namespace {
 
 constexpr std::size_t word = 4;
-constexpr std::size_t likelySpare = std::size_t{64} << 10U;  // bytes
 
 constexpr std::array kernelFiles =
     std::to_array<std::string_view>({"codec_choose.comp", "codec_sum.comp", "scan_reduce.comp", "scan_top.comp",
@@ -95,7 +94,6 @@ Result<std::unique_ptr<Tier>> Tier::create(TierTools& tools, const Grid& grid) {
         if (!made) return tl::unexpected(made.error());
         *buffer = std::move(*made);
     }
-    tier->likely_ = likelySpare;
     return tier;
 }
 
@@ -112,6 +110,8 @@ void Tier::join(bool hash) {
 }
 
 void Tier::encode(Kind kind, const TierSource& source, bool hash) {
+    copy_.reset();
+    copied_ = 0;
     keyframe_ = kind != Kind::Next;
     if (kind != Kind::Join) ++number_;
     const bool previousOnly = still_;
@@ -158,21 +158,26 @@ std::size_t Tier::bytesOf(std::span<const std::byte> head) const {
     return headBytes() + word * wordAt(head, CODEC_FRAME_HEAD + tools_.chunks_ - 1);
 }
 
-std::unique_ptr<compute::ReadBack> Tier::startReadBack() {
-    const std::size_t bytes = keyframe_ ? frame_->bytes() : std::min(frame_->bytes(), headBytes() + likely_);
-    return tools_.device_.startReadBack(*frame_, bytes);
-}
-
-std::optional<std::vector<std::byte>> Tier::finish(compute::ReadBack& copy) {
-    const auto arrived = copy.poll();
-    if (!arrived) return std::nullopt;
-    const std::size_t bytes = bytesOf(*arrived);
-    const std::size_t whole = std::min(bytes, arrived->size());
-    std::vector<std::byte> frame(arrived->begin(), arrived->begin() + static_cast<std::ptrdiff_t>(whole));
-    frame.resize(bytes);
-    if (whole < bytes) tools_.device_.download(*frame_, whole, std::span(frame).subspan(whole));
-    if ((wordAt(frame, 0) & CODEC_KEYFRAME) == 0) likely_ = bytes + bytes / 4 + likelySpare;
-    return frame;
+// First the head, which says how long the frame is.
+std::optional<std::vector<std::byte>> Tier::poll() {
+    for (;;) {
+        if (!copy_) {
+            copied_ = std::max(copied_, headBytes());
+            copy_ = tools_.device_.startReadBack(*frame_, copied_);
+            if (!copy_) return std::nullopt;
+        }
+        const auto arrived = copy_->poll();
+        if (!arrived) return std::nullopt;
+        const std::size_t bytes = bytesOf(*arrived);
+        if (bytes <= copied_) {
+            std::vector<std::byte> frame(arrived->begin(), arrived->begin() + static_cast<std::ptrdiff_t>(bytes));
+            copy_.reset();
+            copied_ = 0;
+            return frame;
+        }
+        copy_.reset();
+        copied_ = bytes;
+    }
 }
 
 std::vector<std::byte> Tier::download() {

@@ -64,12 +64,10 @@ class Tier {
     void next(const TierSource& source, bool hash = false);   // the delta frame of the positions; after begin()
     void join(bool hash = false);  // a keyframe of the state as it is: of the same number as the frame before
 
-    // Copies the frame to the host: as many bytes as it is likely to have. Nothing when the device copies too much
-    // already; the frame waits.
-    std::unique_ptr<compute::ReadBack> startReadBack();
-    // The frame, from the copy, once that has arrived; waits for the device where it is longer than was thought. To be
-    // called before the next frame is made, or else only the copies of keyframes are sure to be whole.
-    std::optional<std::vector<std::byte>> finish(compute::ReadBack& copy);
+    // The frame, as soon as it has come to the host; nothing while it is on its way, or waits for the device to copy
+    // something else. To be called until it gives the frame, before the next one is made. Only the bytes of the frame
+    // are copied.
+    std::optional<std::vector<std::byte>> poll();
     std::vector<std::byte> download();  // the frame; waits for the device
 
     [[nodiscard]] std::uint32_t number() const { return number_; }  // of the frame
@@ -87,7 +85,8 @@ class Tier {
     std::uint32_t number_ = 0;
     bool keyframe_ = false;   // the frame is one
     bool still_ = false;      // a keyframe was made since the last delta frame
-    std::size_t likely_ = 0;  // bytes of a delta frame
+    std::unique_ptr<compute::ReadBack> copy_;  // under way
+    std::size_t copied_ = 0;                   // bytes of it
 };
 
 }  // namespace spherule::sim

@@ -7,7 +7,6 @@ struct Parameters {
     vec4 gravity;        // xyz in m/s^2; w = 0
     vec4 wallMin;        // domain walls
     vec4 wallMax;
-    vec4 wireOrigin;     // of the packed grid; w = 1 / quantum
     vec4 law;            // of two spheres where all have one material: Law.contact
     vec4 stiffness;      // the same: Law.stiffness
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, crowdOf, 0; from the finest level to the coarsest

@@ -1,0 +1,157 @@
+#include "app/chains.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/morton.h"
+#include "sim/pass.h"
+
+namespace spherule::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// A keyframe costs everybody on the chain the prediction of the next frame, so those who keep losing it wait a little.
+constexpr auto keyframesEvery = 250ms;
+constexpr auto hashEvery = 1s;
+constexpr auto copyWait = 1ms;
+
+constexpr std::size_t idBytes = 3;
+
+frame::SharedMessage orderMessage(std::uint32_t epoch, std::uint32_t number, const std::vector<std::uint32_t>& order) {
+    v1::ServerMessage message;
+    message.mutable_order()->set_epoch(epoch);
+    message.mutable_order()->set_number(number);
+    std::string ids(order.size() * idBytes, '\0');
+    for (std::size_t k = 0; k < order.size(); ++k)
+        for (std::size_t byte = 0; byte < idBytes; ++byte)
+            ids[idBytes * k + byte] = static_cast<char>(order[k] >> (8 * byte) & 0xffU);
+    message.mutable_order()->set_ids(std::move(ids));
+    return frame::share(std::move(message));
+}
+
+std::uint64_t microsecondsNow() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(now).count());
+}
+
+}  // namespace
+
+Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder)
+    : device_(device), publish_(std::move(publish)), announceOrder_(std::move(announceOrder)) {}
+
+Result<void> Chains::serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now) {
+    if (world.epoch != epoch_) chains_.clear();
+    version_ = world.version;
+    for (auto& [channel, chain] : chains_) chain.watched = false;
+    if (world.spheres > 0) {
+        for (const frame::Demand& demand : demands) {
+            auto chain = chainOf(demand.channel, world);
+            if (!chain) return tl::unexpected(chain.error());
+            (*chain)->watched = true;
+            collect(demand.channel, **chain);
+            if (!(*chain)->making) begin(demand, **chain, world, now);
+            collect(demand.channel, **chain);
+        }
+    }
+    std::erase_if(chains_, [](const auto& entry) { return !entry.second.watched; });
+    return {};
+}
+
+// The order holds for an epoch: neighbours of its beginning stay near each other for long.
+Result<void> Chains::prepare(const Scenery& world) {
+    const bool slots = world.source.slotOf != nullptr;
+    if (!tools_ || tools_->spheres() != world.spheres || slots_ != slots) {
+        tools_.reset();
+        auto made = sim::TierTools::create(device_, world.spheres, slots);
+        if (!made) return tl::unexpected(made.error());
+        tools_ = std::move(*made);
+        slots_ = slots;
+    }
+    const std::vector<std::uint32_t> order = sim::mortonOrder(world.positions().position);
+    tools_->setOrder(order);
+    epoch_ = world.epoch;
+    announceOrder_(orderMessage(epoch_, ++order_, order));
+    return {};
+}
+
+Result<Chains::Chain*> Chains::chainOf(const frame::Channel& channel, const Scenery& world) {
+    if (const auto known = chains_.find(channel); known != chains_.end()) return &known->second;
+    if (world.epoch != epoch_)
+        if (auto done = prepare(world); !done) return tl::unexpected(done.error());
+    auto tier = sim::Tier::create(*tools_, {.quantum = frame::quantumOf(channel.tier, world.smallestRadius)});
+    if (!tier) return tl::unexpected(tier.error());
+    Chain& chain = chains_[channel];
+    chain.tier = std::move(*tier);
+    return &chain;
+}
+
+void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
+    using enum frame::Link::Kind;
+    const bool due = now >= chain.next && chain.version != world.version;
+    if (!chain.begun || due) {
+        const auto kind = chain.begun ? Delta : Keyframe;
+        const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
+        chain.next = std::max(chain.next + interval, now - interval / 2);
+        chain.version = world.version;
+        chain.newest = world.head();
+        chain.newest.set_epoch(epoch_);
+        chain.newest.set_order(order_);
+        chain.newest.set_count(world.spheres);
+        chain.newest.set_tier(demand.channel.tier);
+        chain.newest.set_quantum(frame::quantumOf(demand.channel.tier, world.smallestRadius));
+        return start(chain, kind, chain.newest, world.source, now);
+    }
+    if (demand.newcomer || (demand.lost && now - chain.keyframe >= keyframesEvery))
+        start(chain, Join, chain.newest, world.source, now);
+}
+
+void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+                   Clock::time_point now) {
+    const bool hash = now - chain.hash >= hashEvery;
+    if (hash) chain.hash = now;
+    device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
+    switch (kind) {
+        case frame::Link::Kind::Keyframe:
+            chain.tier->begin(source, hash);
+            break;
+        case frame::Link::Kind::Delta:
+            chain.tier->next(source, hash);
+            break;
+        case frame::Link::Kind::Join:
+            chain.tier->join(hash);
+            break;
+    }
+    device_.endTimer();
+    if (kind != frame::Link::Kind::Delta) chain.keyframe = now;
+    chain.begun = true;
+    chain.kind = kind;
+    chain.making = std::move(head);
+}
+
+void Chains::collect(const frame::Channel& channel, Chain& chain) {
+    if (!chain.making) return;
+    const auto bytes = chain.tier->poll();
+    if (!bytes) return;
+    v1::ServerMessage message;
+    v1::Frame& made = *message.mutable_frame();
+    made = std::move(*chain.making);
+    chain.making.reset();
+    made.set_sequence(++sequence_);
+    made.set_stamp_us(microsecondsNow());
+    made.set_spb(bytes->data(), bytes->size());
+    publish_({channel, chain.kind, chain.tier->number(), frame::share(std::move(message))});
+}
+
+std::optional<Chains::Clock::time_point> Chains::due() const {
+    std::optional<Clock::time_point> first;
+    for (const auto& [channel, chain] : chains_) {
+        if (!chain.making && chain.version == version_) continue;
+        const auto when = chain.making ? Clock::now() + copyWait : chain.next;
+        first = std::min(first.value_or(when), when);
+    }
+    return first;
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "compute/device.h"
+#include "frame/channel.h"
+#include "sim/state.h"
+#include "sim/tier.h"
+
+namespace spherule::app {
+
+// The world as the chains see it.
+struct Scenery {
+    sim::TierSource source;
+    std::uint32_t spheres = 0;
+    double smallestRadius = 0;              // m
+    std::uint32_t epoch = 0;                // another one: other spheres
+    std::uint64_t version = 0;              // another one: they may have moved
+    std::function<sim::State()> positions;  // in id order; waits for the device
+    std::function<v1::Frame()> head;        // of a frame of the present state: step, time, status
+};
+
+// The chains of frames that somebody watches, each with an encoder of its own on the device. Nothing is encoded, copied or
+// kept for chains that nobody watches. Used by the simulation thread.
+class Chains {
+  public:
+    using Clock = std::chrono::steady_clock;
+    using Publish = std::function<void(const frame::Link&)>;
+    using Announce = std::function<void(frame::SharedMessage)>;
+
+    Chains(compute::Device& device, Publish publish, Announce announceOrder);
+
+    // Hands on the frames that have arrived, and begins those that are due. Refused where the device has no room.
+    Result<void> serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now);
+
+    // When to call again; nothing when there is nothing to do before the world or the demands change.
+    [[nodiscard]] std::optional<Clock::time_point> due() const;
+    [[nodiscard]] std::uint64_t made() const { return sequence_; }  // frames, ever
+
+  private:
+    // One chain, and the frame of it that is being made.
+    struct Chain {
+        std::unique_ptr<sim::Tier> tier;
+        std::optional<v1::Frame> making;
+        frame::Link::Kind kind = frame::Link::Kind::Keyframe;
+        std::uint64_t version = 0;  // of the world in its newest frame
+        bool begun = false;
+        bool watched = true;
+        v1::Frame newest;              // head of its newest frame
+        Clock::time_point next{};      // frame
+        Clock::time_point keyframe{};  // the last one
+        Clock::time_point hash{};      // the last one
+    };
+
+    Result<void> prepare(const Scenery& world);
+    Result<Chain*> chainOf(const frame::Channel& channel, const Scenery& world);
+    void begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now);
+    void start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+               Clock::time_point now);
+    void collect(const frame::Channel& channel, Chain& chain);
+
+    compute::Device& device_;
+    Publish publish_;
+    Announce announceOrder_;
+    std::unique_ptr<sim::TierTools> tools_;
+    bool slots_ = false;
+    std::uint32_t epoch_ = 0;
+    std::uint32_t order_ = 0;
+    std::uint64_t version_ = 0;  // of the world when it was last served
+    std::map<frame::Channel, Chain> chains_;
+    std::uint64_t sequence_ = 0;
+};
+
+}  // namespace spherule::app

@@ -1,0 +1,89 @@
+#include "net/pace.h"
+
+#include <algorithm>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace spherule::net {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t severalLosses = 3;
+constexpr auto together = 3s;
+constexpr auto leastPatience = 10s;
+constexpr auto mostPatience = 160s;
+constexpr auto tooEarly = 5s;           // for a loss after a step up
+constexpr std::uint32_t watchable = 10;  // frames per second, below which precision goes first
+constexpr double drawn = 0.6;           // of the frames: with fewer pictures, frames are sent in vain
+constexpr int slowFor = 30;             // acks
+
+std::optional<std::uint32_t> below(std::uint32_t rate) {
+    const auto found = std::ranges::lower_bound(frame::rates, rate);
+    if (found == frame::rates.begin()) return std::nullopt;
+    return *(found - 1);
+}
+
+// Nothing where there is no less.
+std::optional<frame::Channel> lessThan(const frame::Channel& channel) {
+    const auto rate = below(channel.rate);
+    if (rate && *rate >= watchable) return frame::Channel{channel.tier, *rate};
+    if (channel.tier != v1::ECO) return frame::Channel{channel.tier == v1::FINE ? v1::NORMAL : v1::ECO, channel.rate};
+    if (rate) return frame::Channel{channel.tier, *rate};
+    return std::nullopt;
+}
+
+}  // namespace
+
+void Pace::want(const frame::Channel& channel, bool fixed, Clock::time_point now) {
+    wanted_ = channel;
+    channel_ = channel;
+    fixed_ = fixed;
+    losses_.clear();
+    left_.clear();
+    quietSince_ = now;
+    patience_ = leastPatience;
+    slowPictures_ = 0;
+}
+
+bool Pace::stepDown(Clock::time_point now) {
+    const auto less = lessThan(channel_);
+    if (fixed_ || !less) return false;
+    left_.push_back(channel_);
+    channel_ = *less;
+    losses_.clear();
+    slowPictures_ = 0;
+    quietSince_ = now;
+    return true;
+}
+
+bool Pace::stepUp(Clock::time_point now) {
+    if (left_.empty() || now - quietSince_ < patience_) return false;
+    channel_ = left_.back();
+    left_.pop_back();
+    quietSince_ = now;
+    return true;
+}
+
+std::optional<std::string> Pace::lost(Clock::time_point now) {
+    // So soon after a step up, it is that step which was too much.
+    if (reduced() && losses_.empty() && now - quietSince_ < tooEarly)
+        patience_ = std::min<std::chrono::seconds>(2 * patience_, mostPatience);
+    losses_.push_back(now);
+    while (now - losses_.front() > together) losses_.pop_front();
+    quietSince_ = now;
+    if (losses_.size() < severalLosses || !stepDown(now)) return std::nullopt;
+    return fmt::format("{} frames in {} s were more than the connection or the client takes", severalLosses,
+                       std::chrono::seconds(together).count());
+}
+
+std::optional<std::string> Pace::acked(double drawRate, Clock::time_point now) {
+    slowPictures_ = drawRate > 0 && drawRate < drawn * channel_.rate ? slowPictures_ + 1 : 0;
+    if (slowPictures_ >= slowFor && below(channel_.rate) && stepDown(now))
+        return fmt::format("only {:.0f} pictures per second are drawn", drawRate);
+    if (stepUp(now)) return "the client has kept up for a while";
+    return std::nullopt;
+}
+
+}  // namespace spherule::net

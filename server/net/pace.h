@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "frame/channel.h"
+
+namespace spherule::net {
+
+// Which chain a client is sent: the one it wants, or less while it does not keep up. Steps down after several losses in
+// a short time, first in rate, then in precision, and up again after a quiet time, which gets longer each time that this
+// was too early. One thread.
+class Pace {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    explicit Pace(Clock::time_point now) : quietSince_(now) {}
+
+    // What the client wants; `fixed`: and nothing less.
+    void want(const frame::Channel& channel, bool fixed, Clock::time_point now);
+    [[nodiscard]] const frame::Channel& channel() const { return channel_; }
+    [[nodiscard]] bool reduced() const { return channel_ != wanted_; }
+
+    // The reason for a change of channel(), where there is one.
+    std::optional<std::string> lost(Clock::time_point now);  // the client missed a frame
+    std::optional<std::string> acked(double drawRate, Clock::time_point now);
+
+  private:
+    bool stepDown(Clock::time_point now);
+    bool stepUp(Clock::time_point now);
+
+    frame::Channel wanted_;
+    frame::Channel channel_;
+    bool fixed_ = false;
+    std::deque<Clock::time_point> losses_;
+    std::deque<frame::Channel> left_;  // on the way down, for the way up
+    Clock::time_point quietSince_;
+    std::chrono::seconds patience_{10};
+    int slowPictures_ = 0;  // acks in a row
+};
+
+}  // namespace spherule::net
