@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include <string>
+
+#include "compute/device.h"
+
+namespace spherule::bench {
+
+// Median wall times of a frame in ms, of spheres that all move, each in a way of its own.
+struct CodecSpeed {
+    double encode = 0;    // all passes, positions gathered through order and slots
+    double keyframe = 0;  // of the state
+    double hash = 0;      // on top of either
+    double decode = 0;    // here, in one thread
+    double bytes = 0;     // per sphere
+};
+
+// Writes the frames into the folder `keep` unless that is empty; throws what goes wrong as std::runtime_error.
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, const std::string& keep);
+
+}  // namespace spherule::bench
