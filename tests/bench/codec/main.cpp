@@ -62,13 +62,14 @@ void printTable(const std::vector<bench::CodecSize>& sizes, double ratio) {
 
 void measure(const Options& options, compute::Device& device) {
     fmt::print("device: {}\n", device.info().renderer);
-    if (options.speed > 0) {
-        const bench::CodecSpeed speed = bench::codecSpeed(device, options.speed, options.frames);
+    for (const bool shuffled : {true, false}) {
+        if (options.speed == 0) break;
+        const bench::CodecSpeed speed = bench::codecSpeed(device, options.speed, shuffled, options.frames);
         fmt::print(
-            "{} spheres, {:.2f} bytes each: encode {:.1f} ms ({:.1f} million/s), keyframe {:.1f} ms, hash {:.1f} ms, "
-            "decode {:.1f} ms\n",
-            options.speed, speed.bytes, speed.encode, options.speed / speed.encode / 1000, speed.keyframe, speed.hash,
-            speed.decode);
+            "{} spheres, ids {}, {:.2f} bytes each: encode {:.1f} ms ({:.1f} million/s), keyframe {:.1f} ms, "
+            "hash {:.1f} ms, decode {:.1f} ms\n",
+            options.speed, shuffled ? "shuffled" : "of a lattice", speed.bytes, speed.encode,
+            options.speed / speed.encode / 1000, speed.keyframe, speed.hash, speed.decode);
     }
     if (options.spheres == 0 && options.trajectories.empty()) return;
     const auto trajectories =

@@ -48,19 +48,27 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// A cube of spheres whose slots are in the order of a grid's cells, row by row, and whose ids are shuffled.
+// A cube of spheres whose slots are in the order of a grid's cells, slice by slice. Their ids are those of a lattice,
+// row by row, or shuffled.
 struct World {
-    explicit World(std::uint32_t spheres) : bySlot(spheres), velocity(spheres), slotOf(spheres) {
+    World(std::uint32_t spheres, bool shuffled) : bySlot(spheres), velocity(spheres), slotOf(spheres) {
         const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(spheres)));
         std::uniform_real_distribution<float> jitter(-0.3F * spacing, 0.3F * spacing);
         std::uniform_real_distribution<float> speed(-0.01F, 0.01F);  // m per frame
-        for (std::uint32_t k = 0; k < spheres; ++k) {
-            bySlot[k] = glm::vec4(k % side, k / side % side, k / (side * side), 0) * spacing;
-            bySlot[k] += glm::vec4(jitter(random), jitter(random), jitter(random), 0.016F);
-            velocity[k] = glm::vec4(speed(random), speed(random), speed(random), 0);
-            slotOf[k] = k;
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> cells(spheres);
+        for (std::uint32_t id = 0; id < spheres; ++id) {
+            const std::uint64_t x = id % side, y = id / side % side, z = id / (side * side);
+            cells[id] = {(y * side + z) * side + x, id};
         }
-        std::ranges::shuffle(slotOf, random);
+        std::ranges::sort(cells);
+        for (std::uint32_t slot = 0; slot < spheres; ++slot) {
+            const std::uint32_t id = cells[slot].second;
+            slotOf[id] = slot;
+            bySlot[slot] = glm::vec4(id % side, id / side % side, id / (side * side), 0) * spacing;
+            bySlot[slot] += glm::vec4(jitter(random), jitter(random), jitter(random), 0.016F);
+            velocity[slot] = glm::vec4(speed(random), speed(random), speed(random), 0);
+        }
+        if (shuffled) std::ranges::shuffle(slotOf, random);
     }
 
     // Everything falls, and is kicked by about as much as spheres of a splash are.
@@ -84,8 +92,8 @@ struct World {
 
 }  // namespace
 
-CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, const std::string& keep) {
-    World world(spheres);
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuffled, const std::string& keep) {
+    World world(spheres, shuffled);
     const auto tools = valueOf(sim::TierTools::create(device, spheres, true));
     const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));

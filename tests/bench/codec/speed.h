@@ -17,7 +17,8 @@ struct CodecSpeed {
     double bytes = 0;     // per sphere
 };
 
-// Writes the frames into the folder `keep` unless that is empty; throws what goes wrong as std::runtime_error.
-CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, const std::string& keep);
+// Ids are those of a lattice, or `shuffled`, which costs the gather more than any mixing can. Writes the frames into
+// the folder `keep` unless that is empty; throws what goes wrong as std::runtime_error.
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuffled, const std::string& keep);
 
 }  // namespace spherule::bench
