@@ -10,6 +10,7 @@ namespace spherule::bench {
 
 // Median wall times of a frame in ms, of spheres that all move, each in a way of its own.
 struct CodecSpeed {
+    double fastest = 0;   // of the encoder
     double encode = 0;    // all passes, positions gathered through order and slots
     double keyframe = 0;  // of the state
     double hash = 0;      // on top of either
