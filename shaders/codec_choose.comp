@@ -72,30 +72,29 @@ uint residual(int k) {
     return change[k] - (uint(int(step[k]) >> int(stepShift)) & stepMask);
 }
 
-// The spread of each run, and as base the mean residual of each axis.
+// The spread of each run, and as base the mean residual of each axis. The lanes of a run are eight apart, so that halves can
+// be folded onto each other.
 void takeSpread() {
     for (int axis = 0; axis < 3; ++axis) {
         int first = 64 * axis;
         uint from = residual(first);
-        uint bits[8];
-        uint sums[8];
-        for (int run = 0; run < 8; ++run) {
-            bits[run] = 0u;
-            sums[run] = 0u;
+        uint bits[32];
+        uint sums[32];
+        for (int k = 0; k < 32; ++k) {
+            uint a = residual(first + k);
+            uint b = residual(first + k + 32);
+            bits[k] = zigzag(a) | zigzag(b);
+            sums[k] = (a - from) + (b - from);
         }
-        for (int row = first; row < first + 64; row += 8)
-            for (int run = 0; run < 8; ++run) {
-                uint r = residual(row + run);
-                bits[run] = bits[run] | zigzag(r);
-                sums[run] = sums[run] + (r - from);
-            }
+        for (int k = 0; k < 16; ++k) bits[k] = bits[k] | bits[k + 16];
+        for (int k = 0; k < 16; ++k) sums[k] = sums[k] + sums[k + 16];
         uint sum = 32u;
         uint all = 0u;
-        for (int run = 0; run < 8; ++run) {
-            spread[8 * axis + run] = bits[run];
-            all = all | bits[run];
-            sum += sums[run];
+        for (int k = 0; k < 16; ++k) {
+            all = all | bits[k];
+            sum += sums[k];
         }
+        for (int run = 0; run < 8; ++run) spread[8 * axis + run] = bits[run] | bits[run + 8];
         most[axis] = all;
         base[axis] = from + uint(int(sum) >> 6);
     }
@@ -105,15 +104,13 @@ void takeSpreadAround() {
     for (int axis = 0; axis < 3; ++axis) {
         int first = 64 * axis;
         uint middle = base[axis];
-        uint bits[8];
-        for (int run = 0; run < 8; ++run) bits[run] = 0u;
-        for (int row = first; row < first + 64; row += 8)
-            for (int run = 0; run < 8; ++run) bits[run] = bits[run] | zigzag(residual(row + run) - middle);
+        uint bits[32];
+        for (int k = 0; k < 32; ++k)
+            bits[k] = zigzag(residual(first + k) - middle) | zigzag(residual(first + k + 32) - middle);
+        for (int k = 0; k < 16; ++k) bits[k] = bits[k] | bits[k + 16];
         uint all = 0u;
-        for (int run = 0; run < 8; ++run) {
-            spreadAround[8 * axis + run] = bits[run];
-            all = all | bits[run];
-        }
+        for (int k = 0; k < 16; ++k) all = all | bits[k];
+        for (int run = 0; run < 8; ++run) spreadAround[8 * axis + run] = bits[run] | bits[run + 8];
         mostAround[axis] = all;
     }
 }

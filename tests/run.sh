@@ -79,9 +79,9 @@ run_tidy() {
 # Mesa's renderer brings findings of its own: these tests compute on the CPU device.
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
-        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test kernels_test pool_test physics_tests net_tests &&
+        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test codec_test kernels_test pool_test physics_tests net_tests &&
         ctest --test-dir "build/$1" -j "$jobs" --output-on-failure --no-tests=error \
-            -R '^(scene_test|frame_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
+            -R '^(scene_test|frame_test|codec_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
 }
 
 # Finds go to build/fuzz/finds-TARGET.
@@ -95,8 +95,8 @@ fuzzed() {
 if [[ -n $fuzz ]]; then
     needed packages ./deploy/install_packages.sh build run test fuzz
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
-    needed build cmake --build --preset fuzz -j "$jobs" --target fuzz_scene fuzz_message
-    for target in scene message; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
+    needed build cmake --build --preset fuzz -j "$jobs" --target fuzz_scene fuzz_message fuzz_codec
+    for target in scene message codec; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
     summary
     exit
 fi

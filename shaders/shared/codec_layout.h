@@ -8,7 +8,7 @@
 #define CODEC_CHUNK 8u          // groups
 #define CODEC_FRAME_HEAD 4u     // words
 #define CODEC_MOST_WORDS 197u   // of a block
-#define CODEC_MASK_WIDTHS 15u   // bits of x, y and z together above which a mask is not tried
+#define CODEC_MASK_WIDTHS 12u   // bits of x, y and z together above which a mask is not tried
 
 #define CODEC_MAGIC 0x00015053u
 #define CODEC_KEYFRAME 0x01000000u  // flags of a frame

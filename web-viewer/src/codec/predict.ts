@@ -13,33 +13,41 @@ export function predict(
   at: number,
 ): void {
   for (let axis = 0; axis < 3; axis++) {
-    const from = 64 * axis;
     const middle = base[axis] as number;
+    let from = 64 * axis;
+    const end = from + 64;
     let to = at + axis;
+    // Each sum is cut to 32 bits at once, so that the engine has no need of wider numbers.
     switch (predictor) {
       case linear:
-        for (let k = from; k < from + 64; k++, to += 3) {
-          const v = values[k] as number;
-          before[to] = 2 * (newest[to] as number) - (before[to] as number) + ((v >>> 1) ^ -(v & 1)) + middle;
+        for (; from < end; from++, to += 3) {
+          const v = values[from] as number;
+          const q = newest[to] as number;
+          const step = (q - (before[to] as number)) | 0;
+          const r = (((v >>> 1) ^ -(v & 1)) + middle) | 0;
+          before[to] = (((q + step) | 0) + r) | 0;
         }
         break;
       case half:
-        for (let k = from; k < from + 64; k++, to += 3) {
-          const v = values[k] as number;
+        for (; from < end; from++, to += 3) {
+          const v = values[from] as number;
           const q = newest[to] as number;
-          before[to] = q + ((q - (before[to] as number)) >> 1) + ((v >>> 1) ^ -(v & 1)) + middle;
+          const step = ((q - (before[to] as number)) | 0) >> 1;
+          const r = (((v >>> 1) ^ -(v & 1)) + middle) | 0;
+          before[to] = (((q + step) | 0) + r) | 0;
         }
         break;
       case none:
-        for (let k = from; k < from + 64; k++, to += 3) {
-          const v = values[k] as number;
-          before[to] = ((v >>> 1) ^ -(v & 1)) + middle;
+        for (; from < end; from++, to += 3) {
+          const v = values[from] as number;
+          before[to] = (((v >>> 1) ^ -(v & 1)) + middle) | 0;
         }
         break;
       default:
-        for (let k = from; k < from + 64; k++, to += 3) {
-          const v = values[k] as number;
-          before[to] = (newest[to] as number) + ((v >>> 1) ^ -(v & 1)) + middle;
+        for (; from < end; from++, to += 3) {
+          const v = values[from] as number;
+          const r = (((v >>> 1) ^ -(v & 1)) + middle) | 0;
+          before[to] = ((newest[to] as number) + r) | 0;
         }
     }
   }

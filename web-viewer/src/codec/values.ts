@@ -45,6 +45,18 @@ export function readRun(words: Uint32Array, bit: number, width: number, values: 
     }
     return;
   }
+  if (width <= 16) {
+    // Two in a look.
+    const mask = (1 << width) - 1;
+    for (let k = 0; k < 8; k += 2, bit += 2 * width) {
+      const at = bit >>> 5;
+      const shift = bit & 31;
+      const both = ((words[at] as number) >>> shift) | (((words[at + 1] as number) << 1) << (31 - shift));
+      values[to + k] = both & mask;
+      values[to + k + 1] = (both >>> width) & mask;
+    }
+    return;
+  }
   const mask = width === 32 ? -1 : (1 << width) - 1;
   for (let k = 0; k < 8; k++, bit += width) {
     const at = bit >>> 5;

@@ -1,0 +1,136 @@
+#include "speed.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "frame/codec.h"
+#include "sim/morton.h"
+#include "sim/tier.h"
+
+namespace spherule::bench {
+
+namespace {
+
+constexpr double quantum = 0.00064;  // m, as at r/50 of 16 mm
+constexpr float spacing = 0.04F;     // m
+constexpr int rounds = 15;
+
+template <class T>
+T valueOf(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().text());
+    return std::move(*result);
+}
+
+template <class Work>
+double milliseconds(compute::Device& device, Work&& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    device.finish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void write(const std::string& folder, int number, std::span<const std::byte> frame) {
+    if (folder.empty()) return;
+    std::ofstream file(fmt::format("{}/frame-{}.spb", folder, number), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(frame.data()), static_cast<std::streamsize>(frame.size()));
+    if (!file) throw std::runtime_error("cannot write to " + folder);
+}
+
+double median(std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+    return values[values.size() / 2];
+}
+
+// A cube of spheres whose slots are in the order of a grid's cells, slice by slice. Their ids are those of a lattice,
+// row by row, or shuffled.
+struct World {
+    World(std::uint32_t spheres, bool shuffled) : bySlot(spheres), velocity(spheres), slotOf(spheres) {
+        const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(spheres)));
+        std::uniform_real_distribution<float> jitter(-0.3F * spacing, 0.3F * spacing);
+        std::uniform_real_distribution<float> speed(-0.01F, 0.01F);  // m per frame
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> cells(spheres);
+        for (std::uint32_t id = 0; id < spheres; ++id) {
+            const std::uint64_t x = id % side, y = id / side % side, z = id / (side * side);
+            cells[id] = {(y * side + z) * side + x, id};
+        }
+        std::ranges::sort(cells);
+        for (std::uint32_t slot = 0; slot < spheres; ++slot) {
+            const std::uint32_t id = cells[slot].second;
+            slotOf[id] = slot;
+            bySlot[slot] = glm::vec4(id % side, id / side % side, id / (side * side), 0) * spacing;
+            bySlot[slot] += glm::vec4(jitter(random), jitter(random), jitter(random), 0.016F);
+            velocity[slot] = glm::vec4(speed(random), speed(random), speed(random), 0);
+        }
+        if (shuffled) std::ranges::shuffle(slotOf, random);
+    }
+
+    // Everything falls, and is kicked by about as much as spheres of a splash are.
+    void move() {
+        std::normal_distribution<float> kick(0, 0.0025F);
+        std::vector<float> kicks(4099);
+        for (float& one : kicks) one = kick(random);
+        std::size_t next = random() % kicks.size();
+        const auto draw = [&] { return kicks[next = (next + 1) % kicks.size()]; };
+        for (std::size_t k = 0; k < bySlot.size(); ++k) {
+            velocity[k] += glm::vec4(draw(), draw(), draw() - 0.0109F, 0);
+            if (velocity[k].z < -0.15F) velocity[k].z += 0.3F;
+            bySlot[k] += velocity[k];
+        }
+    }
+
+    std::mt19937 random{1};
+    std::vector<glm::vec4> bySlot, velocity;
+    std::vector<std::uint32_t> slotOf;
+};
+
+}  // namespace
+
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuffled, const std::string& keep) {
+    World world(spheres, shuffled);
+    const auto tools = valueOf(sim::TierTools::create(device, spheres, true));
+    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
+    const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
+    const auto slotOf = valueOf(device.createBuffer("slotOf", spheres * sizeof(std::uint32_t)));
+    device.upload(*slotOf, 0, std::as_bytes(std::span(world.slotOf)));
+    std::vector<glm::vec4> byId(spheres);
+    for (std::uint32_t id = 0; id < spheres; ++id) byId[id] = world.bySlot[world.slotOf[id]];
+    tools->setOrder(sim::mortonOrder(byId));
+    const sim::TierSource source{.position = position.get(), .slotOf = slotOf.get()};
+    const auto put = [&] { device.upload(*position, 0, std::as_bytes(std::span(world.bySlot))); };
+
+    put();
+    tier->begin(source);
+    frame::codec::Decoder decoder(spheres);
+    const auto keyframeMade = tier->download();
+    (void)valueOf(decoder.apply(keyframeMade));
+    write(keep, 0, keyframeMade);
+    std::vector<double> encode, keyframe, hash, decode;
+    CodecSpeed speed;
+    for (int round = 0; round < rounds; ++round) {
+        world.move();
+        put();
+        const bool hashed = round % 3 == 2;
+        (hashed ? hash : encode).push_back(milliseconds(device, [&] { tier->next(source, hashed); }));
+        const auto frame = tier->download();
+        write(keep, round + 1, frame);
+        const double took = milliseconds(device, [&] { (void)valueOf(decoder.apply(frame)); });
+        if (!hashed) decode.push_back(took);
+        speed.bytes = static_cast<double>(frame.size()) / spheres;
+    }
+    for (int round = 0; round < 5; ++round) keyframe.push_back(milliseconds(device, [&] { tier->join(); }));
+    speed.fastest = std::ranges::min(encode);
+    speed.encode = median(encode);
+    speed.keyframe = median(keyframe);
+    speed.hash = median(hash) - speed.encode;
+    speed.decode = median(decode);
+    return speed;
+}
+
+}  // namespace spherule::bench
