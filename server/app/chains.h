@@ -26,8 +26,8 @@ struct Scenery {
     std::function<v1::Frame()> head;        // of a frame of the present state: step, time, status
 };
 
-// The chains of frames that somebody watches, each with an encoder of its own on the device. Nothing is encoded, copied or
-// kept for chains that nobody watches. Used by the simulation thread.
+// The chains of frames that somebody watches, each with an encoder of its own on the device. Nothing is encoded, copied
+// or kept for chains that nobody watches. Used by the simulation thread.
 class Chains {
   public:
     using Clock = std::chrono::steady_clock;

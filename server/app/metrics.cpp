@@ -57,7 +57,8 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     to.counter("spherule_commands_refused_total", "Commands refused before they reached the simulation",
                count(net.commandsRefused));
     to.counter("spherule_frames_sent_total", "State frames sent, over all sessions", count(net.framesSent));
-    to.counter("spherule_chains_lost_total", "Times that a viewer missed a frame and needed a keyframe", count(net.chainsLost));
+    to.counter("spherule_chains_lost_total", "Times that a viewer missed a frame and needed a keyframe",
+               count(net.chainsLost));
     to.counter("spherule_bytes_sent_total", "Payload bytes sent", count(net.bytesSent));
     for (std::size_t cause = 0; cause < net.closed.size(); ++cause)
         to.counter("spherule_sessions_closed_total", "Sessions ended, by cause", count(net.closed[cause]),

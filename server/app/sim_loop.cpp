@@ -23,7 +23,10 @@ bool changesWorld(const v1::Command& command) {
 }  // namespace
 
 SimLoop::SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, quality::Table table, Outlets outlets)
-    : world_(world), requests_(requests), live_(live), outlets_(std::move(outlets)),
+    : world_(world),
+      requests_(requests),
+      live_(live),
+      outlets_(std::move(outlets)),
       chains_(
           world.device(), [this](const frame::Link& link) { publish(link); },
           [this](frame::SharedMessage order) { outlets_.order(std::move(order)); }),

@@ -69,7 +69,7 @@ class SimLoop {
     Tuner tuner_;
     Observer observer_;
     std::optional<v1::Diagnostics> seen_;  // of the last report while somebody watched
-    std::uint64_t version_ = 0;  // of the world, as far as viewers can see
+    std::uint64_t version_ = 0;            // of the world, as far as viewers can see
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
     bool watched_ = false;

@@ -35,8 +35,8 @@ struct Counters {
     Count commands = 0;
     Count commandsRefused = 0;  // by the network: queue full or unknown
     Count framesSent = 0;
-    Count chainsLost = 0;       // by sessions that were still busy with the frame before, or could not decode one
-    Count bytesSent = 0;       // payload of messages
+    Count chainsLost = 0;  // by sessions that were still busy with the frame before, or could not decode one
+    Count bytesSent = 0;   // payload of messages
     std::array<Count, closeCauseNames.size()> closed{};  // by CloseCause
 
     Count& closedBy(CloseCause cause) { return closed[static_cast<std::size_t>(cause)]; }

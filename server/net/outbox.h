@@ -10,8 +10,8 @@
 namespace spherule::net {
 
 // What one session still has to send, in two lanes: a reliable one that is bounded, and one place for a frame. A frame
-// follows the one before of its chain, or is a keyframe; it goes out only after the scene facts of its epoch and the order
-// that its spheres are in. One thread.
+// follows the one before of its chain, or is a keyframe; it goes out only after the scene facts of its epoch and the
+// order that its spheres are in. One thread.
 class Outbox {
   public:
     // `capacity` messages in the reliable lane.
@@ -20,8 +20,8 @@ class Outbox {
     // The chain to follow, from its next keyframe on; rate 0: none.
     void follow(const frame::Channel& channel);
 
-    // False when the lane is full. Scene facts, orders, settings, dials, diagnostics and what is said of the stream take
-    // the place of older ones that wait.
+    // False when the lane is full. Scene facts, orders, settings, dials, diagnostics and what is said of the stream
+    // take the place of older ones that wait.
     [[nodiscard]] bool push(frame::SharedMessage message);
     // False when the chain is lost by it: the frame before could not be sent, or has never come.
     bool offer(const frame::Link& link);

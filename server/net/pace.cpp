@@ -14,10 +14,10 @@ constexpr std::size_t severalLosses = 3;
 constexpr auto together = 3s;
 constexpr auto leastPatience = 10s;
 constexpr auto mostPatience = 160s;
-constexpr auto tooEarly = 5s;           // for a loss after a step up
+constexpr auto tooEarly = 5s;            // for a loss after a step up
 constexpr std::uint32_t watchable = 10;  // frames per second, below which precision goes first
-constexpr double drawn = 0.6;           // of the frames: with fewer pictures, frames are sent in vain
-constexpr int slowFor = 30;             // acks
+constexpr double drawn = 0.6;            // of the frames: with fewer pictures, frames are sent in vain
+constexpr int slowFor = 30;              // acks
 
 std::optional<std::uint32_t> below(std::uint32_t rate) {
     const auto found = std::ranges::lower_bound(frame::rates, rate);
@@ -63,13 +63,15 @@ bool Pace::stepUp(Clock::time_point now) {
     channel_ = left_.back();
     left_.pop_back();
     quietSince_ = now;
+    steppedUp_ = now;
     return true;
 }
 
 std::optional<std::string> Pace::lost(Clock::time_point now) {
-    // So soon after a step up, it is that step which was too much.
-    if (reduced() && losses_.empty() && now - quietSince_ < tooEarly)
+    if (now - steppedUp_ < tooEarly) {
         patience_ = std::min<std::chrono::seconds>(2 * patience_, mostPatience);
+        steppedUp_ = {};
+    }
     losses_.push_back(now);
     while (now - losses_.front() > together) losses_.pop_front();
     quietSince_ = now;

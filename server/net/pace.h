@@ -10,8 +10,8 @@
 namespace spherule::net {
 
 // Which chain a client is sent: the one it wants, or less while it does not keep up. Steps down after several losses in
-// a short time, first in rate, then in precision, and up again after a quiet time, which gets longer each time that this
-// was too early. One thread.
+// a short time, first in rate, then in precision, and up again after a quiet time, which gets longer each time that
+// this was too early. One thread.
 class Pace {
   public:
     using Clock = std::chrono::steady_clock;
@@ -37,6 +37,7 @@ class Pace {
     std::deque<Clock::time_point> losses_;
     std::deque<frame::Channel> left_;  // on the way down, for the way up
     Clock::time_point quietSince_;
+    Clock::time_point steppedUp_{};  // a loss soon after it says that it was too early
     std::chrono::seconds patience_{10};
     int slowPictures_ = 0;  // acks in a row
 };

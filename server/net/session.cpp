@@ -110,7 +110,8 @@ void Session::onHello(const v1::Hello& hello) {
 }
 
 void Session::onView(const v1::View& view) {
-    const v1::Tier tier = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED ? view.tier() : v1::NORMAL;
+    const v1::Tier tier =
+        v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED ? view.tier() : v1::NORMAL;
     const std::uint32_t rate = frame::rateFor(view.has_rate() ? view.rate() : defaultRate);
     pace_.want({tier, rate}, view.fixed(), Pace::Clock::now());
     follow("");

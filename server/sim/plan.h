@@ -49,7 +49,7 @@ enum class Array : std::uint8_t {
     SphereParts,  // partial statistics
     Overlaps,
     Impacts,  // per cell group, until they are taken: how many were observed and sums of their speeds
-    Count,  // how many arrays there are; not one itself
+    Count,    // how many arrays there are; not one itself
 };
 
 // Every so many steps, one is observed: what only looks at how the solver works is launched too. By the number of the
@@ -85,8 +85,8 @@ struct Plan {
     std::uint32_t pairCapacity = 0;
     std::uint32_t wallContacts = 0;  // that each sphere remembers
     std::vector<ArraySpec> arrays;
-    std::vector<LaunchSpec> substep;     // in order
-    std::vector<LaunchSpec> statistics;  // on demand
+    std::vector<LaunchSpec> substep;          // in order
+    std::vector<LaunchSpec> statistics;       // on demand
     std::vector<std::uint32_t> fullLaunches;  // invocations per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;

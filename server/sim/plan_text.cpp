@@ -77,10 +77,10 @@ std::string whenOf(const Row& row) {
 
 std::string_view nameOf(Array array) {
     static constexpr std::array<std::string_view, arrayCount> names = {
-        "position",   "velocity",     "before",       "label",   "laws",   "obstacles",   "cell-start",
-        "block-sums", "super-sums",   "place",        "order",   "saved",  "saved-label", "anchor",
-        "resting",    "woken",        "stirred",      "slot-of", "pairs",  "history",     "kept-start",
-        "kept",       "pressed",      "wall-history", "work",    "span",   "counters",    "full-launches",
+        "position",   "velocity",     "before",       "label",   "laws",  "obstacles",   "cell-start",
+        "block-sums", "super-sums",   "place",        "order",   "saved", "saved-label", "anchor",
+        "resting",    "woken",        "stirred",      "slot-of", "pairs", "history",     "kept-start",
+        "kept",       "pressed",      "wall-history", "work",    "span",  "counters",    "full-launches",
         "launches",   "sphere-parts", "overlaps",     "impacts",
     };
     return names.at(static_cast<std::size_t>(array));

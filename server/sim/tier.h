@@ -83,8 +83,8 @@ class Tier {
     Grid grid_;
     std::unique_ptr<compute::Buffer> newest_, before_, frame_;
     std::uint32_t number_ = 0;
-    bool keyframe_ = false;   // the frame is one
-    bool still_ = false;      // a keyframe was made since the last delta frame
+    bool keyframe_ = false;                    // the frame is one
+    bool still_ = false;                       // a keyframe was made since the last delta frame
     std::unique_ptr<compute::ReadBack> copy_;  // under way
     std::size_t copied_ = 0;                   // bytes of it
 };

@@ -102,7 +102,7 @@ TEST(BadClients, ThatSendGarbageInsteadOfHttpAreAnsweredAndForgotten) {
         socket.send(garbage + "\r\n\r\n");
         EXPECT_EQ(socket.readAll().substr(0, 12), "HTTP/1.1 400");
     }
-    owner.server().publish(stateOf(1, 1, 64));
+    owner.publish(64);
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
@@ -122,7 +122,7 @@ TEST(BadClients, ThatSendGarbageInsteadOfFramesAreClosedAndForgotten) {
         EXPECT_EQ(answer.substr(2, 2), "\x03\xea") << "a close frame with 1002";
     }
     EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::Protocol) == 50; }));
-    owner.server().publish(stateOf(1, 1, 64));
+    owner.publish(64);
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 

@@ -5,49 +5,66 @@
 namespace spherule::net {
 namespace {
 
-using Clock = Outbox::Clock;
-const Clock::time_point start = Clock::now();
+using enum frame::Link::Kind;
 
 void describe(Outbox& outbox, std::uint32_t epoch) {
     ASSERT_TRUE(outbox.push(factsOf(epoch, 64)));
-    ASSERT_TRUE(outbox.next(start)->content().has_scene());
+    ASSERT_TRUE(outbox.next(true)->content().has_scene());
+    ASSERT_TRUE(outbox.push(orderOf(epoch)));
+    ASSERT_TRUE(outbox.next(true)->content().has_order());
+}
+
+// That follows a chain, and knows its scene.
+Outbox following(std::size_t capacity = 4) {
+    Outbox outbox(capacity);
+    outbox.follow({v1::NORMAL, 60});
+    describe(outbox, 1);
+    return outbox;
+}
+
+frame::Link link(frame::Link::Kind kind, std::uint32_t number, std::uint32_t epoch = 1) {
+    return linkOf(kind, number, epoch, 64);
+}
+
+std::uint64_t nextFrame(Outbox& outbox) {
+    const auto message = outbox.next(true);
+    return message ? message->content().frame().sequence() : 0;
 }
 
 TEST(Outbox, SendsTheReliableLaneFirstAndInOrder) {
-    Outbox outbox(4, 60);
-    describe(outbox, 1);
-    const auto state = stateOf(1, 1, 64);
+    Outbox outbox = following();
+    const auto state = link(Keyframe, 1);
     const auto first = eventOf("first");
     const auto second = eventOf("second");
-    outbox.offer(state, start);
+    outbox.offer(state);
     ASSERT_TRUE(outbox.push(first));
     ASSERT_TRUE(outbox.push(second));
-    EXPECT_EQ(outbox.next(start), first);
-    EXPECT_EQ(outbox.next(start), second);
-    EXPECT_EQ(outbox.next(start), state);
-    EXPECT_EQ(outbox.next(start), nullptr);
+    EXPECT_EQ(outbox.next(true), first);
+    EXPECT_EQ(outbox.next(true), second);
+    EXPECT_EQ(outbox.next(true), state.message);
+    EXPECT_EQ(outbox.next(true), nullptr);
 }
 
 TEST(Outbox, IsFullAtItsCapacity) {
-    Outbox outbox(2, 60);
+    Outbox outbox(2);
     EXPECT_TRUE(outbox.push(eventOf("1")));
     EXPECT_TRUE(outbox.push(eventOf("2")));
     EXPECT_FALSE(outbox.push(eventOf("3")));
 }
 
 TEST(Outbox, KeepsOnlyTheNewestFactsThatWait) {
-    Outbox outbox(3, 60);
+    Outbox outbox(3);
     const auto event = eventOf("between");
     EXPECT_TRUE(outbox.push(factsOf(1, 64)));
     EXPECT_TRUE(outbox.push(event));
     for (std::uint32_t epoch = 2; epoch < 100; ++epoch) EXPECT_TRUE(outbox.push(factsOf(epoch, 64)));
-    EXPECT_EQ(outbox.next(start), event);
-    EXPECT_EQ(outbox.next(start)->content().scene().epoch(), 99U);
-    EXPECT_EQ(outbox.next(start), nullptr);
+    EXPECT_EQ(outbox.next(true), event);
+    EXPECT_EQ(outbox.next(true)->content().scene().epoch(), 99U);
+    EXPECT_EQ(outbox.next(true), nullptr);
 }
 
 TEST(Outbox, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
-    Outbox outbox(2, 60);
+    Outbox outbox(2);
     for (std::uint32_t substeps = 1; substeps < 100; ++substeps) {
         v1::ServerMessage dial;
         dial.mutable_dial()->add_positions()->set_substeps(substeps);
@@ -56,47 +73,87 @@ TEST(Outbox, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
         EXPECT_TRUE(outbox.push(frame::share(std::move(dial))));
         EXPECT_TRUE(outbox.push(frame::share(std::move(diagnostics))));
     }
-    EXPECT_EQ(outbox.next(start)->content().dial().positions(0).substeps(), 99U);
-    EXPECT_EQ(outbox.next(start)->content().diagnostics().substeps(), 99U);
-    EXPECT_EQ(outbox.next(start), nullptr);
+    EXPECT_EQ(outbox.next(true)->content().dial().positions(0).substeps(), 99U);
+    EXPECT_EQ(outbox.next(true)->content().diagnostics().substeps(), 99U);
+    EXPECT_EQ(outbox.next(true), nullptr);
 }
 
-TEST(Outbox, KeepsTheNewestStateAndTellsOfTheOneThatItReplaced) {
-    Outbox outbox(2, 60);
-    describe(outbox, 1);
-    EXPECT_FALSE(outbox.offer(stateOf(1, 1, 64), start));
-    EXPECT_TRUE(outbox.offer(stateOf(2, 1, 64), start));
-    EXPECT_EQ(outbox.next(start)->content().frame().sequence(), 2U);
+TEST(Outbox, FollowsAChainFromItsKeyframeOn) {
+    Outbox outbox = following();
+    EXPECT_TRUE(outbox.wantsKeyframe());
+    outbox.offer(link(Delta, 6));
+    EXPECT_EQ(nextFrame(outbox), 0U) << "the one before is missing";
+    EXPECT_TRUE(outbox.offer(link(Join, 6)));
+    EXPECT_FALSE(outbox.wantsKeyframe());
+    EXPECT_EQ(nextFrame(outbox), 6U);
+    EXPECT_TRUE(outbox.offer(link(Join, 6))) << "for somebody else";
+    EXPECT_EQ(nextFrame(outbox), 0U);
+    EXPECT_TRUE(outbox.offer(link(Delta, 7)));
+    EXPECT_EQ(nextFrame(outbox), 7U);
+    EXPECT_TRUE(outbox.offer(link(Keyframe, 8))) << "the chain begins anew";
+    EXPECT_EQ(nextFrame(outbox), 8U);
 }
 
-TEST(Outbox, HoldsAStateBackUntilItsRateAllowsIt) {
-    Outbox outbox(2, 10);
-    describe(outbox, 1);
-    outbox.offer(stateOf(1, 1, 64), start);
-    EXPECT_NE(outbox.next(start), nullptr);
-    EXPECT_FALSE(outbox.offer(stateOf(2, 1, 64), start + 10ms));
-    EXPECT_FALSE(outbox.offer(stateOf(3, 1, 64), start + 20ms)) << "the rate skipped it";
-    EXPECT_EQ(outbox.next(start + 20ms), nullptr);
-    ASSERT_TRUE(outbox.frameDue());
-    EXPECT_LE(*outbox.frameDue(), start + 100ms);
-    EXPECT_EQ(outbox.next(*outbox.frameDue())->content().frame().sequence(), 3U);
+TEST(Outbox, LosesTheChainWhenAFrameCouldNotGoInTime) {
+    Outbox outbox = following();
+    EXPECT_TRUE(outbox.offer(link(Keyframe, 1)));
+    EXPECT_FALSE(outbox.offer(link(Delta, 2))) << "1 still waits";
+    EXPECT_TRUE(outbox.wantsKeyframe());
+    EXPECT_EQ(nextFrame(outbox), 0U) << "it is old";
+    EXPECT_TRUE(outbox.offer(link(Delta, 3))) << "lost already";
+    EXPECT_EQ(nextFrame(outbox), 0U);
+    EXPECT_TRUE(outbox.offer(link(Join, 3)));
+    EXPECT_EQ(nextFrame(outbox), 3U);
 }
 
-TEST(Outbox, NeverSendsTheStateOfAnOldScene) {
-    Outbox outbox(2, 60);
-    describe(outbox, 1);
-    outbox.offer(stateOf(1, 1, 64), start);
-    describe(outbox, 2);
-    EXPECT_EQ(outbox.next(start), nullptr);
-    EXPECT_FALSE(outbox.frameDue());
+TEST(Outbox, LosesTheChainAtAGap) {
+    Outbox outbox = following();
+    outbox.offer(link(Keyframe, 1));
+    EXPECT_EQ(nextFrame(outbox), 1U);
+    EXPECT_FALSE(outbox.offer(link(Delta, 3)));
+    EXPECT_TRUE(outbox.wantsKeyframe());
 }
 
-TEST(Outbox, HoldsAStateUntilTheFactsOfItsEpochAreSent) {
-    Outbox outbox(2, 60);
-    outbox.offer(stateOf(1, 2, 64), start);
-    EXPECT_EQ(outbox.next(start), nullptr);
-    describe(outbox, 2);
-    EXPECT_EQ(outbox.next(start)->content().frame().epoch(), 2U);
+TEST(Outbox, TakesANewerKeyframeInPlaceOfOneThatWaits) {
+    Outbox outbox = following();
+    outbox.offer(link(Keyframe, 1));
+    EXPECT_TRUE(outbox.offer(link(Keyframe, 2)));
+    EXPECT_EQ(nextFrame(outbox), 2U);
+    EXPECT_EQ(nextFrame(outbox), 0U);
+}
+
+TEST(Outbox, KnowsNothingOfOtherChains) {
+    Outbox outbox = following();
+    EXPECT_TRUE(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::ECO, 60})));
+    EXPECT_TRUE(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::NORMAL, 30})));
+    EXPECT_EQ(nextFrame(outbox), 0U);
+    outbox.follow({v1::ECO, 60});
+    EXPECT_TRUE(outbox.offer(link(Keyframe, 2)));
+    EXPECT_EQ(nextFrame(outbox), 0U);
+    outbox.follow({});
+    EXPECT_FALSE(outbox.wantsKeyframe());
+}
+
+TEST(Outbox, HoldsFramesBackWhileTheClientHasNoCredit) {
+    Outbox outbox = following();
+    const auto event = eventOf("first");
+    outbox.offer(link(Keyframe, 1));
+    EXPECT_EQ(outbox.next(false), nullptr);
+    ASSERT_TRUE(outbox.push(event));
+    EXPECT_EQ(outbox.next(false), event);
+    EXPECT_EQ(nextFrame(outbox), 1U);
+}
+
+TEST(Outbox, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochAreSent) {
+    Outbox outbox = following();
+    outbox.offer(link(Keyframe, 1, 2));
+    EXPECT_EQ(outbox.next(true), nullptr);
+    ASSERT_TRUE(outbox.push(factsOf(2, 64)));
+    EXPECT_TRUE(outbox.next(true)->content().has_scene());
+    EXPECT_EQ(outbox.next(true), nullptr) << "the order of the scene before does not count";
+    ASSERT_TRUE(outbox.push(orderOf(2)));
+    EXPECT_TRUE(outbox.next(true)->content().has_order());
+    EXPECT_EQ(outbox.next(true)->content().frame().epoch(), 2U);
 }
 
 }  // namespace

@@ -20,16 +20,25 @@ frame::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres) {
     return std::make_shared<frame::Message>(std::move(message));
 }
 
-frame::SharedMessage stateOf(std::uint64_t sequence, std::uint32_t epoch, std::uint32_t spheres) {
+frame::SharedMessage orderOf(std::uint32_t epoch) {
+    v1::ServerMessage message;
+    message.mutable_order()->set_epoch(epoch);
+    message.mutable_order()->set_number(epoch);
+    return frame::share(std::move(message));
+}
+
+frame::Link linkOf(frame::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
+                   const frame::Channel& channel) {
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
-    frame.set_sequence(sequence);
+    frame.set_sequence(number);
     frame.set_epoch(epoch);
-    frame.set_step(sequence);
+    frame.set_order(epoch);
+    frame.set_step(number);
     frame.set_count(spheres);
-    const std::size_t bytes = std::size_t{6} * ((spheres + 63) / 64 * 64);
-    frame.mutable_states()->mutable_packed16()->set_positions(std::string(bytes, static_cast<char>(sequence)));
-    return std::make_shared<frame::Message>(std::move(message));
+    frame.set_tier(channel.tier);
+    frame.set_spb(std::string(std::size_t{6} * spheres, static_cast<char>(number)));
+    return {channel, kind, number, frame::share(std::move(message))};
 }
 
 frame::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind) {
@@ -66,10 +75,20 @@ std::string Owner::url() const {
     return "ws://127.0.0.1:" + std::to_string(server_->port()) + "/ws";
 }
 
+void Owner::publish(std::uint32_t spheres) {
+    using enum frame::Link::Kind;
+    const auto demands = server_->demands();
+    const std::uint32_t number = ++number_;
+    for (const frame::Demand& demand : demands) {
+        server_->publish(linkOf(Delta, number, epoch_, spheres, demand.channel));
+        if (demand.newcomer || demand.lost) server_->publish(linkOf(Join, number, epoch_, spheres, demand.channel));
+    }
+}
+
 void Owner::publishEvery(std::chrono::milliseconds period, std::uint32_t spheres) {
     publisher_ = std::jthread([this, period, spheres](const std::stop_token& stop) {
         for (auto due = std::chrono::steady_clock::now(); !stop.stop_requested(); due += period) {
-            server_->publish(stateOf(++sequence_, epoch_, spheres));
+            publish(spheres);
             std::this_thread::sleep_until(due + period);
         }
     });
@@ -81,6 +100,7 @@ void Owner::stopPublishing() {
 
 void Owner::setEpoch(std::uint32_t epoch) {
     server_->setScene(factsOf(epoch, 64));
+    server_->setOrder(orderOf(epoch));
     epoch_ = epoch;
 }
 
@@ -121,7 +141,7 @@ Handlers Owner::handlers() {
 v1::ClientMessage helloOf(std::uint32_t rate) {
     v1::ClientMessage message;
     message.mutable_hello()->set_client("a test");
-    message.mutable_hello()->set_rate(rate);
+    message.mutable_hello()->mutable_view()->set_rate(rate);
     return message;
 }
 
@@ -135,8 +155,12 @@ std::unique_ptr<Client> join(const Owner& owner, std::uint32_t rate, Encoding en
     auto client = connect(owner);
     EXPECT_TRUE(client->send(helloOf(rate), encoding));
     EXPECT_TRUE(next(*client).has_welcome());
+    EXPECT_TRUE(next(*client).has_stream());
     EXPECT_TRUE(next(*client).has_scene());
     EXPECT_TRUE(next(*client).has_settings());
+    if (rate > 0) {
+        EXPECT_TRUE(next(*client).has_order());
+    }
     return client;
 }
 

@@ -25,7 +25,10 @@ constexpr auto patience = 10s;  // for what must happen; only a failing test wai
 Options quickOptions();
 
 frame::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres);
-frame::SharedMessage stateOf(std::uint64_t sequence, std::uint32_t epoch, std::uint32_t spheres);
+frame::SharedMessage orderOf(std::uint32_t epoch);  // with the epoch's number
+// Of a chain of channel `normal`.
+frame::Link linkOf(frame::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
+                   const frame::Channel& channel = {v1::NORMAL, 60});
 frame::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1::Event::WARNING);
 
 // True as soon as `condition` holds; false when patience is over.
@@ -43,10 +46,13 @@ class Owner {
     const Counters& counters() { return server_->counters(); }
     [[nodiscard]] std::string url() const;
 
-    // Publishes states of the current epoch from a thread of its own.
+    // Publishes to each chain that is watched the next frame, of the current epoch, and a keyframe to who waits for
+    // one.
+    void publish(std::uint32_t spheres);
+    // The same from a thread of its own.
     void publishEvery(std::chrono::milliseconds period, std::uint32_t spheres);
     void stopPublishing();
-    [[nodiscard]] std::uint64_t published() const { return sequence_; }
+    [[nodiscard]] std::uint32_t published() const { return number_; }
     void setEpoch(std::uint32_t epoch);
 
     // What submit answers.
@@ -60,7 +66,7 @@ class Owner {
     std::mutex mutex_;
     std::vector<v1::Command> commands_;
     std::atomic<std::uint32_t> epoch_ = 1;
-    std::atomic<std::uint64_t> sequence_ = 0;
+    std::atomic<std::uint32_t> number_ = 0;
     std::jthread publisher_;
 };
 
@@ -68,7 +74,7 @@ v1::ClientMessage helloOf(std::uint32_t rate);
 
 // Connected, no hello yet.
 std::unique_ptr<Client> connect(const Owner& owner);
-// After welcome, facts and settings.
+// After welcome, what is said of the stream, facts, settings, and the order where there is a rate.
 std::unique_ptr<Client> join(const Owner& owner, std::uint32_t rate, Encoding encoding = Encoding::Binary);
 
 // The next message; a failed expectation and an empty one when there is none.

@@ -51,7 +51,7 @@ TEST(SlowClients, ThatStopReadingLoseStatesThenTheConnectionAndOthersNoticeNothi
     EXPECT_EQ(owner.counters().closedBy(CloseCause::Stalled), 1U);
     EXPECT_GT(seconds, 1.9) << "closed before the limit";
     EXPECT_LT(seconds, 5) << "closed long after the limit";
-    EXPECT_GT(owner.counters().framesReplaced, 20U);
+    EXPECT_GE(owner.counters().chainsLost, 1U);
     EXPECT_GT(states / seconds, 30) << "of 40 published per second";
     if (memoryIsMeasurable) {
         EXPECT_LT(most - before, 8) << "MB more; the states of that time take 20";
@@ -71,7 +71,7 @@ TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
     constexpr std::uint32_t spheres = 700'000;
     constexpr std::size_t frameBytes = std::size_t{6} * spheres;
-    owner.server().publish(stateOf(1, 1, spheres));
+    owner.publish(spheres);
 
     const auto begin = std::chrono::steady_clock::now();
     std::size_t received = 0;

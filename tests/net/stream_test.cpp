@@ -3,7 +3,7 @@
 namespace spherule::net {
 namespace {
 
-TEST(Stream, GreetsWithWelcomeThenFactsThenSettingsThenStates) {
+TEST(Stream, GreetsWithAllThatFramesNeedAndThenSendsThemWithoutAGap) {
     Owner owner;
     owner.publishEvery(10ms, 64);
     const auto client = connect(owner);
@@ -12,41 +12,110 @@ TEST(Stream, GreetsWithWelcomeThenFactsThenSettingsThenStates) {
     const auto welcome = next(*client);
     ASSERT_TRUE(welcome.has_welcome());
     EXPECT_EQ(welcome.welcome().server(), "fake owner, for a test");
-    EXPECT_EQ(welcome.welcome().rate(), 60U);
+    EXPECT_EQ(next(*client).stream().rate(), 60U);
     EXPECT_EQ(next(*client).scene().name(), "synthetic");
     EXPECT_EQ(next(*client).settings().substeps(), 8U);
+    EXPECT_EQ(next(*client).order().number(), 1U);
     const auto first = next(*client);
     ASSERT_TRUE(first.has_frame());
-    EXPECT_EQ(first.frame().states().packed16().positions().size(), 384U);
-    EXPECT_GT(next(*client).frame().sequence(), first.frame().sequence());
+    EXPECT_EQ(first.frame().spb().size(), 384U);
+    EXPECT_EQ(next(*client).frame().sequence(), first.frame().sequence() + 1);
 }
 
-TEST(Stream, GrantsThirtyStatesWhenNoRateIsAskedAndSixtyAtMost) {
+TEST(Stream, GrantsThirtyFramesWhenNoRateIsAskedAndSixtyAtMost) {
     Owner owner;
     v1::ClientMessage hello;
     hello.mutable_hello();
     const auto plain = connect(owner);
     ASSERT_TRUE(plain->send(hello));
-    EXPECT_EQ(next(*plain).welcome().rate(), 30U);
+    EXPECT_TRUE(next(*plain).has_welcome());
+    const v1::Stream granted = next(*plain).stream();
+    EXPECT_EQ(granted.rate(), 30U);
+    EXPECT_EQ(granted.tier(), v1::NORMAL);
+    EXPECT_FALSE(granted.reduced());
     const auto greedy = connect(owner);
     ASSERT_TRUE(greedy->send(helloOf(1000)));
-    EXPECT_EQ(next(*greedy).welcome().rate(), 60U);
-    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 2 && owner.server().rate() == 60; }));
+    EXPECT_TRUE(next(*greedy).has_welcome());
+    EXPECT_EQ(next(*greedy).stream().rate(), 60U);
+    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 2 && owner.server().demands().size() == 2; }));
+}
+
+TEST(Stream, ChangesTheChainAtAWordOfTheClient) {
+    Owner owner;
+    owner.publishEvery(10ms, 64);
+    const auto client = join(owner, 60);
+    EXPECT_EQ(next(*client).frame().tier(), v1::NORMAL);
+    v1::ClientMessage view;
+    view.mutable_view()->set_rate(10);
+    view.mutable_view()->set_tier(v1::FINE);
+    ASSERT_TRUE(client->send(view));
+    v1::ServerMessage message;
+    do message = next(*client);
+    while (message.has_frame() && message.frame().tier() == v1::NORMAL);
+    EXPECT_EQ(message.stream().tier(), v1::FINE);
+    EXPECT_EQ(message.stream().rate(), 10U);
+    EXPECT_EQ(next(*client).frame().tier(), v1::FINE);
+    view.mutable_view()->set_rate(0);
+    ASSERT_TRUE(client->send(view));
+    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 0; }));
+}
+
+TEST(Stream, GivesAKeyframeToWhoSaysThatItLostTheChain) {
+    Owner owner;
+    const auto client = join(owner, 60);
+    const auto other = join(owner, 60);
+    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
+    owner.publish(64);
+    EXPECT_EQ(next(*client).frame().sequence(), 1U);
+    EXPECT_EQ(next(*other).frame().sequence(), 1U);
+    v1::ClientMessage ack;
+    ack.mutable_ack()->set_sequence(1);
+    ack.mutable_ack()->set_lost(true);
+    ASSERT_TRUE(client->send(ack));
+    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
+    EXPECT_EQ(owner.counters().chainsLost, 1U);
+    owner.publish(64);
+    EXPECT_EQ(next(*client).frame().sequence(), 2U);
+    EXPECT_EQ(next(*other).frame().sequence(), 2U);
+    EXPECT_FALSE(owner.server().demands().front().lost);
+}
+
+TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
+    Owner owner;
+    const auto client = join(owner, 60);
+    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
+    owner.publish(64);
+    v1::ClientMessage ack;
+    ack.mutable_ack()->set_sequence(next(*client).frame().sequence());
+    ASSERT_TRUE(client->send(ack));
+    std::this_thread::sleep_for(100ms);
+    owner.publishEvery(5ms, 64);
+    int frames = 0;
+    for (;;) {
+        const auto received = client->receive(400ms);
+        ASSERT_TRUE(received);
+        if (!*received) break;
+        if ((*received)->has_frame()) ++frames;
+    }
+    EXPECT_EQ(frames, 15);
+    EXPECT_EQ(owner.counters().chainsLost, 1U);
 }
 
 TEST(Stream, SpeaksJsonToAClientThatSaidHelloInText) {
     Owner owner;
     owner.publishEvery(10ms, 64);
     const auto client = connect(owner);
-    ASSERT_TRUE(client->sendBytes(R"({"hello":{"client":"shell","rate":60}})", Encoding::Text));
+    ASSERT_TRUE(client->sendBytes(R"({"hello":{"client":"shell","view":{"rate":60}}})", Encoding::Text));
     EXPECT_TRUE(next(*client).has_welcome());
     EXPECT_EQ(client->receivedAs(), Encoding::Text);
+    EXPECT_TRUE(next(*client).has_stream());
     EXPECT_TRUE(next(*client).has_scene());
     EXPECT_TRUE(next(*client).has_settings());
+    EXPECT_TRUE(next(*client).has_order());
     const auto state = next(*client);
     EXPECT_EQ(client->receivedAs(), Encoding::Text);
     const std::string expected(384, static_cast<char>(state.frame().sequence()));
-    EXPECT_EQ(state.frame().states().packed16().positions(), expected);
+    EXPECT_EQ(state.frame().spb(), expected);
 }
 
 TEST(Stream, ShowsTwoClientsTheSameStates) {
@@ -59,47 +128,31 @@ TEST(Stream, ShowsTwoClientsTheSameStates) {
     }
 }
 
-TEST(Stream, GivesANewcomerTheLatestStateOfAPausedScene) {
+TEST(Stream, AsksForAKeyframeForEachNewcomer) {
     Owner owner;
     const auto first = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.server().publish(stateOf(41, 1, 64));
-    owner.server().publish(stateOf(42, 1, 64));
+    owner.publish(64);
+    EXPECT_EQ(next(*first).frame().sequence(), 1U);
+    EXPECT_FALSE(owner.server().demands().front().newcomer);
     const auto second = join(owner, 60);
-    EXPECT_EQ(next(*second).frame().sequence(), 42U);
+    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
+    EXPECT_TRUE(owner.server().demands().front().newcomer);
+    owner.server().publish(linkOf(frame::Link::Kind::Join, 1, 1, 64));
+    EXPECT_EQ(next(*second).frame().sequence(), 1U);
+    const auto none = first->receive(100ms);
+    EXPECT_TRUE(none && !*none) << "it has that state";
 }
 
 TEST(Stream, SendsNoStatesAndCountsNoViewerForRateZero) {
     Owner owner;
     const auto client = join(owner, 0);
     EXPECT_EQ(owner.server().viewers(), 0U);
-    EXPECT_EQ(owner.server().rate(), 0U);
+    EXPECT_TRUE(owner.server().demands().empty());
     owner.publishEvery(10ms, 64);
     const auto received = client->receive(200ms);
     ASSERT_TRUE(received);
     EXPECT_FALSE(received->has_value());
-}
-
-TEST(Stream, KeepsToTheRateAskedForAndEndsOnTheNewestState) {
-    Owner owner;
-    const auto client = join(owner, 10);
-    owner.publishEvery(5ms, 64);
-    int count = 0;
-    std::uint64_t last = 0;
-    const auto end = std::chrono::steady_clock::now() + 1500ms;
-    while (std::chrono::steady_clock::now() < end) {
-        last = next(*client).frame().sequence();
-        ++count;
-    }
-    EXPECT_GE(count, 10);
-    EXPECT_LE(count, 18);
-    owner.stopPublishing();
-    while (last != owner.published()) {
-        const auto received = client->receive(1s);
-        ASSERT_TRUE(received && *received) << "the newest state was never sent";
-        last = (*received)->frame().sequence();
-    }
-    EXPECT_EQ(owner.counters().framesReplaced, 0U) << "what the rate skips is not what a busy session loses";
 }
 
 TEST(Stream, NeverShowsAStateBeforeTheFactsOfItsEpoch) {
@@ -126,13 +179,15 @@ TEST(Stream, NeverShowsAStateBeforeTheFactsOfItsEpoch) {
     EXPECT_GT(epoch, 5U);
 }
 
-TEST(Stream, HoldsAStateUntilTheFactsOfItsEpochCome) {
+TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.server().publish(stateOf(1, 2, 64));
+    owner.server().publish(linkOf(frame::Link::Kind::Keyframe, 1, 2, 64));
     owner.server().setScene(factsOf(2, 64));
+    owner.server().setOrder(orderOf(2));
     EXPECT_EQ(next(*client).scene().epoch(), 2U);
+    EXPECT_EQ(next(*client).order().epoch(), 2U);
     EXPECT_EQ(next(*client).frame().epoch(), 2U);
 }
 

@@ -8,7 +8,7 @@ namespace {
 v1::ServerMessage stateMessage() {
     v1::ServerMessage message;
     message.mutable_frame()->set_sim_time(0.5);
-    message.mutable_frame()->mutable_states()->mutable_packed16()->set_positions(std::string("\x01\x02\xff", 3));
+    message.mutable_frame()->set_spb(std::string("\x01\x02\xff", 3));
     return message;
 }
 
@@ -21,7 +21,7 @@ TEST(Message, CarriesTheSameContentInBinary) {
 
 TEST(Message, HasLowerCamelNamesAndBase64InJson) {
     EXPECT_EQ(Message(stateMessage()).json(),
-              R"({"frame":{"simTime":0.5,"states":{"packed16":{"positions":"AQL/"}}}})");
+              R"({"frame":{"simTime":0.5,"spb":"AQL/"}})");
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+// What a client is sent while it keeps up, and while it does not.
+#include "net/pace.h"
+
+#include <gtest/gtest.h>
+
+#include "net/credit.h"
+
+namespace spherule::net {
+namespace {
+
+using namespace std::chrono_literals;
+const Pace::Clock::time_point start = Pace::Clock::now();
+
+Pace wanting(const frame::Channel& channel, bool fixed = false) {
+    Pace pace(start);
+    pace.want(channel, fixed, start);
+    return pace;
+}
+
+// Loses frames, a tenth of a second apart, until it steps down; false where it does not.
+bool stepsDown(Pace& pace, Pace::Clock::time_point& now) {
+    for (int k = 0; k < 10; ++k)
+        if (pace.lost(now += 100ms)) return true;
+    return false;
+}
+
+TEST(Pace, StepsDownInRateFirstThenInPrecision) {
+    Pace pace = wanting({v1::NORMAL, 30});
+    auto now = start;
+    std::vector<frame::Channel> down;
+    while (stepsDown(pace, now)) down.push_back(pace.channel());
+    EXPECT_EQ(down, (std::vector<frame::Channel>{{v1::NORMAL, 20}, {v1::NORMAL, 10}, {v1::ECO, 10}, {v1::ECO, 5}}));
+    EXPECT_TRUE(pace.reduced());
+}
+
+TEST(Pace, BearsALossNowAndThen) {
+    Pace pace = wanting({v1::NORMAL, 30});
+    for (int k = 0; k < 20; ++k) EXPECT_FALSE(pace.lost(start + k * 2s));
+    EXPECT_FALSE(pace.reduced());
+}
+
+TEST(Pace, StepsUpAfterAQuietTimeTheWayItCameDown) {
+    Pace pace = wanting({v1::FINE, 10});
+    auto now = start;
+    ASSERT_TRUE(stepsDown(pace, now));
+    ASSERT_TRUE(stepsDown(pace, now));
+    EXPECT_EQ(pace.channel(), (frame::Channel{v1::ECO, 10}));
+    EXPECT_FALSE(pace.acked(60, now + 9s));
+    EXPECT_TRUE(pace.acked(60, now + 11s));
+    EXPECT_EQ(pace.channel(), (frame::Channel{v1::NORMAL, 10}));
+    EXPECT_TRUE(pace.acked(60, now + 22s));
+    EXPECT_FALSE(pace.reduced());
+    EXPECT_FALSE(pace.acked(60, now + 100s)) << "that is what was wanted";
+}
+
+TEST(Pace, WaitsLongerAfterAStepUpThatWasTooMuch) {
+    Pace pace = wanting({v1::NORMAL, 30});
+    auto now = start;
+    ASSERT_TRUE(stepsDown(pace, now));
+    ASSERT_TRUE(stepsDown(pace, now));
+    ASSERT_TRUE(pace.acked(60, now += 11s));
+    ASSERT_TRUE(stepsDown(pace, now));
+    EXPECT_FALSE(pace.acked(60, now + 15s));
+    EXPECT_TRUE(pace.acked(60, now + 21s));
+}
+
+TEST(Pace, LowersTheRateForWhoDrawsSlowly) {
+    Pace pace = wanting({v1::NORMAL, 30});
+    int acks = 1;
+    while (!pace.acked(4, start + acks * 33ms) && acks < 100) ++acks;
+    EXPECT_EQ(acks, 30);
+    EXPECT_EQ(pace.channel(), (frame::Channel{v1::NORMAL, 20}));
+    Pace unknown = wanting({v1::NORMAL, 30});
+    for (int k = 0; k < 100; ++k) EXPECT_FALSE(unknown.acked(0, start + k * 33ms));
+}
+
+TEST(Pace, LeavesWhatIsFixed) {
+    Pace pace = wanting({v1::FINE, 60}, true);
+    auto now = start;
+    EXPECT_FALSE(stepsDown(pace, now));
+    EXPECT_EQ(pace.channel(), (frame::Channel{v1::FINE, 60}));
+}
+
+TEST(Channel, RatesAreTheNextOneBelow) {
+    EXPECT_EQ(frame::rateFor(0), 0U);
+    EXPECT_EQ(frame::rateFor(1), 5U);
+    EXPECT_EQ(frame::rateFor(29), 20U);
+    EXPECT_EQ(frame::rateFor(30), 30U);
+    EXPECT_EQ(frame::rateFor(1000), 60U);
+}
+
+TEST(Channel, QuantaAreTwiceTheErrors) {
+    EXPECT_DOUBLE_EQ(frame::quantumOf(v1::FINE, 0.05), 2 * 0.05 / 500);
+    EXPECT_DOUBLE_EQ(frame::quantumOf(v1::NORMAL, 0.05), 2 * 0.05 / 50);
+    EXPECT_DOUBLE_EQ(frame::quantumOf(v1::ECO, 0.05), 2 * 0.05 / 16);
+}
+
+TEST(Credit, EndsWithAQuarterOfASecondOfFramesOnTheirWay) {
+    Credit credit;
+    credit.setRate(60);
+    credit.sent(1);
+    credit.acked(1);
+    for (std::uint64_t sequence = 2; sequence < 17; ++sequence) {
+        EXPECT_TRUE(credit.open());
+        credit.sent(sequence);
+    }
+    EXPECT_FALSE(credit.open());
+    credit.acked(9);
+    EXPECT_TRUE(credit.open());
+}
+
+TEST(Credit, IsWithoutEndForWhoNeverSays) {
+    Credit credit;
+    credit.setRate(30);
+    for (std::uint64_t sequence = 1; sequence < 1000; ++sequence) credit.sent(sequence);
+    EXPECT_TRUE(credit.open());
+}
+
+}  // namespace
+}  // namespace spherule::net
