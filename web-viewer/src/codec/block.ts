@@ -47,7 +47,7 @@ export class BlockReader {
     const bits = mode === modeMask ? this.readMasked(words, extra, end) : this.readRuns(words, 16 * first, end);
     if (bits < 0) return this.fail("goes beyond its chunk");
     predict(predictor, this.values, this.base, newest, before, at);
-    return Math.ceil(bits / 16);
+    return (bits + 15) >>> 4;
   }
 
   private fail(fault: string): number {
