@@ -1,7 +1,9 @@
 import { project } from "./camera/ray";
 import type { Pose } from "./camera/orbit";
 import { Model } from "./gen/spherule/v1/scene_pb";
+import { sharedNow } from "./clock";
 import type { Report } from "./connection/commands";
+import { tierName } from "./connection/wish";
 import type { Facts, Vec3 } from "./scene/facts";
 import { positionOf } from "./scene/positions";
 import type { Viewer } from "./viewer";
@@ -21,9 +23,8 @@ export interface Hook {
   readonly epoch: number;
   readonly count: number;
   readonly paused: boolean;
-  /** States taken since the page was loaded, and those that newer ones replaced on their way. */
+  /** States taken since the page was loaded. */
   readonly frames: number;
-  readonly skipped: number;
   readonly scene: string;
   readonly facts: Facts | undefined;
   readonly settings: HeldSettings | undefined;
@@ -36,12 +37,25 @@ export interface Hook {
   readonly camera: Pose & { eye: Vec3 };
   /** Answers to this page's commands, the newest last, at most 50. */
   readonly results: { what: string; outcome: string; step: number | undefined; words: string }[];
-  /** In the newest state, in metres, with its step; off by at most half a quantum of the wire grid per axis. */
-  positions(ids: number[]): { step: number; positions: Vec3[] } | undefined;
+  /** In the newest state, in metres, with its step; off by at most half its quantum per axis. */
+  positions(ids: number[]): { step: number; quantum: number; positions: Vec3[] } | undefined;
+  /** What the server says that it sends, and what that takes; undefined where it has said nothing. */
+  stream(): StreamFigures | undefined;
   /** The sphere that is seen at this place of the page, in CSS pixels. */
   at(x: number, y: number): number | undefined;
   /** Where a place in metres lies on the page, in CSS pixels; undefined behind the eye. */
   project(place: Vec3): [number, number] | undefined;
+}
+
+/** Figures are means over two seconds; NaN where no frame came. */
+export interface StreamFigures {
+  tier: string; // "fine", "normal" or "eco"
+  rate: number; // frames per second
+  reduced: boolean; // less than the page wants
+  reason: string; // of the last change
+  bytesPerSphere: number; // of a frame
+  decodeMs: number; // of a frame
+  lost: number; // frames that could not be decoded since the page was loaded
 }
 
 /** What holds on the server; `model`: "fast", "balanced" or "accurate". */
@@ -99,9 +113,6 @@ export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Ho
     get frames() {
       return session.frames;
     },
-    get skipped() {
-      return session.skipped;
-    },
     get scene() {
       return session.facts?.name ?? "";
     },
@@ -146,7 +157,13 @@ export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Ho
       const state = session.states.newest;
       const facts = session.facts;
       if (!state || !facts) return undefined;
-      return { step: state.step, positions: ids.map((id) => positionOf(facts, state, id)) };
+      return { step: state.step, quantum: state.quantum, positions: ids.map((id) => positionOf(facts, state, id)) };
+    },
+    stream() {
+      if (!session.stream) return undefined;
+      const { tier, rate, reduced, reason } = session.stream;
+      const { bytesPerSphere, decodeMs } = session.traffic.rates(sharedNow());
+      return { tier: tierName(tier), rate, reduced, reason, bytesPerSphere, decodeMs, lost: session.lost };
     },
     at: (x, y) => seenAt(x, y),
     project: (place) => project(camera.last, place),

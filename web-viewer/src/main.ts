@@ -1,8 +1,9 @@
 import { modeList } from "./colour/modes";
+import { wishFrom } from "./connection/wish";
 import { hookFor } from "./hook";
 import { Viewer } from "./viewer";
 
-/** Starting choices may be given in the address: ?colour=group&picture=full&theme=dark */
+/** Starting choices may be given in the address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
 function chosen<T extends string>(name: string, allowed: readonly T[]): T | undefined {
   const asked = new URLSearchParams(location.search).get(name);
   return allowed.find((value) => value === asked);
@@ -20,6 +21,7 @@ function start(): void {
     theme: chosen("theme", ["light", "dark"]) ?? "light",
     push: false,
     impulse: 1,
+    view: wishFrom(new URLSearchParams(location.search), () => localStorage),
   });
   window.spherule = hookFor(viewer);
   const url = new URL("ws", location.href);

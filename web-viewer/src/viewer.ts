@@ -4,6 +4,8 @@ import { pick, rayThrough } from "./camera/ray";
 import { AutoRange } from "./colour/range";
 import { Commands } from "./connection/commands";
 import { Link } from "./connection/link";
+import { Watch } from "./connection/watch";
+import { keep } from "./connection/wish";
 import { Reports } from "./hook";
 import { paletteFor } from "./renderer/palette";
 import { Stage } from "./renderer/stage";
@@ -25,6 +27,8 @@ export class Viewer {
   private readonly link: Link;
   private readonly speeds = new AutoRange(0.1);
   private readonly clock = new Clock();
+  private readonly watch: Watch;
+  private told = 0; // ms: when the worker heard of the drawing
   private drawn = ""; // what the canvas shows
   private measured = -1; // step whose speeds the range knows
 
@@ -35,6 +39,7 @@ export class Viewer {
   ) {
     this.stage = new Stage(canvas, choices.quality, () => (this.drawn = ""));
     this.link = new Link(new Worker("worker.js"), (message) => this.session.take(message));
+    this.watch = new Watch({ ...choices.view }, (view) => this.link.watch(view));
     this.session = new Session((state) => this.link.recycle(state.positions), {
       welcomed: (welcome) => this.page.panel.offer(welcome),
       sceneChanged: (facts, before) => {
@@ -60,6 +65,10 @@ export class Viewer {
       retry: () => this.link.retry(),
       themed: (theme) => this.stage.setTheme(theme),
       qualityChosen: (quality) => this.stage.choose(quality),
+      viewWished: (view) => {
+        keep(view, () => localStorage);
+        this.watch.want(view);
+      },
       camera: this.camera,
     });
     this.stage.setTheme(choices.theme);
@@ -67,7 +76,7 @@ export class Viewer {
   }
 
   start(url: string): void {
-    this.link.connect(url);
+    this.link.connect(url, this.watch.view);
     const resized = (): void => {
       this.camera.resize(window.innerWidth, window.innerHeight);
       this.stage.resize(window.innerWidth, window.innerHeight);
@@ -75,6 +84,8 @@ export class Viewer {
     };
     window.addEventListener("resize", resized);
     resized();
+    document.addEventListener("visibilitychange", () => this.turned(!document.hidden));
+    this.turned(!document.hidden);
     const tick = (now: number): void => {
       this.tick(now);
       requestAnimationFrame(tick);
@@ -109,14 +120,27 @@ export class Viewer {
       this.drawn = wanted;
       this.clock.drew();
     }
+    this.tellDrawing(now);
     this.page.update(wall, shown, this.clock.picturesPerSecond, this.stage.contextLost);
   }
 
+  /** The page was hidden, or is shown again. */
+  private turned(shown: boolean): void {
+    this.watch.show(shown);
+    if (shown) this.session.resume(sharedNow());
+    else this.link.draws(0);
+  }
+
+  private tellDrawing(now: number): void {
+    if (now - this.told < 1000) return;
+    this.told = now;
+    this.link.draws(this.clock.drawRate);
+  }
+
   private measure(shown: Shown | undefined, now: number): void {
-    const { facts } = this.session;
-    if (!facts || !shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
+    if (!shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
     this.measured = shown.to.sequence;
-    this.speeds.update(highSpeed(facts, shown.from, shown.to), now);
+    this.speeds.update(highSpeed(shown.from, shown.to), now);
   }
 
   private listen(canvas: HTMLCanvasElement): void {

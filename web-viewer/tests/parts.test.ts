@@ -3,7 +3,6 @@ import { test } from "node:test";
 import { Backoff } from "../src/connection/backoff";
 import { ladder, QualityControl } from "../src/renderer/quality";
 import { faces, planeInBox } from "../src/renderer/shapes";
-import { Traffic } from "../src/scene/traffic";
 import { bytesPerSecond, count, figure, length } from "../src/ui/format";
 import { presetOf } from "../src/ui/gravity";
 
@@ -31,14 +30,6 @@ test("a quality that was asked for stays, and software starts light", () => {
   for (let i = 0; i < 200; i++) control.took(500);
   assert.equal(control.quality, ladder[0]);
   assert.equal(new QualityControl("auto", true).quality.occlusion, false);
-});
-
-test("traffic forgets what is older than two seconds", () => {
-  const traffic = new Traffic();
-  for (let at = 0; at < 4000; at += 100) traffic.add(at, 1000);
-  const rates = traffic.rates(4000);
-  assert.deepEqual([rates.frames, rates.bytes], [10, 10_000]);
-  assert.equal(traffic.rates(9000).frames, 0);
 });
 
 test("a slanted plane cuts a box in a polygon whose corners lie on both", () => {

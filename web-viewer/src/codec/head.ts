@@ -21,3 +21,8 @@ export function headOf(words: Uint32Array, length: number): FrameHead {
     hash: (kind & hashedFlag) !== 0 ? hash : undefined,
   };
 }
+
+/** Whether the frame says of itself that it is a keyframe; all else of it may be wrong. */
+export function isKeyframe(frame: Uint8Array): boolean {
+  return ((frame[3] ?? 0) & (keyframeFlag >>> 24)) !== 0;
+}

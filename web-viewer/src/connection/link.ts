@@ -1,7 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import { CommandSchema } from "../gen/spherule/v1/control_pb";
 import type { Command, CommandResult } from "../gen/spherule/v1/control_pb";
-import type { FromWorker, LinkState, ToWorker } from "./messages";
+import type { FromWorker, LinkState, ToWorker, View } from "./messages";
 
 export type CommandKind = Command["kind"];
 
@@ -25,12 +25,21 @@ export class Link {
     };
   }
 
-  connect(url: string): void {
-    this.post({ kind: "connect", url });
+  connect(url: string, view: View): void {
+    this.post({ kind: "connect", url, view });
   }
 
   retry(): void {
     this.post({ kind: "retry" });
+  }
+
+  watch(view: View): void {
+    this.post({ kind: "view", view });
+  }
+
+  /** Pictures per second that the page draws now; 0: unknown. */
+  draws(rate: number): void {
+    this.post({ kind: "drawing", rate });
   }
 
   send(kind: CommandKind): Promise<Outcome> {
@@ -41,7 +50,7 @@ export class Link {
   }
 
   /** Gives the buffer of a state that is no longer needed back to the decoder. */
-  recycle(positions: Uint16Array): void {
+  recycle(positions: Float32Array): void {
     const buffer = positions.buffer as ArrayBuffer;
     if (buffer.byteLength > 0) this.post({ kind: "recycle", buffer }, [buffer]);
   }

@@ -1,10 +1,13 @@
 import { create, toBinary } from "@bufbuild/protobuf";
-import { ClientMessageSchema, HelloSchema } from "../gen/spherule/v1/control_pb";
+import { AckSchema, ClientMessageSchema, HelloSchema, ViewSchema } from "../gen/spherule/v1/control_pb";
 import type { ClientMessage } from "../gen/spherule/v1/control_pb";
 import { sharedNow } from "../clock";
-import { decode } from "./decode";
-import type { FromWorker, ToWorker } from "./messages";
+import { Buffers } from "./buffers";
+import { decode, forPage } from "./decode";
+import { Frames } from "./frames";
+import type { FromWorker, ToWorker, View } from "./messages";
 import { Socket } from "./socket";
+import { Stream } from "./stream";
 
 /** The connection's thread: holds the socket, decodes, hands states over without copying them. */
 
@@ -14,15 +17,15 @@ interface Port {
 }
 const page = globalThis as unknown as Port;
 
-const rate = 30; // state frames per second
-const spare: ArrayBuffer[] = [];
-
-function take(bytes: number): ArrayBuffer {
-  const used = spare.pop();
-  return used && used.byteLength >= bytes ? used : new ArrayBuffer(bytes);
-}
-
 let socket: Socket | undefined;
+const buffers = new Buffers();
+const frames = new Frames(buffers);
+const stream = new Stream(frames, {
+  ack: (ack) => void send({ case: "ack", value: create(AckSchema, ack) }),
+  decoded: (frame) => page.postMessage({ kind: "frame", frame }, [frame.positions.buffer as ArrayBuffer]),
+  broken: (reason) => page.postMessage({ kind: "broken", reason }),
+  lost: (count) => page.postMessage({ kind: "lost", count }),
+});
 
 function send(kind: ClientMessage["kind"]): boolean {
   const message = toBinary(ClientMessageSchema, create(ClientMessageSchema, { kind }));
@@ -31,19 +34,25 @@ function send(kind: ClientMessage["kind"]): boolean {
 
 function received(data: ArrayBuffer): void {
   try {
-    const message = decode(data, sharedNow(), take);
-    if (!message) return;
-    const transfer = message.kind === "frame" ? [message.frame.positions.buffer as ArrayBuffer] : [];
-    page.postMessage(message, transfer);
+    const arrival = sharedNow();
+    const kind = decode(data);
+    if (kind.case === "frame") return stream.take(kind.value, arrival, data.byteLength);
+    if (kind.case === "order") return frames.setOrder(kind.value);
+    if (kind.case === "scene") frames.setScene(kind.value.epoch, kind.value.count);
+    const message = forPage(kind);
+    if (message) page.postMessage(message);
   } catch (error) {
     page.postMessage({ kind: "broken", reason: error instanceof Error ? error.message : String(error) });
   }
 }
 
+let view: View | undefined;
+
 function connect(url: string): void {
   socket = new Socket(url, {
     opened: () => {
-      send({ case: "hello", value: create(HelloSchema, { client: "spherule viewer", rate }) });
+      stream.reset();
+      send({ case: "hello", value: create(HelloSchema, { client: "spherule viewer", view }) });
       page.postMessage({ kind: "link", state: "open" });
     },
     received,
@@ -54,16 +63,24 @@ function connect(url: string): void {
 page.onmessage = ({ data }) => {
   switch (data.kind) {
     case "connect":
+      view = data.view;
       connect(data.url);
       break;
     case "retry":
       socket?.retry();
       break;
+    case "view":
+      view = data.view;
+      send({ case: "view", value: create(ViewSchema, view) });
+      break;
+    case "drawing":
+      stream.drawRate = data.rate;
+      break;
     case "command":
       send({ case: "command", value: data.command });
       break;
     case "recycle":
-      if (spare.length < 4) spare.push(data.buffer);
+      buffers.giveBack(data.buffer);
       break;
   }
 };

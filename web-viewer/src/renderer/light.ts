@@ -1,5 +1,4 @@
 import { mat4, vec3 } from "gl-matrix";
-import { centreOf } from "../scene/facts";
 import type { Facts, Vec3 } from "../scene/facts";
 
 export interface Light {
@@ -19,7 +18,7 @@ export function lightFor(facts: Facts): Light {
   const direction: Vec3 = [Math.cos(azimuth) * Math.cos(height), Math.sin(azimuth) * Math.cos(height), Math.sin(height)];
   const right = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], [0, 0, 1], direction)) as Vec3;
   const up = vec3.cross([0, 0, 0], direction, right) as Vec3;
-  const centre = centreOf(facts);
+  const centre = facts.origin;
   const half = [0, 0, 0];
   for (const corner of corners(facts)) {
     const from = vec3.subtract([0, 0, 0], corner, centre);

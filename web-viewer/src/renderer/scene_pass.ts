@@ -1,5 +1,4 @@
 import { modes } from "../colour/modes";
-import { centreOf } from "../scene/facts";
 import type { Facts } from "../scene/facts";
 import type { Shown } from "../scene/states";
 import type { Paint } from "./picture";
@@ -85,7 +84,7 @@ export class ScenePass {
     gl.uniform3fv(spheres.at("u_ramp"), paint.ramp.flat());
     gl.uniform2fv(spheres.at("u_range"), paint.range);
     gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
-    gl.uniform3fv(spheres.at("u_cellCentre"), centreOf(facts));
+    gl.uniform3fv(spheres.at("u_cellCentre"), facts.origin);
     gl.uniform1f(spheres.at("u_cellSize"), facts.cellSize);
     gl.uniform3iv(spheres.at("u_cells"), facts.cells.map((n) => Math.max(1, n)));
     gl.uniform1i(spheres.at("u_selected"), paint.selected ?? -1);

@@ -11,7 +11,7 @@ interface Resident {
   used: number;
 }
 
-/** The spheres' data on the device: states as they came, uint16; radius and group colour once per scene. */
+/** The spheres' data on the device: states as they came, float32; radius and group colour once per scene. */
 export class SphereData {
   count = 0;
   private readonly array: WebGLVertexArrayObject;
@@ -58,7 +58,7 @@ export class SphereData {
     ] as const) {
       gl.bindBuffer(gl.ARRAY_BUFFER, this.resident(state));
       this.perInstance(name);
-      gl.vertexAttribIPointer(slot(name), 3, gl.UNSIGNED_SHORT, 6, 0);
+      gl.vertexAttribPointer(slot(name), 3, gl.FLOAT, false, 12, 0);
     }
     gl.bindVertexArray(null);
   }
@@ -68,7 +68,6 @@ export class SphereData {
     const { gl, facts } = this;
     if (!facts || this.count === 0) return;
     gl.uniform3fv(program.at("u_origin"), facts.origin);
-    gl.uniform1f(program.at("u_quantum"), facts.quantum);
     gl.uniform1f(program.at("u_mix"), mix);
     gl.vertexAttrib1f(slot("a_radius"), facts.radius);
     gl.bindVertexArray(this.array);

@@ -41,8 +41,7 @@ export interface Facts {
   radius: number; // of every sphere; 0: see radii
   radii: Float32Array | undefined;
   radiusRange: [number, number];
-  origin: Vec3; // of the wire grid
-  quantum: number; // m per unit of the wire grid
+  origin: Vec3; // of the positions in states: the centre of the bounds
   cellSize: number; // m; 0: no grid
   cells: Vec3;
   eye: Vec3 | undefined;
@@ -62,13 +61,14 @@ export function factsOf(scene: SceneFacts): Facts {
       planes.push({ point: vec3(shape.value.point), normal, colour: hexToRgb(colour) });
     }
   }
-  const grid = scene.grid;
+  const min = vec3(scene.boundsMin);
+  const max = vec3(scene.boundsMax);
   return {
     epoch: scene.epoch,
     name: scene.name,
     description: scene.description,
-    min: vec3(scene.boundsMin),
-    max: vec3(scene.boundsMax),
+    min,
+    max,
     open: new Set(scene.open),
     boxes,
     planes,
@@ -77,8 +77,7 @@ export function factsOf(scene: SceneFacts): Facts {
     radius: scene.radius,
     radii,
     radiusRange: radii ? rangeOf(radii) : [scene.radius, scene.radius],
-    origin: [grid?.originX ?? 0, grid?.originY ?? 0, grid?.originZ ?? 0],
-    quantum: grid?.quantum ?? 0,
+    origin: between(min, max),
     cellSize: scene.cellSize,
     cells: vec3(scene.cells),
     eye: scene.camera?.eye.length === 3 ? vec3(scene.camera.eye) : undefined,
@@ -95,8 +94,8 @@ export function groupOf(facts: Facts, id: number): Group | undefined {
   return facts.groups.find((group) => id >= group.first && id < group.first + group.count);
 }
 
-export function centreOf(facts: Facts): Vec3 {
-  return [0, 1, 2].map((axis) => 0.5 * ((facts.min[axis] ?? 0) + (facts.max[axis] ?? 0))) as Vec3;
+function between(a: Vec3, b: Vec3): Vec3 {
+  return [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])];
 }
 
 function vec3(numbers: readonly number[]): Vec3 {

@@ -5,11 +5,11 @@ import type { Shown } from "./states";
 /** Where a sphere is in a state, in metres; off by at most half a quantum per axis. */
 export function positionOf(facts: Facts, state: State, id: number): Vec3 {
   const at = 3 * id;
-  const { origin, quantum } = facts;
+  const { origin } = facts;
   return [
-    origin[0] + quantum * (state.positions[at] ?? 0),
-    origin[1] + quantum * (state.positions[at + 1] ?? 0),
-    origin[2] + quantum * (state.positions[at + 2] ?? 0),
+    origin[0] + (state.positions[at] ?? 0),
+    origin[1] + (state.positions[at + 1] ?? 0),
+    origin[2] + (state.positions[at + 2] ?? 0),
   ];
 }
 
@@ -21,23 +21,29 @@ export function shownPosition(facts: Facts, shown: Shown, id: number): Vec3 {
 }
 
 /** Mean speed between two states, m/s; 0 where no simulated time passed. */
-export function speedOf(facts: Facts, from: State, to: State, id: number): number {
+export function speedOf(from: State, to: State, id: number): number {
   const time = to.simTime - from.simTime;
   if (!(time > 0)) return 0;
   const at = 3 * id;
   const dx = (to.positions[at] ?? 0) - (from.positions[at] ?? 0);
   const dy = (to.positions[at + 1] ?? 0) - (from.positions[at + 1] ?? 0);
   const dz = (to.positions[at + 2] ?? 0) - (from.positions[at + 2] ?? 0);
-  return (Math.hypot(dx, dy, dz) * facts.quantum) / time;
+  return Math.hypot(dx, dy, dz) / time;
+}
+
+/** Slower speeds than this cannot be told from rest, m/s. */
+export function leastSpeed(from: State, to: State): number {
+  const time = to.simTime - from.simTime;
+  return time > 0 ? Math.max(from.quantum, to.quantum) / time : 0;
 }
 
 /** The speed that all but the fastest 2 % keep below, from at most `samples` spheres spread over the ids; m/s. */
-export function highSpeed(facts: Facts, from: State, to: State, samples = 2048): number {
+export function highSpeed(from: State, to: State, samples = 2048): number {
   const count = Math.min(from.count, to.count);
   if (count === 0) return 0;
   const speeds = new Float64Array(Math.min(samples, count));
   for (let i = 0; i < speeds.length; i++) {
-    speeds[i] = speedOf(facts, from, to, Math.floor((i * count) / speeds.length));
+    speeds[i] = speedOf(from, to, Math.floor((i * count) / speeds.length));
   }
   return speeds.sort()[Math.floor(0.98 * (speeds.length - 1))] ?? 0;
 }

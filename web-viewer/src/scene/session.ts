@@ -1,9 +1,10 @@
-import type { Diagnostics, Dial, Event, Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Dial, Event, Settings, Stream, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
 import { factsOf } from "./facts";
 import type { Facts } from "./facts";
+import { Lateness } from "./lateness";
 import { States } from "./states";
 import { Traffic } from "./traffic";
 
@@ -28,12 +29,13 @@ export class Session {
   status: Status | undefined;
   dial: Dial | undefined;
   diagnostics: Diagnostics | undefined;
+  stream: Stream | undefined; // what the server sends; undefined: it has not said
   lastArrival = 0; // ms, of a frame of this epoch
   frames = 0; // taken since the page was loaded
-  skipped = 0; // that newer ones replaced on the way
+  lost = 0; // that could not be decoded since then
   readonly traffic = new Traffic();
+  readonly lateness = new Lateness();
   readonly states: States;
-  private sequence = 0;
   private fresh = true; // connected, and no scene has come since
 
   constructor(
@@ -49,7 +51,8 @@ export class Session {
         this.link = message.state;
         this.linkReason = message.reason ?? "";
         this.retryAt = sharedNow() + (message.retryIn ?? 0);
-        this.sequence = 0;
+        if (message.state !== "open") this.stream = undefined;
+        this.lateness.reset();
         this.fresh ||= message.state === "open";
         break;
       case "welcome":
@@ -70,16 +73,21 @@ export class Session {
         this.events.settled(message.settings);
         break;
       case "frame": {
-        const { arrival, bytes, sequence, status } = message.frame;
-        this.traffic.add(arrival, bytes);
+        const { arrival, ready, status } = message.frame;
+        this.traffic.add(message.frame);
+        this.lateness.add(arrival, ready);
         if (!this.states.push(message.frame)) break;
         this.frames += 1;
         this.lastArrival = arrival;
-        if (this.sequence > 0) this.skipped += Math.max(0, sequence - this.sequence - 1);
-        this.sequence = sequence;
         this.status = status;
         break;
       }
+      case "stream":
+        this.stream = message.stream;
+        break;
+      case "lost":
+        this.lost = message.count;
+        break;
       case "dial":
         this.dial = message.dial;
         this.events.dialled(message.dial);
@@ -97,6 +105,11 @@ export class Session {
       case "result":
         break; // the link has given it to whoever waits for it
     }
+  }
+
+  /** The page is looked at again, at `now`: the state that it has may be old, and the next one is on its way. */
+  resume(now: number): void {
+    this.lastArrival = Math.max(this.lastArrival, now);
   }
 
   get paused(): boolean {

@@ -35,6 +35,10 @@ export function bytesPerSecond(value: number): string {
   return `${(value / 1e3).toFixed(0)} kB/s`;
 }
 
+export function bitsPerSecond(bytes: number): string {
+  return `${figure((8 * bytes) / 1e6)} Mb/s`;
+}
+
 export function vector(values: readonly number[], digits = 2): string {
   return values.map((value) => value.toFixed(digits).replace("-", "−")).join("  ");
 }

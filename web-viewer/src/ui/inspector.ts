@@ -1,6 +1,6 @@
 import { groupOf, radiusOf } from "../scene/facts";
 import type { Facts } from "../scene/facts";
-import { shownPosition, speedOf } from "../scene/positions";
+import { leastSpeed, shownPosition, speedOf } from "../scene/positions";
 import type { Shown } from "../scene/states";
 import { h, setText } from "./dom";
 import { count, figure, length, vector } from "./format";
@@ -27,12 +27,14 @@ export class Inspector {
     this.element.hidden = !known;
     if (!known) return;
     const group = groupOf(facts, id);
+    const least = leastSpeed(shown.from, shown.to);
+    const speed = speedOf(shown.from, shown.to, id);
     setText(this.name, `Sphere ${count(id)}`);
     setText(
       this.text,
       [
         `at ${vector(shownPosition(facts, shown, id), 3)} m`,
-        `${figure(speedOf(facts, shown.from, shown.to, id))} m/s`,
+        speed < least ? `under ${figure(least)} m/s` : `${figure(speed)} m/s`,
         `radius ${length(radiusOf(facts, id))}${group ? `, ${group.name}` : ""}`,
       ].join("\n"),
     );

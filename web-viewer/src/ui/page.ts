@@ -97,6 +97,7 @@ export class Page {
     this.lastFigures = now;
     this.header.update(now, contextLost);
     this.status.update(now, picturesPerSecond);
+    this.panel.stream.update(this.session, now);
   }
 
   insets(): Insets {

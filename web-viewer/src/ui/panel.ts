@@ -4,6 +4,7 @@ import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen
 import { modeFor, modeList, modeNames } from "../colour/modes";
 import type { Mode } from "../colour/modes";
 import type { Commands } from "../connection/commands";
+import type { View } from "../connection/messages";
 import type { QualityChoice } from "../renderer/quality";
 import type { ThemeName } from "../renderer/theme";
 import type { Facts } from "../scene/facts";
@@ -13,6 +14,8 @@ import type { GoalName } from "./auto";
 import { Dial } from "./dial";
 import { presetOf, presets } from "./gravity";
 import { StatisticsTables } from "./statistics";
+import { StreamFolder } from "./stream";
+import { tag } from "./tag";
 
 /** What the panel holds that only the page uses. */
 export interface Choices {
@@ -22,17 +25,20 @@ export interface Choices {
   theme: ThemeName;
   push: boolean;
   impulse: number; // N s
+  view: View;
 }
 
 export interface PanelActions {
   themed(theme: ThemeName): void;
   qualityChosen(quality: QualityChoice): void;
+  viewWished(view: View): void;
 }
 
 /** The controls at the side. Commands go out when a control is let go; what the server settled on comes back. */
 export class Panel {
   readonly element: HTMLElement;
   private readonly gui: GUI;
+  readonly stream: StreamFolder;
   private readonly statistics = new StatisticsTables();
   private readonly world = {
     scene: "",
@@ -68,6 +74,7 @@ export class Panel {
     this.addDrop();
     this.addPush();
     this.addLook();
+    this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, (view) => actions.viewWished(view));
     this.addStatistics();
   }
 
@@ -202,11 +209,4 @@ export class Panel {
   private addStatistics(): void {
     this.gui.addFolder("Statistics").$children.append(this.statistics.rest);
   }
-}
-
-/** Marks a control, so that a test finds it whatever the panel's markup. */
-function tag<C extends Controller>(id: string, controller: C): C {
-  controller.domElement.dataset.control = id;
-  controller.domElement.querySelector("input:not([type=range]), select, button")?.setAttribute("data-testid", id);
-  return controller;
 }

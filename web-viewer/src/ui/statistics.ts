@@ -3,8 +3,7 @@ import { Model } from "../gen/spherule/v1/scene_pb";
 import { impactWords } from "./dial_words";
 import { h } from "./dom";
 import { count, figure, seconds, vector } from "./format";
-
-type Row = [id: string, name: string, value: string, warning?: string, title?: string];
+import { fill } from "./table";
 
 const seen = "Of spheres that met spheres, seen in every 16th step: less than asked where one meets several within a substep";
 
@@ -28,7 +27,7 @@ export class StatisticsTables {
     const told = impactWords(s);
     if (told) this.impacts = { ...told, step: s.step };
     const { restitution, over } = settings?.model === Model.ACCURATE ? { restitution: "not observed", over: "–" } : this.impacts;
-    fill(this.quality, [
+    fill(this.quality, "statistics", [
       ["substeps", "Substeps", count(now.substeps), raised],
       ["step-time", "A step takes", now.stepMs > 0 ? `${figure(now.stepMs)} ms` : "–"],
       ["overlap-mean", "Overlap, mean", percent(s.overlapMean)],
@@ -38,7 +37,7 @@ export class StatisticsTables {
       ["energy", "Energy", `${rises ? "rises: " : ""}${figure(s.kineticEnergy + s.rotationalEnergy + s.potentialEnergy)} J`, rises],
       ["speed-max", "Speed, most", `${figure(s.speedMax)} m/s`],
     ]);
-    fill(this.rest, [
+    fill(this.rest, "statistics", [
       ["wall-overlap", "Into walls, most", percent(s.wallOverlapMax)],
       ["contacts", "Contacts", count(Number(s.contacts))],
       ["kinetic", "Energy of motion", `${figure(s.kineticEnergy)} J`],
@@ -54,14 +53,4 @@ export class StatisticsTables {
       ["time", "Simulated", seconds(s.simTime)],
     ]);
   }
-}
-
-function fill(table: HTMLElement, rows: Row[]): void {
-  table.hidden = false;
-  table.replaceChildren(...rows.map(rowOf));
-}
-
-function rowOf([id, name, value, warning, title]: Row): HTMLElement {
-  const figures = h("td", { class: warning ? "warning" : "", title: warning ?? "", "data-testid": `statistics-${id}` }, value);
-  return h("tr", { title: title ?? "" }, h("th", {}, name), figures);
 }

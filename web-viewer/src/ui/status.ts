@@ -1,6 +1,7 @@
 import type { Session } from "../scene/session";
 import { h, setText } from "./dom";
 import { bytesPerSecond, count, figure, seconds } from "./format";
+import { reductionWords } from "./stream_words";
 
 /** One line of figures at the foot of the page. */
 export class StatusLine {
@@ -37,6 +38,8 @@ export class StatusLine {
     this.set("outside", status ? count(status.outside) : "0", !status?.outside);
     const rates = session.traffic.rates(now);
     this.set("stream", live ? `${rates.frames.toFixed(0)}/s  ${bytesPerSecond(rates.bytes)}` : "–");
+    const reason = reductionWords(session.stream);
+    this.fields.get("stream")?.parentElement?.setAttribute("title", `States per second and their bytes. ${reason}`.trim());
     this.set("fps", fps > 0 ? fps.toFixed(0) : "idle");
     this.set("viewers", status ? count(status.viewers) : "–", (status?.viewers ?? 0) < 2);
     this.set("renderer", welcome ? [welcome.device, welcome.renderer].filter(Boolean).join(" · ") : "");

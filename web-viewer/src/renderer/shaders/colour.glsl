@@ -34,7 +34,7 @@ vec3 cellColour(vec3 place) {
 vec3 colourNow(vec3 place, float radius) {
     float span = max(u_range.y - u_range.x, 1e-12);
     if (u_mode == 0) {
-        float speed = length(vec3(a_to) - vec3(a_from)) * u_quantum * u_inverseTime;
+        float speed = length(a_to - a_from) * u_inverseTime;
         return rampAt((speed - u_range.x) / span);
     }
     if (u_mode == 1) return rampAt((radius - u_range.x) / span);

@@ -1,0 +1,147 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import path from "node:path";
+import { test } from "node:test";
+import { Buffers } from "../src/connection/buffers";
+import { Frames } from "../src/connection/frames";
+import { placesOf } from "../src/connection/order";
+import { Tier } from "../src/gen/spherule/v1/frame_pb";
+import type { Frame } from "../src/gen/spherule/v1/frame_pb";
+import { frameOf, keyframe, orderOf, still } from "./support/chain";
+
+const ends: [number, number, number][] = [
+  [1, 2, 3],
+  [-4, 5, 600],
+  [7, 8, -9],
+];
+const first = (fields = {}): Frame => frameOf(keyframe(1, ends), { count: 3, ...fields });
+const next = (number: number, fields = {}): Frame => frameOf(still(number, 3), { count: 3, ...fields });
+
+function begun(buffers = new Buffers()): Frames {
+  const frames = new Frames(buffers);
+  frames.setScene(3, 3);
+  frames.setOrder(orderOf([2, 0, 1]));
+  return frames;
+}
+
+function positionsOf(frames: Frames, frame: Frame): Float32Array {
+  const decoded = frames.decode(frame);
+  assert.ok(decoded.kind === "state", decoded.kind);
+  return decoded.positions;
+}
+
+test("a frame gives metres in id order", () => {
+  const frames = begun();
+  const metres = [-2, 2.5, 300, 3.5, 4, -4.5, 0.5, 1, 1.5];
+  assert.deepEqual([...positionsOf(frames, first())], metres);
+  assert.deepEqual([...positionsOf(frames, next(2))], metres);
+});
+
+test("the golden frames come out in the order's places", () => {
+  const golden = (name: string) => new Uint8Array(readFileSync(path.join("..", "tests", "golden", "codec", name)));
+  const count = 583;
+  const ids = Array.from({ length: count }, (_, k) => (k * 100) % count);
+  const frames = new Frames(new Buffers());
+  frames.setScene(3, count);
+  frames.setOrder(orderOf(ids));
+  let positions: Float32Array = new Float32Array(0);
+  for (let k = 0; k < 8; k++) positions = positionsOf(frames, frameOf(golden(`frame-${k}.spb`), { count, quantum: 0.25 }));
+  const units = new Int32Array(golden("positions.i32").buffer);
+  ids.forEach((id, k) => {
+    for (let axis = 0; axis < 3; axis++) {
+      assert.equal(positions[3 * id + axis], Math.fround(0.25 * (units[3 * k + axis] ?? NaN)));
+    }
+  });
+});
+
+test("a larger used buffer is taken without showing what it held", () => {
+  const buffers = new Buffers();
+  buffers.giveBack(new Uint8Array(600).fill(255).buffer);
+  const positions = positionsOf(begun(buffers), first());
+  assert.deepEqual([positions.length, positions.buffer.byteLength, positions[0]], [9, 600, -2]);
+});
+
+test("frames of another epoch or order are left alone", () => {
+  const frames = begun();
+  assert.equal(frames.decode(first({ epoch: 2 })).kind, "foreign");
+  assert.equal(frames.decode(first({ order: 2 })).kind, "foreign");
+  positionsOf(frames, first());
+  assert.equal(frames.decode(next(2, { order: 2 })).kind, "foreign");
+  frames.setScene(4, 3);
+  assert.equal(frames.decode(first({ epoch: 4 })).kind, "foreign", "the order was that of the epoch before");
+  frames.setOrder(orderOf([0, 1, 2]));
+  assert.equal(frames.decode(first({ epoch: 4 })).kind, "foreign", "an order of another epoch");
+});
+
+test("a keyframe begins another chain, and the one before does not go on", () => {
+  const frames = begun();
+  positionsOf(frames, first());
+  assert.equal(frames.decode(next(2, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind");
+  const fine = positionsOf(frames, first({ tier: Tier.FINE, quantum: 0.125 }));
+  assert.equal(fine[0], -0.5);
+  positionsOf(frames, next(2, { tier: Tier.FINE, quantum: 0.125 }));
+  assert.equal(frames.decode(next(3)).kind, "behind");
+  assert.equal(frames.decode(next(3, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind", "what was lost stays lost");
+});
+
+test("another order goes on with a keyframe of it", () => {
+  const frames = begun();
+  positionsOf(frames, first());
+  frames.setOrder(orderOf([0, 1, 2], { number: 2 }));
+  assert.equal(frames.decode(next(2, { order: 2 })).kind, "behind");
+  assert.deepEqual([...positionsOf(frames, first({ order: 2 }))].slice(0, 3), [0.5, 1, 1.5]);
+});
+
+test("after another connection only a keyframe helps", () => {
+  const frames = begun();
+  positionsOf(frames, first());
+  frames.reset();
+  frames.setScene(3, 3);
+  frames.setOrder(orderOf([2, 0, 1]));
+  assert.equal(frames.decode(next(2)).kind, "behind");
+  positionsOf(frames, first());
+});
+
+test("more spheres in a new epoch get a decoder of their own", () => {
+  const frames = begun();
+  positionsOf(frames, first());
+  frames.setScene(4, 4);
+  frames.setOrder(orderOf([3, 2, 1, 0], { epoch: 4 }));
+  const more = frameOf(keyframe(9, [...ends, [1, 1, 1]]), { epoch: 4, count: 4 });
+  assert.deepEqual([...positionsOf(frames, more)].slice(0, 3), [0.5, 0.5, 0.5]);
+});
+
+test("a broken frame loses the chain, and a keyframe brings it back", () => {
+  const frames = begun();
+  positionsOf(frames, first());
+  assert.throws(() => frames.decode(next(3)), /is number 3, which does not follow 1/);
+  assert.equal(frames.decode(next(2)).kind, "behind");
+  positionsOf(frames, first());
+  assert.throws(() => frames.decode(first({ count: 4 })), /frame 7: 4 spheres, of 3/);
+  assert.throws(() => frames.decode(first({ quantum: 0 })), /frame 7: has no quantum/);
+  assert.throws(() => frames.decode(first({ quantum: Infinity })), /frame 7: has no quantum/);
+  assert.throws(() => frames.decode(frameOf(keyframe(1, ends).subarray(0, 40), { count: 3 })), /frame, /);
+  assert.equal(frames.decode(frameOf(new Uint8Array(0), { count: 3 })).kind, "behind");
+  positionsOf(frames, first());
+});
+
+test("an order that is no permutation of the ids is refused", () => {
+  const refused = (ids: number[], reason: RegExp) => assert.throws(() => placesOf(orderOf(ids).ids, 3), reason);
+  assert.deepEqual([...placesOf(orderOf([2, 0, 1]).ids, 3)], [6, 0, 3]);
+  refused([0, 1], /order: 6 bytes for 3 spheres, which take 9/);
+  refused([0, 1, 2, 3], /order: 12 bytes for 3 spheres/);
+  refused([0, 3, 1], /order: sphere 1 has id 3, of 3 spheres/);
+  refused([0, 1, 0x010002], /order: sphere 2 has id 65538/);
+  refused([2, 0, 2], /order: id 2 is there twice/);
+  assert.throws(() => placesOf(new Uint8Array(8), 3), /order: 8 bytes/);
+});
+
+test("after a refused order no frame is taken until a good one comes", () => {
+  const frames = begun();
+  positionsOf(frames, first());
+  assert.throws(() => frames.setOrder(orderOf([0, 0, 0], { number: 2 })));
+  assert.equal(frames.decode(first({ order: 1 })).kind, "foreign");
+  assert.equal(frames.decode(first({ order: 2 })).kind, "foreign");
+  frames.setOrder(orderOf([2, 0, 1], { number: 3 }));
+  positionsOf(frames, first({ order: 3 }));
+});
