@@ -28,9 +28,10 @@ void Session::offer(frame::Link link) {
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
         const auto newest = self->offered_.take();
         if (self->closing_ || self->finished_) return;
-        const bool keyframe = newest->kind != frame::Link::Kind::Delta;
-        if (keyframe && newest->channel == self->pace_.channel()) self->asked_ = false;
+        // To who waits for a keyframe the hub offers nothing else: it has sent one, which this frame may have replaced.
+        if (newest->channel == self->pace_.channel()) self->asked_ = false;
         if (!self->outbox_.offer(*newest)) self->missed();
+        self->askKeyframe();
         self->pump();
     });
 }

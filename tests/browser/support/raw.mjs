@@ -1,8 +1,9 @@
 // A second client that shares no code with the page: protobuf's JSON form over a WebSocket of its own.
+import { cellsOf } from "./keyframe.mjs";
 
 /** The scene's facts and the newest frame as the server tells them now, positions in metres. */
 export async function serverSays(page) {
-  const { facts, settings, frame } = await page.evaluate(
+  const { facts, settings, order, frame } = await page.evaluate(
     () =>
       new Promise((resolve, reject) => {
         const socket = new WebSocket(`ws://${location.host}/ws`, "spherule.v1");
@@ -13,6 +14,7 @@ export async function serverSays(page) {
           const message = JSON.parse(data);
           if (message.scene) heard.facts = message.scene;
           if (message.settings) heard.settings = message.settings;
+          if (message.order) heard.order = message.order;
           if (!message.frame) return;
           heard.frame = message.frame;
           socket.close();
@@ -20,10 +22,11 @@ export async function serverSays(page) {
         };
       }),
   );
-  const units = Buffer.from(frame.states.packed16.positions, "base64");
-  const { originX = 0, originY = 0, originZ = 0, quantum } = facts.grid;
-  const positions = Array.from({ length: frame.count }, (_, id) =>
-    [originX, originY, originZ].map((origin, axis) => origin + quantum * units.readUInt16LE(6 * id + 2 * axis)),
-  );
-  return { facts, settings, step: Number(frame.step ?? 0), epoch: frame.epoch, positions, quantum };
+  const ids = Buffer.from(order.ids, "base64");
+  const centre = facts.boundsMin.map((low, axis) => (low + facts.boundsMax[axis]) / 2);
+  const positions = [];
+  cellsOf(Buffer.from(frame.spb, "base64")).forEach((cell, k) => {
+    positions[ids.readUIntLE(3 * k, 3)] = cell.map((q, axis) => centre[axis] + frame.quantum * q);
+  });
+  return { facts, settings, step: Number(frame.step ?? 0), epoch: frame.epoch, positions, quantum: frame.quantum };
 }
