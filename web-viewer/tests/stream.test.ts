@@ -79,7 +79,7 @@ test("keyframes that cannot be decoded do not make a loop", () => {
   const broken = keyframe(1, [[0, 0, 0]]).subarray(0, 60);
   for (let sequence = 1; sequence <= 50; sequence++) take(sequence, broken);
   assert.deepEqual(asked(), [1]);
-  assert.ok(faults.length <= 2);
+  assert.equal(faults.length, 1);
   assert.equal(lost(), 50);
   close();
 });
@@ -105,9 +105,7 @@ test("a keyframe that came ends the plan to ask again", () => {
   mock.timers.enable();
   let asked = 0;
   const wish = new KeyframeWish(() => void (asked += 1), () => 0);
-  assert.equal(wish.want(1n), "asked");
-  assert.equal(wish.want(2n), "planned");
-  assert.equal(wish.want(3n), "known");
+  assert.deepEqual([wish.want(1n), wish.want(2n), wish.want(3n)], [true, false, false]);
   wish.forget();
   mock.timers.tick(60_000);
   assert.equal(asked, 1);

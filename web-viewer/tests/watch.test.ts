@@ -108,13 +108,15 @@ test("pictures per second are told only while there is something to draw", () =>
 test("the table says what is sent, and why less", () => {
   const rates = { frames: 15, bytes: 125_000, bytesPerSphere: 1.63, decodeMs: 2.5 };
   const sent = create(StreamSchema, { tier: Tier.ECO, rate: 15, reduced: true, reason: "the line is slow" });
-  const rows = Object.fromEntries(streamRows(sent, rates, 12.3, 4).map(([id, , value, warning]) => [id, { value, warning }]));
+  const wish = { tier: Tier.NORMAL, rate: 15, fixed: false };
+  const rows = Object.fromEntries(streamRows(wish, sent, rates, 12.3, 4).map(([id, , value, warning]) => [id, { value, warning }]));
   assert.equal(rows["tier"]?.value, "Eco, 1/16 r");
   assert.match(rows["tier"]?.warning ?? "", /the line is slow/);
+  assert.equal(rows["rate"]?.warning, "", "as many as were wanted");
   assert.deepEqual(
     ["rate", "bandwidth", "bytes", "decode", "late", "lost"].map((id) => rows[id]?.value),
     ["15 /s", "1 Mb/s", "1.63 B", "2.5 ms", "12 ms", "4"],
   );
-  const nothing = streamRows(undefined, new Traffic().rates(0), undefined, 0).map(([, , value]) => value);
+  const nothing = streamRows(wish, undefined, new Traffic().rates(0), undefined, 0).map(([, , value]) => value);
   assert.deepEqual(nothing, ["–", "–", "–", "–", "–", "–", "0"]);
 });

@@ -11,8 +11,11 @@ export async function launch() {
   });
 }
 
-/** Opens the page and waits until it has a state and says what it shows. `picture`: what the page calls the quality of its picture. */
-export async function open(browser, url, { size = [960, 540], picture = "light", colour = "", ...context } = {}) {
+/**
+ * Opens the page and waits until it has a state and says what it shows. `picture`: what the page calls the quality of its
+ * picture; `fixed`: it is sent what it asks for, however slowly it draws here.
+ */
+export async function open(browser, url, { size = [960, 540], picture = "light", colour = "", fixed = true, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, ...context });
   page.setDefaultTimeout(patience);
   page.faults = [];
@@ -22,6 +25,7 @@ export async function open(browser, url, { size = [960, 540], picture = "light",
   page.on("request", (request) => page.requested.push(request.url()));
   const address = new URL(url);
   address.searchParams.set("picture", picture);
+  if (fixed) address.searchParams.set("fixed", "");
   if (colour) address.searchParams.set("colour", colour);
   await page.goto(address.href);
   await when(page, () => {

@@ -1,50 +1,38 @@
-// Reads a keyframe as docs/codec.md says, bit by bit: slowly, and sharing no code with the page.
+// Keyframes of docs/codec.md, read bit by bit: slow, and made from that page alone.
 
 const widths = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 18, 32];
-const unzigzag = (v) => (v % 2 === 0 ? v / 2 : -(v + 1) / 2);
+const wide = 0b1111; // mode with base, predictor none
 
-class Bits {
-  constructor(bytes, at) {
-    this.bytes = bytes;
-    this.bit = 8 * at;
+/** The positions in units of the grid, [x, y, z] for sphere after sphere in the frame's order. */
+export function readKeyframe(bytes) {
+  const unit = (at) => bytes.readUInt16LE(2 * at);
+  const spheres = bytes.readUInt32LE(4);
+  if (bytes.readUInt16LE(0) !== 0x5053 || bytes[2] !== 1 || !(bytes[3] & 1)) throw new Error("no keyframe of version 1");
+  const blocks = Math.ceil(spheres / 64);
+  const positions = [];
+  let at = 2 * (4 + Math.ceil(blocks / 256)); // in units, behind head and table
+  for (let block = 0; block < blocks; block++) {
+    if (block % 32 === 0) at += (at % 2) + 2; // to a whole word; the group's bits are all set
+    at = readBlock(unit, at, positions);
   }
-  take(count) {
-    let value = 0;
-    for (let i = 0; i < count; i++, this.bit++) value += ((this.bytes[this.bit >> 3] >> (this.bit & 7)) & 1) * 2 ** i;
-    return value;
-  }
-  alignTo(bits) {
-    this.bit = Math.ceil(this.bit / bits) * bits;
-  }
+  return positions.slice(0, spheres);
 }
 
-/** The cells of all spheres, in the codec's order, x y z each. */
-export function cellsOf(frame) {
-  const word = (index) => frame.readUInt32LE(4 * index);
-  const flags = frame[3];
-  if (frame.readUInt16LE(0) !== 0x5053 || frame[2] !== 1 || (flags & 1) === 0) throw new Error("not a keyframe");
-  const spheres = word(1);
-  const blocks = Math.ceil(spheres / 64);
-  const chunks = Math.ceil(spheres / 16384);
-  const bits = new Bits(frame, 4 * (4 + chunks));
-  const cells = [];
-  for (let first = 0; first < blocks; first += 32) {
-    bits.take(32); // in a keyframe all blocks are there
-    for (let block = first; block < Math.min(blocks, first + 32); block++) {
-      const header = bits.take(16);
-      if ((header & 15) !== 15) throw new Error(`block ${block} is not one of a keyframe`);
-      const selectors = Array.from({ length: 24 }, () => bits.take(2));
-      const base = Array.from({ length: 3 }, () => bits.take(32) | 0);
-      const axes = base.map((middle, axis) =>
-        Array.from({ length: 64 }, (_, k) => {
-          const code = ((header >> (4 + 4 * axis)) & 15) - selectors[8 * axis + (k >> 3)];
-          return (unzigzag(bits.take(widths[Math.max(0, code)])) + middle) | 0;
-        }),
-      );
-      for (let k = 0; k < 64 && cells.length < spheres; k++) cells.push(axes.map((values) => values[k]));
-      bits.alignTo(16);
-    }
-    bits.alignTo(32);
-  }
-  return cells;
+/** Appends 64 positions; gives the unit behind the block. */
+function readBlock(unit, at, positions) {
+  const header = unit(at);
+  if ((header & 15) !== wide) throw new Error("a block of a keyframe that is not coded around a base");
+  let bit = 16 * (at + 10); // behind header, selectors, base
+  const axes = [0, 1, 2].map((axis) => {
+    const code = (header >> (4 + 4 * axis)) & 15;
+    const base = unit(at + 4 + 2 * axis) | (unit(at + 5 + 2 * axis) << 16);
+    return Array.from({ length: 64 }, (_, k) => {
+      const width = widths[Math.max(0, code - ((unit(at + 1 + axis) >> (2 * (k >> 3))) & 3))];
+      let value = 0;
+      for (let i = 0; i < width; i++, bit++) value |= ((unit(bit >> 4) >> (bit & 15)) & 1) << i;
+      return (base + ((value >>> 1) ^ -(value & 1))) | 0;
+    });
+  });
+  for (let k = 0; k < 64; k++) positions.push(axes.map((values) => values[k]));
+  return Math.ceil(bit / 16);
 }

@@ -17,16 +17,16 @@ export class KeyframeWish {
     private readonly now: () => number = () => performance.now(),
   ) {}
 
-  /** The frame could not be decoded. "asked": just now; "planned": will be; "known": there was a plan already. */
-  want(sequence: bigint): "asked" | "planned" | "known" {
-    if (this.timer !== undefined) return "known";
+  /** The frame could not be decoded. True where a keyframe was asked for just now; else that will be done. */
+  want(sequence: bigint): boolean {
+    if (this.timer !== undefined) return false;
     const left = this.asked + this.wait - this.now();
     if (left <= 0) {
       this.askNow(sequence);
-      return "asked";
+      return true;
     }
     this.timer = setTimeout(() => this.askNow(sequence), left);
-    return "planned";
+    return false;
   }
 
   /** A frame was decoded, or there is nobody to ask. */

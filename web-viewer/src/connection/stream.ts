@@ -18,6 +18,7 @@ export interface StreamEvents {
 export class Stream {
   drawRate = 0; // pictures per second; 0: unknown
   private count = 0; // of lost frames
+  private told = false; // that the chain is lost
   private readonly wish: KeyframeWish;
 
   constructor(
@@ -27,8 +28,10 @@ export class Stream {
     this.wish = new KeyframeWish((sequence) => this.ack(sequence, 0, true));
   }
 
+  /** Another connection. */
   reset(): void {
     this.frames.reset();
+    this.told = false;
     this.wish.forget();
   }
 
@@ -41,6 +44,7 @@ export class Stream {
       if (decoded.kind === "state") {
         const decodeMs = performance.now() - begun;
         this.wish.forget();
+        this.told = false;
         this.ack(frame.sequence, decodeMs, false);
         this.events.decoded(received(frame, decoded.positions, arrival, bytes, decodeMs));
         return;
@@ -55,9 +59,10 @@ export class Stream {
 
   private lose(sequence: bigint, reason: string): void {
     this.events.lost(++this.count);
-    const wish = this.wish.want(sequence);
-    if (wish !== "asked") this.ack(sequence, 0, false);
-    if (wish !== "known" && reason) this.events.broken(reason);
+    if (!this.wish.want(sequence)) this.ack(sequence, 0, false);
+    if (this.told || !reason) return;
+    this.told = true;
+    this.events.broken(reason);
   }
 
   private ack(sequence: bigint, decodeMs: number, lost: boolean): void {

@@ -19,11 +19,15 @@ export class StreamFolder {
   private readonly note = h("p", { class: "note", "data-testid": "stream-note", hidden: true });
   private lastFigures = 0;
 
-  constructor(folder: GUI, wish: View, wished: (wish: View) => void) {
+  constructor(
+    folder: GUI,
+    private readonly wish: View,
+    wished: (wish: View) => void,
+  ) {
     const changed = (): void => wished({ ...wish });
     tag("tier", folder.add(wish, "tier", tierNames).name("Error, at most")).onFinishChange(changed).domElement.title =
       "How far positions may be off, on each axis; r is the smallest radius";
-    tag("rate", folder.add(wish, "rate", rates).name("Frames per second")).onFinishChange(changed);
+    tag("rate", folder.add(wish, "rate", rates).name("Frames a second")).onFinishChange(changed);
     tag("fixed", folder.add(wish, "fixed", slowNames).name("When slow")).onFinishChange(changed).domElement.title =
       "Automatic: less is sent while this page or its connection does not keep up. Fixed: frames are left out instead";
     folder.$children.append(this.note, this.table);
@@ -35,6 +39,6 @@ export class StreamFolder {
     this.note.hidden = this.note.textContent === "";
     if (now - this.lastFigures < period) return;
     this.lastFigures = now;
-    fill(this.table, "stream", streamRows(session.stream, session.traffic.rates(now), session.lateness.newest, session.lost));
+    fill(this.table, "stream", streamRows(this.wish, session.stream, session.traffic.rates(now), session.lateness.newest, session.lost));
   }
 }
