@@ -100,8 +100,7 @@ TEST(Plan, OfDustInEmptySpaceIntegratesAndNothingElse) {
     const sim::Plan plan = planOf(dust());
     ASSERT_EQ(plan.substep.size(), 1U);
     EXPECT_EQ(plan.substep[0].pass, Pass::Integrate);
-    for (const Array needed :
-         {Array::Position, Array::Velocity, Array::Label, Array::Counters, Array::SphereParts})
+    for (const Array needed : {Array::Position, Array::Velocity, Array::Label, Array::Counters, Array::SphereParts})
         EXPECT_TRUE(plan.has(needed)) << nameOf(needed);
     EXPECT_EQ(plan.arrays.size(), 5U);
     EXPECT_LT(plan.bytes(), planOf(everything()).bytes() / 4);

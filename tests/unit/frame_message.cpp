@@ -20,8 +20,7 @@ TEST(Message, CarriesTheSameContentInBinary) {
 }
 
 TEST(Message, HasLowerCamelNamesAndBase64InJson) {
-    EXPECT_EQ(Message(stateMessage()).json(),
-              R"({"frame":{"simTime":0.5,"spb":"AQL/"}})");
+    EXPECT_EQ(Message(stateMessage()).json(), R"({"frame":{"simTime":0.5,"spb":"AQL/"}})");
 }
 
 }  // namespace
