@@ -1,10 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { DialSchema, StatisticsSchema } from "../src/gen/spherule/v1/control_pb";
+import { DialSchema } from "../src/gen/spherule/v1/control_pb";
 import { AutoSchema, Model } from "../src/gen/spherule/v1/scene_pb";
 import { goalFrom, heldBy } from "../src/ui/auto";
-import { costRows, errorRows, impactWords, nearest, substepWords } from "../src/ui/dial_words";
+import { costRows, errorRows, impactWords, moreImpacts, nearest, substepWords } from "../src/ui/dial_words";
+import type { Impacts } from "../src/ui/dial_words";
 
 const dial = create(DialSchema, {
   positions: [
@@ -60,10 +61,14 @@ test("a goal is the same on its way to the server and back", () => {
   assert.deepEqual(heldBy(undefined), { auto: "off", goal: 0 });
 });
 
-test("impacts are told with what was asked of them, and not where there were none", () => {
-  const wordsOf = (impacts: bigint, restitution?: number, restitutionAsked?: number): ReturnType<typeof impactWords> =>
-    impactWords(create(StatisticsSchema, { impacts, restitution, restitutionAsked }));
-  assert.deepEqual(wordsOf(1312n, 0.4978, 0.5), { restitution: "0.498 of 0.5", over: "1\u202f312" });
-  assert.deepEqual(wordsOf(1n, 0, 0), { restitution: "0 of 0", over: "1" });
-  assert.equal(wordsOf(0n), undefined);
+test("impacts are told with what was asked of them, and few together with those before", () => {
+  const of = (impacts: bigint, restitution?: number, restitutionAsked?: number): Impacts => ({ impacts, restitution, restitutionAsked });
+  assert.deepEqual(impactWords(of(1312n, 0.4978, 0.5)), { restitution: "0.498 of 0.5", over: "1\u202f312" });
+  assert.deepEqual(impactWords(undefined), { restitution: "–", over: "–" });
+  assert.equal(moreImpacts(undefined, of(0n)), undefined);
+  const many = of(300n, 0.5, 0.5);
+  assert.equal(moreImpacts(many, of(0n)), many);
+  assert.deepEqual(moreImpacts(many, of(40n, 0.4, 0.5)), of(40n, 0.4, 0.5));
+  assert.deepEqual(moreImpacts(many, of(5n, 0, 0.5)), of(25n, 0.4, 0.5));
+  assert.deepEqual(moreImpacts(of(1n, 0.2, 0.5), of(1n, 0.4, 0.5)), of(2n, 0.30000000000000004, 0.5));
 });

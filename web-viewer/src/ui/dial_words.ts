@@ -66,8 +66,24 @@ export function substepWords(substeps: number): string {
   return substeps === 1 ? "1 substep" : `${count(substeps)} substeps`;
 }
 
-/** The restitution that impacts had, of the one that their materials ask for; nothing where there were none. */
-export function impactWords({ impacts, restitution, restitutionAsked }: Statistics): { restitution: string; over: string } | undefined {
-  if (restitution === undefined || restitutionAsked === undefined) return undefined;
-  return { restitution: `${figure(restitution)} of ${figure(restitutionAsked)}`, over: count(Number(impacts)) };
+export type Impacts = Pick<Statistics, "impacts" | "restitution" | "restitutionAsked">;
+
+const enough = 20n; // impacts: a single one among many spheres says nothing
+
+/** The newest impacts, together with those before where they are few. */
+export function moreImpacts(before: Impacts | undefined, now: Impacts): Impacts | undefined {
+  if (now.impacts === 0n || !before || now.impacts >= enough) return now.impacts === 0n ? before : now;
+  const impacts = before.impacts < enough ? before.impacts : enough; // what is older counts for no more
+  const mean = (old = 0, fresh = 0): number => (old * Number(impacts) + fresh * Number(now.impacts)) / Number(impacts + now.impacts);
+  return {
+    impacts: impacts + now.impacts,
+    restitution: mean(before.restitution, now.restitution),
+    restitutionAsked: mean(before.restitutionAsked, now.restitutionAsked),
+  };
+}
+
+/** The restitution that impacts had, of the one that their materials ask for. */
+export function impactWords(impacts: Impacts | undefined): { restitution: string; over: string } {
+  if (impacts?.restitution === undefined || impacts.restitutionAsked === undefined) return { restitution: "–", over: "–" };
+  return { restitution: `${figure(impacts.restitution)} of ${figure(impacts.restitutionAsked)}`, over: count(Number(impacts.impacts)) };
 }

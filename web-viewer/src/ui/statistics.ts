@@ -1,21 +1,21 @@
 import type { Diagnostics, Settings } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
-import { impactWords } from "./dial_words";
+import { impactWords, moreImpacts } from "./dial_words";
+import type { Impacts } from "./dial_words";
 import { h } from "./dom";
 import { count, figure, seconds, vector } from "./format";
 import { fill } from "./table";
 
 const seen = "Of spheres that met spheres, seen in every 16th step: less than asked where one meets several within a substep";
 
-const none = { restitution: "–", over: "–" };
-
 /** What the world is like now, as two small tables: what goes with the dial, and the rest. */
 export class StatisticsTables {
   readonly quality = h("table", { class: "statistics", hidden: true });
   readonly rest = h("table", { class: "statistics", hidden: true });
 
-  /** Of the last impacts that were told: where they are rare, most reports have none. */
-  private impacts = { ...none, step: 0n };
+  /** The last impacts that were told: where they are rare, most reports have none. */
+  private impacts: Impacts | undefined;
+  private step = 0n;
 
   show(now: Diagnostics, settings: Settings | undefined): void {
     const s = now.statistics;
@@ -23,10 +23,11 @@ export class StatisticsTables {
     const percent = (share: number): string => `${figure(100 * share)} %`;
     const raised = settings && now.substeps > settings.substeps ? "More than set, because something moves very fast" : undefined;
     const rises = now.energyRises ? "It has risen where nothing can have given any: use more substeps or another model" : undefined;
-    if (s.step < this.impacts.step) this.impacts = { ...none, step: 0n }; // another scene
-    const told = impactWords(s);
-    if (told) this.impacts = { ...told, step: s.step };
-    const { restitution, over } = settings?.model === Model.ACCURATE ? { restitution: "not observed", over: "–" } : this.impacts;
+    if (s.step < this.step) this.impacts = undefined; // another scene
+    this.step = s.step;
+    this.impacts = moreImpacts(this.impacts, s);
+    const unseen = settings?.model === Model.ACCURATE;
+    const { restitution, over } = unseen ? { restitution: "not observed", over: "–" } : impactWords(this.impacts);
     fill(this.quality, "statistics", [
       ["substeps", "Substeps", count(now.substeps), raised],
       ["step-time", "A step takes", now.stepMs > 0 ? `${figure(now.stepMs)} ms` : "–"],
