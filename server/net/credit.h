@@ -16,6 +16,8 @@ class Credit {
 
     // Whether another frame may go: fewer than a quarter of a second's are on their way, or the client never says.
     [[nodiscard]] bool open() const;
+    // Whether none is on its way, or the client never says.
+    [[nodiscard]] bool idle() const { return !acks_ || underWay_.empty(); }
 
   private:
     std::deque<std::uint64_t> underWay_;  // sequences, bounded while the client never acks

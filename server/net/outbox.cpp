@@ -43,6 +43,7 @@ bool Outbox::push(frame::SharedMessage message) {
 bool Outbox::offer(const frame::Link& link) {
     if (channel_.rate == 0 || link.channel != channel_) return true;
     const bool keyframe = link.kind != frame::Link::Kind::Delta;
+    if (numbered_ != link.message->content().frame().epoch()) lose();
     if (keyframe && number_ == link.number) return true;  // for those who lack it
     const bool follows = number_ && link.number == *number_ + 1 && !frame_;
     if (!keyframe && !follows) {
@@ -51,6 +52,7 @@ bool Outbox::offer(const frame::Link& link) {
         return !had;
     }
     number_ = link.number;
+    numbered_ = link.message->content().frame().epoch();
     frame_ = link.message;
     return true;
 }

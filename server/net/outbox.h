@@ -44,6 +44,7 @@ class Outbox {
     std::optional<std::uint32_t> epoch_;   // of the latest facts
     std::optional<std::uint32_t> order_;   // the latest
     std::optional<std::uint32_t> number_;  // of the newest frame taken
+    std::uint32_t numbered_ = 0;           // the epoch in which: each begins to count anew
     std::deque<frame::SharedMessage> reliable_;
     frame::SharedMessage frame_;
 };

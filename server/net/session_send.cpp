@@ -28,7 +28,7 @@ void Session::offer(frame::Link link) {
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
         const auto newest = self->offered_.take();
         if (self->closing_ || self->finished_) return;
-        // To who waits for a keyframe the hub offers nothing else: it has sent one, which this frame may have replaced.
+        // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on its way here.
         if (newest->channel == self->pace_.channel()) self->asked_ = false;
         if (!self->outbox_.offer(*newest)) self->missed();
         self->askKeyframe();
@@ -42,9 +42,9 @@ void Session::missed() {
     if (const auto reason = pace_.lost(Clock::now())) follow(*reason);
 }
 
-// Only when it can go at once: what waits gets old.
+// Only when it can go at once, and alone: what waits gets old, here as on the way to a slow client.
 void Session::askKeyframe() {
-    if (asked_ || writing_ || !outbox_.wantsKeyframe() || !credit_.open()) return;
+    if (asked_ || writing_ || !outbox_.wantsKeyframe() || !credit_.idle()) return;
     asked_ = true;
     context_.hub.askKeyframe(id_);
 }

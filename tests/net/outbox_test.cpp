@@ -122,6 +122,21 @@ TEST(Outbox, TakesANewerKeyframeInPlaceOfOneThatWaits) {
     EXPECT_EQ(nextFrame(outbox), 0U);
 }
 
+TEST(Outbox, TakesNoFrameOfAnotherEpochForOneOfTheChain) {
+    Outbox outbox = following();
+    outbox.offer(link(Keyframe, 1));
+    EXPECT_EQ(nextFrame(outbox), 1U);
+    describe(outbox, 2);
+    EXPECT_TRUE(outbox.offer(link(Delta, 2, 2))) << "nothing is lost that had begun";
+    EXPECT_EQ(outbox.next(true), nullptr);
+    EXPECT_TRUE(outbox.wantsKeyframe());
+    EXPECT_TRUE(outbox.offer(link(Keyframe, 1, 2)));
+    EXPECT_EQ(nextFrame(outbox), 1U) << "chains count from 1 in each epoch";
+    describe(outbox, 3);
+    EXPECT_TRUE(outbox.offer(link(Keyframe, 1, 3)));
+    EXPECT_EQ(nextFrame(outbox), 1U);
+}
+
 TEST(Outbox, KnowsNothingOfOtherChains) {
     Outbox outbox = following();
     EXPECT_TRUE(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::ECO, 60})));

@@ -120,6 +120,7 @@ Handlers Owner::handlers() {
         .submit =
             [this](SessionId session, v1::Command command) {
                 if (!takesCommands) return false;
+                for (; hold; std::this_thread::sleep_for(1ms)) held = true;
                 v1::CommandResult result;
                 result.set_id(command.id());
                 result.mutable_applied()->set_step(7);

@@ -58,6 +58,9 @@ class Owner {
     // What submit answers.
     std::atomic<bool> takesCommands = true;
     std::vector<v1::Command> commands();
+    // Keeps the io thread busy with the next command until it is false again.
+    std::atomic<bool> hold = false;
+    std::atomic<bool> held = false;
 
   private:
     Handlers handlers();

@@ -81,6 +81,45 @@ TEST(Stream, GivesAKeyframeToWhoSaysThatItLostTheChain) {
     EXPECT_FALSE(owner.server().demands().front().lost);
 }
 
+// As when the io thread was busy for two frames, and only the second of them has reached the session.
+TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
+    Owner owner;
+    const auto client = join(owner, 60);
+    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
+    const frame::Channel channel{v1::NORMAL, 60};
+    const auto give = [&](frame::Link::Kind kind, std::uint32_t number) {
+        owner.server().publish(linkOf(kind, number, 1, 64, channel));
+    };
+    give(frame::Link::Kind::Join, 1);
+    EXPECT_EQ(next(*client).frame().sequence(), 1U);
+    give(frame::Link::Kind::Delta, 3);
+    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; })) << "though nothing is written";
+    EXPECT_EQ(owner.counters().chainsLost, 1U);
+    give(frame::Link::Kind::Join, 3);
+    EXPECT_EQ(next(*client).frame().sequence(), 3U);
+}
+
+// A keyframe that a delta has overtaken must be asked for again, or nothing ever comes.
+TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
+    Owner owner;
+    const auto client = join(owner, 60);
+    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
+    const frame::Channel channel{v1::NORMAL, 60};
+    owner.hold = true;
+    v1::ClientMessage command;
+    command.mutable_command()->mutable_query();
+    ASSERT_TRUE(client->send(command));
+    ASSERT_TRUE(eventually([&] { return owner.held.load(); }));
+    owner.server().publish(linkOf(frame::Link::Kind::Join, 1, 1, 64, channel));
+    EXPECT_FALSE(owner.server().demands().front().newcomer);
+    owner.server().publish(linkOf(frame::Link::Kind::Delta, 2, 1, 64, channel));
+    owner.hold = false;
+    EXPECT_TRUE(next(*client).has_result());
+    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
+    owner.server().publish(linkOf(frame::Link::Kind::Join, 2, 1, 64, channel));
+    EXPECT_EQ(next(*client).frame().sequence(), 2U);
+}
+
 TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
     Owner owner;
     const auto client = join(owner, 60);

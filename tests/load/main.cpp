@@ -1,0 +1,171 @@
+#include <spdlog/fmt/fmt.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+
+#include "crowd.h"
+#include "net/client.h"
+#include "report.h"
+
+// Many viewers of one server, some of them bad, in one process: what they are sent is checked, and how old it is.
+
+namespace {
+
+using namespace spherule;
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+    std::string url;
+    load::Composition who;
+    std::uint32_t seconds = 60;
+    std::uint32_t warmUp = 3;
+    std::uint32_t rate = 20;
+    v1::Tier tier = v1::NORMAL;
+    bool fixed = false;
+    std::size_t slowBytes = 20'000;
+    std::uint32_t lateMs = 1000;
+    std::uint32_t stay = 3;
+    unsigned threads = 1;
+    std::optional<pid_t> server;
+    bool markdown = false;
+};
+
+void declare(CLI::App& app, Options& options) {
+    static const std::map<std::string, v1::Tier> tiers = {{"fine", v1::FINE}, {"normal", v1::NORMAL}, {"eco", v1::ECO}};
+    app.add_option("url", options.url, "ws://HOST:PORT/ws")->required();
+    app.add_option("--viewers", options.who.viewers, "all of them")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 20'000));
+    app.add_option("--stalled", options.who.stalled, "of them read no more after their first frame");
+    app.add_option("--slow", options.who.slow, "of them are slow: every other one reads slowly, the rest ack late");
+    app.add_option("--reconnecting", options.who.reconnecting, "of them leave every few seconds and join again");
+    app.add_option("--decode", options.who.decode, "of the healthy ones decode all and compare hashes");
+    app.add_option("--seconds", options.seconds, "measured")->capture_default_str()->check(CLI::Range(1, 86'400));
+    app.add_option("--warm-up", options.warmUp, "seconds before: ages and rates do not count, content does")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3'600));
+    app.add_option("--rate", options.rate, "frames per second")->capture_default_str()->check(CLI::Range(1, 60));
+    app.add_option("--tier", options.tier, "fine, normal or eco")
+        ->transform(CLI::CheckedTransformer(tiers))
+        ->default_str("normal");
+    app.add_flag("--fixed", options.fixed, "viewers do not let the server step down");
+    app.add_option("--slow-bytes", options.slowBytes, "per second, of who reads slowly")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1'000'000'000));
+    app.add_option("--late-ms", options.lateMs, "before who acks late acks")->capture_default_str();
+    app.add_option("--stay", options.stay, "seconds that a reconnecting viewer stays at most")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3'600));
+    app.add_option("--threads", options.threads, "of this client")->capture_default_str()->check(CLI::Range(1, 64));
+    app.add_option("--server-pid", options.server, "also tell what this process uses")->check(CLI::PositiveNumber);
+    app.add_flag("--markdown", options.markdown, "tables as Markdown");
+    app.footer(
+        "Faults are what docs/protocol.md and docs/codec.md do not allow, a healthy viewer that is disconnected, and "
+        "one\n"
+        "without frames for 5 s: let the scene run.\n\n"
+        "Exit codes: 0 no faults, 1 faults, 2 usage, or no server.");
+}
+
+void check(const Options& options) {
+    const auto& who = options.who;
+    const std::uint64_t bad = std::uint64_t{who.stalled} + who.slow + who.reconnecting;
+    if (bad > who.viewers)
+        throw std::runtime_error(fmt::format("{} are stalled, slow or reconnecting, of {} viewers", bad, who.viewers));
+    if (who.decode > who.viewers - bad)
+        throw std::runtime_error(
+            fmt::format("--decode {}: there are {} healthy viewers", who.decode, who.viewers - bad));
+}
+
+load::Wish wishOf(const Options& options) {
+    const auto url = net::parseUrl(options.url);
+    if (!url) throw std::runtime_error(url.error().text());
+    boost::asio::io_context io;
+    boost::system::error_code error;
+    const auto found = boost::asio::ip::tcp::resolver(io).resolve(url->host, url->port, error);
+    if (error) throw std::runtime_error(options.url + ": " + error.message());
+    // One that answers: a name may stand for addresses that nobody listens at.
+    boost::asio::ip::tcp::socket socket(io);
+    const auto server = boost::asio::connect(socket, found, error);
+    if (error) throw std::runtime_error(options.url + ": cannot be reached: " + error.message());
+    return {.server = server,
+            .url = *url,
+            .tier = options.tier,
+            .rate = options.rate,
+            .fixed = options.fixed,
+            .slowBytes = options.slowBytes,
+            .lateAck = std::chrono::milliseconds(options.lateMs),
+            .stay = std::chrono::seconds(options.stay),
+            .measureFrom = Clock::now() + std::chrono::seconds(options.warmUp)};
+}
+
+double ownCpuSeconds() {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+load::Outcome run(const Options& options) {
+    load::Outcome outcome;
+    const auto look = [&] { return options.server ? load::usageOf(*options.server) : std::nullopt; };
+    if (options.server) {
+        const auto before = look();
+        if (!before) throw std::runtime_error(fmt::format("--server-pid {}: no process to look at", *options.server));
+        outcome.server = load::ServerUsage{.before = *before, .during = {}, .after = {}};
+    }
+    const load::Wish wish = wishOf(options);
+    load::Crowd crowd(wish, options.who, options.threads);
+    crowd.start();
+    std::this_thread::sleep_until(wish.measureFrom);
+    const auto began = Clock::now();
+    const double cpu = ownCpuSeconds();
+    for (std::uint32_t second = 0;; ++second) {
+        if (const auto usage = look()) outcome.server->during.push_back(*usage);
+        if (second % 5 == 0) fmt::print(stderr, "{} of {} s\n", second, options.seconds);
+        if (second == options.seconds) break;
+        std::this_thread::sleep_until(began + (second + 1) * 1s);
+    }
+    outcome.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    outcome.cpuSeconds = ownCpuSeconds() - cpu;
+    outcome.tallies = crowd.stop();
+    if (outcome.server) {
+        std::this_thread::sleep_for(2s);  // for the server to notice
+        outcome.server->after = look();
+    }
+    return outcome;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Checks and times what many viewers of a running `spherule serve` are sent", "spherule_load");
+    Options options;
+    declare(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        check(options);
+        const load::Outcome outcome = run(options);
+        fmt::print("{}", load::reportOf(outcome, options.markdown));
+        for (const load::Tally& tally : outcome.tallies)
+            if (tally.faultCount > 0) return 1;
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "spherule_load: {}\n", error.what());
+        return 2;
+    }
+}
