@@ -1,5 +1,8 @@
 #include "net/listener.h"
 
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
 #include <chrono>
 #include <string>
 #include <utility>
@@ -18,8 +21,9 @@ using boost::system::error_code;
 namespace {
 
 // The kernel would otherwise take seconds of states for a slow client, who would then watch the past. It doubles the
-// figure for its own bookkeeping.
+// first figure for its own bookkeeping; what it has not sent yet is kept below the second, for those who read slowly.
 constexpr int sendBuffer = 256 * 1024;
+constexpr int mostUnsent = 32 * 1024;
 constexpr std::chrono::milliseconds retryAfter{100};
 
 }  // namespace
@@ -78,6 +82,7 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
     error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
+    setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &mostUnsent, sizeof mostUnsent);
     std::make_shared<HttpConnection>(boost::beast::tcp_stream(std::move(socket)), context_)->run();
     accept();
 }

@@ -132,7 +132,7 @@ load::Outcome run(const Options& options) {
     const double cpu = ownCpuSeconds();
     for (std::uint32_t second = 0;; ++second) {
         if (const auto usage = look()) outcome.server->during.push_back(*usage);
-        if (second % 5 == 0) fmt::print(stderr, "{} of {} s\n", second, options.seconds);
+        if (second % 5 == 0 || second == options.seconds) fmt::print(stderr, "{} of {} s\n", second, options.seconds);
         if (second == options.seconds) break;
         std::this_thread::sleep_until(began + (second + 1) * 1s);
     }

@@ -60,6 +60,19 @@ TEST(SlowClients, ThatStopReadingLoseStatesThenTheConnectionAndOthersNoticeNothi
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
+// What the kernel has taken gets old there.
+TEST(SlowClients, ThatReadNothingHaveLittleUnderWay) {
+    Owner owner;
+    const RawSocket slow(owner.server().port(), 16 * 1024);
+    ASSERT_EQ(slow.openStream().substr(0, 12), "HTTP/1.1 101");
+    slow.sendFrame(binaryFrame, helloBytes(60));
+    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
+    owner.publishEvery(5ms, 20'000);  // 120 kB each
+    ASSERT_TRUE(eventually([&] { return owner.published() > 60; }));
+    EXPECT_EQ(owner.counters().framesSent, 0U) << "not even one could be handed to the kernel whole";
+    EXPECT_GE(owner.counters().chainsLost, 1U);
+}
+
 TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
     Options options = quickOptions();
     options.progressTimeout = 1s;

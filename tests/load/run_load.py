@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""What many viewers get, and what they cost the simulation: two Markdown tables.
+
+    tests/load/run_load.py [--build build/release] [--viewers 200] [--seconds 20] [--stretches 3] [--part crowd|cost]
+
+crowd: a bed that comes to rest, streamed to viewers of which a tenth stalls, a tenth is slow and a twentieth reconnects;
+what it did to the server, from /metrics. cost: a bed that is awake, with one viewer and with all of them in turns; the
+simulation's time per substep, and its ratio.
+"""
+import argparse
+import datetime
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+from serving import Server
+
+OF_INTEREST = ["spherule_frames_sent_total", "spherule_bytes_sent_total", "spherule_states_produced_total",
+               "spherule_chains_lost_total", "spherule_sessions_accepted_total"]
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build/release")
+    parser.add_argument("--viewers", type=int, default=200)
+    parser.add_argument("--rate", type=int, default=20)
+    parser.add_argument("--seconds", type=int, default=20, help="of the crowd, and of each stretch of the cost")
+    parser.add_argument("--stretches", type=int, default=3, help="of the cost, with one viewer and with all, each")
+    parser.add_argument("--settle", type=int, default=15, help="simulated seconds before anything is measured")
+    parser.add_argument("--scene", default="box-10k")
+    parser.add_argument("--device", default="cpu:1")
+    parser.add_argument("--part", choices=["crowd", "cost"], help="only this one")
+    return parser.parse_args()
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def wait_until(what, condition, seconds=300):
+    say(what)
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise SystemExit(f"waited {seconds} s in vain: {what}")
+        time.sleep(0.2)
+
+
+def settle(server, seconds):
+    wait_until(f"{seconds} s are simulated",
+               lambda: server.metrics().get(("spherule_simulated_seconds", ""), 0) >= seconds)
+
+
+def client(args, server, viewers, seconds, *more):
+    return [os.path.join(args.build, "spherule_load"), server.stream, "--viewers", str(viewers), "--rate", str(args.rate),
+            "--seconds", str(seconds), *more]
+
+
+def crowd(args):
+    tenth = args.viewers // 10
+    with Server(os.path.join(args.build, "spherule"), args.scene, "--device", args.device) as server:
+        settle(server, args.settle)
+        before = server.metrics()
+        done = subprocess.run(client(args, server, args.viewers, args.seconds, "--stalled", str(tenth), "--slow", str(tenth),
+                                     "--reconnecting", str(tenth // 2), "--decode", "4", "--server-pid",
+                                     str(server.pid), "--markdown"), stdout=subprocess.PIPE, text=True, check=False)
+        after = server.metrics()
+    print(done.stdout)
+    print("| /metrics, from before to after | |\n|---|--:|")
+    for key in sorted(after):
+        closed = key[0] == "spherule_sessions_closed_total" and after[key] > before.get(key, 0)
+        if key[0] in OF_INTEREST or closed:
+            print(f"| {key[0]}{' ' + key[1] if key[1] else ''} | {after[key] - before.get(key, 0):.0f} |")
+    print(f"| spherule_sleeping_spheres, of {after['spherule_spheres', '']:.0f} | "
+          f"{after['spherule_sleeping_spheres', '']:.0f} |\n")
+    return done.returncode
+
+
+def thread_seconds(pid):
+    """CPU seconds of each thread of the process, since it began."""
+    seconds = {}
+    for thread in os.listdir(f"/proc/{pid}/task"):
+        with open(f"/proc/{pid}/task/{thread}/stat", encoding="utf-8") as file:
+            fields = file.read().rpartition(")")[2].split()
+        seconds[thread] = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return seconds
+
+
+def sample(server):
+    metrics = server.metrics()
+    passes = {name: value for (family, name), value in metrics.items() if family == "spherule_pass_seconds_total"}
+    return {"time": time.monotonic(), "substeps": metrics["spherule_steps", ""] * metrics["spherule_substeps", ""],
+            "pack": passes.pop("pack", 0), "passes": sum(passes.values()), "threads": thread_seconds(server.pid),
+            "frames": metrics["spherule_frames_sent_total", ""], "lost": metrics["spherule_chains_lost_total", ""]}
+
+
+def stretch(args, server, viewers):
+    """Milliseconds per substep, and some more, while so many watch."""
+    with subprocess.Popen(client(args, server, viewers, args.seconds + 30), stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL) as crowd_process:
+        try:
+            wait_until(f"{viewers} watch", lambda: server.metrics()["spherule_sessions", ""] >= viewers, 60)
+            time.sleep(3)
+            first = sample(server)
+            time.sleep(args.seconds)
+            last = sample(server)
+        finally:
+            crowd_process.kill()
+    wait_until("all have left", lambda: server.metrics()["spherule_sessions", ""] == 0, 60)
+    substeps = last["substeps"] - first["substeps"]
+    cpu = {thread: last["threads"][thread] - before for thread, before in first["threads"].items()
+           if thread in last["threads"]}
+    simulation = max(cpu.values())  # on one thread of the CPU device that is the busiest by far
+    wall = last["time"] - first["time"]
+    return {"passes, wall ms per substep": 1e3 * (last["passes"] - first["passes"]) / substeps,
+            "simulation thread, CPU ms per substep": 1e3 * simulation / substeps,
+            "encoding of frames, wall ms per substep": 1e3 * (last["pack"] - first["pack"]) / substeps,
+            "all other threads, CPU ms per second": 1e3 * (sum(cpu.values()) - simulation) / wall,
+            "substeps per second": substeps / wall,
+            "frames sent per second": (last["frames"] - first["frames"]) / wall,
+            "chains lost": last["lost"] - first["lost"]}
+
+
+def cost(args):
+    alone, crowded = [], []
+    with Server(os.path.join(args.build, "spherule"), args.scene, "--no-sleep", "--device", args.device) as server:
+        settle(server, args.settle)
+        for number in range(args.stretches):
+            say(f"stretch {number + 1} of {args.stretches}")
+            alone.append(stretch(args, server, 1))
+            crowded.append(stretch(args, server, args.viewers))
+    print(f"| {args.scene} --no-sleep, medians of {args.stretches} stretches | 1 viewer | {args.viewers} viewers | ratio | "
+          "ratios of pairs |\n|---|--:|--:|--:|--:|")
+    for name in alone[0]:
+        one, many = (statistics.median(each[name] for each in stretches) for stretches in (alone, crowded))
+        ratios = sorted(b[name] / a[name] for a, b in zip(alone, crowded) if a[name] > 0)
+        spread = f"{ratios[0]:.2f} to {ratios[-1]:.2f}" if ratios else "-"
+        print(f"| {name} | {one:.4g} | {many:.4g} | {f'{many / one:.3f}' if one > 0 else '-'} | {spread} |")
+
+
+def main():
+    args = options()
+    print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the beginning, "
+          f"{datetime.date.today():%d %B %Y}, {args.viewers} viewers at {args.rate} Hz, --device {args.device}\n", flush=True)
+    failed = crowd(args) if args.part != "cost" else 0
+    if args.part != "crowd":
+        cost(args)
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())
