@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/log.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -14,6 +15,8 @@ using namespace std::chrono_literals;
 
 // A keyframe costs everybody on the chain the prediction of the next frame, so those who keep losing it wait a little.
 constexpr auto keyframesEvery = 250ms;
+constexpr auto newcomersEvery = 50ms;
+constexpr auto retryEvery = 10s;
 constexpr auto hashEvery = 1s;
 constexpr auto copyWait = 1ms;
 
@@ -41,22 +44,34 @@ std::uint64_t microsecondsNow() {
 Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder)
     : device_(device), publish_(std::move(publish)), announceOrder_(std::move(announceOrder)) {}
 
-Result<void> Chains::serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now) {
+void Chains::serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now) {
     if (world.epoch != epoch_) chains_.clear();
     version_ = world.version;
-    for (auto& [channel, chain] : chains_) chain.watched = false;
-    if (world.spheres > 0) {
-        for (const frame::Demand& demand : demands) {
-            auto chain = chainOf(demand.channel, world);
-            if (!chain) return tl::unexpected(chain.error());
-            (*chain)->watched = true;
-            collect(demand.channel, **chain);
-            if (!(*chain)->making) begin(demand, **chain, world, now);
-            collect(demand.channel, **chain);
-        }
+    std::erase_if(chains_, [&](const auto& entry) {
+        return std::ranges::find(demands, entry.first, &frame::Demand::channel) == demands.end();
+    });
+    if (world.spheres == 0) return;
+    for (auto& [channel, chain] : chains_) collect(channel, chain);
+    std::vector<std::pair<frame::Channel, Chain*>> making;
+    for (const frame::Demand& demand : demands) {
+        Chain* const chain = served(demand, world, now);
+        if (chain == nullptr) continue;
+        if (!chain->making) begin(demand, *chain, world, now);
+        if (chain->making) making.emplace_back(demand.channel, chain);
     }
-    std::erase_if(chains_, [](const auto& entry) { return !entry.second.watched; });
-    return {};
+    // The device copies few at a time: whose turn was first goes first.
+    std::ranges::sort(making, {}, [](const auto& entry) { return entry.second->turn; });
+    for (const auto& [channel, chain] : making) collect(channel, *chain);
+}
+
+Chains::Chain* Chains::served(const frame::Demand& demand, const Scenery& world, Clock::time_point now) {
+    if (!chains_.contains(demand.channel) && now < retry_) return nullptr;
+    auto chain = chainOf(demand.channel, world);
+    if (chain) return *chain;
+    spdlog::warn("viewers of {} at {}/s get no frames: {}", v1::Tier_Name(demand.channel.tier), demand.channel.rate,
+                 chain.error().text());
+    retry_ = now + retryEvery;
+    return nullptr;
 }
 
 // The order holds for an epoch: neighbours of its beginning stay near each other for long.
@@ -87,24 +102,26 @@ Result<Chains::Chain*> Chains::chainOf(const frame::Channel& channel, const Scen
     return &chain;
 }
 
+// A keyframe for who waits and the next frame for all others take turns where the world is so slow that the next frame
+// is always due.
 void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
     using enum frame::Link::Kind;
     const bool due = now >= chain.next && chain.version != world.version;
-    if (!chain.begun || due) {
-        const auto kind = chain.begun ? Delta : Keyframe;
-        const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
-        chain.next = std::max(chain.next + interval, now - interval / 2);
-        chain.version = world.version;
-        chain.newest = world.head();
-        chain.newest.set_epoch(epoch_);
-        chain.newest.set_order(order_);
-        chain.newest.set_count(world.spheres);
-        chain.newest.set_tier(demand.channel.tier);
-        chain.newest.set_quantum(frame::quantumOf(demand.channel.tier, world.smallestRadius));
-        return start(chain, kind, chain.newest, world.source, now);
-    }
-    if (demand.newcomer || (demand.lost && now - chain.keyframe >= keyframesEvery))
-        start(chain, Join, chain.newest, world.source, now);
+    const auto since = now - chain.keyframe;
+    const bool waits =
+        chain.begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
+    if (waits && (!due || chain.kind == Delta)) return start(chain, Join, chain.newest, world.source, now);
+    if (chain.begun && !due) return;
+    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
+    chain.next = std::max(chain.next + interval, now - interval / 2);
+    chain.version = world.version;
+    chain.newest = world.head();
+    chain.newest.set_epoch(epoch_);
+    chain.newest.set_order(order_);
+    chain.newest.set_count(world.spheres);
+    chain.newest.set_tier(demand.channel.tier);
+    chain.newest.set_quantum(frame::quantumOf(demand.channel.tier, world.smallestRadius));
+    start(chain, chain.begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 
 void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
@@ -126,6 +143,7 @@ void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const s
     device_.endTimer();
     if (kind != frame::Link::Kind::Delta) chain.keyframe = now;
     chain.begun = true;
+    chain.turn = ++turns_;
     chain.kind = kind;
     chain.making = std::move(head);
 }

@@ -36,8 +36,9 @@ class Chains {
 
     Chains(compute::Device& device, Publish publish, Announce announceOrder);
 
-    // Hands on the frames that have arrived, and begins those that are due. Refused where the device has no room.
-    Result<void> serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now);
+    // Hands on the frames that have arrived, and begins those that are due. A chain that the device has no room for is
+    // left out, told in the log, and tried again now and then.
+    void serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now);
 
     // When to call again; nothing when there is nothing to do before the world or the demands change.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
@@ -51,8 +52,8 @@ class Chains {
         frame::Link::Kind kind = frame::Link::Kind::Keyframe;
         std::uint64_t version = 0;  // of the world in its newest frame
         bool begun = false;
-        bool watched = true;
         v1::Frame newest;              // head of its newest frame
+        std::uint64_t turn = 0;        // in which the frame was begun: the oldest is copied first
         Clock::time_point next{};      // frame
         Clock::time_point keyframe{};  // the last one
         Clock::time_point hash{};      // the last one
@@ -60,6 +61,7 @@ class Chains {
 
     Result<void> prepare(const Scenery& world);
     Result<Chain*> chainOf(const frame::Channel& channel, const Scenery& world);
+    Chain* served(const frame::Demand& demand, const Scenery& world, Clock::time_point now);
     void begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now);
     void start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
                Clock::time_point now);
@@ -74,6 +76,8 @@ class Chains {
     std::uint32_t order_ = 0;
     std::uint64_t version_ = 0;  // of the world when it was last served
     std::map<frame::Channel, Chain> chains_;
+    std::uint64_t turns_ = 0;
+    Clock::time_point retry_{};  // of what was refused
     std::uint64_t sequence_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "core/log.h"
 
@@ -46,7 +47,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
         } else if (auto request = requests_.popFor(patience(now))) {
             serve(*request);
         }
-        if (auto done = produce(Pacer::Clock::now()); !done) return done;
+        produce(Pacer::Clock::now());
         report();
     }
     return {};
@@ -130,18 +131,18 @@ void SimLoop::stopAtNonFinite() {
     announce();
 }
 
-Result<void> SimLoop::produce(Pacer::Clock::time_point now) {
+void SimLoop::produce(Pacer::Clock::time_point now) {
     const auto demands = outlets_.demands();
     watched_ = !demands.empty();
     sim::Simulation& simulation = world_.simulation();
-    return chains_.serve({.source = simulation.tierSource(),
-                          .spheres = simulation.count(),
-                          .smallestRadius = sim::radiiOf(simulation.scene()).smallest,
-                          .epoch = epoch_,
-                          .version = version_,
-                          .positions = [&simulation] { return simulation.snapshot(); },
-                          .head = [this, now] { return head(now); }},
-                         demands, now);
+    chains_.serve({.source = simulation.tierSource(),
+                   .spheres = simulation.count(),
+                   .smallestRadius = simulation.radii().smallest,
+                   .epoch = epoch_,
+                   .version = version_,
+                   .positions = [&simulation] { return simulation.snapshot(); },
+                   .head = [this, now] { return head(now); }},
+                  demands, now);
 }
 
 v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
@@ -153,7 +154,8 @@ v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
 }
 
 void SimLoop::publish(const frame::Link& link) {
-    if (link.kind != frame::Link::Kind::Join) produced_.push_back(Pacer::Clock::now());
+    // States, not frames: several chains may show one.
+    if (std::exchange(shown_, version_) != version_) produced_.push_back(Pacer::Clock::now());
     outlets_.frame(link);
 }
 

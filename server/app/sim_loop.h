@@ -50,7 +50,7 @@ class SimLoop {
     Result<void> tune(double wallMs);
     void say(v1::Event::Kind kind, const std::string& text);
     void stopAtNonFinite();
-    Result<void> produce(Pacer::Clock::time_point now);
+    void produce(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
     void publish(const frame::Link& link);
     void report();
@@ -70,6 +70,7 @@ class SimLoop {
     Observer observer_;
     std::optional<v1::Diagnostics> seen_;  // of the last report while somebody watched
     std::uint64_t version_ = 0;            // of the world, as far as viewers can see
+    std::uint64_t shown_ = 0;              // the version of the newest frame
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
     bool watched_ = false;

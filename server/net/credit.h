@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 
@@ -9,20 +10,24 @@ namespace spherule::net {
 // that only acks tell. One thread.
 class Credit {
   public:
+    using Clock = std::chrono::steady_clock;
+
     void setRate(std::uint32_t rate);  // frames per second
 
-    void sent(std::uint64_t sequence);
+    void sent(std::uint64_t sequence, Clock::time_point now);
     void acked(std::uint64_t sequence);  // and all before it
 
-    // Whether another frame may go: fewer than a quarter of a second's are on their way, or the client never says.
-    [[nodiscard]] bool open() const;
-    // Whether none is on its way, or the client never says.
-    [[nodiscard]] bool idle() const { return !acks_ || underWay_.empty(); }
+    // Whether another frame may go: fewer than a quarter of a second's are on their way, or the client never says, or
+    // has not said for so long that it may have forgotten.
+    [[nodiscard]] bool open(Clock::time_point now) const;
+    // The same of none on its way.
+    [[nodiscard]] bool idle(Clock::time_point now) const;
 
   private:
     std::deque<std::uint64_t> underWay_;  // sequences, bounded while the client never acks
     std::size_t most_ = 3;
     bool acks_ = false;
+    Clock::time_point last_{};  // one was sent
 };
 
 }  // namespace spherule::net

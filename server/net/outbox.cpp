@@ -40,21 +40,21 @@ bool Outbox::push(frame::SharedMessage message) {
     return true;
 }
 
-bool Outbox::offer(const frame::Link& link) {
-    if (channel_.rate == 0 || link.channel != channel_) return true;
+Outbox::Offered Outbox::offer(const frame::Link& link) {
+    if (channel_.rate == 0 || link.channel != channel_) return Offered::Fine;
     const bool keyframe = link.kind != frame::Link::Kind::Delta;
     if (numbered_ != link.message->content().frame().epoch()) lose();
-    if (keyframe && number_ == link.number) return true;  // for those who lack it
-    const bool follows = number_ && link.number == *number_ + 1 && !frame_;
-    if (!keyframe && !follows) {
-        const bool had = number_.has_value();
+    if (keyframe && number_ == link.number) return Offered::Fine;  // for those who lack it
+    if (!keyframe && !number_) return Offered::Fine;               // lost before
+    if (!keyframe && (frame_ || link.number != *number_ + 1)) {
+        const Offered why = frame_ ? Offered::Busy : Offered::Gap;
         lose();
-        return !had;
+        return why;
     }
     number_ = link.number;
     numbered_ = link.message->content().frame().epoch();
     frame_ = link.message;
-    return true;
+    return Offered::Fine;
 }
 
 frame::SharedMessage Outbox::next(bool frames) {

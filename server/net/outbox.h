@@ -23,8 +23,12 @@ class Outbox {
     // False when the lane is full. Scene facts, orders, settings, dials, diagnostics and what is said of the stream
     // take the place of older ones that wait.
     [[nodiscard]] bool push(frame::SharedMessage message);
-    // False when the chain is lost by it: the frame before could not be sent, or has never come.
-    bool offer(const frame::Link& link);
+    enum class Offered : std::uint8_t {
+        Fine,
+        Busy,  // the chain is lost: the frame before still waits to be sent
+        Gap    // the chain is lost: the frame before has never come
+    };
+    Offered offer(const frame::Link& link);
     // The client has lost the chain.
     void lose();
 

@@ -14,9 +14,10 @@ constexpr std::size_t severalLosses = 3;
 constexpr auto together = 3s;
 constexpr auto leastPatience = 10s;
 constexpr auto mostPatience = 160s;
-constexpr auto tooEarly = 5s;            // for a loss after a step up
+constexpr auto tooEarly = 5s;            // for a step down after one up
 constexpr std::uint32_t watchable = 10;  // frames per second, below which precision goes first
 constexpr double drawn = 0.6;            // of the frames: with fewer pictures, frames are sent in vain
+constexpr double busy = 0.6;             // of the time between frames, with decoding one
 constexpr int slowFor = 30;              // acks
 
 std::optional<std::uint32_t> below(std::uint32_t rate) {
@@ -44,16 +45,17 @@ void Pace::want(const frame::Channel& channel, bool fixed, Clock::time_point now
     left_.clear();
     quietSince_ = now;
     patience_ = leastPatience;
-    slowPictures_ = 0;
+    slowAcks_ = 0;
 }
 
 bool Pace::stepDown(Clock::time_point now) {
     const auto less = lessThan(channel_);
     if (fixed_ || !less) return false;
+    if (now - steppedUp_ < tooEarly) patience_ = std::min<std::chrono::seconds>(2 * patience_, mostPatience);
     left_.push_back(channel_);
     channel_ = *less;
     losses_.clear();
-    slowPictures_ = 0;
+    slowAcks_ = 0;
     quietSince_ = now;
     return true;
 }
@@ -68,10 +70,6 @@ bool Pace::stepUp(Clock::time_point now) {
 }
 
 std::optional<std::string> Pace::lost(Clock::time_point now) {
-    if (now - steppedUp_ < tooEarly) {
-        patience_ = std::min<std::chrono::seconds>(2 * patience_, mostPatience);
-        steppedUp_ = {};
-    }
     losses_.push_back(now);
     while (now - losses_.front() > together) losses_.pop_front();
     quietSince_ = now;
@@ -80,12 +78,19 @@ std::optional<std::string> Pace::lost(Clock::time_point now) {
                        std::chrono::seconds(together).count());
 }
 
-std::optional<std::string> Pace::acked(double drawRate, Clock::time_point now) {
-    slowPictures_ = drawRate > 0 && drawRate < drawn * channel_.rate ? slowPictures_ + 1 : 0;
+std::optional<std::string> Pace::acked(double drawRate, double decodeMs, Clock::time_point now) {
+    const bool drawsLess = drawRate > 0 && drawRate < drawn * channel_.rate;
+    const bool decodesLong = decodeMs * channel_.rate > busy * 1000;
+    slowAcks_ = drawsLess || decodesLong ? slowAcks_ + 1 : 0;
     const auto less = lessThan(channel_);
     const bool fewer = less && less->rate < channel_.rate;  // less precision would not help
-    if (slowPictures_ >= slowFor && fewer && stepDown(now))
-        return fmt::format("only {:.0f} pictures per second are drawn", drawRate);
+    if (slowAcks_ >= slowFor && fewer && stepDown(now))
+        return drawsLess ? fmt::format("only {:.0f} pictures per second are drawn", drawRate)
+                         : fmt::format("a frame takes {:.0f} ms to decode", decodeMs);
+    return passed(now);
+}
+
+std::optional<std::string> Pace::passed(Clock::time_point now) {
     if (stepUp(now)) return "the client has kept up for a while";
     return std::nullopt;
 }

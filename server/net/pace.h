@@ -25,7 +25,9 @@ class Pace {
 
     // The reason for a change of channel(), where there is one.
     std::optional<std::string> lost(Clock::time_point now);  // the client missed a frame
-    std::optional<std::string> acked(double drawRate, Clock::time_point now);
+    // `drawRate`: pictures per second, 0: unknown.
+    std::optional<std::string> acked(double drawRate, double decodeMs, Clock::time_point now);
+    std::optional<std::string> passed(Clock::time_point now);  // some time has
 
   private:
     bool stepDown(Clock::time_point now);
@@ -39,7 +41,7 @@ class Pace {
     Clock::time_point quietSince_;
     Clock::time_point steppedUp_{};  // a loss soon after it says that it was too early
     std::chrono::seconds patience_{10};
-    int slowPictures_ = 0;  // acks in a row
+    int slowAcks_ = 0;  // in a row
 };
 
 }  // namespace spherule::net

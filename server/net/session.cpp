@@ -110,20 +110,27 @@ void Session::onHello(const v1::Hello& hello) {
 }
 
 void Session::onView(const v1::View& view) {
-    const v1::Tier tier =
-        v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED ? view.tier() : v1::NORMAL;
-    const std::uint32_t rate = frame::rateFor(view.has_rate() ? view.rate() : defaultRate);
-    pace_.want({tier, rate}, view.fixed(), Pace::Clock::now());
+    const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
+    const frame::Channel wish{known ? view.tier() : v1::NORMAL,
+                              frame::rateFor(view.has_rate() ? view.rate() : defaultRate)};
+    // Whoever says the same again begins nothing anew.
+    if (wish == wish_ && view.fixed() == fixed_) return sayStream("");
+    wish_ = wish;
+    fixed_ = view.fixed();
+    pace_.want(wish, view.fixed(), Pace::Clock::now());
     follow("");
 }
 
 void Session::onAck(const v1::Ack& ack) {
     credit_.acked(ack.sequence());
-    if (ack.lost()) {
+    // Of a frame before the last keyframe it says nothing of the chain as it is now.
+    if (ack.lost() && pace_.channel().rate > 0 && ack.sequence() >= keyframe_) {
         outbox_.lose();
         missed();
     }
-    if (const auto reason = pace_.acked(static_cast<double>(ack.draw_rate()), Pace::Clock::now())) follow(*reason);
+    const auto now = Pace::Clock::now();
+    const auto reason = pace_.acked(static_cast<double>(ack.draw_rate()), static_cast<double>(ack.decode_ms()), now);
+    if (reason) follow(*reason);
     askKeyframe();
     pump();
 }

@@ -1,9 +1,11 @@
 // The sending half of a session: its lanes, its clock, its end.
+#include <span>
 #include <utility>
 
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "frame/codec.h"
 #include "net/session.h"
 #include "net/tcp_progress.h"
 #include "net/text.h"
@@ -30,7 +32,9 @@ void Session::offer(frame::Link link) {
         if (self->closing_ || self->finished_) return;
         // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on its way here.
         if (newest->channel == self->pace_.channel()) self->asked_ = false;
-        if (!self->outbox_.offer(*newest)) self->missed();
+        const auto offered = self->outbox_.offer(*newest);
+        if (offered == Outbox::Offered::Busy) self->missed();
+        if (offered == Outbox::Offered::Gap) ++self->context_.counters.chainsLost;
         self->askKeyframe();
         self->pump();
     });
@@ -44,7 +48,7 @@ void Session::missed() {
 
 // Only when it can go at once, and alone: what waits gets old, here as on the way to a slow client.
 void Session::askKeyframe() {
-    if (asked_ || writing_ || !outbox_.wantsKeyframe() || !credit_.idle()) return;
+    if (asked_ || writing_ || !outbox_.wantsKeyframe() || !credit_.idle(Clock::now())) return;
     asked_ = true;
     context_.hub.askKeyframe(id_);
 }
@@ -54,13 +58,18 @@ void Session::follow(const std::string& reason) {
     outbox_.follow(channel);
     credit_.setRate(channel.rate);
     asked_ = true;  // who comes to a chain is sent a keyframe of it
+    sayStream(reason);
+    context_.hub.watch(id_, channel);
+}
+
+void Session::sayStream(const std::string& reason) {
+    const frame::Channel channel = pace_.channel();
     v1::ServerMessage message;
     message.mutable_stream()->set_tier(channel.tier);
     message.mutable_stream()->set_rate(channel.rate);
     message.mutable_stream()->set_reduced(pace_.reduced());
     message.mutable_stream()->set_reason(reason);
     queue(frame::share(std::move(message)));
-    context_.hub.watch(id_, channel);
 }
 
 void Session::drain() {
@@ -86,16 +95,22 @@ void Session::queue(frame::SharedMessage message) {
 void Session::pump() {
     if (writing_ || closing_ || finished_ || !stream_.is_open()) return;
     if (draining_) outbox_.dropFrame();
-    writing_ = outbox_.next(credit_.open());
+    writing_ = outbox_.next(credit_.open(Clock::now()));
     if (!writing_) {
         if (draining_) close(close_code::service_restart, "the server is stopping", CloseCause::Drained);
         return;
     }
-    if (writing_->content().has_frame()) credit_.sent(writing_->content().frame().sequence());
+    if (writing_->content().has_frame()) sending(writing_->content().frame());
     const bool text = encoding_ == Encoding::Text;
     stream_.text(text);
     liveness_.writeBegan(Clock::now());
     stream_.async_write(asio::buffer(text ? writing_->json() : writing_->binary()), bind(&Session::onWritten));
+}
+
+void Session::sending(const v1::Frame& frame) {
+    credit_.sent(frame.sequence(), Clock::now());
+    const auto head = frame::codec::headOf(std::as_bytes(std::span(frame.spb())));
+    if (head && head->keyframe) keyframe_ = frame.sequence();
 }
 
 void Session::onWritten(ErrorCode error, std::size_t bytes) {
@@ -115,6 +130,9 @@ void Session::watch() {
 
 void Session::onWatch(ErrorCode error) {
     if (error || finished_) return;
+    if (const auto reason = pace_.passed(Clock::now())) follow(*reason);
+    askKeyframe();
+    pump();
     const auto progress = tcpProgress(beast::get_lowest_layer(stream_).socket().native_handle());
     switch (liveness_.check(progress, Clock::now())) {
         case Liveness::Verdict::Fine:

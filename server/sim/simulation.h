@@ -73,6 +73,7 @@ class Simulation {
     [[nodiscard]] std::vector<double> passSeconds() { return device_.takeTimes(); }
 
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
+    [[nodiscard]] const Radii& radii() const { return radii_; }
     [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return plan().spheres; }

@@ -83,26 +83,26 @@ TEST(Outbox, FollowsAChainFromItsKeyframeOn) {
     EXPECT_TRUE(outbox.wantsKeyframe());
     outbox.offer(link(Delta, 6));
     EXPECT_EQ(nextFrame(outbox), 0U) << "the one before is missing";
-    EXPECT_TRUE(outbox.offer(link(Join, 6)));
+    EXPECT_EQ(outbox.offer(link(Join, 6)), Outbox::Offered::Fine);
     EXPECT_FALSE(outbox.wantsKeyframe());
     EXPECT_EQ(nextFrame(outbox), 6U);
-    EXPECT_TRUE(outbox.offer(link(Join, 6))) << "for somebody else";
+    EXPECT_EQ(outbox.offer(link(Join, 6)), Outbox::Offered::Fine) << "for somebody else";
     EXPECT_EQ(nextFrame(outbox), 0U);
-    EXPECT_TRUE(outbox.offer(link(Delta, 7)));
+    EXPECT_EQ(outbox.offer(link(Delta, 7)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 7U);
-    EXPECT_TRUE(outbox.offer(link(Keyframe, 8))) << "the chain begins anew";
+    EXPECT_EQ(outbox.offer(link(Keyframe, 8)), Outbox::Offered::Fine) << "the chain begins anew";
     EXPECT_EQ(nextFrame(outbox), 8U);
 }
 
 TEST(Outbox, LosesTheChainWhenAFrameCouldNotGoInTime) {
     Outbox outbox = following();
-    EXPECT_TRUE(outbox.offer(link(Keyframe, 1)));
-    EXPECT_FALSE(outbox.offer(link(Delta, 2))) << "1 still waits";
+    EXPECT_EQ(outbox.offer(link(Keyframe, 1)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(link(Delta, 2)), Outbox::Offered::Busy) << "1 still waits";
     EXPECT_TRUE(outbox.wantsKeyframe());
     EXPECT_EQ(nextFrame(outbox), 0U) << "it is old";
-    EXPECT_TRUE(outbox.offer(link(Delta, 3))) << "lost already";
+    EXPECT_EQ(outbox.offer(link(Delta, 3)), Outbox::Offered::Fine) << "lost already";
     EXPECT_EQ(nextFrame(outbox), 0U);
-    EXPECT_TRUE(outbox.offer(link(Join, 3)));
+    EXPECT_EQ(outbox.offer(link(Join, 3)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 3U);
 }
 
@@ -110,14 +110,14 @@ TEST(Outbox, LosesTheChainAtAGap) {
     Outbox outbox = following();
     outbox.offer(link(Keyframe, 1));
     EXPECT_EQ(nextFrame(outbox), 1U);
-    EXPECT_FALSE(outbox.offer(link(Delta, 3)));
+    EXPECT_EQ(outbox.offer(link(Delta, 3)), Outbox::Offered::Gap);
     EXPECT_TRUE(outbox.wantsKeyframe());
 }
 
 TEST(Outbox, TakesANewerKeyframeInPlaceOfOneThatWaits) {
     Outbox outbox = following();
     outbox.offer(link(Keyframe, 1));
-    EXPECT_TRUE(outbox.offer(link(Keyframe, 2)));
+    EXPECT_EQ(outbox.offer(link(Keyframe, 2)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 2U);
     EXPECT_EQ(nextFrame(outbox), 0U);
 }
@@ -127,23 +127,23 @@ TEST(Outbox, TakesNoFrameOfAnotherEpochForOneOfTheChain) {
     outbox.offer(link(Keyframe, 1));
     EXPECT_EQ(nextFrame(outbox), 1U);
     describe(outbox, 2);
-    EXPECT_TRUE(outbox.offer(link(Delta, 2, 2))) << "nothing is lost that had begun";
+    EXPECT_EQ(outbox.offer(link(Delta, 2, 2)), Outbox::Offered::Fine) << "nothing is lost that had begun";
     EXPECT_EQ(outbox.next(true), nullptr);
     EXPECT_TRUE(outbox.wantsKeyframe());
-    EXPECT_TRUE(outbox.offer(link(Keyframe, 1, 2)));
+    EXPECT_EQ(outbox.offer(link(Keyframe, 1, 2)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 1U) << "chains count from 1 in each epoch";
     describe(outbox, 3);
-    EXPECT_TRUE(outbox.offer(link(Keyframe, 1, 3)));
+    EXPECT_EQ(outbox.offer(link(Keyframe, 1, 3)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 1U);
 }
 
 TEST(Outbox, KnowsNothingOfOtherChains) {
     Outbox outbox = following();
-    EXPECT_TRUE(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::ECO, 60})));
-    EXPECT_TRUE(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::NORMAL, 30})));
+    EXPECT_EQ(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::ECO, 60})), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::NORMAL, 30})), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 0U);
     outbox.follow({v1::ECO, 60});
-    EXPECT_TRUE(outbox.offer(link(Keyframe, 2)));
+    EXPECT_EQ(outbox.offer(link(Keyframe, 2)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 0U);
     outbox.follow({});
     EXPECT_FALSE(outbox.wantsKeyframe());
