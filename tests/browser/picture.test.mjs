@@ -107,7 +107,7 @@ test("what is nearer hides what is behind it", async () => {
 test("the picture moves between states", async () => {
   await shown("two-spheres", {}, async (page, server) => {
     await page.click(control("reset"));
-    await server.ctl("set", "speed", "0.2");
+    await server.ctl("set", "speed", "0.05"); // so that ten frames take seconds, in which even a busy machine draws some pictures
     const drawnBefore = await page.evaluate(() => spherule.picture.drawn);
     const framesBefore = await page.evaluate(() => spherule.frames);
     await when(page, (then) => spherule.frames > then + 10, framesBefore);
