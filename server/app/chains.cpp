@@ -106,12 +106,13 @@ Result<Chains::Chain*> Chains::chainOf(const frame::Channel& channel, const Scen
 // is always due.
 void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
     using enum frame::Link::Kind;
+    const bool begun = chain.tier->number() > 0;
     const bool due = now >= chain.next && chain.version != world.version;
     const auto since = now - chain.keyframe;
     const bool waits =
-        chain.begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
+        begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
     if (waits && (!due || chain.kind == Delta)) return start(chain, Join, chain.newest, world.source, now);
-    if (chain.begun && !due) return;
+    if (begun && !due) return;
     const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
     chain.next = std::max(chain.next + interval, now - interval / 2);
     chain.version = world.version;
@@ -121,7 +122,7 @@ void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& wor
     chain.newest.set_count(world.spheres);
     chain.newest.set_tier(demand.channel.tier);
     chain.newest.set_quantum(frame::quantumOf(demand.channel.tier, world.smallestRadius));
-    start(chain, chain.begun ? Delta : Keyframe, chain.newest, world.source, now);
+    start(chain, begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 
 void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
@@ -142,7 +143,6 @@ void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const s
     }
     device_.endTimer();
     if (kind != frame::Link::Kind::Delta) chain.keyframe = now;
-    chain.begun = true;
     chain.turn = ++turns_;
     chain.kind = kind;
     chain.making = std::move(head);

@@ -50,8 +50,7 @@ class Chains {
         std::unique_ptr<sim::Tier> tier;
         std::optional<v1::Frame> making;
         frame::Link::Kind kind = frame::Link::Kind::Keyframe;
-        std::uint64_t version = 0;  // of the world in its newest frame
-        bool begun = false;
+        std::uint64_t version = 0;     // of the world in its newest frame
         v1::Frame newest;              // head of its newest frame
         std::uint64_t turn = 0;        // in which the frame was begun: the oldest is copied first
         Clock::time_point next{};      // frame

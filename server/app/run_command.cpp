@@ -78,11 +78,13 @@ class Watch {
     // Waits for the device.
     Stretch take() {
         device_.finish();
-        return {.simSeconds = simulation_.time() - simTime_,
-                .wallSeconds = secondsSince(began_),
-                .passSeconds = device_.takeTimes(),
-                .rebuilds = simulation_.counters().rebuilds - rebuilds_,
-                .before = impacts_};
+        Stretch stretch{.simSeconds = simulation_.time() - simTime_,
+                        .wallSeconds = secondsSince(began_),
+                        .passSeconds = device_.takeTimes(),
+                        .rebuilds = simulation_.counters().rebuilds - rebuilds_,
+                        .before = impacts_};
+        stretch.end = simulation_.statistics();
+        return stretch;
     }
 
   private:
@@ -136,9 +138,9 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
         if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
         quality::OverlapWatch overlap;
         const auto report = [&]() -> Result<void> {
-            const auto told = overlap.take(simulation.steps(), simulation.statistics().deepest());
-            if (told) spdlog::warn("{}", *told);
-            print(options, device.info(), simulation, watch.take());
+            const Stretch stretch = watch.take();
+            if (const auto told = overlap.take(simulation.steps(), stretch.end.deepest())) spdlog::warn("{}", *told);
+            print(options, device.info(), simulation, stretch);
             watch.start();
             return {};
         };

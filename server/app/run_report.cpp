@@ -27,7 +27,7 @@ nlohmann::ordered_json passesOf(const Stretch& stretch) {
 
 nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation,
                                 const Stretch& stretch) {
-    const sim::Statistics s = simulation.statistics();
+    const sim::Statistics& s = stretch.end;
     const sim::Impacts impacts = s.impacts.since(stretch.before);
     const auto ofImpacts = [&impacts](double ratio) { return impacts.count > 0 ? nlohmann::json(ratio) : nullptr; };
     const sim::State state = simulation.snapshot();
@@ -87,7 +87,7 @@ const char* const runRowHeader =
     "   time, s   x real time    asleep   overlap, % of r: mean      max   speed, m/s: rms      max";
 
 std::string runRow(sim::Simulation& simulation, const Stretch& stretch) {
-    const sim::Statistics s = simulation.statistics();
+    const sim::Statistics& s = stretch.end;
     return fmt::format("{:>10.4g}{:>14.3g}{:>10}{:>25.3f}{:>9.3f}{:>19.4f}{:>9.3f}\n", simulation.time(),
                        realTimeFactor(stretch), s.sleeping, 100 * s.overlapMean, 100 * s.overlapMax, s.speedRms,
                        s.speedMax);

@@ -16,6 +16,7 @@ struct Stretch {
     std::vector<double> passSeconds;  // device time by sim::Pass
     std::uint64_t rebuilds = 0;       // of the pair lists
     sim::Impacts before;              // those observed before it
+    sim::Statistics end{};            // of the state at its end
 };
 
 // The line that `run --json` prints: every key, always. The state is that at the end of the stretch.

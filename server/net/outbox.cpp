@@ -21,6 +21,12 @@ void Outbox::follow(const frame::Channel& channel) {
     lose();
 }
 
+bool Outbox::lose(std::uint64_t sequence) {
+    if (channel_.rate == 0 || sequence < keyframe_) return false;
+    lose();
+    return true;
+}
+
 void Outbox::lose() {
     number_.reset();
     frame_.reset();
@@ -51,6 +57,7 @@ Outbox::Offered Outbox::offer(const frame::Link& link) {
         lose();
         return why;
     }
+    if (keyframe) keyframe_ = link.message->content().frame().sequence();
     number_ = link.number;
     numbered_ = link.message->content().frame().epoch();
     frame_ = link.message;

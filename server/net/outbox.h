@@ -29,8 +29,9 @@ class Outbox {
         Gap    // the chain is lost: the frame before has never come
     };
     Offered offer(const frame::Link& link);
-    // The client has lost the chain.
-    void lose();
+    // The client has lost the chain with the frame of this sequence. False where a newer keyframe has been taken, so
+    // that it says nothing of the chain as it is now.
+    bool lose(std::uint64_t sequence);
 
     // The next message to send, the reliable lane first; frames only where `frames` says so.
     frame::SharedMessage next(bool frames);
@@ -41,6 +42,7 @@ class Outbox {
     void clear();
 
   private:
+    void lose();
     [[nodiscard]] bool frameIsDescribed() const;
 
     const std::size_t capacity_;
@@ -49,6 +51,7 @@ class Outbox {
     std::optional<std::uint32_t> order_;   // the latest
     std::optional<std::uint32_t> number_;  // of the newest frame taken
     std::uint32_t numbered_ = 0;           // the epoch in which: each begins to count anew
+    std::uint64_t keyframe_ = 0;           // sequence of the newest one taken
     std::deque<frame::SharedMessage> reliable_;
     frame::SharedMessage frame_;
 };

@@ -37,7 +37,8 @@ std::optional<frame::Channel> lessThan(const frame::Channel& channel) {
 
 }  // namespace
 
-void Pace::want(const frame::Channel& channel, bool fixed, Clock::time_point now) {
+bool Pace::want(const frame::Channel& channel, bool fixed, Clock::time_point now) {
+    if (channel == wanted_ && fixed == fixed_) return false;
     wanted_ = channel;
     channel_ = channel;
     fixed_ = fixed;
@@ -46,6 +47,7 @@ void Pace::want(const frame::Channel& channel, bool fixed, Clock::time_point now
     quietSince_ = now;
     patience_ = leastPatience;
     slowAcks_ = 0;
+    return true;
 }
 
 bool Pace::stepDown(Clock::time_point now) {

@@ -18,8 +18,8 @@ class Pace {
 
     explicit Pace(Clock::time_point now) : quietSince_(now) {}
 
-    // What the client wants; `fixed`: and nothing less.
-    void want(const frame::Channel& channel, bool fixed, Clock::time_point now);
+    // What the client wants; `fixed`: and nothing less. False where it wanted that before.
+    bool want(const frame::Channel& channel, bool fixed, Clock::time_point now);
     [[nodiscard]] const frame::Channel& channel() const { return channel_; }
     [[nodiscard]] bool reduced() const { return channel_ != wanted_; }
 

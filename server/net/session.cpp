@@ -114,20 +114,15 @@ void Session::onView(const v1::View& view) {
     const frame::Channel wish{known ? view.tier() : v1::NORMAL,
                               frame::rateFor(view.has_rate() ? view.rate() : defaultRate)};
     // Whoever says the same again begins nothing anew.
-    if (wish == wish_ && view.fixed() == fixed_) return sayStream("");
-    wish_ = wish;
-    fixed_ = view.fixed();
-    pace_.want(wish, view.fixed(), Pace::Clock::now());
-    follow("");
+    if (pace_.want(wish, view.fixed(), Pace::Clock::now()))
+        follow("");
+    else
+        sayStream("");
 }
 
 void Session::onAck(const v1::Ack& ack) {
     credit_.acked(ack.sequence());
-    // Of a frame before the last keyframe it says nothing of the chain as it is now.
-    if (ack.lost() && pace_.channel().rate > 0 && ack.sequence() >= keyframe_) {
-        outbox_.lose();
-        missed();
-    }
+    if (ack.lost() && outbox_.lose(ack.sequence())) missed();
     const auto now = Pace::Clock::now();
     const auto reason = pace_.acked(static_cast<double>(ack.draw_rate()), static_cast<double>(ack.decode_ms()), now);
     if (reason) follow(*reason);

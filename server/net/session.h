@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -56,7 +55,6 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
 
     void queue(frame::SharedMessage message);
     void pump();
-    void sending(const v1::Frame& frame);
     void onWritten(ErrorCode error, std::size_t bytes);
     void missed();
     void askKeyframe();
@@ -87,9 +85,6 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     Outbox outbox_;
     Credit credit_;
     Pace pace_;
-    std::optional<frame::Channel> wish_;
-    bool fixed_ = false;
-    std::uint64_t keyframe_ = 0;  // sequence of the last one sent
     frame::SharedMessage writing_;
     Encoding encoding_ = Encoding::Binary;
     SessionId id_ = 0;

@@ -1,11 +1,9 @@
 // The sending half of a session: its lanes, its clock, its end.
-#include <span>
 #include <utility>
 
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
-#include "frame/codec.h"
 #include "net/session.h"
 #include "net/tcp_progress.h"
 #include "net/text.h"
@@ -100,17 +98,11 @@ void Session::pump() {
         if (draining_) close(close_code::service_restart, "the server is stopping", CloseCause::Drained);
         return;
     }
-    if (writing_->content().has_frame()) sending(writing_->content().frame());
+    if (writing_->content().has_frame()) credit_.sent(writing_->content().frame().sequence(), Clock::now());
     const bool text = encoding_ == Encoding::Text;
     stream_.text(text);
     liveness_.writeBegan(Clock::now());
     stream_.async_write(asio::buffer(text ? writing_->json() : writing_->binary()), bind(&Session::onWritten));
-}
-
-void Session::sending(const v1::Frame& frame) {
-    credit_.sent(frame.sequence(), Clock::now());
-    const auto head = frame::codec::headOf(std::as_bytes(std::span(frame.spb())));
-    if (head && head->keyframe) keyframe_ = frame.sequence();
 }
 
 void Session::onWritten(ErrorCode error, std::size_t bytes) {

@@ -180,6 +180,7 @@ ContactTime contactTimeOf(const Scene& scene) {
         time.substep = std::min(time.substep, rayleigh / rayleighShare);
     }
     time.substep = std::min(time.substep, time.contact / substepsPerContact(scene));
+    if (!scene.spheres.empty()) time.overlap = time.speed * time.contact / pi / extremes.smallest;
     return time;
 }
 

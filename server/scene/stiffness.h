@@ -32,6 +32,7 @@ struct ContactTime {
     double speed = 0;    // m/s: the fastest impact to expect, from the speeds (head-on) and the fall there may be
     double contact = 0;  // s: the shortest contact at that speed, without damping
     double substep = 0;  // s: the longest
+    double overlap = 0;  // of the smallest radius, that such an impact reaches
 };
 
 // Of the scene's smallest spheres: the substep is a seventieth of the shortest contact, and a tenth of the Rayleigh

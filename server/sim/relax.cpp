@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "scene/stiffness.h"
 #include "sim/simulation.h"
@@ -22,8 +21,8 @@ scene::Scene withoutForces(const scene::Scene& scene) {
     still.step = 1.0 / 480;
     still.quality = {.model = scene::Model::Fast, .substeps = 1, .pinned = true};
     still.pairs.clear();
-    for (scene::Material& material : still.materials) material = {.name = material.name, .density = material.density};
-    for (scene::Material& material : still.materials) material.restitution = 0;
+    for (scene::Material& material : still.materials)
+        material = {.name = material.name, .density = material.density, .restitution = 0};
     return still;
 }
 
@@ -39,12 +38,7 @@ double deepestBearable(const scene::Scene& scene) {
     constexpr double shallow = 0.25;  // in beds that are squeezed, but not in spheres put in each other
     if (scene.quality.model == scene::Model::Fast) return std::numeric_limits<double>::infinity();
     if (scene.quality.model == scene::Model::Balanced) return shallow;
-    double smallest = 0;
-    for (const scene::Sphere& sphere : scene.spheres)
-        if (smallest == 0 || static_cast<double>(sphere.radius) < smallest)
-            smallest = static_cast<double>(sphere.radius);
-    const scene::ContactTime time = scene::contactTimeOf(scene);
-    return smallest > 0 ? time.speed * time.contact / std::numbers::pi / smallest : 0;
+    return scene::contactTimeOf(scene).overlap;
 }
 
 Result<Relaxed> relax(compute::Device& device, const scene::Scene& scene, const State& state, double most) {

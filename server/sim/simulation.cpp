@@ -67,6 +67,7 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
 // Spheres that begin deep in each other would fly apart.
 Result<void> Simulation::takeApart(State& state) {
     const double tolerated = deepestBearable(scene_);
+    if (!std::isfinite(tolerated)) return {};
     const double deepest = statistics().deepest();
     if (!(deepest > tolerated)) return {};
     spdlog::info("spheres are in each other by up to {:.2g} radii; pushing them apart first", deepest);

@@ -114,6 +114,17 @@ TEST(Outbox, LosesTheChainAtAGap) {
     EXPECT_TRUE(outbox.wantsKeyframe());
 }
 
+TEST(Outbox, HearsOfALossOnlyOnce) {
+    Outbox outbox = following();
+    EXPECT_EQ(outbox.offer(link(Keyframe, 4)), Outbox::Offered::Fine);
+    EXPECT_FALSE(outbox.lose(3)) << "before the keyframe";
+    EXPECT_EQ(nextFrame(outbox), 4U);
+    EXPECT_TRUE(outbox.lose(4));
+    EXPECT_TRUE(outbox.wantsKeyframe());
+    outbox.follow({});
+    EXPECT_FALSE(outbox.lose(5)) << "it follows none";
+}
+
 TEST(Outbox, TakesANewerKeyframeInPlaceOfOneThatWaits) {
     Outbox outbox = following();
     outbox.offer(link(Keyframe, 1));

@@ -1,0 +1,128 @@
+#include "app/chains.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace spherule::app {
+namespace {
+
+using namespace std::chrono_literals;
+using Kind = frame::Link::Kind;
+constexpr frame::Channel normal{v1::NORMAL, 30};
+
+// A world of spheres on the CPU device that somebody watches.
+class Watched : public testing::Test {
+  protected:
+    static constexpr std::uint32_t spheres = 100;
+
+    Watched()
+        : chains_(
+              *device_, [this](const frame::Link& link) { links_.push_back(link); },
+              [this](auto order) { orders_.push_back(std::move(order)); }) {
+        position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
+        state_.position.resize(spheres);
+    }
+
+    // The world as it is after `steps` more; the kinds of the frames that came.
+    std::string serve(std::vector<frame::Demand> demands, std::chrono::milliseconds later, std::uint64_t steps = 1) {
+        version_ += steps;
+        now_ += later;
+        links_.clear();
+        chains_.serve({.source = {.position = position_.get(), .slotOf = nullptr},
+                       .spheres = count_,
+                       .smallestRadius = 0.05,
+                       .epoch = epoch_,
+                       .version = version_,
+                       .positions = [this] { return state_; },
+                       .head = [] { return v1::Frame(); }},
+                      demands, now_);
+        std::string kinds;
+        for (const frame::Link& link : links_)
+            kinds += link.kind == Kind::Keyframe ? 'K' : link.kind == Kind::Join ? 'J' : 'D';
+        return kinds;
+    }
+
+    std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
+    std::unique_ptr<compute::Buffer> position_;
+    sim::State state_;
+    std::vector<frame::Link> links_;
+    std::vector<frame::SharedMessage> orders_;
+    Chains chains_;
+    std::uint32_t count_ = spheres;
+    std::uint32_t epoch_ = 1;
+    std::uint64_t version_ = 0;
+    Chains::Clock::time_point now_ = Chains::Clock::now();
+};
+
+TEST_F(Watched, MakesNothingForNobodyAndAKeyframeForTheFirst) {
+    EXPECT_EQ(serve({}, 1s), "");
+    EXPECT_TRUE(orders_.empty());
+    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "K");
+    ASSERT_EQ(orders_.size(), 1U);
+    EXPECT_EQ(orders_[0]->content().order().ids().size(), 3 * spheres);
+    EXPECT_EQ(links_[0].message->content().frame().order(), orders_[0]->content().order().number());
+    EXPECT_EQ(links_[0].number, 1U);
+    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "D");
+    EXPECT_EQ(links_[0].number, 2U);
+}
+
+TEST_F(Watched, KeepsToTheRateOfEachChain) {
+    const frame::Channel slow{v1::ECO, 10};
+    serve({{.channel = normal}, {.channel = slow}}, 1s);
+    std::size_t fast = 0;
+    std::size_t slowly = 0;
+    for (int k = 0; k < 1000; ++k) {
+        serve({{.channel = normal}, {.channel = slow}}, 2ms);
+        for (const frame::Link& link : links_) ++(link.channel == slow ? slowly : fast);
+    }
+    EXPECT_NEAR(static_cast<double>(fast), 60, 2);
+    EXPECT_NEAR(static_cast<double>(slowly), 20, 1);
+}
+
+TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
+    serve({{.channel = normal, .newcomer = true}}, 1s);
+    EXPECT_EQ(serve({{.channel = normal}}, 1s, 0), "");
+    EXPECT_FALSE(chains_.due());
+    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s, 0), "J");
+    EXPECT_EQ(links_[0].number, 1U) << "of the state that others have";
+}
+
+TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
+    serve({{.channel = normal, .newcomer = true}}, 1s);
+    for (const frame::Demand& demand : {frame::Demand{normal, true, false}, frame::Demand{normal, false, true}}) {
+        std::string kinds;
+        for (int k = 0; k < 6; ++k) kinds += serve({demand}, 200ms);
+        EXPECT_NE(kinds.find('J'), std::string::npos) << kinds;
+        EXPECT_NE(kinds.find('D'), std::string::npos) << kinds << ": all others go on";
+    }
+}
+
+TEST_F(Watched, LetsThoseWhoKeepLosingTheChainWait) {
+    serve({{.channel = normal}}, 1s);
+    int joins = 0;
+    for (int k = 0; k < 200; ++k) {
+        const std::string kinds = serve({{.channel = normal, .lost = true}}, 5ms);
+        joins += static_cast<int>(std::ranges::count(kinds, 'J'));
+    }
+    EXPECT_GE(joins, 3);
+    EXPECT_LE(joins, 4) << "one in 250 ms";
+}
+
+TEST_F(Watched, BeginsAnewForOtherSpheresAndForWhoComesBack) {
+    serve({{.channel = normal}}, 1s);
+    epoch_ = 2;
+    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "K");
+    EXPECT_EQ(orders_.size(), 2U);
+    serve({}, 40ms);
+    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 40ms), "K");
+    EXPECT_EQ(orders_.size(), 2U) << "the spheres are the same";
+    count_ = 0;
+    epoch_ = 3;
+    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "");
+}
+
+}  // namespace
+}  // namespace spherule::app
