@@ -107,6 +107,7 @@ if [[ -n $sanitize ]]; then
     summary
     exit
 fi
+needed ase ./tests/unpack_ase.sh build/ase
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
 needed build cmake --build --preset release -j "$jobs"
 phase format check_format
