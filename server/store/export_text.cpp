@@ -38,10 +38,11 @@ class Csv : public TextExporter {
     void print(const Moment& moment, std::string& text) override {
         if (!begun_) text += "time,id,x,y,z,radius\n";
         begun_ = true;
+        const std::string time = fmt::format("{:.9g}", moment.time);
         for (std::size_t id = 0; id < moment.positions.size(); ++id) {
             const glm::dvec3& p = moment.positions[id];
-            fmt::format_to(std::back_inserter(text), "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", moment.time, id, p.x,
-                           p.y, p.z, moment.radii[id]);
+            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", time, id, p.x, p.y, p.z,
+                           moment.radii[id]);
         }
     }
     bool begun_ = false;

@@ -8,6 +8,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree as xml
 
@@ -36,7 +37,7 @@ def frames_of(path):
     with open(path, encoding="utf-8") as file:
         for row in csv.DictReader(file):
             frames.setdefault(float(row["time"]), []).append([float(row[column]) for column in COLUMNS])
-    return [(time, numpy.array(rows)) for time, rows in frames.items()]
+    return [(when, numpy.array(rows)) for when, rows in frames.items()]
 
 
 class Files(unittest.TestCase):
@@ -49,8 +50,8 @@ class Files(unittest.TestCase):
     def at(self, name):
         return os.path.join(self.folder, name)
 
-    def run_done(self, scene, *more):
-        done = call("run", scene, "--device", "cpu", "--record", self.recording, *more)
+    def run_done(self, scene, *more, device="cpu"):
+        done = call("run", scene, "--device", device, "--record", self.recording, *more)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
@@ -81,8 +82,8 @@ class Formats(Files):
             json.dump(MIXED, file)
         return path
 
-    def same(self, time, positions, radii, ids, dumped):
-        self.assertAlmostEqual(time, dumped[0], delta=1e-8)
+    def same(self, when, positions, radii, ids, dumped):
+        self.assertAlmostEqual(when, dumped[0], delta=1e-8)
         numpy.testing.assert_array_equal(ids, dumped[1][:, 0])
         self.assertLessEqual(numpy.abs(positions - dumped[1][:, 1:4]).max(), self.bound)
         numpy.testing.assert_allclose(radii, dumped[1][:, 4], rtol=1e-7)
@@ -90,8 +91,8 @@ class Formats(Files):
     def check_all(self):
         exported = frames_of(self.export("csv", "run.csv"))
         self.assertEqual(len(exported), len(self.dumped))
-        for (time, rows), dumped in zip(exported, self.dumped):
-            self.same(time, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
+        for (when, rows), dumped in zip(exported, self.dumped):
+            self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
 
         exported = read(self.export("xyz", "run.xyz"), index=":", format="extxyz")
         self.assertEqual(len(exported), len(self.dumped))
@@ -127,19 +128,20 @@ class Formats(Files):
             self.bound = 0.03 / part + FLOAT
             exported = frames_of(self.export("csv", f"{tier}.csv"))
             self.assertEqual(len(exported), len(self.dumped))
-            for (time, rows), dumped in zip(exported, self.dumped):
-                self.same(time, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
+            for (when, rows), dumped in zip(exported, self.dumped):
+                self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
 
 
 class Record(Files):
-    def bytes_of(self, *more):
-        self.run_done("box-4k", "--for", "0.5s", "--force", *more)
+    def bytes_of(self, *more, device="cpu"):
+        self.run_done("box-4k", "--for", "0.5s", "--force", *more, device=device)
         with open(self.recording, "rb") as file:
             return file.read()
 
     def test_the_same_run_gives_the_same_bytes(self):
         once = self.bytes_of()
         self.assertEqual(self.bytes_of(), once)
+        self.assertEqual(self.bytes_of(device="cpu:1"), once)
         self.assertNotEqual(self.bytes_of("--seed", "7"), once)
 
     def test_recording_changes_nothing(self):
@@ -150,7 +152,7 @@ class Record(Files):
     def test_frames_are_as_often_as_asked_and_the_last_state_is_there(self):
         for rate, times in ("10", [0, 0.1, 0.2, 0.25]), ("1000", [k / 60 for k in range(16)]):
             self.run_done("two-spheres", "--for", "0.25s", "--record-rate", rate, "--force")
-            recorded = [time for time, _ in frames_of(self.export("csv", f"{rate}.csv"))]
+            recorded = [when for when, _ in frames_of(self.export("csv", f"{rate}.csv"))]
             numpy.testing.assert_allclose(recorded, times, atol=1e-8)
 
     def test_a_file_that_is_there_is_kept_unless_told(self):
@@ -175,6 +177,20 @@ class Record(Files):
         self.assertRegex(done.stderr, r"run.sph is exported up to [0-9.]+ s: the record at byte [0-9]+ is cut off")
         self.assertGreater(len(os.listdir(self.at("run"))), 1)
 
+    def test_a_run_that_is_killed_leaves_what_it_had_about_a_second_before(self):
+        arguments = [BINARY, "run", "box-10k", "--for", "1000s", "--device", "cpu", "--record", self.recording]
+        with subprocess.Popen(arguments, stderr=subprocess.DEVNULL) as running:
+            try:
+                deadline = time.monotonic() + 60
+                while time.monotonic() < deadline:
+                    time.sleep(0.1)
+                    if os.path.exists(self.recording) and os.path.getsize(self.recording) > 100_000:
+                        break
+            finally:
+                running.kill()
+        self.export("vtk", "run", "--every", "1s")
+        self.assertGreater(len(os.listdir(self.at("run"))), 0)
+
 
 class Export(Files):
     def setUp(self):
@@ -182,7 +198,7 @@ class Export(Files):
         self.run_done("two-spheres", "--for", "5s")
 
     def times(self, name, *more):
-        return [time for time, _ in frames_of(self.export("csv", name, *more))]
+        return [when for when, _ in frames_of(self.export("csv", name, *more))]
 
     def test_every_from_and_to_choose_frames(self):
         numpy.testing.assert_allclose(self.times("a.csv", "--every", "1s"), [0, 1, 2, 3, 4, 5], atol=1e-8)
