@@ -88,7 +88,7 @@ store::MadeExporter exporterFor(const ExportOptions& options) {
 Result<bool> enter(store::Recording& recording, double from) {
     if (auto done = recording.seek(from); !done) return tl::unexpected(done.error());
     while (recording.now().time < from - sameTime) {
-        const auto more = recording.next();
+        auto more = recording.next();
         if (!more || !*more) return more;
     }
     return true;

@@ -172,8 +172,8 @@ Result<void> record(const RunOptions& options, sim::Simulation& simulation, comp
     if (options.record.path.empty()) return simulate(options, simulation, device, nullptr, duration, every);
     auto recorder = Recorder::create(options.record, device, simulation);
     if (!recorder) return tl::unexpected(recorder.error());
-    const auto done = simulate(options, simulation, device, recorder->get(), duration, every);
-    const auto finished = (*recorder)->finish();
+    auto done = simulate(options, simulation, device, recorder->get(), duration, every);
+    auto finished = (*recorder)->finish();
     if (!done) return done;
     if (!finished) return finished;
     const store::Writer& writer = (*recorder)->writer();

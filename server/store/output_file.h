@@ -18,6 +18,8 @@ class OutputFile {
     static Result<OutputFile> create(const std::string& path, bool replace);
 
     OutputFile(OutputFile&& other) noexcept;
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();  // what is in the buffer is not written
 

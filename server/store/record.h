@@ -29,6 +29,8 @@ class RecordFile {
     static Result<RecordFile> open(const std::string& path);
 
     RecordFile(RecordFile&& other) noexcept;
+    RecordFile(const RecordFile&) = delete;
+    RecordFile& operator=(const RecordFile&) = delete;
     RecordFile& operator=(RecordFile&&) = delete;
     ~RecordFile();
 

@@ -71,6 +71,7 @@ Result<void> Recording::seek(double time) {
         if (entry.kind != Kind::Keyframe && entry.kind != Kind::Join) continue;
         if (from == nullptr || entry.time <= time + sameTime) from = &entry;
     }
+    if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
     if (auto done = enter(from->offset); !done) return done;
     for (;;) {
         const auto coming = nextTime();
@@ -100,7 +101,7 @@ Result<bool> Recording::next() {
             offset_ = record->end;
             continue;
         }
-        const auto frame = take(*record, offset_);
+        auto frame = take(*record, offset_);
         if (!frame) return frame;
         offset_ = record->end;
         if (*frame) return true;
