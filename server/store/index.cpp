@@ -1,6 +1,7 @@
 #include "store/index.h"
 
 #include <cmath>
+#include <limits>
 
 #include "store/bytes.h"
 
@@ -36,7 +37,7 @@ Result<Index> Index::from(std::string_view payload, std::uint64_t offset) {
                 .end = numberAt<double>(payload, 16),
                 .entries = {}};
     if (!std::isfinite(index.begin) || !std::isfinite(index.end) || index.end < index.begin) return bad;
-    Entry last{.offset = fileHeadBytes - 1, .time = -INFINITY};
+    Entry last{.offset = fileHeadBytes - 1, .time = -std::numeric_limits<double>::infinity()};
     for (std::size_t at = indexHeadBytes; at < payload.size(); at += entryBytes) {
         const Entry entry{.offset = numberAt<std::uint64_t>(payload, at),
                           .time = numberAt<double>(payload, at + 8),
@@ -63,7 +64,7 @@ Contents contentsOf(const RecordFile& file) {
     }
     contents.end = fileHeadBytes;
     contents.flaw = "it was not finished";
-    double time = -INFINITY;
+    double time = -std::numeric_limits<double>::infinity();
     while (contents.end < file.size()) {
         const auto record = file.read(contents.end);
         if (!record || record->kind == Kind::Index || record->time < time) {
