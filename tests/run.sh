@@ -79,9 +79,9 @@ run_tidy() {
 # Mesa's renderer brings findings of its own: these tests compute on the CPU device.
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
-        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test codec_test kernels_test pool_test physics_tests net_tests &&
+        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test codec_test store_test kernels_test pool_test physics_tests net_tests &&
         ctest --test-dir "build/$1" -j "$jobs" --output-on-failure --no-tests=error \
-            -R '^(scene_test|frame_test|codec_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
+            -R '^(scene_test|frame_test|codec_test|store_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
 }
 
 # Finds go to build/fuzz/finds-TARGET.
@@ -107,6 +107,7 @@ if [[ -n $sanitize ]]; then
     summary
     exit
 fi
+needed ase ./tests/unpack_ase.sh build/ase
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
 needed build cmake --build --preset release -j "$jobs"
 phase format check_format

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "frame/order.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -19,20 +20,6 @@ constexpr auto newcomersEvery = 50ms;
 constexpr auto retryEvery = 10s;
 constexpr auto hashEvery = 1s;
 constexpr auto copyWait = 1ms;
-
-constexpr std::size_t idBytes = 3;
-
-frame::SharedMessage orderMessage(std::uint32_t epoch, std::uint32_t number, const std::vector<std::uint32_t>& order) {
-    v1::ServerMessage message;
-    message.mutable_order()->set_epoch(epoch);
-    message.mutable_order()->set_number(number);
-    std::string ids(order.size() * idBytes, '\0');
-    for (std::size_t k = 0; k < order.size(); ++k)
-        for (std::size_t byte = 0; byte < idBytes; ++byte)
-            ids[idBytes * k + byte] = static_cast<char>(order[k] >> (8 * byte) & 0xffU);
-    message.mutable_order()->set_ids(std::move(ids));
-    return frame::share(std::move(message));
-}
 
 std::uint64_t microsecondsNow() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -87,7 +74,9 @@ Result<void> Chains::prepare(const Scenery& world) {
     const std::vector<std::uint32_t> order = sim::mortonOrder(world.positions().position);
     tools_->setOrder(order);
     epoch_ = world.epoch;
-    announceOrder_(orderMessage(epoch_, ++order_, order));
+    v1::ServerMessage message;
+    *message.mutable_order() = frame::orderMessage(epoch_, ++order_, order);
+    announceOrder_(frame::share(std::move(message)));
     return {};
 }
 

@@ -23,6 +23,7 @@ struct SceneOptions {
 
 void addServe(CLI::App& app, int& exitCode);
 void addRun(CLI::App& app, int& exitCode);
+void addExport(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
 void addCtl(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);

@@ -11,6 +11,7 @@
 #include "app/duration.h"
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "app/recorder.h"
 #include "app/run_report.h"
 #include "app/tuner.h"
 #include "compute/device.h"
@@ -24,6 +25,7 @@ namespace {
 
 struct RunOptions {
     SceneOptions scene;
+    RecordOptions record;
     std::string duration;
     std::string every;
     std::string dump;
@@ -96,19 +98,30 @@ class Watch {
     Clock::time_point began_;
 };
 
-// Runs `steps`, and calls `every` after each `stride` of them and at the end.
-Result<void> runSteps(sim::Simulation& simulation, std::uint64_t steps, std::uint64_t stride,
+// Runs `steps`, and calls `every` after each `stride` of them and at the end. `recorder`: may be null.
+Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, std::uint64_t steps, std::uint64_t stride,
                       const std::function<Result<void>()>& every) {
     Progress progress(steps);
     Tuner tuner;
+    const auto record = [recorder](v1::Event::Kind kind, const std::string& text) {
+        return recorder != nullptr ? recorder->say(kind, text) : Result<void>();
+    };
     for (std::uint64_t k = 1; k <= steps; ++k) {
         if (auto done = simulation.step(); !done) return done;
-        for (const std::string& notice : simulation.takeNotices()) spdlog::warn("{}", notice);
+        for (const std::string& notice : simulation.takeNotices()) {
+            spdlog::warn("{}", notice);
+            if (auto done = record(v1::Event::WARNING, notice); !done) return done;
+        }
         const auto told = tuner.stepped(simulation, 0);  // no goal of `run` looks at the clock
         if (!told) return tl::unexpected(told.error());
-        if (*told) spdlog::info("at step {}, {}", simulation.steps(), **told);
+        if (*told) {
+            spdlog::info("at step {}, {}", simulation.steps(), **told);
+            if (auto done = record(v1::Event::TUNED, **told); !done) return done;
+        }
         if (simulation.counters().nonFinite)
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
+        if (recorder != nullptr)
+            if (auto done = recorder->stepped(k == steps); !done) return done;
         progress.at(k, simulation.time());
         if (k % stride == 0 || k == steps)
             if (auto done = every(); !done) return done;
@@ -127,8 +140,8 @@ void print(const RunOptions& options, const compute::DeviceInfo& info, sim::Simu
     std::fflush(stdout);
 }
 
-Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, double duration,
-                      double every) {
+Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device,
+                      Recorder* recorder, double duration, double every) {
     const double step = simulation.scene().step;
     const auto steps = static_cast<std::uint64_t>(std::llround(duration / step));
     const auto stride = every > 0 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(every / step)))
@@ -144,13 +157,30 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
             watch.start();
             return {};
         };
-        return steps == 0 ? report() : runSteps(simulation, steps, stride, report);
+        return steps == 0 ? report() : runSteps(simulation, recorder, steps, stride, report);
     }
     auto dump = Dump::create(options.dump);
     if (!dump) return tl::unexpected(dump.error());
     if (auto done = dump->write(simulation); !done) return done;
-    if (auto done = runSteps(simulation, steps, stride, [&] { return dump->write(simulation); }); !done) return done;
+    if (auto done = runSteps(simulation, recorder, steps, stride, [&] { return dump->write(simulation); }); !done)
+        return done;
     print(options, device.info(), simulation, watch.take());
+    return {};
+}
+
+// The same, recorded. What there is of the recording is finished also when the run failed.
+Result<void> record(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, double duration,
+                    double every) {
+    if (options.record.path.empty()) return simulate(options, simulation, device, nullptr, duration, every);
+    auto recorder = Recorder::create(options.record, device, simulation);
+    if (!recorder) return tl::unexpected(recorder.error());
+    auto done = simulate(options, simulation, device, recorder->get(), duration, every);
+    auto finished = (*recorder)->finish();
+    if (!done) return done;
+    if (!finished) return finished;
+    const store::Writer& writer = (*recorder)->writer();
+    spdlog::info("recorded {} frames in {}, {:.1f} MB", writer.frames(), options.record.path,
+                 1e-6 * static_cast<double>(writer.bytes()));
     return {};
 }
 
@@ -175,7 +205,7 @@ Result<void> run(const RunOptions& options) {
                     fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
     auto simulation = sim::Simulation::create(**device, std::move(*loaded));
     if (!simulation) return tl::unexpected(simulation.error());
-    return simulate(options, **simulation, **device, *duration, *every);
+    return record(options, **simulation, **device, *duration, *every);
 }
 
 }  // namespace
@@ -188,6 +218,7 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--every", options->every,
                         "report this often, or with --dump write a state; absent: once, at the end");
     command->add_option("--dump", options->dump, "write states to this CSV file");
+    options->record.addTo(*command);
     command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {

@@ -8,11 +8,12 @@ import sys
 from pathlib import Path
 
 ALLOWED = {
-    "app": {"net", "measure", "quality", "sim", "frame", "scene", "compute", "core"},
+    "app": {"net", "measure", "quality", "sim", "store", "frame", "scene", "compute", "core"},
     "measure": {"sim", "scene", "compute", "core"},
     "sim": {"compute", "scene", "core"},
     "quality": {"scene", "core"},
     "frame": {"scene", "core"},
+    "store": {"frame", "scene", "core"},
     "net": {"frame", "core"},
     "scene": {"core"},
     "compute": {"core"},

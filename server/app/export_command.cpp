@@ -1,0 +1,170 @@
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "app/duration.h"
+#include "app/exit_codes.h"
+#include "app/options.h"
+#include "core/log.h"
+#include "store/exporter.h"
+#include "store/recording.h"
+
+namespace spherule::app {
+
+namespace {
+
+struct ExportOptions {
+    std::string file;
+    std::string format;
+    std::string out;
+    std::string every, from, to;
+    bool replace = false;
+};
+
+// Times in s simulated.
+struct Range {
+    double every = 0;  // 0: every frame
+    double from = -std::numeric_limits<double>::infinity();
+    double to = std::numeric_limits<double>::infinity();
+};
+
+constexpr double sameTime = 1e-6;  // s; times are sums of steps
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+// A line on the terminal that is rewritten a few times a second; silent elsewhere.
+class Progress {
+  public:
+    Progress() : shown_(isatty(STDERR_FILENO) != 0) {}
+    ~Progress() {
+        if (printed_) std::fputc('\n', stderr);
+    }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void at(std::uint64_t frames, double time, double end) {
+        if (!shown_ || Clock::now() - last_ < 200ms) return;
+        last_ = Clock::now();
+        printed_ = true;
+        fmt::print(stderr, "\r{} frames, at {:.2f} s of {:.2f} s ", frames, time, end);
+    }
+
+  private:
+    bool shown_;
+    bool printed_ = false;
+    Clock::time_point last_ = Clock::now();
+};
+
+Result<Range> rangeOf(const ExportOptions& options) {
+    Range range;
+    const auto read = [](const std::string& text, const char* option, double& seconds) -> Result<void> {
+        if (text.empty()) return {};
+        const auto given = secondsOf(text, option);
+        if (!given) return tl::unexpected(given.error());
+        seconds = *given;
+        return {};
+    };
+    if (auto done = read(options.every, "--every", range.every); !done) return tl::unexpected(done.error());
+    if (auto done = read(options.from, "--from", range.from); !done) return tl::unexpected(done.error());
+    if (auto done = read(options.to, "--to", range.to); !done) return tl::unexpected(done.error());
+    if (!options.every.empty() && !(range.every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
+    if (range.to < range.from) return fail(ErrorKind::Input, "--to", "is before --from");
+    return range;
+}
+
+store::MadeExporter exporterFor(const ExportOptions& options) {
+    if (options.format == "xyz") return store::xyzExporter(options.out, options.replace);
+    if (options.format == "csv") return store::csvExporter(options.out, options.replace);
+    return store::vtkExporter(options.out, options.replace);
+}
+
+// To the first frame that is not before `from`; false where there is none.
+Result<bool> enter(store::Recording& recording, double from) {
+    if (auto done = recording.seek(from); !done) return tl::unexpected(done.error());
+    while (recording.now().time < from - sameTime) {
+        auto more = recording.next();
+        if (!more || !*more) return more;
+    }
+    return true;
+}
+
+// Frames written. With `every`, the first frame at or after each multiple of it, counted from the first one.
+Result<std::uint64_t> write(store::Recording& recording, const Range& range, store::Exporter& exporter) {
+    std::uint64_t frames = 0;
+    Progress progress;
+    auto more = enter(recording, std::max(range.from, recording.begin()));
+    const double first = recording.now().time;
+    double due = 0;
+    for (; more && *more; more = recording.next()) {
+        const store::Moment moment = recording.now();
+        if (moment.time > range.to + sameTime) break;
+        if (range.every > 0) {
+            const double at = (moment.time - first + sameTime) / range.every;
+            if (at < due) continue;
+            due = std::floor(at) + 1;
+        }
+        if (auto done = exporter.add(moment); !done) return tl::unexpected(done.error());
+        progress.at(++frames, moment.time, std::min(range.to, recording.end()));
+    }
+    if (!more) {
+        // What came before is sound, and finished; the damage decides the exit code.
+        if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
+        return fail(ErrorKind::Input, "",
+                    fmt::format("{}; {} frames before it were exported; --from goes on behind it", more.error().text(),
+                                frames));
+    }
+    if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
+    return frames;
+}
+
+Result<void> exportRecording(const ExportOptions& options) {
+    const auto range = rangeOf(options);
+    if (!range) return tl::unexpected(range.error());
+    auto recording = store::Recording::open(options.file);
+    if (!recording) return tl::unexpected(recording.error());
+    if (!recording->flaw().empty())
+        spdlog::warn("{} is exported up to {:g} s: {}", options.file, recording->end(), recording->flaw());
+    if (range->from > recording->end() + sameTime || range->to < recording->begin() - sameTime)
+        return fail(ErrorKind::Input, options.file,
+                    fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),
+                                recording->end()));
+    auto exporter = exporterFor(options);
+    if (!exporter) return tl::unexpected(exporter.error());
+    const auto frames = write(*recording, *range, **exporter);
+    if (!frames) return tl::unexpected(frames.error());
+    spdlog::info("exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis", *frames,
+                 (*exporter)->path(), recording->now().error);
+    return {};
+}
+
+}  // namespace
+
+void addExport(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<ExportOptions>();
+    CLI::App* command = app.add_subcommand("export", "turn a recording into a format that other tools read");
+    command->add_option("file", options->file, "the recording")->required();
+    command->add_option("--format", options->format, "xyz (OVITO, ASE), vtk (ParaView) or csv")
+        ->required()
+        ->check(CLI::IsMember({"xyz", "vtk", "csv"}));
+    command
+        ->add_option("--out", options->out,
+                     "the file to write; for vtk the .pvd, with a folder of the same name beside it")
+        ->required();
+    command->add_option("--every", options->every, "so far apart, such as 0.1s; absent: every frame");
+    command->add_option("--from", options->from, "from this simulated time on, such as 1.5s");
+    command->add_option("--to", options->to, "up to this simulated time");
+    command->add_flag("--force", options->replace, "replace what is there");
+    command->footer(exitCodesText);
+    command->callback([options, &exitCode] {
+        const auto done = exportRecording(*options);
+        exitCode = done ? exitDone : report(done.error());
+    });
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,133 @@
+#include "app/recorder.h"
+
+#include <cmath>
+
+#include "app/facts.h"
+#include "frame/channel.h"
+#include "frame/order.h"
+#include "sim/morton.h"
+#include "sim/pass.h"
+
+namespace spherule::app {
+
+namespace {
+
+constexpr double keyframesEvery = 2;  // s simulated
+constexpr double roundedBy = 1e-6;    // of a frame: times are sums of steps
+constexpr std::uint32_t epoch = 1, order = 1;
+
+}  // namespace
+
+void RecordOptions::addTo(CLI::App& command) {
+    CLI::Option* const file = command.add_option("--record", path, "record the run in this file");
+    command
+        .add_option_function<std::string>(
+            "--record-tier",
+            [this](const std::string& name) {
+                tier = name == "eco" ? v1::ECO : name == "normal" ? v1::NORMAL : v1::FINE;
+            },
+            "how exact positions are: fine, normal or eco, to 1/500, 1/50 or 1/16 of the smallest radius [fine]")
+        ->check(CLI::IsMember({"fine", "normal", "eco"}))
+        ->needs(file);
+    command.add_option("--record-rate", rate, "frames per simulated second, at most one a step")
+        ->capture_default_str()
+        ->check(CLI::Range(0.001, 1e6))
+        ->needs(file);
+    command.add_flag("--force", replace, "replace the recording if it is there")->needs(file);
+}
+
+Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options, compute::Device& device,
+                                                   sim::Simulation& simulation) {
+    if (simulation.count() == 0)
+        return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
+    auto writer = store::Writer::create(options.path, options.replace);
+    if (!writer) return tl::unexpected(writer.error());
+    std::unique_ptr<Recorder> recorder(new Recorder(options, device, simulation, std::move(*writer)));
+    if (auto done = recorder->begin(); !done) return tl::unexpected(done.error());
+    return recorder;
+}
+
+Result<void> Recorder::begin() {
+    v1::ServerMessage welcome;
+    welcome.mutable_welcome()->set_server("spherule " SPHERULE_VERSION);
+    welcome.mutable_welcome()->set_device(device_.info().kind);
+    if (auto done = add(store::Kind::Other, welcome); !done) return done;
+    if (auto done = add(store::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
+
+    auto tools = sim::TierTools::create(device_, simulation_.count(), simulation_.tierSource().slotOf != nullptr);
+    if (!tools) return tl::unexpected(tools.error());
+    tools_ = std::move(*tools);
+    quantum_ = frame::quantumOf(options_.tier, sim::radiiOf(simulation_.scene()).smallest);
+    auto tier = sim::Tier::create(*tools_, {.quantum = quantum_});
+    if (!tier) return tl::unexpected(tier.error());
+    tier_ = std::move(*tier);
+
+    const std::vector<std::uint32_t> ids = sim::mortonOrder(simulation_.snapshot().position);
+    tools_->setOrder(ids);
+    v1::ServerMessage message;
+    *message.mutable_order() = frame::orderMessage(epoch, order, ids);
+    if (auto done = add(store::Kind::Order, message); !done) return done;
+    if (auto done = writeSettings(); !done) return done;
+    keyframe_ = simulation_.time();
+    due_ = 1;
+    return write(store::Kind::Keyframe);
+}
+
+Result<void> Recorder::stepped(bool last) {
+    if (auto done = writeSettings(); !done) return done;
+    const double frames = simulation_.time() * options_.rate + roundedBy;
+    if (frames < due_ && !last) return {};
+    due_ = std::floor(frames) + 1;
+    if (auto done = write(store::Kind::Delta); !done) return done;
+    if (simulation_.time() - keyframe_ + roundedBy / options_.rate < keyframesEvery) return {};
+    keyframe_ = simulation_.time();
+    return write(store::Kind::Join);
+}
+
+Result<void> Recorder::say(v1::Event::Kind kind, const std::string& text) {
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(kind);
+    message.mutable_event()->set_text(text);
+    message.mutable_event()->set_step(simulation_.steps());
+    return add(store::Kind::Other, message);
+}
+
+// Where they are others than before.
+Result<void> Recorder::writeSettings() {
+    const v1::ServerMessage message = settingsMessage(simulation_.scene(), 1, false);
+    std::string bytes = message.SerializeAsString();
+    if (bytes == settings_) return {};
+    settings_ = std::move(bytes);
+    return add(store::Kind::Settings, message);
+}
+
+Result<void> Recorder::write(store::Kind kind) {
+    device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
+    if (kind == store::Kind::Keyframe)
+        tier_->begin(simulation_.tierSource(), true);
+    else if (kind == store::Kind::Delta)
+        tier_->next(simulation_.tierSource(), true);
+    else
+        tier_->join(true);
+    device_.endTimer();
+    const std::vector<std::byte> bytes = tier_->download();
+
+    v1::ServerMessage message;
+    v1::Frame& frame = *message.mutable_frame();
+    frame.set_sequence(kind == store::Kind::Join ? sequence_ : ++sequence_);
+    frame.set_epoch(epoch);
+    frame.set_step(simulation_.steps());
+    frame.set_sim_time(simulation_.time());
+    frame.set_count(simulation_.count());
+    frame.set_tier(options_.tier);
+    frame.set_order(order);
+    frame.set_quantum(quantum_);
+    frame.set_spb(bytes.data(), bytes.size());
+    return add(kind, message);
+}
+
+Result<void> Recorder::add(store::Kind kind, const v1::ServerMessage& message) {
+    return writer_.add(kind, simulation_.time(), message);
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,43 @@
+#include "store/cast.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "frame/order.h"
+
+namespace spherule::store {
+
+namespace {
+
+tl::unexpected<Error> bad(const char* what) {
+    return fail(ErrorKind::Input, "scene facts", what);
+}
+
+// False where it is no place.
+bool set(glm::dvec3& target, const google::protobuf::RepeatedField<double>& from) {
+    if (from.size() != 3) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        target[axis] = from[axis];
+        if (!std::isfinite(from[axis])) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<Cast> Cast::from(const v1::SceneFacts& facts, const v1::Order& order) {
+    Cast cast{.epoch = facts.epoch(), .radii = {}, .order = order.number(), .ids = {}};
+    if (order.epoch() != facts.epoch()) return bad("are of another epoch than the order");
+    if (!set(cast.low, facts.bounds_min()) || !set(cast.high, facts.bounds_max())) return bad("have no bounds");
+    if (facts.count() == 0) return bad("have no spheres");
+    auto ids = frame::idsOf(order, facts.count());
+    if (!ids) return tl::unexpected(ids.error());
+    cast.ids = std::move(*ids);
+    cast.radii.assign(facts.count(), facts.radius());
+    if (facts.radius() > 0) return cast;
+    if (facts.radii().size() != cast.radii.size() * sizeof(float)) return bad("have radii of other spheres");
+    std::memcpy(cast.radii.data(), facts.radii().data(), facts.radii().size());
+    return cast;
+}
+
+}  // namespace spherule::store

@@ -1,0 +1,89 @@
+// The formats that are text, all moments in one file.
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "store/exporter.h"
+#include "store/output_file.h"
+
+namespace spherule::store {
+
+namespace {
+
+class TextExporter : public Exporter {
+  public:
+    explicit TextExporter(OutputFile file) : file_(std::move(file)) {}
+
+    Result<void> add(const Moment& moment) override {
+        text_.clear();
+        print(moment, text_);
+        return file_.write(text_);
+    }
+    Result<void> finish() override { return file_.close(); }
+    [[nodiscard]] std::string path() const override { return file_.path(); }
+
+  protected:
+    virtual void print(const Moment& moment, std::string& text) = 0;
+
+  private:
+    OutputFile file_;
+    std::string text_;
+};
+
+class Csv : public TextExporter {
+  public:
+    explicit Csv(OutputFile file) : TextExporter(std::move(file)) {}
+
+  private:
+    void print(const Moment& moment, std::string& text) override {
+        if (!begun_) text += "time,id,x,y,z,radius\n";
+        begun_ = true;
+        const std::string time = fmt::format("{:.9g}", moment.time);
+        for (std::size_t id = 0; id < moment.positions.size(); ++id) {
+            const glm::dvec3& p = moment.positions[id];
+            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", time, id, p.x, p.y, p.z,
+                           moment.radii[id]);
+        }
+    }
+    bool begun_ = false;
+};
+
+// All spheres are of the species X, which is ASE's for what is no element.
+class Xyz : public TextExporter {
+  public:
+    explicit Xyz(OutputFile file) : TextExporter(std::move(file)) {}
+
+  private:
+    void print(const Moment& moment, std::string& text) override {
+        const glm::dvec3 size = moment.high - moment.low;
+        fmt::format_to(std::back_inserter(text),
+                       "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
+                       "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1 Time={:.9g} pbc=\"F F F\"\n",
+                       moment.positions.size(), size.x, size.y, size.z, moment.low.x, moment.low.y, moment.low.z,
+                       moment.time);
+        for (std::size_t id = 0; id < moment.positions.size(); ++id) {
+            const glm::dvec3& p = moment.positions[id];
+            fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g} {:.9g} {}\n", p.x, p.y, p.z,
+                           moment.radii[id], id);
+        }
+    }
+};
+
+template <class Format>
+MadeExporter make(const std::string& path, bool replace) {
+    auto file = OutputFile::create(path, replace);
+    if (!file) return tl::unexpected(file.error());
+    return std::make_unique<Format>(std::move(*file));
+}
+
+}  // namespace
+
+MadeExporter csvExporter(const std::string& path, bool replace) {
+    return make<Csv>(path, replace);
+}
+
+MadeExporter xyzExporter(const std::string& path, bool replace) {
+    return make<Xyz>(path, replace);
+}
+
+}  // namespace spherule::store

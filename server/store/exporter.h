@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+#include "store/recording.h"
+
+namespace spherule::store {
+
+// Writes moments of a recording in a format that other tools read. Used by one thread. What goes wrong is as OutputFile
+// says.
+class Exporter {
+  public:
+    virtual ~Exporter() = default;
+    // In the order of time.
+    virtual Result<void> add(const Moment& moment) = 0;
+    virtual Result<void> finish() = 0;
+    // What somebody who wants to open it must open.
+    [[nodiscard]] virtual std::string path() const = 0;
+};
+
+using MadeExporter = Result<std::unique_ptr<Exporter>>;
+
+// Extended XYZ, all moments in one file: what OVITO and ASE read.
+MadeExporter xyzExporter(const std::string& path, bool replace);
+// CSV, all moments in one file: time,id,x,y,z,radius in SI units.
+MadeExporter csvExporter(const std::string& path, bool replace);
+// VTK: `path` (.pvd is added where it is missing) lists the files of the moments, PolyData (.vtp) in a folder beside
+// it.
+MadeExporter vtkExporter(const std::string& path, bool replace);
+
+}  // namespace spherule::store

@@ -1,0 +1,171 @@
+#include "store/recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace spherule::store {
+
+namespace {
+
+constexpr double sameTime = 1e-9;  // s; times that differ by less are meant to be one
+
+// What a record of this kind must hold.
+bool holds(Kind kind, const v1::ServerMessage& message) {
+    if (kind == Kind::Scene) return message.has_scene();
+    if (kind == Kind::Order) return message.has_order();
+    if (kind == Kind::Settings) return message.has_settings();
+    return kind == Kind::Other || message.has_frame();
+}
+
+}  // namespace
+
+Result<Recording> Recording::open(const std::string& path) {
+    auto file = RecordFile::open(path);
+    if (!file) return tl::unexpected(file.error());
+    Recording recording(std::move(*file));
+    recording.contents_ = contentsOf(recording.file_);
+    const auto& entries = recording.contents_.index.entries;
+    const auto first = std::ranges::find(entries, Kind::Keyframe, &Index::Entry::kind);
+    if (recording.frames() == 0 || first == entries.end())
+        return fail(ErrorKind::Input, path,
+                    "has no frames" + (recording.flaw().empty() ? "" : ": " + recording.flaw()));
+    // The first frame is looked at, so that what is wrong with it is said now.
+    if (auto right = recording.enter(first->offset); !right) return tl::unexpected(right.error());
+    recording.decoder_.reset();
+    recording.offset_ = first->offset;
+    return recording;
+}
+
+tl::unexpected<Error> Recording::bad(std::uint64_t offset, const std::string& what) const {
+    return fail(ErrorKind::Input, file_.path(), fmt::format("the record at byte {} is damaged: {}", offset, what));
+}
+
+// To the frame of the keyframe at this offset.
+Result<void> Recording::enter(std::uint64_t offset) {
+    decoder_.reset();
+    cast_.reset();
+    order_.reset();
+    for (const Kind needed : {Kind::Scene, Kind::Order}) {
+        const Index::Entry* newest = nullptr;
+        for (const Index::Entry& entry : contents_.index.entries)
+            if (entry.kind == needed && entry.offset < offset) newest = &entry;
+        if (newest == nullptr) return bad(offset, "no scene or no order comes before this frame");
+        const auto record = file_.read(newest->offset);
+        if (!record) return tl::unexpected(record.error());
+        if (record->kind != needed) return bad(newest->offset, "the index says that it is another");
+        if (auto done = take(*record, newest->offset); !done) return tl::unexpected(done.error());
+    }
+    const auto record = file_.read(offset);
+    if (!record) return tl::unexpected(record.error());
+    if (record->kind != Kind::Keyframe && record->kind != Kind::Join) return bad(offset, "is no keyframe");
+    if (auto done = take(*record, offset); !done) return tl::unexpected(done.error());
+    offset_ = record->end;
+    return {};
+}
+
+Result<void> Recording::seek(double time) {
+    const Index::Entry* from = nullptr;
+    for (const Index::Entry& entry : contents_.index.entries) {
+        if (entry.kind != Kind::Keyframe && entry.kind != Kind::Join) continue;
+        if (from == nullptr || entry.time <= time + sameTime) from = &entry;
+    }
+    if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
+    if (auto done = enter(from->offset); !done) return done;
+    for (;;) {
+        const auto coming = nextTime();
+        if (!coming) return tl::unexpected(coming.error());
+        if (!*coming || **coming > time + sameTime) return {};
+        if (auto done = next(); !done) return tl::unexpected(done.error());
+    }
+}
+
+// Of the frame that comes next; nothing at the end.
+Result<std::optional<double>> Recording::nextTime() const {
+    for (std::uint64_t offset = offset_; offset < contents_.end;) {
+        const auto head = file_.readHead(offset);
+        if (!head) return tl::unexpected(head.error());
+        if (isFrame(head->kind)) return head->time;
+        offset = head->end;
+    }
+    return std::nullopt;
+}
+
+Result<bool> Recording::next() {
+    while (offset_ < contents_.end) {
+        const auto record = file_.read(offset_);
+        if (!record) return tl::unexpected(record.error());
+        // A frame that is had already.
+        if (record->kind == Kind::Join || record->kind == Kind::Other || record->kind == Kind::Index) {
+            offset_ = record->end;
+            continue;
+        }
+        auto frame = take(*record, offset_);
+        if (!frame) return frame;
+        offset_ = record->end;
+        if (*frame) return true;
+    }
+    return false;
+}
+
+// Whether it was a frame.
+Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
+    v1::ServerMessage message;
+    if (!message.ParseFromString(record.payload)) return bad(offset, "it is no message");
+    if (!holds(record.kind, message)) return bad(offset, "its message is of another kind");
+    if (record.kind == Kind::Scene || record.kind == Kind::Order) {
+        decoder_.reset();
+        cast_.reset();
+        if (record.kind == Kind::Scene) facts_ = std::move(*message.mutable_scene());
+        if (record.kind == Kind::Order) order_ = std::move(*message.mutable_order());
+        return false;
+    }
+    if (record.kind == Kind::Settings) return false;
+    if (auto done = show(message.frame(), offset); !done) {
+        decoder_.reset();
+        return tl::unexpected(done.error());
+    }
+    time_ = record.time;
+    return true;
+}
+
+// Before the first frame of other spheres.
+Result<void> Recording::prepare(std::uint64_t offset) {
+    if (!cast_) {
+        if (!order_) return bad(offset, "no order comes before it");
+        auto cast = Cast::from(facts_, *order_);
+        if (!cast) return bad(offset, cast.error().text());
+        cast_ = std::move(*cast);
+    }
+    if (!decoder_) decoder_ = std::make_unique<frame::codec::Decoder>(cast_->spheres());
+    positions_.resize(cast_->spheres());
+    return {};
+}
+
+Result<void> Recording::show(const v1::Frame& frame, std::uint64_t offset) {
+    if (auto done = prepare(offset); !done) return done;
+    if (frame.epoch() != cast_->epoch || frame.order() != cast_->order)
+        return bad(offset, "its frame is of other spheres than scene and order before it");
+    if (!(frame.quantum() > 0) || !std::isfinite(frame.quantum())) return bad(offset, "its frame has no quantum");
+    const auto done = decoder_->apply(std::as_bytes(std::span(frame.spb())));
+    if (!done) return bad(offset, done.error().text());
+    quantum_ = frame.quantum();
+    step_ = frame.step();
+    const glm::dvec3 centre = 0.5 * (cast_->low + cast_->high);
+    const auto cells = decoder_->newest();
+    for (std::size_t k = 0; k < cells.size(); ++k) positions_[cast_->ids[k]] = centre + quantum_ * glm::dvec3(cells[k]);
+    return {};
+}
+
+Moment Recording::now() const {
+    return {.time = time_,
+            .step = step_,
+            .error = quantum_ / 2,
+            .positions = positions_,
+            .radii = cast_ ? std::span<const float>(cast_->radii) : std::span<const float>(),
+            .low = cast_ ? cast_->low : glm::dvec3(),
+            .high = cast_ ? cast_->high : glm::dvec3()};
+}
+
+}  // namespace spherule::store

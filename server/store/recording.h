@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/result.h"
+#include "frame/codec.h"
+#include "spherule/v1/control.pb.h"
+#include "store/cast.h"
+#include "store/index.h"
+
+namespace spherule::store {
+
+// Where the spheres were at one time. Holds until the recording is moved to another.
+struct Moment {
+    double time = 0;  // s simulated
+    std::uint64_t step = 0;
+    double error = 0;                       // m; positions are those of the simulation to within this, on each axis
+    std::span<const glm::dvec3> positions;  // by id, m
+    std::span<const float> radii;           // by id, m
+    glm::dvec3 low{}, high{};               // bounds of the scene, m
+};
+
+// A recording to be played; the file may be cut off or hostile. Used by one thread. It takes memory for its index, its
+// spheres and one frame.
+class Recording {
+  public:
+    // Input for what cannot be played, and why.
+    static Result<Recording> open(const std::string& path);
+
+    [[nodiscard]] const v1::SceneFacts& facts() const { return facts_; }  // of the newest moment
+    [[nodiscard]] std::uint64_t frames() const { return contents_.index.frames; }
+    [[nodiscard]] double begin() const { return contents_.index.begin; }  // s simulated: of the first frame
+    [[nodiscard]] double end() const { return contents_.index.end; }      // of the last one
+    // Why it ends before the end of the file, or has none that was meant; empty: nothing is wrong with it.
+    [[nodiscard]] const std::string& flaw() const { return contents_.flaw; }
+
+    // To the last frame that is not after `time` (s), or to the first one.
+    Result<void> seek(double time);
+    // To the next frame, after open() the first; false at the end. After an error only seek() goes on.
+    Result<bool> next();
+
+    // After next() or seek().
+    [[nodiscard]] Moment now() const;
+
+  private:
+    explicit Recording(RecordFile file) : file_(std::move(file)) {}
+
+    Result<void> enter(std::uint64_t offset);
+    Result<std::optional<double>> nextTime() const;
+    Result<bool> take(const Record& record, std::uint64_t offset);
+    Result<void> show(const v1::Frame& frame, std::uint64_t offset);
+    Result<void> prepare(std::uint64_t offset);
+    [[nodiscard]] tl::unexpected<Error> bad(std::uint64_t offset, const std::string& what) const;
+
+    RecordFile file_;
+    Contents contents_;
+    std::uint64_t offset_ = fileHeadBytes;  // of what comes next
+    v1::SceneFacts facts_;
+    std::optional<v1::Order> order_;  // until somebody needs it
+    std::optional<Cast> cast_;
+    std::unique_ptr<frame::codec::Decoder> decoder_;
+    double time_ = 0;
+    std::uint64_t step_ = 0;
+    double quantum_ = 0;
+    std::vector<glm::dvec3> positions_;
+};
+
+}  // namespace spherule::store

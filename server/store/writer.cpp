@@ -1,0 +1,46 @@
+#include "store/writer.h"
+
+#include "store/bytes.h"
+
+namespace spherule::store {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto flushEvery = 1s;
+
+}  // namespace
+
+Result<Writer> Writer::create(const std::string& path, bool replace) {
+    auto file = OutputFile::create(path, replace);
+    if (!file) return tl::unexpected(file.error());
+    Writer writer(std::move(*file));
+    if (auto done = writer.file_.write(fileHead()); !done) return tl::unexpected(done.error());
+    if (auto done = writer.file_.flush(); !done) return tl::unexpected(done.error());
+    return writer;
+}
+
+Result<void> Writer::add(Kind kind, double time, const v1::ServerMessage& message) {
+    if (time < time_ && file_.size() > fileHeadBytes)
+        return fail(ErrorKind::Refused, file_.path(), "cannot record time that goes back");
+    if (message.ByteSizeLong() > mostPayload)
+        return fail(ErrorKind::Refused, file_.path(), "cannot hold a frame of more than 1 GiB: record fewer spheres");
+    index_.add(kind, time, file_.size());
+    time_ = time;
+    if (auto done = file_.write(recordBytes(kind, time, message.SerializeAsString())); !done) return done;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - flushed_ < flushEvery) return {};
+    flushed_ = now;
+    return file_.flush();
+}
+
+Result<void> Writer::finish() {
+    const std::uint64_t at = file_.size();
+    std::string end = recordBytes(Kind::Index, time_, index_.payload());
+    append(end, at);
+    end.append(endMagic.begin(), endMagic.end());
+    if (auto done = file_.write(end); !done) return done;
+    return file_.close();
+}
+
+}  // namespace spherule::store

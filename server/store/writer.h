@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "core/result.h"
+#include "spherule/v1/control.pb.h"
+#include "store/index.h"
+#include "store/output_file.h"
+
+namespace spherule::store {
+
+// Writes a recording: what is in it can be read at any moment up to about a second before, whatever happens then. Used
+// by one thread. After an error nothing more is to be written.
+class Writer {
+  public:
+    // Refuses a file that is there, unless it may be replaced.
+    static Result<Writer> create(const std::string& path, bool replace);
+
+    // `time`: s simulated, never less than the last. Frames need their scene and order before them.
+    Result<void> add(Kind kind, double time, const v1::ServerMessage& message);
+
+    // Index and trailer, and all of it to the disk.
+    Result<void> finish();
+
+    [[nodiscard]] std::uint64_t bytes() const { return file_.size(); }
+    [[nodiscard]] std::uint64_t frames() const { return index_.frames; }
+
+  private:
+    explicit Writer(OutputFile file) : file_(std::move(file)) {}
+
+    OutputFile file_;
+    Index index_;
+    double time_ = 0;
+    std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace spherule::store

@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""Recordings as a user makes them, and as other programs read them: recording_test.py BINARY. Runs on Debian's Python,
+with ASE (tests/unpack_ase.sh) and VTK."""
+import csv
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree as xml
+
+import numpy
+from ase.io import read
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+BINARY = sys.argv.pop()
+COLUMNS = ["id", "x", "y", "z", "radius"]
+FLOAT = 1e-6  # m; what float32 and nine digits cannot hold of places some metres from the origin
+MIXED = {"bounds": {"min": [0, 0, 0], "max": [1, 2, 1.5]},
+         "groups": [{"name": "small", "radius": {"constant": 0.03},
+                     "fill": {"count": 150, "min": [0, 0, 0], "max": [1, 2, 1.5]}},
+                    {"name": "mixed", "radius": {"uniform": {"min": 0.04, "max": 0.09}},
+                     "fill": {"count": 60, "min": [0, 0, 0], "max": [1, 2, 1.5]}}]}
+
+
+def call(*arguments, **options):
+    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False, **options)
+
+
+def frames_of(path):
+    """[(time, rows of COLUMNS in id order)] of a CSV file that `run --dump` or `export` wrote."""
+    frames = {}
+    with open(path, encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            frames.setdefault(float(row["time"]), []).append([float(row[column]) for column in COLUMNS])
+    return [(when, numpy.array(rows)) for when, rows in frames.items()]
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.recording = self.at("run.sph")
+
+    def at(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_done(self, scene, *more, device="cpu"):
+        done = call("run", scene, "--device", device, "--record", self.recording, *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def export(self, file_format, name, *more):
+        done = call("export", self.recording, "--format", file_format, "--out", self.at(name), *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.at(name)
+
+    def refused(self, *arguments, code=2):
+        done = call(*arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr.splitlines()[-1]
+
+
+class Formats(Files):
+    """Each reads back as the states that the same run has dumped, to within what is stated."""
+
+    def record(self, scene, smallest, *more):
+        dump = self.at("states.csv")
+        self.run_done(scene, "--for", "2.5s", "--dump", dump, "--every", "0.0333333s", *more)
+        self.bound = smallest / 500 + FLOAT
+        self.dumped = frames_of(dump)
+        self.assertEqual(len(self.dumped), 76)
+
+    def mixed(self):
+        path = self.at("mixed.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(MIXED, file)
+        return path
+
+    def same(self, when, positions, radii, ids, dumped):
+        self.assertAlmostEqual(when, dumped[0], delta=1e-8)
+        numpy.testing.assert_array_equal(ids, dumped[1][:, 0])
+        self.assertLessEqual(numpy.abs(positions - dumped[1][:, 1:4]).max(), self.bound)
+        numpy.testing.assert_allclose(radii, dumped[1][:, 4], rtol=1e-7)
+
+    def check_all(self):
+        exported = frames_of(self.export("csv", "run.csv"))
+        self.assertEqual(len(exported), len(self.dumped))
+        for (when, rows), dumped in zip(exported, self.dumped):
+            self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
+
+        exported = read(self.export("xyz", "run.xyz"), index=":", format="extxyz")
+        self.assertEqual(len(exported), len(self.dumped))
+        for atoms, dumped in zip(exported, self.dumped):
+            self.same(atoms.info["Time"], atoms.positions, atoms.arrays["radius"], atoms.arrays["id"], dumped)
+
+        listed = xml.parse(self.export("vtk", "run.pvd")).getroot().findall("Collection/DataSet")
+        self.assertEqual(len(listed), len(self.dumped))
+        for entry, dumped in zip(listed, self.dumped):
+            reader = vtkXMLPolyDataReader()
+            reader.SetFileName(self.at(entry.get("file")))
+            reader.Update()
+            data = reader.GetOutput()
+            self.assertEqual(data.GetNumberOfVerts(), len(dumped[1]))
+            arrays = data.GetPointData()
+            self.same(float(entry.get("timestep")), vtk_to_numpy(data.GetPoints().GetData()),
+                      vtk_to_numpy(arrays.GetArray("radius")), vtk_to_numpy(arrays.GetArray("id")), dumped)
+        return exported
+
+    def test_two_spheres(self):
+        self.record("two-spheres", 0.05)
+        atoms = self.check_all()[0]
+        numpy.testing.assert_allclose(atoms.cell.lengths(), [4, 1, 1])
+        numpy.testing.assert_allclose(atoms.info["Origin"], [-2, -0.5, -0.5])
+
+    def test_a_box_of_mixed_radii(self):
+        self.record(self.mixed(), 0.03)
+        self.check_all()
+
+    def test_tiers_state_what_they_are_off_by(self):
+        for tier, part in ("normal", 50), ("eco", 16):
+            self.record(self.mixed(), 0.03, "--record-tier", tier, "--force")
+            self.bound = 0.03 / part + FLOAT
+            exported = frames_of(self.export("csv", f"{tier}.csv"))
+            self.assertEqual(len(exported), len(self.dumped))
+            for (when, rows), dumped in zip(exported, self.dumped):
+                self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
+
+
+class Record(Files):
+    def bytes_of(self, *more, device="cpu"):
+        self.run_done("box-4k", "--for", "0.5s", "--force", *more, device=device)
+        with open(self.recording, "rb") as file:
+            return file.read()
+
+    def test_the_same_run_gives_the_same_bytes(self):
+        once = self.bytes_of()
+        self.assertEqual(self.bytes_of(), once)
+        self.assertEqual(self.bytes_of(device="cpu:1"), once)
+        self.assertNotEqual(self.bytes_of("--seed", "7"), once)
+
+    def test_recording_changes_nothing(self):
+        plain = call("run", "box-4k", "--for", "0.5s", "--device", "cpu", "--json")
+        recorded = self.run_done("box-4k", "--for", "0.5s", "--json")
+        self.assertEqual(json.loads(plain.stdout)["stateHash"], json.loads(recorded.stdout)["stateHash"])
+
+    def test_frames_are_as_often_as_asked_and_the_last_state_is_there(self):
+        for rate, times in ("10", [0, 0.1, 0.2, 0.25]), ("1000", [k / 60 for k in range(16)]):
+            self.run_done("two-spheres", "--for", "0.25s", "--record-rate", rate, "--force")
+            recorded = [when for when, _ in frames_of(self.export("csv", f"{rate}.csv"))]
+            numpy.testing.assert_allclose(recorded, times, atol=1e-8)
+
+    def test_a_file_that_is_there_is_kept_unless_told(self):
+        self.run_done("two-spheres", "--for", "0.1s")
+        arguments = ["run", "two-spheres", "--for", "0.1s", "--device", "cpu", "--record", self.recording]
+        self.assertEqual(self.refused(*arguments), f"spherule: {self.recording}: is there already; give --force to "
+                                                   "replace it, or another name")
+        self.assertEqual(call(*arguments, "--force").returncode, 0)
+
+    def test_where_there_is_no_room_the_recording_so_far_stays(self):
+        def little_room():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1_500_000, 1_500_000))
+        # Python ignores the signal that comes with the limit, and so does what it starts then.
+        done = call("run", "box-10k", "--for", "10s", "--device", "cpu", "--record", self.recording,
+                    "--record-rate", "60", preexec_fn=little_room, restore_signals=False)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertRegex(done.stderr.splitlines()[-1],
+                         r"run.sph: cannot be written on after 1500000 bytes: File too large; raise the limit \(ulimit "
+                         r"-f\) or write less; what has been written stays as it is$")
+        done = call("export", self.recording, "--format", "vtk", "--out", self.at("run"), "--every", "0.5s")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"run.sph is exported up to [0-9.]+ s: the record at byte [0-9]+ is cut off")
+        self.assertGreater(len(os.listdir(self.at("run"))), 1)
+
+    def test_a_run_that_is_killed_leaves_what_it_had_about_a_second_before(self):
+        arguments = [BINARY, "run", "box-10k", "--for", "1000s", "--device", "cpu", "--record", self.recording]
+        with subprocess.Popen(arguments, stderr=subprocess.DEVNULL) as running:
+            try:
+                deadline = time.monotonic() + 60
+                while time.monotonic() < deadline:
+                    time.sleep(0.1)
+                    if os.path.exists(self.recording) and os.path.getsize(self.recording) > 100_000:
+                        break
+            finally:
+                running.kill()
+        self.export("vtk", "run", "--every", "1s")
+        self.assertGreater(len(os.listdir(self.at("run"))), 0)
+
+
+class Export(Files):
+    def setUp(self):
+        super().setUp()
+        self.run_done("two-spheres", "--for", "5s")
+
+    def times(self, name, *more):
+        return [when for when, _ in frames_of(self.export("csv", name, *more))]
+
+    def test_every_from_and_to_choose_frames(self):
+        numpy.testing.assert_allclose(self.times("a.csv", "--every", "1s"), [0, 1, 2, 3, 4, 5], atol=1e-8)
+        numpy.testing.assert_allclose(self.times("b.csv", "--from", "2.4s", "--to", "2.5s"), [2.4, 2.43333333,
+                                      2.46666667, 2.5], atol=1e-7)
+        numpy.testing.assert_allclose(self.times("c.csv", "--from", "4.45s", "--every", "250ms"),
+                                      [4.46666667, 4.73333333, 4.96666667], atol=1e-7)
+        self.assertEqual(len(self.times("d.csv", "--every", "1ms")), 151)
+
+    def test_what_cannot_be_is_refused(self):
+        out = self.at("out.csv")
+        export = ["export", self.recording, "--format", "csv", "--out"]
+        self.assertEqual(self.refused(*export, out, "--from", "6s"),
+                         f"spherule: {self.recording}: has nothing of that time: it goes from 0 s to 5 s")
+        self.assertEqual(self.refused(*export, out, "--from", "2s", "--to", "1s"), "spherule: --to: is before --from")
+        self.assertFalse(os.path.exists(out))
+        missing = self.at("no/out.csv")
+        self.assertEqual(self.refused(*export, missing),
+                         f"spherule: {missing}: cannot be written: No such file or directory; make its folder first")
+        self.assertEqual(self.refused(*export, self.recording),
+                         f"spherule: {self.recording}: is there already; give --force to replace it, or another name")
+        self.assertIn("is no recording", self.refused("export", __file__, "--format", "csv", "--out", out))
+        self.assertIn("No space left on device", self.refused(*export, "/dev/full", "--force", code=4))
+
+    def test_a_damaged_frame_ends_it_and_it_goes_on_behind(self):
+        with open(self.recording, "r+b") as file:
+            content = bytearray(file.read())
+            content[len(content) // 2] ^= 1
+            file.seek(0)
+            file.write(content)
+        said = self.refused("export", self.recording, "--format", "csv", "--out", self.at("a.csv"))
+        self.assertRegex(said, r"the record at byte [0-9]+ is damaged: its checksum is another; [0-9]+ frames before it "
+                               "were exported; --from goes on behind it$")
+        before = frames_of(self.at("a.csv"))
+        after = self.times("b.csv", "--from", "4s")
+        self.assertGreater(len(before), 10)
+        numpy.testing.assert_allclose((after[0], after[-1]), (4, 5), atol=1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+// Files that were cut off, or in which bytes have changed.
+#include <gtest/gtest.h>
+
+#include "store_support.h"
+
+namespace spherule::store {
+namespace {
+
+constexpr double bound = Film::quantum / 2 + 1e-6;  // m
+
+class Damage : public testing::Test {
+  protected:
+    // Frames that are whole in the first `bytes` of the file.
+    [[nodiscard]] std::size_t wholeWithin(std::size_t bytes) const {
+        std::size_t frames = 0;
+        std::size_t end = fileHeadBytes;
+        for (const std::string& record : film_.records) {
+            end += record.size();
+            if (end > bytes) break;
+            if (isFrame(static_cast<Kind>(record[4]))) ++frames;
+        }
+        return frames;
+    }
+
+    Folder folder_;
+    std::string path_ = folder_ / "film.sph";
+    Film film_ = film(path_, 8);
+    std::string content_ = contentOf(path_);
+};
+
+TEST_F(Damage, AFileThatIsCutAnywherePlaysUpToTheCut) {
+    const std::string cut = folder_ / "cut.sph";
+    for (std::size_t bytes = 0; bytes < content_.size(); ++bytes) {
+        put(cut, content_.substr(0, bytes));
+        auto recording = Recording::open(cut);
+        const std::size_t whole = wholeWithin(bytes);
+        if (whole == 0) {
+            ASSERT_FALSE(recording) << bytes;
+            continue;
+        }
+        ASSERT_TRUE(recording) << bytes << recording.error().text();
+        EXPECT_NE(recording->flaw(), "") << bytes;
+        EXPECT_EQ(recording->frames(), whole) << bytes;
+        std::string end;
+        const auto frames = play(*recording, &end);
+        ASSERT_EQ(frames.size(), whole) << bytes;
+        EXPECT_EQ(end, "") << bytes;
+        EXPECT_LE(distance(frames.back(), film_.frames[whole - 1]), bound) << bytes;
+    }
+}
+
+TEST_F(Damage, WhatIsCutOffIsSaid) {
+    put(path_, content_.substr(0, content_.size() - 1));
+    EXPECT_EQ(Recording::open(path_)->flaw(), "its end is damaged");
+    std::size_t end = fileHeadBytes;
+    for (const std::string& record : film_.records) end += record.size();
+    put(path_, content_.substr(0, end));
+    EXPECT_EQ(Recording::open(path_)->flaw(), "it was not finished");
+    put(path_, content_.substr(0, end - 1));
+    EXPECT_EQ(Recording::open(path_)->flaw(),
+              "the record at byte " + std::to_string(end - film_.records.back().size()) + " is cut off");
+}
+
+// Played as far as it goes, it says so, and what it shows is right.
+TEST_F(Damage, EveryByteThatIsFlippedIsNoticed) {
+    const std::string flipped = folder_ / "flipped.sph";
+    for (std::size_t byte = 0; byte < content_.size(); ++byte) {
+        std::string content = content_;
+        content[byte] = static_cast<char>(content[byte] ^ (1 << byte % 8));
+        put(flipped, content);
+        auto recording = Recording::open(flipped);
+        if (!recording) {
+            EXPECT_EQ(recording.error().text().find(flipped), 0U);
+            continue;
+        }
+        std::string end;
+        const auto frames = play(*recording, &end);
+        EXPECT_TRUE(!end.empty() || !recording->flaw().empty()) << byte;
+        for (std::size_t n = 0; n < frames.size(); ++n) ASSERT_LE(distance(frames[n], film_.frames[n]), bound) << byte;
+    }
+}
+
+TEST_F(Damage, BehindADamagedFrameItGoesOnWithTheNextKeyframe) {
+    std::size_t begin = fileHeadBytes;
+    for (std::size_t record = 0; record < 4; ++record) begin += film_.records[record].size();
+    content_[begin + 30] = static_cast<char>(content_[begin + 30] ^ 1);
+    put(path_, content_);
+    auto recording = Recording::open(path_);
+    ASSERT_TRUE(recording);
+    std::string end;
+    EXPECT_EQ(play(*recording, &end).size(), 2U);
+    EXPECT_EQ(end, path_ + ": the record at byte " + std::to_string(begin) + " is damaged: its checksum is another");
+    ASSERT_TRUE(recording->seek(0.5));
+    EXPECT_EQ(play(*recording, &end).size(), 2U);
+    EXPECT_EQ(end, "");
+}
+
+}  // namespace
+}  // namespace spherule::store
