@@ -60,7 +60,7 @@ def client(args, server, viewers, seconds, *more):
 
 def crowd(args):
     tenth = args.viewers // 10
-    with Server(os.path.join(args.build, "spherule"), args.scene, "--device", args.device) as server:
+    with Server(os.path.join(args.build, "spherule"), "serve", args.scene, "--device", args.device) as server:
         settle(server, args.settle)
         before = server.metrics()
         done = subprocess.run(client(args, server, args.viewers, args.seconds, "--stalled", str(tenth), "--slow", str(tenth),
@@ -125,7 +125,7 @@ def stretch(args, server, viewers):
 
 def cost(args):
     alone, crowded = [], []
-    with Server(os.path.join(args.build, "spherule"), args.scene, "--no-sleep", "--device", args.device) as server:
+    with Server(os.path.join(args.build, "spherule"), "serve", args.scene, "--no-sleep", "--device", args.device) as server:
         settle(server, args.settle)
         for number in range(args.stretches):
             say(f"stretch {number + 1} of {args.stretches}")
