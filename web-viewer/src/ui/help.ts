@@ -1,25 +1,29 @@
 import { h } from "./dom";
 import type { Key } from "./keys";
 
-const gestures: [string, string][] = [
+const gestures = (playing: boolean): [string, string][] => [
   ["drag · one finger", "orbit"],
   ["right or shift + drag · two fingers", "move"],
   ["wheel · pinch", "zoom to that place"],
-  ["click · tap", "select a sphere, or push it in push mode"],
+  ["click · tap", playing ? "select a sphere" : "select a sphere, or push it in push mode"],
+  ...(playing ? ([["timeline: arrows, Home, End", "a frame, a second, to its ends"]] as [string, string][]) : []),
 ];
 
 /** Keys and gestures, over the page. */
 export class Help {
-  readonly element: HTMLDialogElement;
+  readonly element: HTMLDialogElement = h("dialog", {
+    class: "help",
+    "data-testid": "help-overlay",
+    "aria-label": "Keys and gestures",
+    click: () => this.element.close(),
+  });
 
-  constructor(keys: Key[]) {
+  describe(keys: Key[], playing: boolean): void {
     const list = (rows: [string, string][]): HTMLElement =>
       h("dl", {}, ...rows.flatMap(([term, text]) => [h("dt", {}, term), h("dd", {}, text)]));
-    this.element = h(
-      "dialog",
-      { class: "help", "data-testid": "help-overlay", "aria-label": "Keys and gestures", click: () => this.element.close() },
+    this.element.replaceChildren(
       h("h2", {}, "Gestures"),
-      list(gestures),
+      list(gestures(playing)),
       h("h2", {}, "Keys"),
       list(keys.filter((key) => key.shown).map((key) => [key.shown, key.says])),
     );
