@@ -87,7 +87,7 @@ store::MadeExporter exporterFor(const ExportOptions& options) {
 // To the first frame that is not before `from`; false where there is none.
 Result<bool> enter(store::Recording& recording, double from) {
     if (auto done = recording.seek(from); !done) return tl::unexpected(done.error());
-    while (recording.now().time < from - sameTime) {
+    while (recording.time() < from - sameTime) {
         auto more = recording.next();
         if (!more || !*more) return more;
     }
@@ -99,18 +99,18 @@ Result<std::uint64_t> write(store::Recording& recording, const Range& range, sto
     std::uint64_t frames = 0;
     Progress progress;
     auto more = enter(recording, std::max(range.from, recording.begin()));
-    const double first = recording.now().time;
+    const double first = recording.time();
     double due = 0;
     for (; more && *more; more = recording.next()) {
-        const store::Moment moment = recording.now();
-        if (moment.time > range.to + sameTime) break;
+        const double time = recording.time();
+        if (time > range.to + sameTime) break;
         if (range.every > 0) {
-            const double at = (moment.time - first + sameTime) / range.every;
+            const double at = (time - first + sameTime) / range.every;
             if (at < due) continue;
             due = std::floor(at) + 1;
         }
-        if (auto done = exporter.add(moment); !done) return tl::unexpected(done.error());
-        progress.at(++frames, moment.time, std::min(range.to, recording.end()));
+        if (auto done = exporter.add(recording.now()); !done) return tl::unexpected(done.error());
+        progress.at(++frames, time, std::min(range.to, recording.end()));
     }
     if (!more) {
         // What came before is sound, and finished; the damage decides the exit code.

@@ -1,6 +1,7 @@
 #include "app/facts.h"
 
 #include <cstring>
+#include <string>
 
 #include "scene/goal.h"
 #include "scene/quality.h"
@@ -71,6 +72,15 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     if (plan.features.contacts)
         for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);
     return message;
+}
+
+v1::Welcome welcomeOf(const compute::DeviceInfo& device) {
+    v1::Welcome welcome;
+    welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
+    welcome.set_device(device.kind);
+    welcome.set_renderer(device.renderer);
+    welcome.set_reason(device.reason);
+    return welcome;
 }
 
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/device.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::app {
@@ -13,9 +14,8 @@ namespace spherule::app {
 // What the simulation thread last said of itself, for health pages and metrics. Any thread.
 struct LiveReport {
     std::string state = "starting";  // starting, running, paused, draining, failed
-    std::string device;
-    std::string renderer;
-    std::string reason;
+    compute::DeviceInfo device;
+    std::vector<std::string> scenes;  // that can be loaded by name
     std::string scene;
     std::uint32_t spheres = 0;
     std::uint64_t steps = 0;
@@ -24,7 +24,9 @@ struct LiveReport {
     std::uint64_t framesProduced = 0;
     v1::Status status;
     std::optional<v1::Diagnostics> diagnostics;  // once somebody has watched or asked for metrics
-    std::vector<double> passSeconds;             // since the start, by sim::Pass
+    v1::Recording recording;                     // the present one, or the last
+    std::uint64_t recordingFramesLost = 0;
+    std::vector<double> passSeconds;  // since the start, by sim::Pass
     std::chrono::steady_clock::time_point heartbeat = std::chrono::steady_clock::now();
 };
 

@@ -24,6 +24,7 @@ int runCommand(int argc, char** argv) {
     int exitCode = exitDone;
     addServe(app, exitCode);
     addRun(app, exitCode);
+    addPlay(app, exitCode);
     addExport(app, exitCode);
     addPlan(app, exitCode);
     addCtl(app, exitCode);

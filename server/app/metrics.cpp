@@ -33,7 +33,7 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     const auto count = [](const net::Counters::Count& value) { return static_cast<double>(value.load()); };
 
     to.gauge("spherule_device_info", "The device, as labels", 1,
-             {{"device", live.device}, {"renderer", live.renderer}});
+             {{"device", live.device.kind}, {"renderer", live.device.renderer}});
     to.gauge("spherule_spheres", "Spheres in the scene", live.spheres);
     to.gauge("spherule_sleeping_spheres", "Spheres asleep, while somebody watches", live.status.sleeping());
     to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while somebody watches", live.status.outside());
@@ -46,6 +46,12 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     for (std::size_t pass = 0; pass < live.passSeconds.size(); ++pass)
         to.counter("spherule_pass_seconds_total", "Device time per pass", live.passSeconds[pass],
                    {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
+
+    to.gauge("spherule_recording_active", "1 while a recording is made", live.recording.active() ? 1 : 0);
+    to.gauge("spherule_recording_bytes", "Size of that recording, or of the last",
+             static_cast<double>(live.recording.bytes()));
+    to.counter("spherule_recording_frames_lost_total", "Frames left out of recordings: the disk was too slow",
+               static_cast<double>(live.recordingFramesLost));
 
     if (live.diagnostics) addDiagnostics(*live.diagnostics);
 

@@ -23,6 +23,7 @@ struct SceneOptions {
 
 void addServe(CLI::App& app, int& exitCode);
 void addRun(CLI::App& app, int& exitCode);
+void addPlay(CLI::App& app, int& exitCode);
 void addExport(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
 void addCtl(CLI::App& app, int& exitCode);
@@ -31,6 +32,9 @@ void addMeasure(CLI::App& app, int& exitCode);
 
 // --quality and --substeps.
 void addQuality(CLI::App& command, scene::Overrides& overrides);
+
+// --listen.
+void addListen(CLI::App& command, std::string& listen);
 
 // Prints the error to stderr and gives its exit code.
 int report(const Error& error);

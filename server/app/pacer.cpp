@@ -1,5 +1,7 @@
 #include "app/pacer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace spherule::app {
@@ -12,7 +14,16 @@ constexpr auto mostLag = 50ms;
 constexpr auto window = 2s;
 constexpr std::size_t mostRecent = 4096;
 
+constexpr double slowest = 0.001;
+constexpr double fastest = 1000;
+
 }  // namespace
+
+Result<void> checkSpeed(double speed) {
+    if (speed >= slowest && speed <= fastest) return {};
+    return fail(ErrorKind::Refused, "set.speed",
+                fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
+}
 
 void Pacer::setSpeed(double speed) {
     speed_ = speed;

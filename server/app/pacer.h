@@ -3,7 +3,12 @@
 #include <chrono>
 #include <deque>
 
+#include "core/result.h"
+
 namespace spherule::app {
+
+// Refuses what cannot be set as a speed.
+Result<void> checkSpeed(double speed);
 
 // Decides when the next step is due, and measures how fast the simulation really goes. When the machine cannot keep up,
 // simulated time slows down: no more than a few late steps are made up for. One thread.

@@ -18,24 +18,6 @@ constexpr std::uint32_t epoch = 1, order = 1;
 
 }  // namespace
 
-void RecordOptions::addTo(CLI::App& command) {
-    CLI::Option* const file = command.add_option("--record", path, "record the run in this file");
-    command
-        .add_option_function<std::string>(
-            "--record-tier",
-            [this](const std::string& name) {
-                tier = name == "eco" ? v1::ECO : name == "normal" ? v1::NORMAL : v1::FINE;
-            },
-            "how exact positions are: fine, normal or eco, to 1/500, 1/50 or 1/16 of the smallest radius [fine]")
-        ->check(CLI::IsMember({"fine", "normal", "eco"}))
-        ->needs(file);
-    command.add_option("--record-rate", rate, "frames per simulated second, at most one a step")
-        ->capture_default_str()
-        ->check(CLI::Range(0.001, 1e6))
-        ->needs(file);
-    command.add_flag("--force", replace, "replace the recording if it is there")->needs(file);
-}
-
 Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options, compute::Device& device,
                                                    sim::Simulation& simulation) {
     if (simulation.count() == 0)
@@ -49,8 +31,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
 
 Result<void> Recorder::begin() {
     v1::ServerMessage welcome;
-    welcome.mutable_welcome()->set_server("spherule " SPHERULE_VERSION);
-    welcome.mutable_welcome()->set_device(device_.info().kind);
+    *welcome.mutable_welcome() = welcomeOf(device_.info());
     if (auto done = add(store::Kind::Other, welcome); !done) return done;
     if (auto done = add(store::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
 
@@ -127,7 +108,7 @@ Result<void> Recorder::write(store::Kind kind) {
 }
 
 Result<void> Recorder::add(store::Kind kind, const v1::ServerMessage& message) {
-    return writer_.add(kind, simulation_.time(), message);
+    return writer_.add(kind, simulation_.time(), message.SerializeAsString());
 }
 
 }  // namespace spherule::app

@@ -4,8 +4,7 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "app/record_options.h"
 #include "compute/device.h"
 #include "core/result.h"
 #include "sim/simulation.h"
@@ -14,15 +13,6 @@
 #include "store/writer.h"
 
 namespace spherule::app {
-
-struct RecordOptions {
-    std::string path;  // empty: nothing is recorded
-    v1::Tier tier = v1::FINE;
-    double rate = 30;      // frames per simulated second, at most one a step
-    bool replace = false;  // a file that is there
-
-    void addTo(CLI::App& command);
-};
 
 // Records a simulation that runs: nothing in the file depends on the clock. Used by the simulation thread.
 class Recorder {

@@ -8,35 +8,32 @@
 #include <thread>
 
 #include "app/live.h"
-#include "app/options.h"
-#include "app/sim_loop.h"
+#include "app/show.h"
 #include "app/site.h"
 #include "core/bounded_queue.h"
 #include "net/server.h"
 
 namespace spherule::app {
 
-// A served simulation: owns the simulation thread and the server, and joins them.
+// A show that is served: owns its thread and the server, and joins them.
 class Runtime {
   public:
-    // Opens the device, loads the scene and listens; returns when all of that is done.
-    static Result<std::unique_ptr<Runtime>> start(const SceneOptions& scene, const quality::Table& table,
-                                                  const net::Options& listen);
+    // Opens the show and listens; returns when both is done.
+    static Result<std::unique_ptr<Runtime>> start(const OpenShow& open, const net::Options& listen);
     ~Runtime();
     Runtime(const Runtime&) = delete;
     Runtime& operator=(const Runtime&) = delete;
 
     [[nodiscard]] std::uint16_t port() const { return server_->port(); }
     [[nodiscard]] LiveReport report() const { return live_.read(); }
-    // Why the simulation ended by itself, when it did. Any thread.
+    // Why the show ended by itself, when it did. Any thread.
     [[nodiscard]] std::optional<Error> failure() const;
     // Tells the viewers, lets them go, stops.
     void drain();
 
   private:
     Runtime() = default;
-    void simulate(const std::stop_token& stop, const SceneOptions& scene, const quality::Table& table,
-                  std::promise<Result<void>>& ready);
+    void present(const std::stop_token& stop, const OpenShow& open, std::promise<Result<void>>& ready);
     void settle();
     Outlets outlets();
     net::Handlers handlers();
@@ -48,7 +45,7 @@ class Runtime {
     std::atomic<bool> settled_ = false;  // whether the server has started, or will not
     std::atomic<bool> failed_ = false;
     Error failure_;  // valid once failed_ is set
-    std::jthread simulation_;
+    std::jthread show_;
 };
 
 }  // namespace spherule::app

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "app/facts.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -23,14 +24,19 @@ bool changesWorld(const v1::Command& command) {
 
 }  // namespace
 
-SimLoop::SimLoop(World& world, BoundedQueue<Request>& requests, Live& live, quality::Table table, Outlets outlets)
-    : world_(world),
-      requests_(requests),
-      live_(live),
-      outlets_(std::move(outlets)),
+SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Table table, TapeOptions recordings)
+    : owned_(std::move(world)),
+      world_(*owned_),
+      requests_(stage.requests),
+      live_(stage.live),
+      outlets_(stage.outlets),
       chains_(
-          world.device(), [this](const frame::Link& link) { publish(link); },
-          [this](frame::SharedMessage order) { outlets_.order(std::move(order)); }),
+          world_.device(), [this](const frame::Link& link) { publish(link); },
+          [this](frame::SharedMessage order) {
+              tape_.order(order);
+              outlets_.order(std::move(order));
+          }),
+      tape_(std::move(recordings), welcomeOf(world_.device().info())),
       observer_(std::move(table)) {}
 
 Result<void> SimLoop::run(const std::stop_token& stop) {
@@ -49,6 +55,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
         }
         produce(Pacer::Clock::now());
         report();
+        tellOfTape();
     }
     return {};
 }
@@ -64,7 +71,7 @@ void SimLoop::serve(const Request& request) {
     v1::CommandResult result;
     result.set_id(request.command.id());
     try {
-        if (auto applied = world_.apply(request.command)) {
+        if (auto applied = apply(request.command)) {
             *result.mutable_applied() = std::move(*applied);
         } else {
             result.mutable_refused()->set_field(applied.error().where);
@@ -82,17 +89,33 @@ void SimLoop::serve(const Request& request) {
     outlets_.reply(request.session, std::move(result));
 }
 
+Result<v1::Applied> SimLoop::apply(const v1::Command& command) {
+    Result<void> done;
+    if (command.has_start_recording())
+        done = tape_.start();
+    else if (command.has_stop_recording())
+        done = tape_.stop();
+    else if (command.has_seek())
+        done = fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that");
+    else
+        return world_.apply(command);
+    if (!done) return tl::unexpected(done.error());
+    v1::Applied applied;
+    applied.set_step(world_.simulation().steps());
+    return applied;
+}
+
 // After anything that a command may have changed.
 void SimLoop::announce() {
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
         seen_.reset();
-        outlets_.scene(frame::share(world_.facts()));
+        keep(world_.facts());
     }
     v1::ServerMessage settings = world_.settings();
     if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
         settings_ = std::move(bytes);
-        outlets_.settings(frame::share(std::move(settings)));
+        keep(std::move(settings));
     }
     if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
     ++version_;
@@ -132,7 +155,8 @@ void SimLoop::stopAtNonFinite() {
 }
 
 void SimLoop::produce(Pacer::Clock::time_point now) {
-    const auto demands = outlets_.demands();
+    auto demands = outlets_.demands();
+    tape_.demand(demands, now);
     watched_ = !demands.empty();
     sim::Simulation& simulation = world_.simulation();
     chains_.serve({.source = simulation.tierSource(),
@@ -154,8 +178,8 @@ v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
 }
 
 void SimLoop::publish(const frame::Link& link) {
-    // States, not frames: several chains may show one.
-    if (std::exchange(shown_, version_) != version_) produced_.push_back(Pacer::Clock::now());
+    states_.shown(version_, Pacer::Clock::now());
+    tape_.frame(link);
     outlets_.frame(link);
 }
 

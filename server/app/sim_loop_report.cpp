@@ -1,4 +1,6 @@
 // What the simulation thread says of itself, beside the states.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/sim_loop.h"
@@ -24,25 +26,46 @@ void SimLoop::say(v1::Event::Kind kind, const std::string& text) {
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(world_.simulation().steps());
     message.mutable_event()->set_text(text);
-    outlets_.everybody(frame::share(std::move(message)));
+    everybody(std::move(message));
+}
+
+// For viewers, and for the recording.
+void SimLoop::everybody(v1::ServerMessage message) {
+    const auto shared = frame::share(std::move(message));
+    tape_.say(shared);
+    outlets_.everybody(shared);
+}
+
+void SimLoop::keep(v1::ServerMessage message) {
+    const auto shared = frame::share(std::move(message));
+    tape_.keep(shared);
+    outlets_.keep(shared);
+}
+
+void SimLoop::tellOfTape() {
+    const auto news = tape_.news(Tape::Clock::now());
+    if (!news) return;
+    live_.update([&](LiveReport& report) { report.recording = *news; });
+    if (!news->failure().empty())
+        say(v1::Event::WARNING, fmt::format("The recording {} has ended: {}.", news->file(), news->failure()));
+    v1::ServerMessage message;
+    *message.mutable_recording() = *news;
+    keep(std::move(message));
 }
 
 void SimLoop::sendDial() {
     v1::ServerMessage message;
     *message.mutable_dial() = observer_.dial();
-    outlets_.dial(frame::share(std::move(message)));
+    keep(std::move(message));
 }
 
 v1::Status SimLoop::status(Pacer::Clock::time_point now) {
-    while (!produced_.empty() && now - produced_.front() > 2s) produced_.pop_front();
     v1::Status status;
     if (world_.running()) {
         status.set_real_time_factor(world_.pacer().realTimeFactor(now));
         status.set_steps_per_second(world_.pacer().stepsPerSecond(now));
     }
-    if (produced_.size() > 1)
-        status.set_frames_per_second(static_cast<double>(produced_.size() - 1) /
-                                     std::chrono::duration<double>(now - produced_.front()).count());
+    status.set_frames_per_second(states_.perSecond(now));
     status.set_paused(world_.paused());
     status.set_viewers(outlets_.viewers());
     if (seen_) {
@@ -60,7 +83,7 @@ void SimLoop::look(const std::vector<double>& passSeconds) {
     seen_ = std::move(sight.diagnostics);
     v1::ServerMessage message;
     *message.mutable_diagnostics() = *seen_;
-    outlets_.everybody(frame::share(std::move(message)));
+    everybody(std::move(message));
 }
 
 void SimLoop::report() {
@@ -82,6 +105,7 @@ void SimLoop::report() {
         report.simSeconds = world_.simulation().time();
         report.rebuilds = world_.simulation().counters().rebuilds;
         report.framesProduced = chains_.made();
+        report.recordingFramesLost = tape_.framesLost();
         report.status = status(now);
         report.diagnostics = seen_;
         report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));

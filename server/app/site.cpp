@@ -43,11 +43,14 @@ net::HttpAnswer health(const LiveReport& live) {
 }
 
 net::HttpAnswer readiness(const LiveReport& live) {
-    const nlohmann::ordered_json json = {
-        {"state", live.state},       {"device", live.device},
-        {"renderer", live.renderer}, {"reason", live.reason},
-        {"scene", live.scene},       {"spheres", live.spheres},
-        {"steps", live.steps},       {"realTimeFactor", live.status.real_time_factor()}};
+    const nlohmann::ordered_json json = {{"state", live.state},
+                                         {"device", live.device.kind},
+                                         {"renderer", live.device.renderer},
+                                         {"reason", live.device.reason},
+                                         {"scene", live.scene},
+                                         {"spheres", live.spheres},
+                                         {"steps", live.steps},
+                                         {"realTimeFactor", live.status.real_time_factor()}};
     const bool ready = live.state == "running" || live.state == "paused";
     return {ready ? 200 : 503, "application/json", json.dump() + "\n"};
 }

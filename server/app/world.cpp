@@ -10,15 +10,7 @@ namespace spherule::app {
 
 namespace {
 
-constexpr double slowest = 0.001;
-constexpr double fastest = 1000;
 constexpr std::uint32_t mostSteps = 100'000;
-
-Result<void> checkSpeed(double speed) {
-    if (speed >= slowest && speed <= fastest) return {};
-    return fail(ErrorKind::Refused, "set.speed",
-                fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
-}
 
 }  // namespace
 

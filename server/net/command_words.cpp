@@ -29,6 +29,8 @@ const std::string_view commandForms =
     "  spawn JSON                                 a group of spheres\n"
     "  push SPHERE JX JY JZ                       an impulse in N s\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        at the first sphere that the ray meets\n"
+    "  seek SECONDS                               where a recording is played\n"
+    "  record | record stop\n"
     "  query\n"
     "  JSON                                       a command, such as {\"step\":{\"count\":10}}";
 
@@ -175,6 +177,24 @@ Result<void> push(Words words, v1::Command& command) {
     return numbers(words.subspan(1), push.mutable_impulse());
 }
 
+Result<void> seek(Words words, v1::Command& command) {
+    if (auto right = wantWords(words, 1, "seek"); !right) return right;
+    const auto time = number<double>(words[0]);
+    if (!time) return tl::unexpected(time.error());
+    command.mutable_seek()->set_time(*time);
+    return {};
+}
+
+Result<void> record(Words words, v1::Command& command) {
+    if (words.empty()) {
+        command.mutable_start_recording();
+        return {};
+    }
+    if (words.size() > 1 || words[0] != "stop") return refuse("'record' takes nothing, or 'stop'");
+    command.mutable_stop_recording();
+    return {};
+}
+
 // The commands without words of their own.
 template <auto Make>
 Result<void> plain(Words words, v1::Command& command) {
@@ -196,6 +216,8 @@ const std::map<std::string_view, Parse>& parsers() {
         {"set", set},
         {"spawn", spawn},
         {"push", push},
+        {"seek", seek},
+        {"record", record},
     };
     return table;
 }

@@ -29,8 +29,7 @@ void Hub::join(SessionId id) {
     Entry* const entry = find(id);
     if (entry == nullptr) return;
     entry->joined = true;
-    for (const auto& kept : {scene_, settings_, dial_})
-        if (kept) entry->session->send(kept);
+    for (const auto& [kind, message] : kept_) entry->session->send(message);
 }
 
 void Hub::watch(SessionId id, const frame::Channel& channel) {
@@ -49,12 +48,6 @@ void Hub::askKeyframe(SessionId id) {
     if (Entry* const entry = find(id)) entry->lost = entry->channel.rate > 0;
 }
 
-void Hub::setScene(frame::SharedMessage facts) {
-    keep(scene_, std::move(facts));
-    const std::lock_guard lock(mutex_);
-    order_.reset();  // that of the spheres that were
-}
-
 void Hub::setOrder(frame::SharedMessage order) {
     const std::lock_guard lock(mutex_);
     order_ = std::move(order);
@@ -62,21 +55,13 @@ void Hub::setOrder(frame::SharedMessage order) {
         if (entry.channel.rate > 0) entry.session->send(order_);
 }
 
-void Hub::setSettings(frame::SharedMessage settings) {
-    keep(settings_, std::move(settings));
-}
-
-void Hub::setDial(frame::SharedMessage dial) {
-    keep(dial_, std::move(dial));
-}
-
-// For newcomers, too.
-void Hub::keep(frame::SharedMessage& kept, frame::SharedMessage message) {
+void Hub::keep(frame::SharedMessage message) {
     const std::lock_guard lock(mutex_);
-    kept = std::move(message);
     for (const auto& [id, entry] : entries_) {
-        if (entry.joined) entry.session->send(kept);
+        if (entry.joined) entry.session->send(message);
     }
+    if (message->content().has_scene()) order_.reset();  // that of the spheres that were
+    kept_[message->content().kind_case()] = std::move(message);
 }
 
 void Hub::publish(const frame::Link& link) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -29,16 +30,15 @@ class Hub {
   public:
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
-    // After the welcome: the session gets facts, settings and dial.
+    // After the welcome: the session gets what is kept.
     void join(SessionId id);
     // The chain that the session is sent from now on, from its next keyframe on; rate 0: none.
     void watch(SessionId id, const frame::Channel& channel);
     // The session has lost its chain and needs a keyframe.
     void askKeyframe(SessionId id);
 
-    void setScene(frame::SharedMessage facts);
-    void setSettings(frame::SharedMessage settings);
-    void setDial(frame::SharedMessage dial);
+    // For all and for newcomers, until there is a newer one of its kind.
+    void keep(frame::SharedMessage message);
     // For the frames that come; to whoever watches.
     void setOrder(frame::SharedMessage order);
     void publish(const frame::Link& link);
@@ -65,7 +65,6 @@ class Hub {
     };
 
     Entry* find(SessionId id);
-    void keep(frame::SharedMessage& kept, frame::SharedMessage message);
     void countViewers();
 
     std::mutex mutex_;
@@ -73,9 +72,7 @@ class Hub {
     std::unordered_map<SessionId, Entry> entries_;
     SessionId lastId_ = 0;
     bool draining_ = false;
-    frame::SharedMessage scene_;
-    frame::SharedMessage settings_;
-    frame::SharedMessage dial_;
+    std::map<v1::ServerMessage::KindCase, frame::SharedMessage> kept_;  // in the order in which newcomers get them
     frame::SharedMessage order_;
     std::atomic<std::uint32_t> viewers_ = 0;
 };

@@ -20,8 +20,8 @@ class Outbox {
     // The chain to follow, from its next keyframe on; rate 0: none.
     void follow(const frame::Channel& channel);
 
-    // False when the lane is full. Scene facts, orders, settings, dials, diagnostics and what is said of the stream
-    // take the place of older ones that wait.
+    // False when the lane is full. What says how something is now takes the place of an older one of its kind
+    // that waits.
     [[nodiscard]] bool push(frame::SharedMessage message);
     enum class Offered : std::uint8_t {
         Fine,

@@ -38,9 +38,7 @@ class RunningServer final : public Server {
 
     [[nodiscard]] std::uint16_t port() const override { return listener_->port(); }
 
-    void setScene(frame::SharedMessage facts) override { context_.hub.setScene(std::move(facts)); }
-    void setSettings(frame::SharedMessage settings) override { context_.hub.setSettings(std::move(settings)); }
-    void setDial(frame::SharedMessage dial) override { context_.hub.setDial(std::move(dial)); }
+    void keep(frame::SharedMessage message) override { context_.hub.keep(std::move(message)); }
     void setOrder(frame::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
     void publish(const frame::Link& link) override { context_.hub.publish(link); }
     void broadcast(frame::SharedMessage message) override { context_.hub.broadcast(message); }

@@ -48,16 +48,14 @@ class Server {
     [[nodiscard]] virtual std::uint16_t port() const = 0;
 
     // Any thread from here on.
-    // What a client gets after its welcome, and all clients when it changes.
-    virtual void setScene(frame::SharedMessage facts) = 0;
-    virtual void setSettings(frame::SharedMessage settings) = 0;
-    virtual void setDial(frame::SharedMessage dial) = 0;
-    // For who watches: the order of the spheres in the frames that come, once the scene has been set.
+    // All clients get it, and those who come later after their welcome: the newest of each kind.
+    virtual void keep(frame::SharedMessage message) = 0;
+    // For who watches: the order of the spheres in the frames that come, once their scene facts are kept.
     virtual void setOrder(frame::SharedMessage order) = 0;
     // Lossy lane: who could not be sent the frame before has lost the chain, and is sent nothing more of it before a
     // keyframe. A frame of another epoch than the scene's, or of another order, waits for that.
     virtual void publish(const frame::Link& link) = 0;
-    // Reliable lane; diagnostics, as what is set above, take the place of older ones that wait.
+    // Reliable lane; diagnostics, as what is kept, take the place of older ones that wait.
     virtual void broadcast(frame::SharedMessage message) = 0;
     virtual void reply(SessionId session, v1::CommandResult result) = 0;
 

@@ -10,6 +10,7 @@ namespace spherule::store {
 namespace {
 
 constexpr double sameTime = 1e-9;  // s; times that differ by less are meant to be one
+constexpr std::size_t mostPassed = 64;
 
 // What a record of this kind must hold.
 bool holds(Kind kind, const v1::ServerMessage& message) {
@@ -47,10 +48,12 @@ Result<void> Recording::enter(std::uint64_t offset) {
     decoder_.reset();
     cast_.reset();
     order_.reset();
-    for (const Kind needed : {Kind::Scene, Kind::Order}) {
+    passed_.clear();
+    for (const Kind needed : {Kind::Scene, Kind::Order, Kind::Settings}) {
         const Index::Entry* newest = nullptr;
         for (const Index::Entry& entry : contents_.index.entries)
             if (entry.kind == needed && entry.offset < offset) newest = &entry;
+        if (newest == nullptr && needed == Kind::Settings) continue;
         if (newest == nullptr) return bad(offset, "no scene or no order comes before this frame");
         const auto record = file_.read(newest->offset);
         if (!record) return tl::unexpected(record.error());
@@ -72,7 +75,13 @@ Result<void> Recording::seek(double time) {
         if (from == nullptr || entry.time <= time + sameTime) from = &entry;
     }
     if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
-    if (auto done = enter(from->offset); !done) return done;
+    const bool forward = decoder_ && !decoder_->wantsKeyframe() && time >= time_ && from->offset < offset_;
+    if (!forward)
+        if (auto done = enter(from->offset); !done) return done;
+    return walk(time);
+}
+
+Result<void> Recording::walk(double time) {
     for (;;) {
         const auto coming = nextTime();
         if (!coming) return tl::unexpected(coming.error());
@@ -81,7 +90,13 @@ Result<void> Recording::seek(double time) {
     }
 }
 
-// Of the frame that comes next; nothing at the end.
+bool Recording::recover(double time) {
+    return std::ranges::any_of(contents_.index.entries, [&](const Index::Entry& entry) {
+        const bool begins = entry.kind == Kind::Keyframe || entry.kind == Kind::Join;
+        return begins && entry.time > time + sameTime && enter(entry.offset);
+    });
+}
+
 Result<std::optional<double>> Recording::nextTime() const {
     for (std::uint64_t offset = offset_; offset < contents_.end;) {
         const auto head = file_.readHead(offset);
@@ -96,7 +111,8 @@ Result<bool> Recording::next() {
     while (offset_ < contents_.end) {
         const auto record = file_.read(offset_);
         if (!record) return tl::unexpected(record.error());
-        // A frame that is had already.
+        if (record->kind == Kind::Other) pass(*record);
+        // Of a join, the frame is had already.
         if (record->kind == Kind::Join || record->kind == Kind::Other || record->kind == Kind::Index) {
             offset_ = record->end;
             continue;
@@ -107,6 +123,13 @@ Result<bool> Recording::next() {
         if (*frame) return true;
     }
     return false;
+}
+
+void Recording::pass(const Record& record) {
+    v1::ServerMessage message;
+    if (!message.ParseFromString(record.payload) || (!message.has_event() && !message.has_diagnostics())) return;
+    if (passed_.size() == mostPassed) passed_.erase(passed_.begin());
+    passed_.push_back(std::move(message));
 }
 
 // Whether it was a frame.
@@ -121,7 +144,10 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
         if (record.kind == Kind::Order) order_ = std::move(*message.mutable_order());
         return false;
     }
-    if (record.kind == Kind::Settings) return false;
+    if (record.kind == Kind::Settings) {
+        settings_ = std::move(*message.mutable_settings());
+        return false;
+    }
     if (auto done = show(message.frame(), offset); !done) {
         decoder_.reset();
         return tl::unexpected(done.error());
@@ -139,7 +165,6 @@ Result<void> Recording::prepare(std::uint64_t offset) {
         cast_ = std::move(*cast);
     }
     if (!decoder_) decoder_ = std::make_unique<frame::codec::Decoder>(cast_->spheres());
-    positions_.resize(cast_->spheres());
     return {};
 }
 
@@ -152,13 +177,17 @@ Result<void> Recording::show(const v1::Frame& frame, std::uint64_t offset) {
     if (!done) return bad(offset, done.error().text());
     quantum_ = frame.quantum();
     step_ = frame.step();
-    const glm::dvec3 centre = 0.5 * (cast_->low + cast_->high);
-    const auto cells = decoder_->newest();
-    for (std::size_t k = 0; k < cells.size(); ++k) positions_[cast_->ids[k]] = centre + quantum_ * glm::dvec3(cells[k]);
     return {};
 }
 
-Moment Recording::now() const {
+Moment Recording::now() {
+    if (cast_ && decoder_) {
+        const glm::dvec3 centre = 0.5 * (cast_->low + cast_->high);
+        const auto cells = decoder_->newest();
+        positions_.resize(cells.size());
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            positions_[cast_->ids[k]] = centre + quantum_ * glm::dvec3(cells[k]);
+    }
     return {.time = time_,
             .step = step_,
             .error = quantum_ / 2,

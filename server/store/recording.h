@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -34,7 +35,8 @@ class Recording {
     // Input for what cannot be played, and why.
     static Result<Recording> open(const std::string& path);
 
-    [[nodiscard]] const v1::SceneFacts& facts() const { return facts_; }  // of the newest moment
+    [[nodiscard]] const v1::SceneFacts& facts() const { return facts_; }      // of the newest moment
+    [[nodiscard]] const v1::Settings& settings() const { return settings_; }  // likewise
     [[nodiscard]] std::uint64_t frames() const { return contents_.index.frames; }
     [[nodiscard]] double begin() const { return contents_.index.begin; }  // s simulated: of the first frame
     [[nodiscard]] double end() const { return contents_.index.end; }      // of the last one
@@ -43,17 +45,32 @@ class Recording {
 
     // To the last frame that is not after `time` (s), or to the first one.
     Result<void> seek(double time);
-    // To the next frame, after open() the first; false at the end. After an error only seek() goes on.
+    // To the next frame, after open() the first; false at the end. After an error only seek() and recover() go on.
     Result<bool> next();
+    // To the first sound keyframe after `time` (s), for going on behind what is damaged; false when there is none.
+    bool recover(double time);
 
-    // After next() or seek().
-    [[nodiscard]] Moment now() const;
+    // After next(), seek() or recover(), until the next of them.
+    [[nodiscard]] Moment now();
+    [[nodiscard]] double time() const { return time_; }  // s simulated
+    [[nodiscard]] std::uint64_t step() const { return step_; }
+    // When the frame after it comes, s simulated; nothing at the end.
+    [[nodiscard]] Result<std::optional<double>> nextTime() const;
+    [[nodiscard]] std::span<const glm::ivec3> cells() const { return decoder_->newest(); }  // by place in the codec
+    [[nodiscard]] std::span<const std::uint32_t> order() const { return cast_->ids; }  // ids, by place in the codec
+    [[nodiscard]] std::span<const float> radii() const { return cast_->radii; }        // by id, m
+    [[nodiscard]] double quantum() const { return quantum_; }                          // m
+
+    // Events and diagnostics that next() and a seek() forward went past, newest last, since they were last taken; of
+    // very many, the newest.
+    std::vector<v1::ServerMessage> takePassed() { return std::exchange(passed_, {}); }
 
   private:
     explicit Recording(RecordFile file) : file_(std::move(file)) {}
 
     Result<void> enter(std::uint64_t offset);
-    Result<std::optional<double>> nextTime() const;
+    Result<void> walk(double time);
+    void pass(const Record& record);
     Result<bool> take(const Record& record, std::uint64_t offset);
     Result<void> show(const v1::Frame& frame, std::uint64_t offset);
     Result<void> prepare(std::uint64_t offset);
@@ -69,7 +86,9 @@ class Recording {
     double time_ = 0;
     std::uint64_t step_ = 0;
     double quantum_ = 0;
-    std::vector<glm::dvec3> positions_;
+    std::vector<glm::dvec3> positions_;  // when somebody asks
+    v1::Settings settings_;
+    std::vector<v1::ServerMessage> passed_;
 };
 
 }  // namespace spherule::store

@@ -20,14 +20,14 @@ Result<Writer> Writer::create(const std::string& path, bool replace) {
     return writer;
 }
 
-Result<void> Writer::add(Kind kind, double time, const v1::ServerMessage& message) {
+Result<void> Writer::add(Kind kind, double time, std::string_view message) {
     if (time < time_ && file_.size() > fileHeadBytes)
         return fail(ErrorKind::Refused, file_.path(), "cannot record time that goes back");
-    if (message.ByteSizeLong() > mostPayload)
+    if (message.size() > mostPayload)
         return fail(ErrorKind::Refused, file_.path(), "cannot hold a frame of more than 1 GiB: record fewer spheres");
     index_.add(kind, time, file_.size());
     time_ = time;
-    if (auto done = file_.write(recordBytes(kind, time, message.SerializeAsString())); !done) return done;
+    if (auto done = file_.write(recordBytes(kind, time, message)); !done) return done;
     const auto now = std::chrono::steady_clock::now();
     if (now - flushed_ < flushEvery) return {};
     flushed_ = now;

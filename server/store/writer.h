@@ -3,9 +3,9 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "core/result.h"
-#include "spherule/v1/control.pb.h"
 #include "store/index.h"
 #include "store/output_file.h"
 
@@ -18,8 +18,9 @@ class Writer {
     // Refuses a file that is there, unless it may be replaced.
     static Result<Writer> create(const std::string& path, bool replace);
 
-    // `time`: s simulated, never less than the last. Frames need their scene and order before them.
-    Result<void> add(Kind kind, double time, const v1::ServerMessage& message);
+    // `time`: s simulated, never less than the last. `message`: a ServerMessage in protobuf's binary form. Frames need
+    // their scene and order before them.
+    Result<void> add(Kind kind, double time, std::string_view message);
 
     // Index and trailer, and all of it to the disk.
     Result<void> finish();

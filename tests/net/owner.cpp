@@ -64,7 +64,7 @@ Owner::Owner(const Options& options) {
     setEpoch(1);
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(8);
-    server_->setSettings(std::make_shared<frame::Message>(std::move(settings)));
+    server_->keep(std::make_shared<frame::Message>(std::move(settings)));
 }
 
 Owner::~Owner() {
@@ -99,7 +99,7 @@ void Owner::stopPublishing() {
 }
 
 void Owner::setEpoch(std::uint32_t epoch) {
-    server_->setScene(factsOf(epoch, 64));
+    server_->keep(factsOf(epoch, 64));
     server_->setOrder(orderOf(epoch));
     epoch_ = epoch;
 }

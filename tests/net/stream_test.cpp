@@ -225,7 +225,7 @@ TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
     owner.server().publish(linkOf(frame::Link::Kind::Keyframe, 1, 2, 64));
-    owner.server().setScene(factsOf(2, 64));
+    owner.server().keep(factsOf(2, 64));
     owner.server().setOrder(orderOf(2));
     EXPECT_EQ(next(*client).scene().epoch(), 2U);
     EXPECT_EQ(next(*client).order().epoch(), 2U);
@@ -239,7 +239,7 @@ TEST(Stream, TellsEveryoneOfEventsAndNewSettings) {
     owner.server().broadcast(eventOf("mind the gap"));
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(9);
-    owner.server().setSettings(std::make_shared<frame::Message>(std::move(settings)));
+    owner.server().keep(std::make_shared<frame::Message>(std::move(settings)));
     for (Client* client : {one.get(), two.get()}) {
         EXPECT_EQ(next(*client).event().text(), "mind the gap");
         EXPECT_EQ(next(*client).settings().substeps(), 9U);

@@ -82,7 +82,7 @@ Film film(const std::string& path, std::uint32_t frames, bool finish) {
     auto writer = Writer::create(path, false);
     if (!writer) throw std::runtime_error(writer.error().text());
     const auto add = [&](Kind kind, double time, const v1::ServerMessage& message) {
-        check(writer->add(kind, time, message));
+        check(writer->add(kind, time, message.SerializeAsString()));
         film.records.push_back(recordBytes(kind, time, message.SerializeAsString()));
     };
     add(Kind::Scene, 0, sceneMessage(1, Film::spheres));

@@ -1,0 +1,72 @@
+#include <filesystem>
+
+#include "app/exit_codes.h"
+#include "app/options.h"
+#include "app/play_loop.h"
+#include "app/serving.h"
+#include "core/log.h"
+
+namespace spherule::app {
+
+namespace {
+
+struct PlayOptions {
+    std::string file;
+    std::string listen;
+    double speed = 1;
+    bool again = false;
+    bool paused = false;
+};
+
+Result<Player> playerOf(const PlayOptions& options) {
+    auto recording = store::Recording::open(options.file);
+    if (!recording) return tl::unexpected(recording.error());
+    if (!recording->flaw().empty())
+        spdlog::warn("{} is played up to {:g} s: {}", options.file, recording->end(), recording->flaw());
+    const auto now = Player::Clock::now();
+    const std::string name = std::filesystem::path(options.file).filename().string();
+    Player player(std::move(*recording), name, options.again, now);
+    v1::Command speed;
+    speed.mutable_set()->set_speed(options.speed);
+    v1::Command pause;
+    pause.mutable_pause();
+    if (auto done = player.apply(speed, now); !done) return fail(ErrorKind::Input, "--speed", done.error().message);
+    if (options.paused)
+        if (auto done = player.apply(pause, now); !done) return tl::unexpected(done.error());
+    return player;
+}
+
+// Encoding needs no GPU: the processor decodes the recording, and has the positions.
+Result<std::unique_ptr<Show>> open(const PlayOptions& options, const Stage& stage) {
+    auto player = playerOf(options);
+    if (!player) return tl::unexpected(player.error());
+    auto device = compute::openDevice("cpu");
+    if (!device) return tl::unexpected(device.error());
+    stage.live.update([&](LiveReport& report) {
+        report.state = "running";
+        report.device = (*device)->info();
+        report.device.reason = "a recording needs no GPU";
+        report.scene = player->recording().facts().name();
+        report.spheres = player->recording().facts().count();
+    });
+    return std::make_unique<PlayLoop>(std::move(*device), std::move(*player), stage);
+}
+
+}  // namespace
+
+void addPlay(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<PlayOptions>();
+    CLI::App* command = app.add_subcommand("play", "show a recording in a browser");
+    command->add_option("file", options->file, "the recording")->required();
+    addListen(*command, options->listen);
+    command->add_option("--speed", options->speed, "recorded seconds per second")->capture_default_str();
+    command->add_flag("--loop", options->again, "from the end, go on at the beginning");
+    command->add_flag("--paused", options->paused, "wait for somebody to resume it");
+    command->footer(exitCodesText);
+    command->callback([options, &exitCode] {
+        exitCode = serveUntilStopped([&](const Stage& stage) { return open(*options, stage); }, options->listen,
+                                     "plays " + options->file + ":");
+    });
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "app/chains.h"
+#include "app/player.h"
+#include "app/show.h"
+#include "app/state_rate.h"
+#include "compute/device.h"
+
+namespace spherule::app {
+
+// Shows a recording: what it holds is decoded, and encoded anew for what viewers ask for. Waits for a command, or for
+// the next frame.
+class PlayLoop : public Show {
+  public:
+    PlayLoop(std::unique_ptr<compute::Device> device, Player player, const Stage& stage);
+
+    // Until stopped.
+    Result<void> run(const std::stop_token& stop) override;
+
+  private:
+    void serve(const Request& request);
+    Result<void> advance(Chains::Clock::time_point now);
+    Result<void> show();
+    void describe();
+    void sendSettings();
+    void say(v1::Event::Kind kind, const std::string& text);
+    void produce(Chains::Clock::time_point now);
+    void publish(const frame::Link& link);
+    v1::Status status(Chains::Clock::time_point now);
+    void report(Chains::Clock::time_point now);
+    [[nodiscard]] Chains::Clock::duration patience(Chains::Clock::time_point now) const;
+
+    std::unique_ptr<compute::Device> device_;
+    Player player_;
+    BoundedQueue<Request>& requests_;
+    Live& live_;
+    Outlets outlets_;
+    Chains chains_;
+    StateRate states_;
+    sim::State state_;                            // of what is shown: positions, by id
+    std::unique_ptr<compute::Buffer> positions_;  // the same on the device
+    std::uint32_t recorded_ = 0;                  // epoch of the recording that is shown
+    std::uint32_t epoch_ = 0;                     // of the viewers
+    std::uint64_t version_ = 0;
+    double smallest_ = 0;   // radius, m
+    std::string settings_;  // as last sent
+    Chains::Clock::time_point nextReport_{};
+};
+
+}  // namespace spherule::app

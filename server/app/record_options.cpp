@@ -1,0 +1,51 @@
+#include "app/record_options.h"
+
+namespace spherule::app {
+
+namespace {
+
+void addCommon(CLI::App& command, RecordOptions& options, CLI::Option* needed) {
+    CLI::Option* const tier =
+        command
+            .add_option_function<std::string>(
+                "--record-tier",
+                [&options](const std::string& name) {
+                    options.tier = name == "eco" ? v1::ECO : name == "normal" ? v1::NORMAL : v1::FINE;
+                },
+                "how exact positions are: fine, normal or eco, to 1/500, 1/50 or 1/16 of the smallest radius [fine]")
+            ->check(CLI::IsMember({"fine", "normal", "eco"}));
+    if (needed != nullptr) tier->needs(needed);
+}
+
+CLI::Option* addFile(CLI::App& command, RecordOptions& options) {
+    CLI::Option* const file = command.add_option("--record", options.path, "record in this file");
+    command.add_flag("--force", options.replace, "replace the recording if it is there")->needs(file);
+    return file;
+}
+
+}  // namespace
+
+void RecordOptions::addTo(CLI::App& command) {
+    CLI::Option* const file = addFile(command, *this);
+    addCommon(command, *this, file);
+    command.add_option("--record-rate", rate, "frames per simulated second, at most one a step")
+        ->capture_default_str()
+        ->check(CLI::Range(0.001, 1e6))
+        ->needs(file);
+}
+
+void TapeOptions::addTo(CLI::App& command) {
+    addFile(command, *this);
+    addCommon(command, *this, nullptr);
+    command.add_option("--record-rate", rate, "frames per second of recordings: 5, 10, 20, 30 or 60")
+        ->capture_default_str()
+        ->check(CLI::IsMember({5.0, 10.0, 20.0, 30.0, 60.0}));
+    command.add_option("--recordings", folder, "folder of the recordings that viewers start; empty: they cannot")
+        ->capture_default_str();
+    command
+        .add_option("--recordings-limit", folderBytes,
+                    "what all recordings in that folder may take up, such as 4GiB [4GiB]")
+        ->transform(CLI::AsSizeValue(false));
+}
+
+}  // namespace spherule::app

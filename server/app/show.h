@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "app/live.h"
+#include "core/bounded_queue.h"
+#include "core/result.h"
+#include "frame/channel.h"
+#include "frame/message.h"
+
+namespace spherule::app {
+
+struct Request {
+    std::uint64_t session = 0;
+    v1::Command command;
+};
+
+// Where results go; called on the show's thread.
+struct Outlets {
+    std::function<void(frame::SharedMessage)> keep;       // scene facts, settings, dial, ...: newcomers get them too
+    std::function<void(frame::SharedMessage)> everybody;  // events, diagnostics
+    std::function<void(frame::SharedMessage)> order;
+    std::function<void(const frame::Link&)> frame;
+    std::function<void(std::uint64_t session, v1::CommandResult)> reply;
+    std::function<std::uint32_t()> viewers;
+    std::function<std::vector<frame::Demand>()> demands;
+};
+
+// What a show has to do with: what is asked of it, what it says of itself, where its results go.
+struct Stage {
+    BoundedQueue<Request>& requests;
+    Live& live;
+    Outlets outlets;
+};
+
+// What a server shows: a simulation, or a recording. Made, used and destroyed by one thread.
+class Show {
+  public:
+    Show() = default;
+    virtual ~Show() = default;
+    Show(const Show&) = delete;
+    Show& operator=(const Show&) = delete;
+
+    // Until stopped, or an error ends it.
+    virtual Result<void> run(const std::stop_token& stop) = 0;
+};
+
+// Opens device and scene or file, and fills in what `live` says of them. The outlets are open once it has returned.
+using OpenShow = std::function<Result<std::unique_ptr<Show>>(const Stage& stage)>;
+
+}  // namespace spherule::app

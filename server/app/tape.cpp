@@ -1,0 +1,194 @@
+#include "app/tape.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace spherule::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto keyframesEvery = 2s;
+constexpr auto newsEvery = 1s;
+constexpr std::uint64_t leastRoom = 1U << 20U;  // bytes
+constexpr std::size_t longestName = 40;
+constexpr const char* suffix = ".sph";
+
+// A scene's name may be anything; that of a file may not.
+std::string fileNameOf(std::string name) {
+    std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; });
+    return name.empty() ? "scene" : name.substr(0, longestName);
+}
+
+}  // namespace
+
+Tape::Tape(TapeOptions options, v1::Welcome source)
+    : options_(std::move(options)), channel_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
+    v1::ServerMessage message;
+    *message.mutable_welcome() = std::move(source);
+    source_ = frame::share(std::move(message));
+}
+
+Result<void> Tape::startFromOptions() {
+    if (options_.path.empty()) return {};
+    return start(options_.path, options_.replace, 0);
+}
+
+Result<void> Tape::start() {
+    if (writer_) return fail(ErrorKind::Refused, "", fmt::format("{} is being recorded already", state_.file()));
+    const auto room = roomInFolder();
+    if (!room) return tl::unexpected(room.error());
+    const auto path = newPath();
+    if (!path) return tl::unexpected(path.error());
+    return start(*path, false, *room);
+}
+
+Result<std::uint64_t> Tape::roomInFolder() const {
+    if (options_.folder.empty())
+        return fail(ErrorKind::Refused, "", "this server keeps no recordings: start it with --recordings FOLDER");
+    std::error_code error;
+    fs::create_directories(options_.folder, error);
+    if (error)
+        return fail(ErrorKind::Refused, "",
+                    fmt::format("the folder {} cannot be made: {}", options_.folder, error.message()));
+    std::uint64_t taken = 0;
+    for (fs::directory_iterator file(options_.folder, error), end; !error && file != end; file.increment(error)) {
+        std::error_code ignored;  // it may be gone by now
+        const auto bytes = file->path().extension() == suffix ? file->file_size(ignored) : 0;
+        if (!ignored) taken += bytes;
+    }
+    if (error)
+        return fail(ErrorKind::Refused, "",
+                    fmt::format("the folder {} cannot be read: {}", options_.folder, error.message()));
+    if (taken + leastRoom <= options_.folderBytes) return options_.folderBytes - taken;
+    return fail(ErrorKind::Refused, "",
+                fmt::format("the recordings in {} take up {} MB, all that --recordings-limit allows: delete some",
+                            options_.folder, taken / 1'000'000));
+}
+
+// Named by scene and time; the second of a second gets a number.
+Result<std::string> Tape::newPath() const {
+    const std::string scene = scene_ ? scene_->content().scene().name() : "";
+    const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}", fileNameOf(scene), fmt::gmtime(std::time(nullptr)));
+    for (int k = 1; k < 1000; ++k) {
+        const fs::path path = fs::path(options_.folder) / ((k == 1 ? name : fmt::format("{}-{}", name, k)) + suffix);
+        std::error_code error;
+        if (!fs::exists(path, error) && !error) return path.string();
+    }
+    return fail(ErrorKind::Refused, "", fmt::format("{} has no name left for another recording", options_.folder));
+}
+
+Result<void> Tape::start(const std::string& path, bool replace, std::uint64_t mostBytes) {
+    auto writer = store::BackgroundWriter::create(path, replace, mostBytes);
+    if (!writer) return tl::unexpected(writer.error());
+    writer_ = std::move(*writer);
+    state_.Clear();
+    state_.set_active(true);
+    state_.set_file(path);
+    told_ = false;
+    number_.reset();
+    begin_ = time_ = offset_ = 0;
+    timed_ = false;
+    return {};
+}
+
+Result<void> Tape::stop() {
+    if (!writer_) return fail(ErrorKind::Refused, "", "nothing is being recorded");
+    writer_->finish();
+    return {};
+}
+
+void Tape::keep(frame::SharedMessage message) {
+    const v1::ServerMessage& content = message->content();
+    if (content.has_scene()) {
+        order_.reset();
+        number_.reset();
+        if (writer_ && timed_) add(store::Kind::Scene, message);
+        scene_ = std::move(message);
+    } else if (content.has_settings()) {
+        if (writer_ && timed_) add(store::Kind::Settings, message);
+        settings_ = std::move(message);
+    }
+}
+
+void Tape::say(frame::SharedMessage message) {
+    if (writer_ && timed_) add(store::Kind::Other, message);
+}
+
+void Tape::order(frame::SharedMessage message) {
+    if (writer_ && timed_) add(store::Kind::Order, message);
+    order_ = std::move(message);
+}
+
+void Tape::frame(const frame::Link& link) {
+    if (!writer_ || link.channel != channel_) return;
+    using enum frame::Link::Kind;
+    if (link.kind == Delta && number_ != link.number - 1) return number_.reset();
+    const bool again = link.kind == Join && number_ == link.number;
+    const bool first = !timed_;
+    timeOf(link.message->content().frame());
+    if (first) {
+        // Whatever has been so far, in the order in which it is needed.
+        add(store::Kind::Other, source_);
+        for (const auto& [kind, message] :
+             {std::pair(store::Kind::Scene, scene_), {store::Kind::Order, order_}, {store::Kind::Settings, settings_}})
+            if (message) add(kind, message);
+    }
+    moved_ = link.kind == Delta;
+    if (!moved_) keyframe_ = Clock::now();
+    number_ = link.number;
+    // A chain that was lost begins anew.
+    add(again ? store::Kind::Join : link.kind == Delta ? store::Kind::Delta : store::Kind::Keyframe, link.message);
+}
+
+void Tape::timeOf(const v1::Frame& frame) {
+    if (!timed_) begin_ = time_ = frame.sim_time();
+    timed_ = true;
+    if (frame.sim_time() + offset_ < time_) offset_ = time_ - frame.sim_time();
+    time_ = frame.sim_time() + offset_;
+}
+
+void Tape::add(store::Kind kind, const frame::SharedMessage& message) {
+    if (writer_->add(kind, time_, message)) return;
+    if (!message->content().has_frame()) return;
+    number_.reset();
+    ++framesLost_;
+}
+
+void Tape::demand(std::vector<frame::Demand>& demands, Clock::time_point now) const {
+    if (!writer_) return;
+    auto own = std::ranges::find(demands, channel_, &frame::Demand::channel);
+    if (own == demands.end()) own = demands.insert(demands.end(), frame::Demand{.channel = channel_});
+    own->newcomer = own->newcomer || !timed_;
+    own->lost = own->lost || !number_ || (moved_ && now - keyframe_ >= keyframesEvery);
+}
+
+std::optional<v1::Recording> Tape::news(Clock::time_point now) {
+    if (writer_) {
+        const auto progress = writer_->progress();
+        state_.set_duration(time_ - begin_);
+        state_.set_bytes(progress.bytes);
+        if (progress.ended) {
+            state_.set_active(false);
+            state_.set_failure(progress.failure);
+            writer_.reset();
+            told_ = false;
+        } else if (now - toldAt_ >= newsEvery) {
+            told_ = false;
+        }
+    }
+    if (std::exchange(told_, true)) return std::nullopt;
+    toldAt_ = now;
+    return state_;
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/record_options.h"
+#include "core/result.h"
+#include "frame/channel.h"
+#include "store/background_writer.h"
+
+namespace spherule::app {
+
+// Records what a viewer is sent: it demands a channel as viewers do, and what it is told of, it writes. Used by the
+// simulation thread, which never waits for the disk.
+class Tape {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    // `source`: what made the recording, its first record.
+    Tape(TapeOptions options, v1::Welcome source);
+
+    // In the file of the options, where they name one.
+    Result<void> startFromOptions();
+    // In a new file of the options' folder. Refused while it records, without a folder, and where that is full.
+    Result<void> start();
+    Result<void> stop();
+
+    // What viewers are told, at the same time as they are.
+    void keep(frame::SharedMessage message);
+    void say(frame::SharedMessage message);
+    void order(frame::SharedMessage message);
+    void frame(const frame::Link& link);
+
+    // Adds its own, while it records.
+    void demand(std::vector<frame::Demand>& demands, Clock::time_point now) const;
+    // How it goes, where that is not what it last said; while it records, once a second.
+    std::optional<v1::Recording> news(Clock::time_point now);
+    [[nodiscard]] std::uint64_t framesLost() const { return framesLost_; }
+
+  private:
+    Result<void> start(const std::string& path, bool replace, std::uint64_t mostBytes);
+    [[nodiscard]] Result<std::uint64_t> roomInFolder() const;
+    [[nodiscard]] Result<std::string> newPath() const;
+    void add(store::Kind kind, const frame::SharedMessage& message);
+    void timeOf(const v1::Frame& frame);
+
+    TapeOptions options_;
+    frame::Channel channel_;
+    frame::SharedMessage source_;
+    frame::SharedMessage scene_, order_, settings_;  // the latest, for a recording that begins
+    std::unique_ptr<store::BackgroundWriter> writer_;
+    v1::Recording state_;
+    std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nothing: a keyframe is wanted
+    Clock::time_point keyframe_{};
+    bool moved_ = false;  // since that
+    // Time in the recording: never goes back, though that of the simulation does when it is reset.
+    double begin_ = 0, time_ = 0, offset_ = 0;  // s
+    bool timed_ = false;
+    bool told_ = false;  // of the state
+    Clock::time_point toldAt_{};
+    std::uint64_t framesLost_ = 0;
+};
+
+}  // namespace spherule::app

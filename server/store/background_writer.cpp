@@ -1,0 +1,106 @@
+#include "store/background_writer.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <utility>
+
+namespace spherule::store {
+
+namespace {
+
+// Bytes that may wait for the disk: frames, then what frames need.
+constexpr std::size_t mostWaiting = 64U << 20U;
+constexpr std::size_t mostNeeded = 256U << 20U;
+
+constexpr bool frameNeeds(Kind kind) {
+    return kind == Kind::Scene || kind == Kind::Order || kind == Kind::Settings;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BackgroundWriter>> BackgroundWriter::create(const std::string& path, bool replace,
+                                                                   std::uint64_t mostBytes) {
+    auto writer = Writer::create(path, replace);
+    if (!writer) return tl::unexpected(writer.error());
+    return std::unique_ptr<BackgroundWriter>(new BackgroundWriter(std::move(*writer), mostBytes));
+}
+
+BackgroundWriter::BackgroundWriter(Writer writer, std::uint64_t mostBytes)
+    : writer_(std::move(writer)), mostBytes_(mostBytes), thread_([this] { write(); }) {}
+
+BackgroundWriter::~BackgroundWriter() {
+    finish();
+}
+
+bool BackgroundWriter::add(Kind kind, double time, frame::SharedMessage message) {
+    const std::lock_guard lock(mutex_);
+    if (progress_.ended || finishing_) return true;
+    const std::size_t bytes = waitingBytes_ + message->binary().size();
+    if (!frameNeeds(kind) && bytes > mostWaiting) return false;
+    if (bytes > mostNeeded) {
+        progress_.failure = "the disk is too slow: 256 MiB wait to be written";
+        finishing_ = true;
+    } else {
+        waitingBytes_ = bytes;
+        waiting_.push_back({kind, time, std::move(message)});
+    }
+    changed_.notify_one();
+    return true;
+}
+
+void BackgroundWriter::finish() {
+    const std::lock_guard lock(mutex_);
+    finishing_ = true;
+    changed_.notify_one();
+}
+
+BackgroundWriter::Progress BackgroundWriter::progress() {
+    const std::lock_guard lock(mutex_);
+    return progress_;
+}
+
+void BackgroundWriter::write() {
+    Result<void> done;
+    std::vector<Item> items;
+    while (done && wait(items)) done = take(items);
+    end(done);
+}
+
+// False when there is nothing more to come.
+bool BackgroundWriter::wait(std::vector<Item>& items) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !waiting_.empty() || finishing_; });
+    items.assign(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(waiting_.end()));
+    waiting_.clear();
+    waitingBytes_ = 0;
+    return !items.empty();
+}
+
+Result<void> BackgroundWriter::take(const std::vector<Item>& items) {
+    for (const Item& item : items) {
+        if (auto done = writer_.add(item.kind, item.time, item.message->binary()); !done) return done;
+        if (mostBytes_ == 0 || writer_.bytes() < mostBytes_) continue;
+        const std::lock_guard lock(mutex_);
+        finishing_ = true;
+        waiting_.clear();
+        progress_.failure = fmt::format("it has reached {} MB, the most that it may have", writer_.bytes() / 1'000'000);
+        break;
+    }
+    const std::lock_guard lock(mutex_);
+    progress_.bytes = writer_.bytes();
+    progress_.frames = writer_.frames();
+    return {};
+}
+
+// What could not be written stays as it is: a recording that was cut off.
+void BackgroundWriter::end(const Result<void>& done) {
+    const Result<void> finished = done ? writer_.finish() : done;
+    const std::lock_guard lock(mutex_);
+    progress_.ended = true;
+    progress_.bytes = writer_.bytes();
+    if (!finished) progress_.failure = finished.error().text();
+    waiting_.clear();
+}
+
+}  // namespace spherule::store
