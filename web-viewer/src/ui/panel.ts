@@ -166,6 +166,7 @@ export class Panel {
     const { world } = this;
     const folder = this.gui.addFolder("World");
     this.playback = folder;
+    folder.domElement.classList.add("playback");
     const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
     tag("gravity-preset", folder.add(world, "gravity", [...Object.keys(presets), "Own"]).name("Gravity, m/s²")).onFinishChange((name: string) => {
       const preset = presets[name];
