@@ -100,7 +100,7 @@ test("a lead shows the moment before first, and goes on once that is there", asy
   assert.deepEqual(far.asked, [7 - spacing]);
   assert.equal(far.seeker.wanted, 7);
   await far.answer();
-  far.heed(1);
+  for (const before of [1, 7]) far.heed(before);
   assert.equal(far.asked.length, 1);
   far.heed(7 - spacing);
   assert.deepEqual(far.asked, [7 - spacing, 7]);
@@ -132,4 +132,11 @@ test("what was forgotten does not come back with its answer", async () => {
   far.seeker.forget();
   await far.answer();
   assert.deepEqual([far.asked, far.seeker.wanted], [[1], undefined]);
+  far.seeker.want(3);
+  far.seeker.forget();
+  far.seeker.want(4);
+  await far.answer("refused"); // of 3
+  assert.equal(far.seeker.wanted, 4);
+  far.seeker.want(5);
+  assert.equal(far.underWay, 1);
 });

@@ -51,7 +51,10 @@ export class Seeker {
     const waited = playing.now - flight.answered;
     const place = flight.target - flight.lead;
     const near = 2 * playing.spacing + (playing.speed * 2 * waited) / 1000;
-    const there = playing.newest !== undefined && Math.abs(playing.newest - place) <= near;
+    // The state of a lead must not be mistaken for that of the moment itself, which may have been shown already.
+    const after = flight.lead > 0 ? 1e-3 * playing.spacing : near;
+    const ahead = playing.newest === undefined ? NaN : playing.newest - place;
+    const there = -near <= ahead && ahead <= after;
     if (!there && waited < (flight.lead > 0 ? leadPatience : patience)) return;
     if (flight.lead > 0) {
       flight.lead = 0;

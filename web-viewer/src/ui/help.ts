@@ -6,8 +6,9 @@ const gestures = (playing: boolean): [string, string][] => [
   ["right or shift + drag · two fingers", "move"],
   ["wheel · pinch", "zoom to that place"],
   ["click · tap", playing ? "select a sphere" : "select a sphere, or push it in push mode"],
-  ...(playing ? ([["timeline: arrows, Home, End", "a frame, a second, to its ends"]] as [string, string][]) : []),
 ];
+
+const onTimeline: [string, string] = ["Timeline", "← → a frame, ↑ ↓ a second, Home, End"];
 
 /** Keys and gestures, over the page. */
 export class Help {
@@ -25,7 +26,7 @@ export class Help {
       h("h2", {}, "Gestures"),
       list(gestures(playing)),
       h("h2", {}, "Keys"),
-      list(keys.filter((key) => key.shown).map((key) => [key.shown, key.says])),
+      list([...keys.filter((key) => key.shown).map((key): [string, string] => [key.shown, key.says]), ...(playing ? [onTimeline] : [])]),
     );
   }
 
