@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { control, launch, open, when } from "./support/browser.mjs";
+import { collisions, collisionsByWidth } from "./support/layout.mjs";
 import { serve, stopAll } from "./support/server.mjs";
 
 let server;
@@ -47,24 +48,16 @@ for (const [width, height] of [
   test(`nothing on the page covers anything else at ${width} x ${height}`, async () => {
     const page = await open(browser, server.url, { size: [width, height] });
     if (width < 700) assert.equal(await page.isVisible(control("panel")), false);
-    const boxes = await page.evaluate(() =>
-      Array.from(document.querySelectorAll("#page > *, .facts > *, header > *"))
-        .filter((element) => !element.matches(".facts, header, .toasts, dialog"))
-        .map((element) => ({ name: element.className || element.tagName, ...element.getBoundingClientRect().toJSON() }))
-        .filter((box) => box.width > 0 && box.height > 0),
-    );
-    assert.ok(boxes.length >= 5);
-    for (const box of boxes) {
-      assert.ok(box.left >= 0 && box.top >= 0 && box.right <= width && box.bottom <= height, `${box.name} is cut off`);
-      for (const other of boxes) {
-        const apart =
-          box === other || box.right <= other.left || other.right <= box.left || box.bottom <= other.top || other.bottom <= box.top;
-        assert.ok(apart, `${box.name} and ${other.name} overlap`);
-      }
-    }
+    assert.deepEqual(await collisions(page, 5), []);
     await page.close();
   });
 }
+
+test("nor does it at any width between, with the controls shown or hidden", async () => {
+  const page = await open(browser, server.url, { size: [1280, 720] });
+  for (const { width, faults } of await collisionsByWidth(page, 5)) assert.deepEqual(faults, [], `${width} px`);
+  await page.close();
+});
 
 test("a lost graphics context comes back with its picture", async () => {
   const page = await open(browser, server.url);

@@ -6,6 +6,7 @@ import type { Report } from "./connection/commands";
 import { tierName } from "./connection/wish";
 import type { Facts, Vec3 } from "./scene/facts";
 import { positionOf } from "./scene/positions";
+import { timeOf } from "./scene/states";
 import type { Viewer } from "./viewer";
 
 /**
@@ -34,6 +35,12 @@ export interface Hook {
   readonly diagnostics: { substeps: number; stepMs: number; energyRises: boolean; step: number } | undefined;
   /** The positions of the dial, from fast to accurate. */
   readonly dial: { model: string; substeps: number; stepMs: number; own: boolean }[];
+  /** Simulated time that the picture shows, s: between two states while they glide. */
+  readonly shownTime: number;
+  /** Of a server that plays a recording: what there is to play, where the handle stands, and whether it waits for a seek. */
+  readonly timeline: PlayedTimeline | undefined;
+  /** What a server that simulates has recorded. */
+  readonly recording: { active: boolean; file: string; duration: number; bytes: number; failure: string } | undefined;
   readonly camera: Pose & { eye: Vec3 };
   /** Answers to this page's commands, the newest last, at most 50. */
   readonly results: { what: string; outcome: string; step: number | undefined; words: string }[];
@@ -56,6 +63,17 @@ export interface StreamFigures {
   bytesPerSphere: number; // of a frame
   decodeMs: number; // of a frame
   lost: number; // frames that could not be decoded since the page was loaded
+}
+
+/** Times in s. */
+export interface PlayedTimeline {
+  file: string;
+  begin: number;
+  end: number;
+  frames: number;
+  flaw: string;
+  time: number; // where the handle stands
+  seeking: boolean;
 }
 
 /** What holds on the server; `model`: "fast", "balanced" or "accurate". */
@@ -86,7 +104,7 @@ export class Reports {
   }
 }
 
-export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Hook {
+export function hookFor({ session, camera, stage, reports, page, seenAt }: Viewer): Hook {
   return {
     get connection() {
       return session.link;
@@ -141,6 +159,20 @@ export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Ho
         stepMs,
         own,
       }));
+    },
+    get shownTime() {
+      const shown = session.states.shown(sharedNow());
+      return shown ? timeOf(shown) : 0;
+    },
+    get timeline() {
+      if (!session.timeline) return undefined;
+      const { file, begin, end, frames, flaw } = session.timeline;
+      return { file, begin, end, frames: Number(frames), flaw, time: page.playback.time, seeking: page.playback.seeking };
+    },
+    get recording() {
+      if (!session.recording) return undefined;
+      const { active, file, duration, bytes, failure } = session.recording;
+      return { active, file, duration, bytes: Number(bytes), failure };
     },
     get camera() {
       return { ...camera.pose, eye: camera.last.eye };

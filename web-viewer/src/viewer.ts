@@ -23,7 +23,7 @@ export class Viewer {
   readonly session: Session;
   readonly stage: Stage;
   private readonly commands: Commands;
-  private readonly page: Page;
+  readonly page: Page;
   private readonly link: Link;
   private readonly speeds = new AutoRange(0.1);
   private readonly clock = new Clock();
@@ -54,12 +54,14 @@ export class Viewer {
       settled: (settings) => this.page.panel.settle(settings),
       dialled: (dial) => this.page.panel.setDial(dial),
       diagnosed: (diagnostics) => this.page.panel.diagnose(diagnostics),
+      recorded: (recording, before) => this.page.recorded(recording, before),
       happened: (event) => this.page.toasts.show("Server", event.text, "plain"),
       broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
     this.commands = new Commands(this.link, (report) => {
       this.reports.add(report);
-      this.page.toasts.show(report.what, report.words, report.outcome.case === "applied" ? "good" : "bad");
+      const applied = report.outcome.case === "applied";
+      if (!applied || !report.quiet) this.page.toasts.show(report.what, report.words, applied ? "good" : "bad");
     });
     this.page = new Page(place, this.session, this.commands, this.speeds, choices, {
       retry: () => this.link.retry(),

@@ -2,7 +2,7 @@ import { create, toBinary } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decode, forPage } from "../src/connection/decode";
-import { ServerMessageSchema, SettingsSchema, StreamSchema } from "../src/gen/spherule/v1/control_pb";
+import { RecordingSchema, ServerMessageSchema, SettingsSchema, StreamSchema, TimelineSchema } from "../src/gen/spherule/v1/control_pb";
 import type { ServerMessage } from "../src/gen/spherule/v1/control_pb";
 import { frameOf, still } from "./support/chain";
 
@@ -15,6 +15,10 @@ test("messages reach the page as they came", () => {
   assert.ok(settings?.kind === "settings" && settings.settings.substeps === 8);
   const stream = forPage(decoded({ case: "stream", value: create(StreamSchema, { rate: 20, reduced: true, reason: "slow" }) }));
   assert.ok(stream?.kind === "stream" && stream.stream.rate === 20 && stream.stream.reduced && stream.stream.reason === "slow");
+  const timeline = forPage(decoded({ case: "timeline", value: create(TimelineSchema, { file: "a.sph", end: 2, frames: 61n }) }));
+  assert.ok(timeline?.kind === "timeline" && timeline.timeline.file === "a.sph" && timeline.timeline.frames === 61n);
+  const recording = forPage(decoded({ case: "recording", value: create(RecordingSchema, { active: true, bytes: 5n }) }));
+  assert.ok(recording?.kind === "recording" && recording.recording.active && recording.recording.bytes === 5n);
 });
 
 test("frames are not for the page before they are decoded", () => {

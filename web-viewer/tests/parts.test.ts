@@ -3,8 +3,14 @@ import { test } from "node:test";
 import { Backoff } from "../src/connection/backoff";
 import { ladder, QualityControl } from "../src/renderer/quality";
 import { faces, planeInBox } from "../src/renderer/shapes";
-import { bytesPerSecond, count, figure, length } from "../src/ui/format";
+import { create } from "@bufbuild/protobuf";
+import { Camera } from "../src/camera/camera";
+import { RecordingSchema } from "../src/gen/spherule/v1/control_pb";
+import { bytes, bytesPerSecond, count, figure, length } from "../src/ui/format";
 import { presetOf } from "../src/ui/gravity";
+import { keysFor } from "../src/ui/key_list";
+import { clockTime, moment } from "../src/ui/moment";
+import { endOf } from "../src/ui/record";
 
 test("waits double up to their limit and start over after a success", () => {
   const backoff = new Backoff(100, 1000, () => 0);
@@ -63,6 +69,34 @@ test("figures read well", () => {
   assert.deepEqual([0, 1, 0.5, 12.34, 1234, -0.0123, 99999].map(figure), ["0", "1", "0.5", "12.3", "1234", "−0.0123", "99999"]);
   assert.deepEqual([0.05, 1.5, 0.0023].map(length), ["5 cm", "1.5 m", "2.3 mm"]);
   assert.deepEqual([53_000, 1_234_000].map(bytesPerSecond), ["53 kB/s", "1.23 MB/s"]);
+});
+
+test("sizes and times of recordings read well", () => {
+  assert.deepEqual([0, 18_000, 3_400_000, 2.5e9].map(bytes), ["0 kB", "18 kB", "3.4 MB", "2.50 GB"]);
+  assert.deepEqual([0, 12.9, 75, 3671].map(clockTime), ["0:00", "0:12", "1:15", "1:01:11"]);
+  assert.deepEqual([moment(3.2, 10), moment(65, 200), moment(0.0123, 0.05), moment(0, 0)], ["3.20 s", "1:05", "0.0123 s", "0.00 s"]);
+});
+
+test("the end of a recording is told once: its file, or why it ended", () => {
+  const active = create(RecordingSchema, { active: true, file: "r/a.sph" });
+  const done = { ...active, active: false };
+  assert.deepEqual(endOf(done, active), { title: "Recorded", text: "Play it with spherule play r/a.sph", failed: false });
+  assert.equal(endOf(done, done), undefined);
+  assert.equal(endOf(done, undefined), undefined); // it ended before the page came
+  assert.equal(endOf(active, done), undefined);
+  const full = { ...done, failure: "the disk is full" };
+  assert.deepEqual(endOf(full, active), { title: "Recording ended", text: "the disk is full", failed: true });
+  assert.equal(endOf(full, full), undefined);
+  assert.equal(endOf(full, done)?.failed, true); // it had hardly begun
+});
+
+test("where a recording is played, no key drops or pushes spheres, and the others say what they do there", () => {
+  const none = (): void => undefined;
+  const act = { toggle: none, step: none, reset: none, panel: none, colour: none, push: none, lock: none, drop: none, help: none, forget: none };
+  const says = (playing: boolean): string[] => keysFor({ ...act, camera: new Camera() }, playing).map((key) => key.says);
+  const gone = says(false).filter((words) => !says(true).includes(words));
+  assert.deepEqual(gone, ["one step", "reset the scene", "drop spheres", "push mode"]);
+  assert.deepEqual(says(true).filter((words) => !says(false).includes(words)), ["one frame", "to the beginning"]);
 });
 
 test("a preset is known by its numbers", () => {

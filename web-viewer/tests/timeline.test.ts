@@ -97,6 +97,59 @@ test("a state of an earlier time starts over", () => {
   assert.deepEqual(timeline.sample(2 * frame), { from: 3, to: 3, mix: 1, moving: false });
 });
 
+/** Thirty states of a recording, 1/30 s apart, as they come while it plays at speed 1. */
+function played(): Timeline {
+  const timeline = new Timeline();
+  for (let i = 0; i < 30; i++) timeline.push(i, i * frame, i / 30, { ...playing, paused: false });
+  return timeline;
+}
+const playing = { speed: 1, paused: false, spacing: 1 / 30 };
+const paused = { ...playing, paused: true };
+
+for (const [what, pace, wait] of [
+  ["while it plays", playing, 2 * frame],
+  ["soon after a pause", paused, 2 * frame],
+  ["long after a pause", paused, 60_000],
+] as const) {
+  test(`a jump far ahead is shown at once, ${what}`, () => {
+    const timeline = played();
+    const arrival = 29 * frame + wait;
+    assert.deepEqual(timeline.push(30, arrival, 8, pace), [26, 27, 28, 29]);
+    assert.deepEqual(timeline.sample(arrival), { from: 30, to: 30, mix: 1, moving: false });
+  });
+}
+
+test("what is due after a jump moves on from where it went", () => {
+  const timeline = played();
+  timeline.push(30, 30 * frame, 8, playing);
+  timeline.push(31, 31 * frame, 8 + 1 / 30, playing);
+  const moment = timeline.sample(32 * frame);
+  assert.deepEqual([moment?.from, moment?.to], [30, 31]);
+});
+
+test("the next frame of a recording that stands still is there within a frame, however often that is asked for", () => {
+  const timeline = played();
+  for (let i = 30; i < 60; i++) {
+    const arrival = 1000 * i;
+    assert.equal(timeline.push(i, arrival, i / 30, paused).length, 1);
+    assert.deepEqual(timeline.sample(arrival + frame), { from: i - 1, to: i, mix: 1, moving: false });
+  }
+});
+
+test("a stall is no jump: as much time as passed was played", () => {
+  const timeline = played();
+  timeline.push(30, 29 * frame + 3000, 29 / 30 + 3, playing);
+  const moment = timeline.sample(29 * frame + 3000);
+  assert.deepEqual([moment?.from, moment?.mix], [29, 0]);
+});
+
+test("faster playback is no jump, nor are frames that were held up and come at once", () => {
+  const fast = { ...playing, speed: 4 };
+  const timeline = played();
+  for (let i = 1; i < 4; i++) timeline.push(29 + i, 30 * frame, 29 / 30 + (4 * i) / 30, fast);
+  assert.equal(timeline.sample(30 * frame)?.to, 29);
+});
+
 test("no more states are kept than there is room for", () => {
   const timeline = new Timeline();
   const dropped: number[] = [];

@@ -1,7 +1,8 @@
 // The real server, started for a test on a port of its own.
 import { spawn, execFile } from "node:child_process";
+import path from "node:path";
 
-const binary = process.env.SPHERULE ?? "build/release/spherule";
+const binary = path.resolve(process.env.SPHERULE ?? "build/release/spherule");
 
 const running = new Set();
 
@@ -10,11 +11,25 @@ export async function stopAll() {
   await Promise.all([...running].map((server) => server.stop()));
 }
 
-/** Serves the scene; `port` 0 takes a free one. */
-export async function serve(scene, { port = 0, device = "cpu" } = {}) {
-  const child = spawn(binary, ["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], {
-    stdio: ["ignore", "pipe", "pipe"],
+/** Runs the program to its end; returns what it printed, or throws with what it complained about. */
+export function spherule(...words) {
+  return new Promise((resolve, reject) => {
+    execFile(binary, words, (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
   });
+}
+
+/** Serves the scene; `port` 0 takes a free one. `folder`: where it runs. */
+export function serve(scene, { port = 0, device = "cpu", folder } = {}) {
+  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], folder);
+}
+
+/** Plays the recording. */
+export function play(file, ...options) {
+  return start(["play", file, "--listen", "127.0.0.1:0", ...options]);
+}
+
+async function start(words, folder) {
+  const child = spawn(binary, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   const ended = new Promise((resolve) => child.once("exit", resolve));
@@ -31,10 +46,7 @@ export async function serve(scene, { port = 0, device = "cpu" } = {}) {
     port: Number(new URL(url).port),
     /** Gives a command as a shell would; returns what ctl printed, or throws when it was refused. */
     ctl(...words) {
-      const socket = url.replace("http:", "ws:") + "ws";
-      return new Promise((resolve, reject) => {
-        execFile(binary, ["ctl", socket, ...words], (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
-      });
+      return spherule("ctl", url.replace("http:", "ws:") + "ws", ...words);
     },
     async stop() {
       running.delete(server);

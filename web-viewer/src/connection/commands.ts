@@ -6,9 +6,12 @@ import {
   PushSchema,
   ResetSchema,
   ResumeSchema,
+  SeekSchema,
   SetSchema,
   SpawnSchema,
+  StartRecordingSchema,
   StepSchema,
+  StopRecordingSchema,
 } from "../gen/spherule/v1/control_pb";
 import type { Ray } from "../camera/ray";
 import type { Vec3 } from "../scene/facts";
@@ -19,6 +22,7 @@ export interface Report {
   what: string;
   outcome: Outcome;
   words: string;
+  quiet: boolean; // what was done is seen anyway: worth telling only where it was not done
 }
 
 export interface Drop {
@@ -43,12 +47,25 @@ export class Commands {
     return this.give("Resume", { case: "resume", value: create(ResumeSchema) });
   }
 
-  step(count: number): Promise<Outcome> {
-    return this.give(count === 1 ? "One step" : `${count} steps`, { case: "step", value: create(StepSchema, { count }) });
+  /** `unit`: what a step is called. */
+  step(count: number, unit = "step"): Promise<Outcome> {
+    return this.give(count === 1 ? `One ${unit}` : `${count} ${unit}s`, { case: "step", value: create(StepSchema, { count }) });
   }
 
-  reset(): Promise<Outcome> {
-    return this.give("Reset", { case: "reset", value: create(ResetSchema) });
+  reset(what = "Reset"): Promise<Outcome> {
+    return this.give(what, { case: "reset", value: create(ResetSchema) });
+  }
+
+  seek(time: number): Promise<Outcome> {
+    return this.give("Seek", { case: "seek", value: create(SeekSchema, { time }) }, true);
+  }
+
+  record(): Promise<Outcome> {
+    return this.give("Record", { case: "startRecording", value: create(StartRecordingSchema) }, true);
+  }
+
+  stopRecording(): Promise<Outcome> {
+    return this.give("Stop recording", { case: "stopRecording", value: create(StopRecordingSchema) }, true);
   }
 
   load(name: string): Promise<Outcome> {
@@ -78,9 +95,9 @@ export class Commands {
     return this.give(what, { case: "push", value: create(PushSchema, { target, impulse }) });
   }
 
-  private async give(what: string, kind: CommandKind): Promise<Outcome> {
+  private async give(what: string, kind: CommandKind, quiet = false): Promise<Outcome> {
     const outcome = await this.link.send(kind);
-    this.report({ what, outcome, words: wordsFor(outcome) });
+    this.report({ what, outcome, words: wordsFor(outcome), quiet });
     return outcome;
   }
 }

@@ -29,6 +29,10 @@ export function forPage(kind: Kind): FromWorker | undefined {
       return { kind: "dial", dial: kind.value };
     case "stream":
       return { kind: "stream", stream: kind.value };
+    case "timeline":
+      return { kind: "timeline", timeline: kind.value };
+    case "recording":
+      return { kind: "recording", recording: kind.value };
     default:
       return undefined;
   }

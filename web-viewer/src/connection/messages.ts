@@ -4,9 +4,11 @@ import type {
   Diagnostics,
   Dial,
   Event,
+  Recording,
   SceneFacts,
   Settings,
   Stream,
+  Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
 import type { Status, Tier } from "../gen/spherule/v1/frame_pb";
@@ -52,6 +54,8 @@ export type FromWorker =
   | { kind: "event"; event: Event }
   | { kind: "diagnostics"; diagnostics: Diagnostics }
   | { kind: "dial"; dial: Dial }
+  | { kind: "timeline"; timeline: Timeline }
+  | { kind: "recording"; recording: Recording }
   | { kind: "lost"; count: number } // frames that could not be decoded since the page was loaded
   | { kind: "broken"; reason: string }; // a message that could not be read
 

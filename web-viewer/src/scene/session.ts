@@ -1,4 +1,4 @@
-import type { Diagnostics, Dial, Event, Settings, Stream, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
@@ -6,6 +6,7 @@ import { factsOf } from "./facts";
 import type { Facts } from "./facts";
 import { Lateness } from "./lateness";
 import { States } from "./states";
+import type { Pace } from "./timeline";
 import { Traffic } from "./traffic";
 
 export interface SessionEvents {
@@ -15,6 +16,7 @@ export interface SessionEvents {
   dialled(dial: Dial): void;
   diagnosed(diagnostics: Diagnostics): void;
   happened(event: Event): void;
+  recorded(recording: Recording, before: Recording | undefined): void;
   broken(reason: string): void;
 }
 
@@ -30,6 +32,8 @@ export class Session {
   dial: Dial | undefined;
   diagnostics: Diagnostics | undefined;
   stream: Stream | undefined; // what the server sends; undefined: it has not said
+  timeline: Timeline | undefined; // what there is to play; undefined: the server simulates
+  recording: Recording | undefined; // what the server has recorded; undefined: it cannot record
   lastArrival = 0; // ms, of a frame of this epoch
   frames = 0; // taken since the page was loaded
   lost = 0; // that could not be decoded since then
@@ -57,6 +61,8 @@ export class Session {
         break;
       case "welcome":
         this.welcome = message.welcome;
+        this.timeline = undefined; // it may be another server
+        this.recording = undefined;
         this.events.welcomed(message.welcome);
         break;
       case "scene": {
@@ -76,10 +82,19 @@ export class Session {
         const { arrival, ready, status } = message.frame;
         this.traffic.add(message.frame);
         this.lateness.add(arrival, ready);
-        if (!this.states.push(message.frame)) break;
+        if (!this.states.push(message.frame, this.pace)) break;
         this.frames += 1;
         this.lastArrival = arrival;
         this.status = status;
+        break;
+      }
+      case "timeline":
+        this.timeline = message.timeline;
+        break;
+      case "recording": {
+        const before = this.recording;
+        this.recording = message.recording;
+        this.events.recorded(message.recording, before);
         break;
       }
       case "stream":
@@ -113,7 +128,20 @@ export class Session {
   }
 
   get paused(): boolean {
-    return this.status?.paused ?? this.settings?.paused ?? false;
+    const said = this.settings?.paused;
+    return (this.timeline ? said : (this.status?.paused ?? said)) ?? false; // recorded frames have no status
+  }
+
+  /** Mean time between the frames of the recording that is played, s; 0 where none is. */
+  get spacing(): number {
+    if (!this.timeline) return 0;
+    const { begin, end, frames } = this.timeline;
+    return (end - begin) / Math.max(1, Number(frames) - 1);
+  }
+
+  /** How far time can go on by itself from one state to the next. */
+  private get pace(): Pace {
+    return { speed: this.settings?.speed || Infinity, paused: this.paused, spacing: this.spacing };
   }
 
   /** 0 for a live picture to 1 for one that nothing has refreshed for a while; `now` as sharedNow() says. */

@@ -1,11 +1,17 @@
 import type { Received, State } from "../connection/messages";
 import { Timeline } from "./timeline";
+import type { Pace } from "./timeline";
 
 export interface Shown {
   from: State;
   to: State;
   mix: number;
   moving: boolean;
+}
+
+/** Simulated time of what is shown, s. */
+export function timeOf({ from, to, mix }: Shown): number {
+  return from.simTime + mix * (to.simTime - from.simTime);
 }
 
 /** The newest states of one epoch; frames of another epoch are ignored. */
@@ -27,7 +33,7 @@ export class States {
   }
 
   /** Takes the frame, or returns false where it is not of this epoch. */
-  push(frame: Received): boolean {
+  push(frame: Received, pace?: Pace): boolean {
     if (frame.epoch !== this.epoch) {
       this.drop(frame);
       return false;
@@ -35,7 +41,7 @@ export class States {
     const key = ++this.key;
     this.byKey.set(key, frame);
     this.newest = frame;
-    this.forget(this.timeline.push(key, frame.arrival, frame.simTime));
+    this.forget(this.timeline.push(key, frame.arrival, frame.simTime, pace));
     return true;
   }
 

@@ -30,6 +30,12 @@ export function seconds(value: number): string {
   return `${value.toFixed(value < 1000 ? 2 : 0)} s`;
 }
 
+export function bytes(value: number): string {
+  if (value >= 1e9) return `${(value / 1e9).toFixed(value < 1e10 ? 2 : 1)} GB`;
+  if (value >= 1e5) return `${(value / 1e6).toFixed(value < 1e8 ? 1 : 0)} MB`;
+  return `${(value / 1e3).toFixed(0)} kB`;
+}
+
 export function bytesPerSecond(value: number): string {
   if (value >= 1e5) return `${(value / 1e6).toFixed(value < 1e7 ? 2 : 1)} MB/s`;
   return `${(value / 1e3).toFixed(0)} kB/s`;

@@ -1,9 +1,10 @@
 import type { Camera } from "../camera/camera";
-import type { Commands } from "../connection/commands";
 import type { Key } from "./keys";
 
 export interface KeyActions {
   toggle(): void;
+  step(count: number): void;
+  reset(): void;
   panel(): void;
   colour(index: number): void;
   push(): void;
@@ -11,15 +12,14 @@ export interface KeyActions {
   drop(): void;
   help(): void;
   forget(): void;
-  commands: Commands;
   camera: Camera;
 }
 
 const nudge = 40; // px of a drag that an arrow key stands for
 
-/** Every key of the page; the help shows the same list. */
-export function keysFor(act: KeyActions): Key[] {
-  const { camera, commands } = act;
+/** Every key of the page that works while it plays a recording, or else simulates; the help shows the same list. */
+export function keysFor(act: KeyActions, playing: boolean): Key[] {
+  const { camera } = act;
   const colours = ["1", "2", "3", "4", "5"];
   const arrows: Record<string, [number, number]> = {
     ArrowLeft: [nudge, 0],
@@ -42,10 +42,9 @@ export function keysFor(act: KeyActions): Key[] {
     }));
   return [
     one(" ", "pause, resume", act.toggle, "Space"),
-    one(".", "one step", () => void commands.step(1)),
-    one("r", "reset the scene", () => void commands.reset()),
-    one("d", "drop spheres", act.drop),
-    one("p", "push mode", act.push),
+    one(".", playing ? "one frame" : "one step", () => act.step(1)),
+    one("r", playing ? "to the beginning" : "reset the scene", act.reset),
+    ...(playing ? [] : [one("d", "drop spheres", act.drop), one("p", "push mode", act.push)]),
     ...each("1 – 5", "colour by speed, radius, id, grid cell, group", Object.fromEntries(colours.map((key, i) => [key, i])), act.colour),
     one("l", "lock the range of colours", act.lock),
     one("f", "reset the view", () => camera.reset()),

@@ -52,6 +52,8 @@ export class Panel {
     auto: "off" as GoalName,
     goal: 0, // in the unit of what is held
   };
+  private readonly simulated: GUI[] = []; // folders that are of no use in a recording
+  private playback!: GUI;
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly scene: OptionController;
   private readonly dial = new Dial(({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }));
@@ -76,6 +78,16 @@ export class Panel {
     this.addLook();
     this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, (view) => actions.viewWished(view));
     this.addStatistics();
+  }
+
+  /** A recording is played, or else a scene simulated: only what works is offered. */
+  setPlaying(playing: boolean): void {
+    if (playing) this.choices.push = false;
+    this.scene.show(!playing);
+    for (const folder of this.simulated) folder.show(!playing);
+    for (const controller of this.playback.controllers) controller.show(!playing || controller.property === "speed");
+    this.playback.title(playing ? "Recording" : "World");
+    this.refresh();
   }
 
   offer(welcome: Welcome): void {
@@ -144,9 +156,17 @@ export class Panel {
     if (this.facts) void this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
   }
 
+  private simulation(name: string): GUI {
+    const folder = this.gui.addFolder(name);
+    this.simulated.push(folder);
+    return folder;
+  }
+
   private addWorld(): void {
     const { world } = this;
     const folder = this.gui.addFolder("World");
+    this.playback = folder;
+    folder.domElement.classList.add("playback");
     const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
     tag("gravity-preset", folder.add(world, "gravity", [...Object.keys(presets), "Own"]).name("Gravity, m/s²")).onFinishChange((name: string) => {
       const preset = presets[name];
@@ -170,26 +190,26 @@ export class Panel {
 
   private addQuality(): void {
     const { world } = this;
-    const folder = this.gui.addFolder("Quality");
+    const folder = this.simulation("Quality");
     folder.$children.append(this.dial.element);
     const hold = (): void => void this.change("Automatic", { auto: goalFrom(world.auto, world.goal) });
     tag("auto", folder.add(world, "auto", goalNames).name("Automatic")).onFinishChange((name: GoalName) => {
       world.goal = goals[name].first;
       hold();
     }).domElement.title = "Moves the substeps of the model to hold a time per step, or a mean overlap";
-    this.gui.addFolder("Now").$children.append(this.statistics.quality);
+    this.simulation("Now").$children.append(this.statistics.quality);
     this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(hold).hide();
   }
 
   private addDrop(): void {
-    const folder = this.gui.addFolder("Drop spheres");
+    const folder = this.simulation("Drop spheres");
     tag("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"));
     tag("drop-radius", folder.add(this.drop, "radius").min(1e-4).decimals(4).name("Radius, m"));
     tag("drop", folder.add({ act: () => this.dropNow() }, "act").name("Drop"));
   }
 
   private addPush(): void {
-    const folder = this.gui.addFolder("Push");
+    const folder = this.simulation("Push");
     tag("push", folder.add(this.choices, "push").name("Click pushes"));
     tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s")).domElement.title = impulseNote;
   }
@@ -207,6 +227,6 @@ export class Panel {
   }
 
   private addStatistics(): void {
-    this.gui.addFolder("Statistics").$children.append(this.statistics.rest);
+    this.simulation("Statistics").$children.append(this.statistics.rest);
   }
 }

@@ -31,10 +31,12 @@ export class StatusLine {
     const live = session.link === "open";
     this.set("spheres", facts ? count(facts.count) : "–");
     this.set("time", states.newest ? seconds(states.newest.simTime) : "–");
-    this.set("factor", session.paused ? "paused" : status ? `${figure(status.realTimeFactor)} ×` : "–");
+    const plays = session.timeline !== undefined; // then nothing is computed
+    const factor = plays ? session.settings?.speed : status?.realTimeFactor;
+    this.set("factor", session.paused ? "paused" : factor === undefined ? "–" : `${figure(factor)} ×`);
     this.fields.get("factor")?.parentElement?.toggleAttribute("data-alone", session.paused);
-    this.set("steps", status ? figure(status.stepsPerSecond) : "–");
-    this.set("asleep", status && facts?.count ? `${Math.round((100 * status.sleeping) / facts.count)} %` : "–");
+    this.set("steps", status ? figure(status.stepsPerSecond) : "–", plays);
+    this.set("asleep", status && facts?.count ? `${Math.round((100 * status.sleeping) / facts.count)} %` : "–", plays);
     this.set("outside", status ? count(status.outside) : "0", !status?.outside);
     const rates = session.traffic.rates(now);
     this.set("stream", live ? `${rates.frames.toFixed(0)}/s  ${bytesPerSecond(rates.bytes)}` : "–");

@@ -1,0 +1,113 @@
+import type { Timeline } from "../gen/spherule/v1/control_pb";
+import { h, setText } from "./dom";
+import { moment } from "./moment";
+
+const tenth = 0.1; // of the whole, at most, for a long step
+
+/** Where the recording stands, and a handle to take it elsewhere. */
+export class Scrubber {
+  private readonly slider = h("input", {
+    type: "range",
+    step: "any",
+    "data-testid": "timeline",
+    "aria-label": "Moment of the recording",
+  });
+  private readonly position = h("b", { "data-testid": "timeline-position" });
+  private readonly file = h("span", { class: "file", "data-testid": "timeline-file" });
+  private readonly range = h("span", { "data-testid": "timeline-range" });
+  private readonly flaw = h("p", { class: "flaw", "data-testid": "timeline-flaw" });
+  readonly element = h(
+    "section",
+    { class: "timeline", hidden: true, "aria-label": "Timeline" },
+    h("div", { class: "reading" }, this.position, this.file, this.range),
+    this.slider,
+    this.flaw,
+  );
+  private timeline: Timeline | undefined;
+  private held = false; // by hand: what the server says meanwhile does not move it
+
+  /** `wished`: the person wants this moment, s; `last`: for now. */
+  constructor(private readonly wished: (time: number, last: boolean) => void) {
+    this.slider.addEventListener("pointerdown", () => (this.held = true));
+    this.slider.addEventListener("input", () => {
+      this.describe();
+      wished(this.slider.valueAsNumber, false);
+    });
+    this.slider.addEventListener("change", () => wished(this.slider.valueAsNumber, true));
+    for (const end of ["pointerup", "pointercancel", "change", "blur"]) this.slider.addEventListener(end, () => (this.held = false));
+    this.slider.addEventListener("keydown", (event) => this.pressed(event));
+  }
+
+  /** Returns whether it is another one. */
+  offer(timeline: Timeline | undefined): boolean {
+    if (timeline === this.timeline) return false;
+    this.timeline = timeline;
+    this.held = false;
+    this.element.hidden = !timeline;
+    if (timeline) this.describeRange(timeline);
+    return true;
+  }
+
+  private describeRange(timeline: Timeline): void {
+    const { file, begin, end, flaw } = timeline;
+    this.slider.min = String(begin);
+    this.slider.max = String(end);
+    setText(this.file, file);
+    this.file.title = `${file}, ${Number(timeline.frames)} frames`;
+    setText(this.range, begin === 0 ? moment(end, end) : `${moment(begin, end - begin)} – ${moment(end, end - begin)}`);
+    setText(this.flaw, flaw && `Ends early: ${flaw}`);
+    this.flaw.hidden = !flaw;
+    this.element.title = flaw ? `The recording ends before it was meant to: ${flaw}` : "";
+  }
+
+  /** `time`: where the recording stands, or is on its way to, s. */
+  update(time: number | undefined, open: boolean): void {
+    this.slider.disabled = !open;
+    if (!open) this.held = false; // nobody will say that it was let go
+    if (time === undefined || this.held) return;
+    this.slider.value = String(time);
+    this.describe();
+  }
+
+  /** s; what the handle says. */
+  get time(): number {
+    return this.slider.valueAsNumber;
+  }
+
+  private describe(): void {
+    if (!this.timeline) return;
+    const { begin, end } = this.timeline;
+    const words = moment(this.time, end - begin);
+    setText(this.position, words);
+    this.slider.setAttribute("aria-valuetext", `${words} of ${moment(end, end - begin)}`);
+    const share = end > begin ? (this.time - begin) / (end - begin) : 0;
+    this.slider.style.setProperty("--share", String(Math.min(1, Math.max(0, share))));
+  }
+
+  /** A frame with the arrows to the sides, a second or a tenth of the whole with those up and down. */
+  private pressed(event: KeyboardEvent): void {
+    if (!this.timeline || event.ctrlKey || event.metaKey || event.altKey) return;
+    const { begin, end, frames } = this.timeline;
+    const frame = (end - begin) / Math.max(1, Number(frames) - 1);
+    const at = frame > 0 ? Math.floor((this.time - begin) / frame + 1e-3) : 0;
+    // The server goes to the last frame that is not after the time: from its middle, rounding cannot miss it.
+    const middle = (index: number): number => begin + (index + 0.5) * frame;
+    const far = Math.min(1, tenth * (end - begin));
+    const to: Record<string, number> = {
+      ArrowRight: middle(at + 1),
+      ArrowLeft: middle(at - 1),
+      ArrowUp: this.time + far,
+      ArrowDown: this.time - far,
+      PageUp: this.time + far,
+      PageDown: this.time - far,
+      Home: begin,
+      End: end,
+    };
+    const time = to[event.key];
+    if (time === undefined) return;
+    event.preventDefault();
+    this.slider.value = String(time); // between begin and end
+    this.describe();
+    this.wished(this.time, true);
+  }
+}
