@@ -31,9 +31,9 @@ export class Scrubber {
     this.slider.addEventListener("pointerdown", () => (this.held = true));
     this.slider.addEventListener("input", () => {
       this.describe();
-      wished(this.slider.valueAsNumber, false);
+      wished(this.time, false);
     });
-    this.slider.addEventListener("change", () => wished(this.slider.valueAsNumber, true));
+    this.slider.addEventListener("change", () => wished(this.time, true));
     for (const end of ["pointerup", "pointercancel", "change", "blur"]) this.slider.addEventListener(end, () => (this.held = false));
     this.slider.addEventListener("keydown", (event) => this.pressed(event));
   }
@@ -71,7 +71,10 @@ export class Scrubber {
 
   /** s; what the handle says. */
   get time(): number {
-    return this.slider.valueAsNumber;
+    const time = this.slider.valueAsNumber;
+    const { begin, end } = this.timeline ?? { begin: time, end: time };
+    const near = 1e-9 * (end - begin); // sliders round, and just before the end another frame is shown
+    return time - begin <= near ? begin : end - time <= near ? end : time;
   }
 
   private describe(): void {
