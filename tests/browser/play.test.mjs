@@ -36,14 +36,20 @@ async function placeOf(share) {
   return [x + 8 + share * (width - 16), y + height / 2];
 }
 
-/** Waits until the page has, and shows, the moment, to within `off` s. */
+/** Waits until the page has the moment, to within `off` s, and picture and handle show it. */
 async function at(time, off = 2 * frame) {
   await when(
     page,
     ([wanted, most]) =>
-      !spherule.timeline.seeking && Math.abs(spherule.simTime - wanted) <= most && spherule.shown.time === spherule.simTime,
+      !spherule.timeline.seeking &&
+      Math.abs(spherule.simTime - wanted) <= most &&
+      spherule.shown.time === spherule.simTime &&
+      Math.abs(spherule.timeline.time - spherule.simTime) < 1e-9,
     [time, off],
-  );
+  ).catch(async (error) => {
+    const is = await page.evaluate(() => ({ timeline: spherule.timeline, simTime: spherule.simTime, shown: spherule.shown }));
+    throw new Error(`not at ${time}: ${JSON.stringify(is)}`, { cause: error });
+  });
 }
 
 async function setPaused(wanted) {
