@@ -14,6 +14,8 @@ namespace spherule::app {
 namespace {
 
 constexpr std::uint32_t mostSteps = 100'000;
+// s; a frame may come so much before its time, which waits and sums only meet to within rounding.
+constexpr double early = 1e-6;
 
 double secondsOf(Player::Clock::duration time) {
     return std::chrono::duration<double>(time).count();
@@ -104,11 +106,15 @@ Player::Moved Player::advance(Clock::time_point now) {
         const double place = *std::exchange(wanted_, std::nullopt);
         goOnFrom(place, now);
         goTo(place, moved);
-    } else if (const double place = placeBy(now); steps_ > 0 && next_ && place >= *next_) {
+        return moved;
+    }
+    const double place = placeBy(now) + speed_ * early;
+    const bool due = next_ && place >= *next_;
+    if (due && steps_ > 0) {
         --steps_;
         goTo(*next_, moved);
         if (steps_ == 0) goOnFrom(recording_.time(), now);
-    } else if (next_ && place >= *next_) {
+    } else if (due) {
         goTo(place, moved);
     } else if (!paused_ && !next_ && place >= recording_.end()) {
         if (again_ && recording_.end() > recording_.begin())

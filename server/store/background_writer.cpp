@@ -99,7 +99,7 @@ void BackgroundWriter::end(const Result<void>& done) {
     const std::lock_guard lock(mutex_);
     progress_.ended = true;
     progress_.bytes = writer_.bytes();
-    if (!finished) progress_.failure = finished.error().text();
+    if (!finished) progress_.failure = finished.error().message;
     waiting_.clear();
 }
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What many viewers get, and what they cost the simulation: two Markdown tables.
 
-    tests/load/run_load.py [--build build/release] [--viewers 200] [--seconds 20] [--stretches 3] [--part crowd|cost]
+    tests/load/run_load.py [--build build/release] [--viewers 200] [--seconds 20] [--stretches 3]
+                           [--part crowd|cost|play] [--recording FILE]
 
 crowd: a bed that comes to rest, streamed to viewers of which a tenth stalls, a tenth is slow and a twentieth reconnects;
 what it did to the server, from /metrics. cost: a bed that is awake, with one viewer and with all of them in turns; the
-simulation's time per substep, and its ratio.
+simulation's time per substep, and its ratio. play: the crowd as viewers of a recording, which `spherule play --loop`
+shows; without --recording, of 20 s of box-50k, made first.
 """
 import argparse
 import datetime
@@ -13,6 +15,7 @@ import os
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 from serving import Server
@@ -31,7 +34,8 @@ def options():
     parser.add_argument("--settle", type=int, default=15, help="simulated seconds before anything is measured")
     parser.add_argument("--scene", default="box-10k")
     parser.add_argument("--device", default="cpu:1")
-    parser.add_argument("--part", choices=["crowd", "cost"], help="only this one")
+    parser.add_argument("--part", choices=["crowd", "cost", "play"], help="only this one")
+    parser.add_argument("--recording", help="what play plays")
     return parser.parse_args()
 
 
@@ -58,10 +62,15 @@ def client(args, server, viewers, seconds, *more):
             "--seconds", str(seconds), *more]
 
 
-def crowd(args):
+def program(args):
+    return os.path.join(args.build, "spherule")
+
+
+def crowd(args, *show):
     tenth = args.viewers // 10
-    with Server(os.path.join(args.build, "spherule"), args.scene, "--device", args.device) as server:
-        settle(server, args.settle)
+    with Server(program(args), *show) as server:
+        if show[0] == "serve":
+            settle(server, args.settle)
         before = server.metrics()
         done = subprocess.run(client(args, server, args.viewers, args.seconds, "--stalled", str(tenth), "--slow", str(tenth),
                                      "--reconnecting", str(tenth // 2), "--decode", "4", "--server-pid",
@@ -73,9 +82,20 @@ def crowd(args):
         closed = key[0] == "spherule_sessions_closed_total" and after[key] > before.get(key, 0)
         if key[0] in OF_INTEREST or closed:
             print(f"| {key[0]}{' ' + key[1] if key[1] else ''} | {after[key] - before.get(key, 0):.0f} |")
-    print(f"| spherule_sleeping_spheres, of {after['spherule_spheres', '']:.0f} | "
-          f"{after['spherule_sleeping_spheres', '']:.0f} |\n")
+    if show[0] == "serve":
+        print(f"| spherule_sleeping_spheres, of {after['spherule_spheres', '']:.0f} | "
+              f"{after['spherule_sleeping_spheres', '']:.0f} |\n")
     return done.returncode
+
+
+def play(args):
+    with tempfile.TemporaryDirectory() as folder:
+        recording = args.recording or os.path.join(folder, "box-50k.sph")
+        if not args.recording:
+            say("20 s of box-50k are recorded")
+            subprocess.run([program(args), "run", "box-50k", "--for", "20s", "--device", "cpu", "--record", recording,
+                            "--record-rate", str(args.rate)], stdout=subprocess.DEVNULL, check=True)
+        return crowd(args, "play", recording, "--loop")
 
 
 def thread_seconds(pid):
@@ -125,7 +145,7 @@ def stretch(args, server, viewers):
 
 def cost(args):
     alone, crowded = [], []
-    with Server(os.path.join(args.build, "spherule"), args.scene, "--no-sleep", "--device", args.device) as server:
+    with Server(program(args), "serve", args.scene, "--no-sleep", "--device", args.device) as server:
         settle(server, args.settle)
         for number in range(args.stretches):
             say(f"stretch {number + 1} of {args.stretches}")
@@ -144,7 +164,9 @@ def main():
     args = options()
     print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the beginning, "
           f"{datetime.date.today():%d %B %Y}, {args.viewers} viewers at {args.rate} Hz, --device {args.device}\n", flush=True)
-    failed = crowd(args) if args.part != "cost" else 0
+    if args.part == "play":
+        return play(args)
+    failed = crowd(args, "serve", args.scene, "--device", args.device) if args.part != "cost" else 0
     if args.part != "crowd":
         cost(args)
     return failed

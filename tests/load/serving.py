@@ -1,27 +1,36 @@
-"""A `spherule serve` on a free port, for as long as a with statement."""
+"""A `spherule serve` or `spherule play` on a free port, for as long as a with statement."""
 import re
 import subprocess
 import urllib.request
 
 
 class Server:
-    def __init__(self, binary, scene, *options):
-        self._command = [binary, "serve", scene, "--listen", "127.0.0.1:0", *options]
+    def __init__(self, binary, command, *options, **more):
+        self._command = [binary, command, *options, "--listen", "127.0.0.1:0"]
+        self._more = more
+        self.said = ""  # once it has ended
 
     def __enter__(self):
-        self._process = subprocess.Popen(self._command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        said = []
+        self._process = subprocess.Popen(self._command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                         **self._more)
+        self.greeting = []
         for line in self._process.stdout:
-            said.append(line)
+            self.greeting.append(line)
             found = re.search(r"http://(127\.0\.0\.1:\d+)", line)
             if found:
                 self._address = found.group(1)
                 return self
-        raise RuntimeError("".join(said))
+        raise RuntimeError("".join(self.greeting))
 
     def __exit__(self, *_):
-        self._process.terminate()
-        self._process.communicate(timeout=30)
+        self.end()
+
+    def end(self, kill=False):
+        """Returns its exit code; what it said is in `said`."""
+        if self._process.returncode is None:
+            (self._process.kill if kill else self._process.terminate)()
+            self.said = self._process.communicate(timeout=30)[0]
+        return self._process.returncode
 
     @property
     def pid(self):
@@ -31,10 +40,13 @@ class Server:
     def stream(self):
         return f"ws://{self._address}/ws"
 
+    def get(self, path):
+        with urllib.request.urlopen(f"http://{self._address}{path}", timeout=30) as answer:
+            return answer.read().decode()
+
     def metrics(self):
         """The samples of /metrics: {(name, first label's value or ""): value}."""
-        with urllib.request.urlopen(f"http://{self._address}/metrics", timeout=30) as answer:
-            text = answer.read().decode()
+        text = self.get("/metrics")
         samples = {}
         for name, label, value in re.findall(r'^(\w+)(?:\{\w+="([^"]*)"[^}]*\})? (\S+)', text, re.MULTILINE):
             samples[name, label] = float(value)

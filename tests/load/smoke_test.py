@@ -16,7 +16,7 @@ def load(*arguments):
 
 class Smoke(unittest.TestCase):
     def test_five_viewers_of_which_one_stalls_find_no_fault(self):
-        with Server(SERVER, "cradle", "--device", "cpu:1") as server:
+        with Server(SERVER, "serve", "cradle", "--device", "cpu:1") as server:
             done = load(server.stream, "--viewers", "5", "--stalled", "1", "--decode", "2", "--warm-up", "2",
                         "--seconds", "3", "--server-pid", str(server.pid), "--markdown")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

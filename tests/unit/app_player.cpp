@@ -1,0 +1,214 @@
+#include "app/player.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "store_support.h"
+
+namespace spherule::app {
+namespace {
+
+using namespace std::chrono_literals;
+using store::Film;
+
+// A film of 23 frames, one every 0.1 s, that is played; the clock goes as the test says.
+class Playing : public testing::Test {
+  protected:
+    static constexpr double end = 2.2;  // s
+
+    Playing() { store::film(path_, 23); }
+
+    void open(bool again = false) {
+        auto recording = store::Recording::open(path_);
+        if (!recording) throw std::runtime_error(recording.error().text());
+        player_.emplace(std::move(*recording), "film.sph", again, now_);
+        moved_ = player_->advance(now_);
+    }
+
+    // The time of the frame that is shown then.
+    double after(std::chrono::milliseconds time) {
+        now_ += time;
+        moved_ = player_->advance(now_);
+        return player_->recording().time();
+    }
+
+    Result<v1::Applied> give(const v1::Command& command) { return player_->apply(command, now_); }
+    bool seek(double time) {
+        v1::Command command;
+        command.mutable_seek()->set_time(time);
+        return give(command).has_value();
+    }
+    template <class Make>
+    bool tell(Make make) {
+        v1::Command command;
+        (command.*make)();
+        return give(command).has_value();
+    }
+    bool step(std::uint32_t count) {
+        v1::Command command;
+        command.mutable_step()->set_count(count);
+        return give(command).has_value();
+    }
+    bool setSpeed(double speed) {
+        v1::Command command;
+        command.mutable_set()->set_speed(speed);
+        return give(command).has_value();
+    }
+    // What a loop does: comes when it is due, at most so often. False where it waits for a command.
+    bool comeWhenDue() {
+        const auto due = player_->due();
+        if (!due) return false;
+        now_ = std::max(now_, *due);
+        moved_ = player_->advance(now_);
+        return true;
+    }
+
+    store::Folder folder_;
+    std::string path_ = folder_ / "film.sph";
+    Player::Clock::time_point now_ = Player::Clock::now();
+    std::optional<Player> player_;
+    Player::Moved moved_;
+};
+
+TEST_F(Playing, ShowsTheFrameThatTheClockAsksFor) {
+    open();
+    EXPECT_TRUE(moved_.shown);
+    EXPECT_NEAR(after(0ms), 0, 1e-9);
+    EXPECT_FALSE(moved_.shown);
+    EXPECT_NEAR(after(90ms), 0, 1e-9);
+    EXPECT_NEAR(after(20ms), 0.1, 1e-9);
+    EXPECT_TRUE(moved_.shown);
+    EXPECT_NEAR(after(1000ms), 1.1, 1e-9);
+    ASSERT_TRUE(setSpeed(0.5));
+    EXPECT_NEAR(after(400ms), 1.3, 1e-9);
+    ASSERT_TRUE(setSpeed(8));
+    EXPECT_NEAR(after(100ms), 2.1, 1e-9);
+}
+
+TEST_F(Playing, ComesForEachFrameAndNotInBetween) {
+    open();
+    int frames = 1;
+    int calls = 0;
+    for (; comeWhenDue(); ++calls) frames += moved_.shown ? 1 : 0;
+    EXPECT_EQ(frames, 23);
+    EXPECT_LE(calls, 24);  // and the end
+    EXPECT_TRUE(player_->paused());
+    EXPECT_TRUE(player_->settings().paused());
+}
+
+TEST_F(Playing, PausesAndGoesOnFromThere) {
+    open();
+    after(550ms);
+    ASSERT_TRUE(tell(&v1::Command::mutable_pause));
+    EXPECT_FALSE(player_->due());
+    EXPECT_NEAR(after(5000ms), 0.5, 1e-9);
+    ASSERT_TRUE(tell(&v1::Command::mutable_resume));
+    EXPECT_NEAR(after(40ms), 0.5, 1e-9);
+    EXPECT_NEAR(after(20ms), 0.6, 1e-9);
+}
+
+TEST_F(Playing, SeeksWherePausedToo) {
+    open();
+    ASSERT_TRUE(tell(&v1::Command::mutable_pause));
+    for (const double time : {1.55, 0.3, 2.0, -7.0, 99.0, 1.0}) {
+        ASSERT_TRUE(seek(time));
+        EXPECT_LE(*player_->due(), now_);
+        const double wanted = std::floor(std::clamp(time, 0.0, end) / 0.1 + 1e-6) * 0.1;
+        EXPECT_NEAR(after(1ms), wanted, 1e-9);
+        EXPECT_TRUE(moved_.shown);
+    }
+    EXPECT_FALSE(seek(std::numeric_limits<double>::quiet_NaN()));
+    ASSERT_TRUE(seek(1.5));
+    ASSERT_TRUE(tell(&v1::Command::mutable_resume));
+    after(0ms);
+    EXPECT_NEAR(after(110ms), 1.6, 1e-9);
+}
+
+TEST_F(Playing, StepsAndPauses) {
+    open();
+    ASSERT_TRUE(step(1));
+    EXPECT_NEAR(after(0ms), 0.1, 1e-9);
+    EXPECT_FALSE(player_->due());
+    EXPECT_NEAR(after(5000ms), 0.1, 1e-9);
+    ASSERT_TRUE(step(3));
+    while (comeWhenDue()) EXPECT_TRUE(moved_.shown);
+    EXPECT_NEAR(after(0ms), 0.4, 1e-9);
+    EXPECT_FALSE(step(0));
+    ASSERT_TRUE(step(1000));
+    for (int k = 0; k < 100 && comeWhenDue();) ++k;
+    EXPECT_NEAR(after(0ms), end, 1e-9);
+    EXPECT_FALSE(player_->due());
+}
+
+TEST_F(Playing, FromTheEndItBeginsAnewWhenResumed) {
+    open();
+    EXPECT_NEAR(after(9000ms), end, 1e-9);
+    after(0ms);
+    EXPECT_TRUE(player_->paused());
+    ASSERT_TRUE(tell(&v1::Command::mutable_resume));
+    EXPECT_NEAR(after(10ms), 0, 1e-9);
+    EXPECT_FALSE(player_->paused());
+    after(1000ms);
+    ASSERT_TRUE(tell(&v1::Command::mutable_reset));
+    EXPECT_NEAR(after(10ms), 0, 1e-9);
+    EXPECT_NEAR(after(150ms), 0.1, 1e-9);
+}
+
+TEST_F(Playing, GoesRoundWhereThatIsWanted) {
+    open(true);
+    int rounds = 0;
+    double last = 0;
+    for (int k = 0; k < 100; ++k) {
+        ASSERT_TRUE(comeWhenDue());
+        if (player_->recording().time() < last) ++rounds;
+        last = player_->recording().time();
+    }
+    EXPECT_GE(rounds, 3);
+    EXPECT_FALSE(player_->paused());
+}
+
+TEST_F(Playing, ChangesNothingInWhatIsPlayed) {
+    open();
+    EXPECT_FALSE(tell(&v1::Command::mutable_query));
+    EXPECT_FALSE(tell(&v1::Command::mutable_spawn));
+    EXPECT_FALSE(tell(&v1::Command::mutable_start_recording));
+    v1::Command both;
+    both.mutable_set()->set_speed(3);
+    both.mutable_set()->set_friction(0.1);
+    EXPECT_FALSE(give(both));
+    EXPECT_FALSE(setSpeed(0));
+    EXPECT_EQ(player_->speed(), 1);
+}
+
+TEST_F(Playing, WhatIsDamagedIsToldAndSkipped) {
+    std::string content = store::contentOf(path_);
+    // In the frame of 0.7 s; the next keyframe is that of 1.0 s.
+    auto file = store::RecordFile::open(path_);
+    std::uint64_t offset = store::fileHeadBytes;
+    for (;;) {
+        const auto record = file->read(offset);
+        ASSERT_TRUE(record);
+        if (record->kind == store::Kind::Delta && record->time > 0.65) break;
+        offset = record->end;
+    }
+    content[offset + 40] = static_cast<char>(content[offset + 40] ^ 4);
+    store::put(path_, content);
+    open();
+    EXPECT_NEAR(after(650ms), 0.6, 1e-9);
+    EXPECT_NEAR(after(100ms), 1.0, 1e-9);
+    ASSERT_EQ(moved_.damage.size(), 1U);
+    EXPECT_NE(moved_.damage[0].find("byte " + std::to_string(offset)), std::string::npos);
+    EXPECT_TRUE(moved_.shown);
+    EXPECT_NEAR(after(110ms), 1.1, 1e-9);
+    ASSERT_TRUE(seek(0.8));
+    EXPECT_NEAR(after(0ms), 1.0, 1e-9);
+    EXPECT_EQ(moved_.damage.size(), 1U);
+}
+
+}  // namespace
+}  // namespace spherule::app

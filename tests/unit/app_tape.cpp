@@ -1,0 +1,231 @@
+#include "app/tape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "codec_support.h"
+#include "store_support.h"
+
+namespace spherule::app {
+namespace {
+
+using namespace std::chrono_literals;
+using Kind = frame::Link::Kind;
+constexpr std::uint32_t spheres = 70;
+constexpr frame::Channel channel{v1::FINE, 30};
+
+// A tape, and a chain of frames like those that it would be told of.
+class Taping : public testing::Test {
+  protected:
+    Taping() {
+        options_.folder = folder_ / "made";
+        keep(store::sceneMessage(1, spheres));
+    }
+
+    void open() {
+        v1::Welcome source;
+        source.set_server("spherule test");
+        tape_ = std::make_unique<Tape>(options_, source);
+        keep(store::sceneMessage(1, spheres));
+    }
+    void keep(v1::ServerMessage message) {
+        if (tape_) tape_->keep(frame::share(std::move(message)));
+    }
+    void order(std::uint32_t epoch = 1) { tape_->order(frame::share(store::orderMessage(epoch, spheres))); }
+
+    frame::Link link(Kind kind, double time, std::uint32_t epoch = 1) {
+        codec::Positions positions(spheres);
+        for (std::uint32_t id = 0; id < spheres; ++id)
+            positions[id] = {9 * std::sin(id + 37 * time), 9 * std::sin(7 * id - 53 * time), 0.1 * time, 0.5};
+        const auto bytes = kind == Kind::Delta  ? encoder_.next(positions)
+                           : kind == Kind::Join ? encoder_.join()
+                                                : encoder_.begin(positions);
+        if (kind != Kind::Join) ++number_;
+        v1::ServerMessage message;
+        v1::Frame& frame = *message.mutable_frame();
+        frame.set_epoch(epoch);
+        frame.set_order(1);
+        frame.set_sim_time(time);
+        frame.set_quantum(0.125);
+        frame.set_count(spheres);
+        frame.set_spb(bytes.data(), bytes.size());
+        return {channel, kind, number_, frame::share(std::move(message))};
+    }
+    // The state once the disk has all.
+    v1::Recording ended() {
+        v1::Recording state;
+        for (int k = 0; k < 1000; ++k) {
+            if (const auto news = tape_->news(Tape::Clock::now())) state = *news;
+            if (k > 0 && !state.active()) break;
+            std::this_thread::sleep_for(5ms);
+        }
+        return state;
+    }
+    [[nodiscard]] std::vector<frame::Demand> demands() const {
+        std::vector<frame::Demand> demands;
+        tape_->demand(demands, Tape::Clock::now());
+        return demands;
+    }
+
+    store::Folder folder_;
+    TapeOptions options_;
+    std::unique_ptr<Tape> tape_;
+    codec::Encoder encoder_{"cpu", spheres, 0.125};
+    std::uint32_t number_ = 0;
+};
+
+TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
+    open();
+    EXPECT_TRUE(demands().empty());
+    order();
+    ASSERT_TRUE(tape_->start());
+    ASSERT_EQ(demands().size(), 1U);
+    EXPECT_TRUE(demands()[0].newcomer);
+    tape_->frame(link(Kind::Keyframe, 4.0));
+    EXPECT_FALSE(demands()[0].newcomer || demands()[0].lost);
+    tape_->frame(link(Kind::Delta, 4.1));
+    tape_->frame(link(Kind::Join, 4.1));
+    tape_->frame(link(Kind::Delta, 4.2));
+    ASSERT_TRUE(tape_->stop());
+    const v1::Recording state = ended();
+    EXPECT_EQ(state.failure(), "");
+    EXPECT_NEAR(state.duration(), 0.2, 1e-9);
+    auto recording = store::Recording::open(state.file());
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(recording->flaw(), "");
+    EXPECT_EQ(recording->frames(), 3U);
+    EXPECT_EQ(recording->begin(), 4.0);
+    EXPECT_EQ(store::play(*recording).size(), 3U);
+    EXPECT_TRUE(demands().empty());
+}
+
+TEST_F(Taping, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
+    open();
+    order();
+    tape_->frame(link(Kind::Keyframe, 0));
+    ASSERT_TRUE(tape_->start());
+    tape_->frame(link(Kind::Delta, 0.1));
+    EXPECT_TRUE(demands()[0].newcomer);
+    tape_->frame(link(Kind::Join, 0.1));
+    tape_->frame(link(Kind::Delta, 0.2));
+    ASSERT_TRUE(tape_->stop());
+    auto recording = store::Recording::open(ended().file());
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(recording->begin(), 0.1);
+    EXPECT_EQ(store::play(*recording).size(), 2U);
+}
+
+TEST_F(Taping, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    tape_->frame(link(Kind::Keyframe, 10));
+    tape_->frame(link(Kind::Delta, 12));
+    tape_->frame(link(Kind::Delta, 0));
+    tape_->frame(link(Kind::Delta, 1));
+    keep(store::sceneMessage(2, spheres));
+    order(2);
+    tape_->frame(link(Kind::Keyframe, 0.5, 2));
+    tape_->frame(link(Kind::Delta, 0.75, 2));
+    ASSERT_TRUE(tape_->stop());
+    auto recording = store::Recording::open(ended().file());
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(recording->frames(), 6U);
+    EXPECT_NEAR(recording->end(), 13.25, 1e-9);
+    EXPECT_EQ(store::play(*recording).size(), 6U);
+    EXPECT_EQ(recording->facts().epoch(), 2U);
+}
+
+TEST_F(Taping, WantsAKeyframeNowAndThenWhileSomethingMoves) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    tape_->frame(link(Kind::Keyframe, 0));
+    std::vector<frame::Demand> later;
+    tape_->demand(later, Tape::Clock::now() + 1h);
+    EXPECT_FALSE(later[0].lost);
+    tape_->frame(link(Kind::Delta, 1));
+    later.clear();
+    tape_->demand(later, Tape::Clock::now() + 1h);
+    EXPECT_TRUE(later[0].lost);
+    EXPECT_FALSE(demands()[0].lost);
+}
+
+TEST_F(Taping, AsksForAKeyframeAfterAGap) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    tape_->frame(link(Kind::Keyframe, 0));
+    link(Kind::Delta, 1);
+    tape_->frame(link(Kind::Delta, 2));
+    EXPECT_TRUE(demands()[0].lost);
+    tape_->frame(link(Kind::Delta, 3));
+    tape_->frame(link(Kind::Join, 3));
+    tape_->frame(link(Kind::Delta, 4));
+    ASSERT_TRUE(tape_->stop());
+    auto recording = store::Recording::open(ended().file());
+    ASSERT_TRUE(recording);
+    std::string end;
+    EXPECT_EQ(store::play(*recording, &end).size(), 3U);
+    EXPECT_EQ(end, "");
+}
+
+TEST_F(Taping, OneRecordingAtATimeAndASecondHasANameOfItsOwn) {
+    open();
+    order();
+    EXPECT_EQ(tape_->stop().error().message, "nothing is being recorded");
+    ASSERT_TRUE(tape_->start());
+    EXPECT_NE(tape_->start().error().message.find("is being recorded already"), std::string::npos);
+    tape_->frame(link(Kind::Keyframe, 0));
+    ASSERT_TRUE(tape_->stop());
+    const std::string first = ended().file();
+    EXPECT_EQ(first.find((folder_ / "made") + "/film-"), 0U);
+    ASSERT_TRUE(tape_->start());
+    EXPECT_NE(tape_->news(Tape::Clock::now())->file(), first);
+}
+
+TEST_F(Taping, ItsFolderHasALimit) {
+    options_.folderBytes = 3'000'000;
+    std::filesystem::create_directories(options_.folder);
+    store::put(options_.folder + "/old.sph", std::string(1'900'000, ' '));
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    for (int k = 0; k < 10'000; ++k) tape_->frame(link(k == 0 ? Kind::Keyframe : Kind::Delta, k));
+    const v1::Recording state = ended();
+    EXPECT_EQ(state.failure(), "it has reached 1 MB, the most that it may have");
+    auto recording = store::Recording::open(state.file());
+    ASSERT_TRUE(recording);
+    EXPECT_EQ(recording->flaw(), "");
+    EXPECT_NE(tape_->start().error().message.find("delete some"), std::string::npos);
+    options_.folder.clear();
+    open();
+    EXPECT_NE(tape_->start().error().message.find("--recordings FOLDER"), std::string::npos);
+}
+
+TEST_F(Taping, AFullDiskEndsTheRecordingAndSaysSo) {
+    options_.path = "/dev/full";
+    options_.replace = true;
+    open();
+    // What is written at the beginning fails already.
+    EXPECT_FALSE(tape_->startFromOptions());
+}
+
+TEST_F(Taping, AHostileSceneNameIsNoPath) {
+    open();
+    v1::ServerMessage scene = store::sceneMessage(1, spheres);
+    scene.mutable_scene()->set_name("../../etc/passwd\n;" + std::string(500, 'x'));
+    keep(scene);
+    order();
+    ASSERT_TRUE(tape_->start());
+    const std::filesystem::path path = tape_->news(Tape::Clock::now())->file();
+    EXPECT_EQ(path.parent_path().string(), folder_ / "made");
+    EXPECT_EQ(path.filename().string().find("etcpasswdxxx"), 0U);
+    EXPECT_LT(path.filename().string().size(), 80U);
+}
+
+}  // namespace
+}  // namespace spherule::app
