@@ -118,7 +118,7 @@ test("the handle stays under the pointer while it is dragged, and the picture fo
   }
   const between = Math.floor((0.2 * lasts) / frame) + 0.5; // of two frames: the picture shows the first, the handle stays
   await page.mouse.move(...(await placeOf((between * frame) / lasts)));
-  await at((between - 0.5) * frame, 1e-6);
+  await when(page, (then) => !spherule.timeline.seeking && Math.abs(spherule.simTime - then) < 1e-6, (between - 0.5) * frame);
   const { time } = await page.evaluate(() => spherule.timeline);
   assert.ok(Math.abs(time - between * frame) < 0.4 * frame, `${time} for ${between * frame}`);
   const [x, y] = await placeOf(0.2);
