@@ -8,7 +8,7 @@ import { collisionsByWidth } from "./support/layout.mjs";
 import { serverSays } from "./support/raw.mjs";
 import { play, serve, spherule, stopAll } from "./support/server.mjs";
 
-const lasts = 4; // s
+const lasts = 3.9; // s
 const frame = 1 / 30;
 
 let folder;
@@ -36,14 +36,20 @@ async function placeOf(share) {
   return [x + 8 + share * (width - 16), y + height / 2];
 }
 
-/** Waits until the page has, and shows, the moment, to within `off` s. */
+/** Waits until the page has the moment, to within `off` s, and picture and handle show it. */
 async function at(time, off = 2 * frame) {
   await when(
     page,
     ([wanted, most]) =>
-      !spherule.timeline.seeking && Math.abs(spherule.simTime - wanted) <= most && spherule.shownTime === spherule.simTime,
+      !spherule.timeline.seeking &&
+      Math.abs(spherule.simTime - wanted) <= most &&
+      spherule.shown.time === spherule.simTime &&
+      Math.abs(spherule.timeline.time - spherule.simTime) < 1e-9,
     [time, off],
-  );
+  ).catch(async (error) => {
+    const is = await page.evaluate(() => ({ timeline: spherule.timeline, simTime: spherule.simTime, shown: spherule.shown }));
+    throw new Error(`not at ${time}: ${JSON.stringify(is)}`, { cause: error });
+  });
 }
 
 async function setPaused(wanted) {
@@ -53,7 +59,7 @@ async function setPaused(wanted) {
 
 test("the page says what is played and offers only what works", async () => {
   const { timeline, recording, drawn } = await page.evaluate(() => ({ ...spherule, drawn: spherule.picture.drawn }));
-  assert.deepEqual([timeline.file, timeline.begin, timeline.frames, timeline.flaw], ["cradle.sph", 0, 1 + lasts * 30, ""]);
+  assert.deepEqual([timeline.file, timeline.begin, timeline.frames, timeline.flaw], ["cradle.sph", 0, 118, ""]);
   assert.ok(Math.abs(timeline.end - lasts) < 1e-6);
   assert.equal(recording, undefined);
   assert.ok(drawn > 0);
@@ -69,22 +75,36 @@ test("a click on the timeline goes there at once, and nothing is shown in betwee
   await setPaused(true);
   await page.click(control("reset"));
   await at(0);
+  await page.keyboard.press("3"); // no speeds are shown
   await page.evaluate(() => {
     window.seen = [];
     const look = () => {
-      window.seen.push(spherule.shownTime);
+      window.seen.push({ handle: spherule.timeline.time, picture: spherule.shown.time });
       requestAnimationFrame(look);
     };
     look();
   });
   await page.mouse.click(...(await placeOf(0.75)));
   await at(0.75 * lasts);
-  const between = (await page.evaluate(() => window.seen)).filter((time) => time > 3 * frame && time < 0.75 * lasts - 3 * frame);
-  assert.deepEqual(between, []);
+  const seen = await page.evaluate(() => window.seen);
+  assert.deepEqual(seen.filter(({ picture }) => picture > 3 * frame && picture < 0.75 * lasts - 3 * frame), []);
+  const gone = seen.findIndex(({ handle }) => handle > 0.7 * lasts);
+  assert.deepEqual(seen.slice(gone).filter(({ handle }) => handle < 0.7 * lasts), []);
+  const { from, to } = await page.evaluate(() => spherule.shown);
+  assert.equal(from, to); // nothing has moved from where it was before
   const { step, positions, quantum } = await serverSays(page);
   const shown = await page.evaluate((ids) => spherule.positions(ids), [...positions.keys()]);
   assert.equal(shown.step, step);
   shown.positions.forEach((place, id) => place.forEach((x, axis) => assert.ok(Math.abs(x - positions[id][axis]) <= quantum, `sphere ${id}`)));
+});
+
+test("where speeds are shown, a moment that stands still comes with the one before it", async () => {
+  await setPaused(true);
+  await page.keyboard.press("1");
+  await page.mouse.click(...(await placeOf(0.25)));
+  await at(0.25 * lasts);
+  const { from, to } = await page.evaluate(() => spherule.shown);
+  assert.ok(Math.abs(to - from - frame) < 1e-6, `${from} ${to}`);
 });
 
 test("the handle stays under the pointer while it is dragged, and the picture follows", async () => {
@@ -96,6 +116,11 @@ test("the handle stays under the pointer while it is dragged, and the picture fo
     const { time } = await page.evaluate(() => spherule.timeline);
     assert.ok(Math.abs(time - share * lasts) < 0.05, `${time} for ${share * lasts}`);
   }
+  const between = Math.floor((0.2 * lasts) / frame) + 0.5; // of two frames: the picture shows the first, the handle stays
+  await page.mouse.move(...(await placeOf((between * frame) / lasts)));
+  await when(page, (then) => !spherule.timeline.seeking && Math.abs(spherule.simTime - then) < 1e-6, (between - 0.5) * frame);
+  const { time } = await page.evaluate(() => spherule.timeline);
+  assert.ok(Math.abs(time - between * frame) < 0.4 * frame, `${time} for ${between * frame}`);
   const [x, y] = await placeOf(0.2);
   await page.mouse.move(x, y + 60); // the pointer may leave the bar
   await when(page, (most) => spherule.simTime < most, 0.3 * lasts);
@@ -156,7 +181,7 @@ test("the keyboard moves the handle that has the focus", async () => {
   }
   await page.keyboard.press("PageUp");
   await at(0.1 * lasts + frame, frame);
-  assert.match(await page.getAttribute(slider, "aria-valuetext"), /^0\.4\d s of 4\.00 s$/);
+  assert.match(await page.getAttribute(slider, "aria-valuetext"), /^0\.4\d s of 3\.90 s$/);
   assert.equal((await page.evaluate(() => spherule.camera)).azimuth, azimuth);
   await page.keyboard.press(" ");
   await when(page, () => !spherule.paused);

@@ -35,8 +35,8 @@ export interface Hook {
   readonly diagnostics: { substeps: number; stepMs: number; energyRises: boolean; step: number } | undefined;
   /** The positions of the dial, from fast to accurate. */
   readonly dial: { model: string; substeps: number; stepMs: number; own: boolean }[];
-  /** Simulated time that the picture shows, s: between two states while they glide. */
-  readonly shownTime: number;
+  /** Simulated times, s: of the picture, and of the two states that it is mixed of. */
+  readonly shown: { time: number; from: number; to: number } | undefined;
   /** Of a server that plays a recording: what there is to play, where the handle stands, and whether it waits for a seek. */
   readonly timeline: PlayedTimeline | undefined;
   /** What a server that simulates has recorded. */
@@ -160,9 +160,9 @@ export function hookFor({ session, camera, stage, reports, page, seenAt }: Viewe
         own,
       }));
     },
-    get shownTime() {
+    get shown() {
       const shown = session.states.shown(sharedNow());
-      return shown ? timeOf(shown) : 0;
+      return shown && { time: timeOf(shown), from: shown.from.simTime, to: shown.to.simTime };
     },
     get timeline() {
       if (!session.timeline) return undefined;

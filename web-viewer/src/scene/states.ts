@@ -11,7 +11,7 @@ export interface Shown {
 
 /** Simulated time of what is shown, s. */
 export function timeOf({ from, to, mix }: Shown): number {
-  return from.simTime + mix * (to.simTime - from.simTime);
+  return (1 - mix) * from.simTime + mix * to.simTime;
 }
 
 /** The newest states of one epoch; frames of another epoch are ignored. */

@@ -30,7 +30,8 @@ export class Playback {
     if (!session.timeline) return;
     const speed = session.paused ? 0 : (session.settings?.speed ?? 1);
     seeker.heed({ now, newest: session.states.newest?.simTime, speed, spacing: session.spacing });
-    scrubber.update(seeker.wanted ?? (shown && timeOf(shown)), session.link === "open");
+    const { wanted } = seeker;
+    scrubber.update(wanted ?? (shown && timeOf(shown)), wanted ?? session.states.newest?.simTime, session.link === "open");
   }
 
   /** s; where the handle stands. */

@@ -24,6 +24,7 @@ export class Scrubber {
     this.flaw,
   );
   private timeline: Timeline | undefined;
+  private stands = 0; // s: of the newest state, or what is on its way; the handle glides there
   private held = false; // by hand: what the server says meanwhile does not move it
 
   /** `wished`: the person wants this moment, s; `last`: for now. */
@@ -31,9 +32,9 @@ export class Scrubber {
     this.slider.addEventListener("pointerdown", () => (this.held = true));
     this.slider.addEventListener("input", () => {
       this.describe();
-      wished(this.slider.valueAsNumber, false);
+      wished(this.time, false);
     });
-    this.slider.addEventListener("change", () => wished(this.slider.valueAsNumber, true));
+    this.slider.addEventListener("change", () => wished(this.time, true));
     for (const end of ["pointerup", "pointercancel", "change", "blur"]) this.slider.addEventListener(end, () => (this.held = false));
     this.slider.addEventListener("keydown", (event) => this.pressed(event));
   }
@@ -60,8 +61,9 @@ export class Scrubber {
     this.element.title = flaw ? `The recording ends before it was meant to: ${flaw}` : "";
   }
 
-  /** `time`: where the recording stands, or is on its way to, s. */
-  update(time: number | undefined, open: boolean): void {
+  /** `time`: what the picture shows; `stands`: the newest state, or what is on its way; s. */
+  update(time: number | undefined, stands: number | undefined, open: boolean): void {
+    this.stands = stands ?? this.stands;
     this.slider.disabled = !open;
     if (!open) this.held = false; // nobody will say that it was let go
     if (time === undefined || this.held) return;
@@ -71,7 +73,10 @@ export class Scrubber {
 
   /** s; what the handle says. */
   get time(): number {
-    return this.slider.valueAsNumber;
+    const time = this.slider.valueAsNumber;
+    const { begin, end } = this.timeline ?? { begin: time, end: time };
+    const near = 1e-9 * (end - begin); // sliders round, and just before the end another frame is shown
+    return time - begin <= near ? begin : end - time <= near ? end : time;
   }
 
   private describe(): void {
@@ -89,17 +94,17 @@ export class Scrubber {
     if (!this.timeline || event.ctrlKey || event.metaKey || event.altKey) return;
     const { begin, end, frames } = this.timeline;
     const frame = (end - begin) / Math.max(1, Number(frames) - 1);
-    const at = frame > 0 ? Math.floor((this.time - begin) / frame + 1e-3) : 0;
+    const at = frame > 0 ? Math.floor((this.stands - begin) / frame + 1e-3) : 0;
     // The server goes to the last frame that is not after the time: from its middle, rounding cannot miss it.
     const middle = (index: number): number => begin + (index + 0.5) * frame;
     const far = Math.min(1, tenth * (end - begin));
     const to: Record<string, number> = {
       ArrowRight: middle(at + 1),
       ArrowLeft: middle(at - 1),
-      ArrowUp: this.time + far,
-      ArrowDown: this.time - far,
-      PageUp: this.time + far,
-      PageDown: this.time - far,
+      ArrowUp: this.stands + far,
+      ArrowDown: this.stands - far,
+      PageUp: this.stands + far,
+      PageDown: this.stands - far,
       Home: begin,
       End: end,
     };
@@ -108,6 +113,7 @@ export class Scrubber {
     event.preventDefault();
     this.slider.value = String(time); // between begin and end
     this.describe();
+    this.stands = this.time; // for the next key, which may come before an answer
     this.wished(this.time, true);
   }
 }
