@@ -14,7 +14,6 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-using store::Film;
 
 // A film of 23 frames, one every 0.1 s, that is played; the clock goes as the test says.
 class Playing : public testing::Test {
