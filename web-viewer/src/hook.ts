@@ -13,7 +13,7 @@ import type { Viewer } from "./viewer";
  * simulation is told what to do through the page's controls or the server's own protocol, not from here.
  */
 export interface Hook {
-  /** "connecting", "open" or "waiting" (for the next attempt). */
+  /** "connecting", "open", "silent" (open, but the server does not answer) or "waiting" (for the next attempt). */
   readonly connection: string;
   /** Size of the canvas in its own pixels, pictures drawn since the page was loaded. */
   readonly picture: { width: number; height: number; drawn: number; contextLost: boolean };
@@ -89,7 +89,7 @@ export class Reports {
 export function hookFor({ session, camera, stage, reports, seenAt }: Viewer): Hook {
   return {
     get connection() {
-      return session.link;
+      return session.silentSince === undefined ? session.link : "silent";
     },
     get picture() {
       const { width, height } = stage.canvas;

@@ -43,6 +43,7 @@ export interface View {
 
 export type FromWorker =
   | { kind: "link"; state: LinkState; retryIn?: number; reason?: string } // retryIn: ms
+  | { kind: "silent"; since: number | undefined } // when the server was last heard, as sharedNow() says; undefined: just now
   | { kind: "welcome"; welcome: Welcome }
   | { kind: "scene"; facts: SceneFacts }
   | { kind: "settings"; settings: Settings }

@@ -48,6 +48,10 @@ function received(data: ArrayBuffer): void {
 
 let view: View | undefined;
 
+function sendView(): void {
+  send({ case: "view", value: create(ViewSchema, view) });
+}
+
 function connect(url: string): void {
   socket = new Socket(url, {
     opened: () => {
@@ -57,6 +61,9 @@ function connect(url: string): void {
     },
     received,
     state: (state, retryIn, reason) => page.postMessage({ kind: "link", state, retryIn, reason }),
+    // A view that has been said before changes nothing, and is answered with what is sent.
+    ask: () => sendView(),
+    silent: (since) => page.postMessage({ kind: "silent", since: since === undefined ? since : sharedNow() - since }),
   });
 }
 
@@ -71,7 +78,7 @@ page.onmessage = ({ data }) => {
       break;
     case "view":
       view = data.view;
-      send({ case: "view", value: create(ViewSchema, view) });
+      sendView();
       break;
     case "drawing":
       stream.drawRate = data.rate;

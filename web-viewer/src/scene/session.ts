@@ -23,6 +23,7 @@ export class Session {
   link: LinkState = "connecting";
   linkReason = "";
   retryAt = 0; // ms, as sharedNow() says
+  silentSince: number | undefined; // ms: the connection is open, but the server does not answer
   welcome: Welcome | undefined;
   facts: Facts | undefined;
   settings: Settings | undefined;
@@ -51,9 +52,13 @@ export class Session {
         this.link = message.state;
         this.linkReason = message.reason ?? "";
         this.retryAt = sharedNow() + (message.retryIn ?? 0);
+        this.silentSince = undefined;
         if (message.state !== "open") this.stream = undefined;
         this.lateness.reset();
         this.fresh ||= message.state === "open";
+        break;
+      case "silent":
+        this.silentSince = message.since;
         break;
       case "welcome":
         this.welcome = message.welcome;
@@ -112,6 +117,11 @@ export class Session {
     this.lastArrival = Math.max(this.lastArrival, now);
   }
 
+  /** The page hears from the server. */
+  get live(): boolean {
+    return this.link === "open" && this.silentSince === undefined;
+  }
+
   get paused(): boolean {
     return this.status?.paused ?? this.settings?.paused ?? false;
   }
@@ -120,7 +130,7 @@ export class Session {
   staleness(now: number): number {
     if (!this.facts) return 0;
     const silent = now - this.lastArrival;
-    const grace = this.link === "open" ? (this.paused ? Infinity : 5000) : 400;
+    const grace = this.live ? (this.paused ? Infinity : 5000) : 400;
     return Math.min(1, Math.max(0, (silent - grace) / 600));
   }
 }
