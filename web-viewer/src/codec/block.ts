@@ -29,8 +29,6 @@ export class BlockReader {
     const header = unitAt(words, unit);
     const mode = header & 3;
     const predictor = (header >> 2) & 3;
-    const wrong = faultOf(mode, predictor, keyframe, velocities);
-    if (wrong) return this.fail(wrong);
     const extra = unit + 1;
     const runs = mode >= modeRuns;
     const first = extra + (runs ? 3 : 0) + (mode === modeBase ? (predictor === none ? 6 : 2) : 0);
@@ -46,6 +44,8 @@ export class BlockReader {
     this.readBase(words, extra + 3, mode, predictor);
     const bits = mode === modeMask ? this.readMasked(words, extra, end) : this.readRuns(words, 16 * first, end);
     if (bits < 0) return this.fail("goes beyond its chunk");
+    const wrong = faultOf(mode, predictor, keyframe, velocities);
+    if (wrong) return this.fail(wrong);
     predict(predictor, this.values, this.base, newest, before, at);
     return (bits + 15) >>> 4;
   }
