@@ -41,7 +41,7 @@ async function behindProxy(body) {
     await body(page, proxy, server);
     await page.close();
   } finally {
-    await proxy.close();
+    proxy.close();
     await server.stop();
   }
 }

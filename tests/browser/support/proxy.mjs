@@ -14,11 +14,8 @@ export async function proxyTo(target) {
     const pair = { from, to: net.connect(target, "127.0.0.1"), cut: swallowing };
     pairs.add(pair);
     const pass = (into) => (bytes) => void (pair.cut || into.write(bytes));
-    const end = (other) => () => {
-      pairs.delete(pair);
-      // Who is cut off does not hear that the other has left.
-      if (!pair.cut) other.destroy();
-    };
+    // Who is cut off does not hear that the other has left.
+    const end = (other) => () => void (pair.cut || other.destroy());
     for (const [one, other] of [
       [pair.from, pair.to],
       [pair.to, pair.from],
@@ -50,12 +47,12 @@ export async function proxyTo(target) {
     restore() {
       refusing = swallowing = false;
     },
-    async close() {
+    close() {
+      server.close();
       for (const { from, to } of pairs) {
         from.destroy();
         to.destroy();
       }
-      await new Promise((resolve) => server.close(resolve));
     },
   };
 }
