@@ -10,7 +10,9 @@ import type { Viewer } from "./viewer";
 
 /**
  * `window.spherule`: what tests and curious people may rely on. Elements are found by their `data-testid`; the
- * simulation is told what to do through the page's controls or the server's own protocol, not from here.
+ * simulation is told what to do through the page's controls or the server's own protocol, not from here. How the first picture
+ * came about is in the browser's performance marks: `spherule:connecting`, `open`, `scene`, `arrived` (the first state, at the
+ * worker), `decoded` (it is here), `drawn` (its picture has been handed to the browser).
  */
 export interface Hook {
   /** "connecting", "open", "silent" (open, but the server does not answer) or "waiting" (for the next attempt). */

@@ -11,10 +11,17 @@ export async function stopAll() {
 }
 
 /** Serves the scene; `port` 0 takes a free one. */
-export async function serve(scene, { port = 0, device = "cpu" } = {}) {
-  const child = spawn(binary, ["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], {
-    stdio: ["ignore", "pipe", "pipe"],
-  });
+export function serve(scene, { port = 0, device = "cpu" } = {}) {
+  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`]);
+}
+
+/** Plays the recording, again and again. */
+export function play(file) {
+  return start(["play", file, "--loop", "--listen", "127.0.0.1:0"]);
+}
+
+async function start(options) {
+  const child = spawn(binary, options, { stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   const ended = new Promise((resolve) => child.once("exit", resolve));

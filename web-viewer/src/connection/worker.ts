@@ -55,12 +55,13 @@ function sendView(): void {
 function connect(url: string): void {
   socket = new Socket(url, {
     opened: () => {
+      const at = sharedNow();
       stream.reset();
       send({ case: "hello", value: create(HelloSchema, { client: "spherule viewer", view }) });
-      page.postMessage({ kind: "link", state: "open" });
+      page.postMessage({ kind: "link", state: "open", at });
     },
     received,
-    state: (state, retryIn, reason) => page.postMessage({ kind: "link", state, retryIn, reason }),
+    state: (state, retryIn, reason) => page.postMessage({ kind: "link", state, at: sharedNow(), retryIn, reason }),
     // A view that has been said before changes nothing, and is answered with what is sent.
     ask: () => sendView(),
     silent: (since) => page.postMessage({ kind: "silent", since: since === undefined ? since : sharedNow() - since }),

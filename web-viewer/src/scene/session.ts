@@ -2,11 +2,14 @@ import type { Diagnostics, Dial, Event, Settings, Stream, Welcome } from "../gen
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
+import { markFirst } from "../marks";
 import { factsOf } from "./facts";
 import type { Facts } from "./facts";
 import { Lateness } from "./lateness";
 import { States } from "./states";
 import { Traffic } from "./traffic";
+
+const soon = 1000; // ms after its facts that the first state of a scene should have come
 
 export interface SessionEvents {
   welcomed(welcome: Welcome): void;
@@ -32,6 +35,7 @@ export class Session {
   diagnostics: Diagnostics | undefined;
   stream: Stream | undefined; // what the server sends; undefined: it has not said
   lastArrival = 0; // ms, of a frame of this epoch
+  private begun = 0; // ms: when its facts came
   frames = 0; // taken since the page was loaded
   lost = 0; // that could not be decoded since then
   readonly traffic = new Traffic();
@@ -49,6 +53,7 @@ export class Session {
   take(message: FromWorker): void {
     switch (message.kind) {
       case "link":
+        markFirst(message.state, message.at);
         this.link = message.state;
         this.linkReason = message.reason ?? "";
         this.retryAt = sharedNow() + (message.retryIn ?? 0);
@@ -65,10 +70,12 @@ export class Session {
         this.events.welcomed(message.welcome);
         break;
       case "scene": {
+        markFirst("scene");
         const before = this.facts;
         this.facts = factsOf(message.facts);
         if (this.fresh) this.states.begin(-1); // another server may use the same numbers for other epochs
         this.fresh = false;
+        if (this.states.epoch !== this.facts.epoch) this.begun = sharedNow();
         this.states.begin(this.facts.epoch);
         this.events.sceneChanged(this.facts, before);
         break;
@@ -82,6 +89,8 @@ export class Session {
         this.traffic.add(message.frame);
         this.lateness.add(arrival, ready);
         if (!this.states.push(message.frame)) break;
+        markFirst("arrived", arrival);
+        markFirst("decoded");
         this.frames += 1;
         this.lastArrival = arrival;
         this.status = status;
@@ -115,6 +124,11 @@ export class Session {
   /** The page is looked at again, at `now`: the state that it has may be old, and the next one is on its way. */
   resume(now: number): void {
     this.lastArrival = Math.max(this.lastArrival, now);
+  }
+
+  /** The first state of the scene is about to come: a picture without it would only be in its way. */
+  awaitsState(now: number): boolean {
+    return this.live && !this.states.newest && (this.facts?.count ?? 0) > 0 && now - this.begun < soon;
   }
 
   /** The page hears from the server. */
