@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { control, launch, open, pause, settled, when } from "./support/browser.mjs";
+import { expectPositionsOfServer } from "./support/agreement.mjs";
 import { pictureOf, vividness } from "./support/picture.mjs";
 import { serverSays } from "./support/raw.mjs";
 import { serve, stopAll } from "./support/server.mjs";
@@ -29,14 +30,7 @@ async function shown(scene, options, body) {
 test("every sphere is where the server says", async () => {
   await shown("pour", {}, async (page) => {
     await pause(page);
-    const said = await serverSays(page);
-    await when(page, (step) => spherule.step === step, said.step);
-    const seen = await page.evaluate((count) => spherule.positions([...Array(count).keys()]), said.positions.length);
-    assert.equal(await page.evaluate(() => spherule.count), said.positions.length);
-    assert.deepEqual([seen.step, seen.quantum], [said.step, said.quantum]);
-    seen.positions.forEach((place, id) => {
-      place.forEach((value, axis) => assert.ok(Math.abs(value - said.positions[id][axis]) < said.quantum / 1000, `sphere ${id}`));
-    });
+    await expectPositionsOfServer(page);
   });
 });
 

@@ -11,10 +11,12 @@ import type { Viewer } from "./viewer";
 
 /**
  * `window.spherule`: what tests and curious people may rely on. Elements are found by their `data-testid`; the
- * simulation is told what to do through the page's controls or the server's own protocol, not from here.
+ * simulation is told what to do through the page's controls or the server's own protocol, not from here. How the first picture
+ * came about is in the browser's performance marks: `spherule:connecting`, `open`, `scene`, `arrived` (the first state, at the
+ * worker), `decoded` (it is here), `drawn` (its picture has been handed to the browser).
  */
 export interface Hook {
-  /** "connecting", "open" or "waiting" (for the next attempt). */
+  /** "connecting", "open", "silent" (open, but the server does not answer) or "waiting" (for the next attempt). */
   readonly connection: string;
   /** Size of the canvas in its own pixels, pictures drawn since the page was loaded. */
   readonly picture: { width: number; height: number; drawn: number; contextLost: boolean };
@@ -107,7 +109,7 @@ export class Reports {
 export function hookFor({ session, camera, stage, reports, page, seenAt }: Viewer): Hook {
   return {
     get connection() {
-      return session.link;
+      return session.silentSince === undefined ? session.link : "silent";
     },
     get picture() {
       const { width, height } = stage.canvas;

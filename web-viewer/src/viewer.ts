@@ -7,6 +7,7 @@ import { Link } from "./connection/link";
 import { Watch } from "./connection/watch";
 import { keep } from "./connection/wish";
 import { Reports } from "./hook";
+import { markFirst } from "./marks";
 import { paletteFor } from "./renderer/palette";
 import { Stage } from "./renderer/stage";
 import { highSpeed } from "./scene/positions";
@@ -118,9 +119,10 @@ export class Viewer {
     };
     const looks = [...paint.view.viewProjection, paint.mode, paint.range, paint.selected, paint.dim, choices.theme, choices.quality];
     const wanted = `${shown?.from.sequence} ${shown?.to.sequence} ${shown?.mix} ${looks.join(" ")}`;
-    if (wanted !== this.drawn && this.stage.draw(shown, paint, this.clock.sinceDrawn)) {
+    if (wanted !== this.drawn && !session.awaitsState(wall) && this.stage.draw(shown, paint, this.clock.sinceDrawn)) {
       this.drawn = wanted;
       this.clock.drew();
+      if (shown) markFirst("drawn");
     }
     this.tellDrawing(now);
     this.page.update(wall, shown, this.clock.picturesPerSecond, this.stage.contextLost);

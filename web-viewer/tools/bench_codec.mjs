@@ -1,11 +1,8 @@
 // node tools/bench_codec.mjs FOLDER: times the page's decoder, in one thread, on frame-0.spb, frame-1.spb, ... in FOLDER, as
 // `spherule_codec_bench --frames FOLDER` writes them.
-import * as esbuild from "esbuild";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readFileSync } from "node:fs";
 import path from "node:path";
-import { pathToFileURL } from "node:url";
-import { root } from "./options.mjs";
+import { loadDecoder } from "./decoder.mjs";
 
 const folder = process.argv[2];
 if (!folder) throw new Error("which folder?");
@@ -14,35 +11,21 @@ while (existsSync(path.join(folder, `frame-${frames.length}.spb`))) {
   frames.push(new Uint8Array(readFileSync(path.join(folder, `frame-${frames.length}.spb`))));
 }
 
-const out = mkdtempSync(path.join(tmpdir(), "spherule-codec-"));
-try {
-  const outfile = path.join(out, "decoder.mjs");
-  await esbuild.build({
-    entryPoints: [path.join(root, "src/codec/decoder.ts")],
-    outfile,
-    bundle: true,
-    format: "esm",
-    target: "es2022",
-    minify: true,
-  });
-  const { Decoder } = await import(pathToFileURL(outfile));
-  const spheres = new DataView(frames[0].buffer).getUint32(4, true);
-  const decoder = new Decoder(spheres);
-  const times = { keyframe: [], delta: [] };
-  for (let round = 0; round < 8; round++) {
-    for (const frame of frames) {
-      const plain = frame.slice();
-      plain[3] &= ~2; // the hash is not part of what is timed
-      const begin = performance.now();
-      const { keyframe } = decoder.apply(plain);
-      if (round > 0) times[keyframe ? "keyframe" : "delta"].push(performance.now() - begin);
-    }
+const { Decoder } = await loadDecoder();
+const spheres = new DataView(frames[0].buffer).getUint32(4, true);
+const decoder = new Decoder(spheres);
+const times = { keyframe: [], delta: [] };
+for (let round = 0; round < 8; round++) {
+  for (const frame of frames) {
+    const plain = frame.slice();
+    plain[3] &= ~2; // the hash is not part of what is timed
+    const begin = performance.now();
+    const { keyframe } = decoder.apply(plain);
+    if (round > 0) times[keyframe ? "keyframe" : "delta"].push(performance.now() - begin);
   }
-  for (const [kind, all] of Object.entries(times)) {
-    all.sort((a, b) => a - b);
-    const at = (share) => (all[Math.floor(share * (all.length - 1))] ?? 0).toFixed(1);
-    console.log(`${spheres} spheres, ${kind}: median ${at(0.5)} ms, fastest ${at(0)} ms, ${all.length} frames`);
-  }
-} finally {
-  rmSync(out, { recursive: true, force: true });
+}
+for (const [kind, all] of Object.entries(times)) {
+  all.sort((a, b) => a - b);
+  const at = (share) => (all[Math.floor(share * (all.length - 1))] ?? 0).toFixed(1);
+  console.log(`${spheres} spheres, ${kind}: median ${at(0.5)} ms, fastest ${at(0)} ms, ${all.length} frames`);
 }

@@ -23,6 +23,7 @@ struct Options {
     std::uint32_t spheres = 50'000;
     std::vector<double> ratios = {50, 500, 16};
     std::uint32_t speed = 1'000'000;
+    double speedRatio = 50;
     std::string trajectories;
     std::string keep;
     std::string frames;
@@ -35,6 +36,7 @@ void declare(CLI::App& app, Options& options) {
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--speed", options.speed, "spheres for the times; 0: no times")->capture_default_str();
+    app.add_option("--speed-ratio", options.speedRatio, "as --ratios, for the times")->capture_default_str();
     app.add_option("--trajectories", options.trajectories, "a file that --keep wrote, in place of the simulation");
     app.add_option("--keep", options.keep, "file for the trajectories");
     app.add_option("--frames", options.frames, "folder for the frames that were timed, for tools/bench_codec.mjs");
@@ -64,7 +66,8 @@ void measure(const Options& options, compute::Device& device) {
     fmt::print("device: {}\n", device.info().renderer);
     for (const bool shuffled : {true, false}) {
         if (options.speed == 0) break;
-        const bench::CodecSpeed speed = bench::codecSpeed(device, options.speed, shuffled, options.frames);
+        const bench::CodecSpeed speed =
+            bench::codecSpeed(device, options.speed, options.speedRatio, shuffled, options.frames);
         fmt::print(
             "{} spheres, ids {}, {:.2f} bytes each: encode {:.1f} ms (fastest {:.1f} ms, {:.1f} million/s), keyframe "
             "{:.1f} ms, "

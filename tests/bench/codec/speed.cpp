@@ -18,8 +18,8 @@ namespace spherule::bench {
 
 namespace {
 
-constexpr double quantum = 0.00064;  // m, as at r/50 of 16 mm
-constexpr float spacing = 0.04F;     // m
+constexpr double radius = 0.016;  // m, the smallest
+constexpr float spacing = 0.04F;  // m
 constexpr int rounds = 15;
 
 template <class T>
@@ -36,10 +36,10 @@ double milliseconds(compute::Device& device, Work&& work) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void write(const std::string& folder, int number, std::span<const std::byte> frame) {
+void write(const std::string& folder, const std::string& name, std::span<const std::byte> bytes) {
     if (folder.empty()) return;
-    std::ofstream file(fmt::format("{}/frame-{}.spb", folder, number), std::ios::binary);
-    file.write(reinterpret_cast<const char*>(frame.data()), static_cast<std::streamsize>(frame.size()));
+    std::ofstream file(folder + "/" + name, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!file) throw std::runtime_error("cannot write to " + folder);
 }
 
@@ -92,16 +92,19 @@ struct World {
 
 }  // namespace
 
-CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuffled, const std::string& keep) {
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, bool shuffled,
+                      const std::string& keep) {
     World world(spheres, shuffled);
     const auto tools = valueOf(sim::TierTools::create(device, spheres, true));
-    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
+    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = 2 * radius / ratio}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     const auto slotOf = valueOf(device.createBuffer("slotOf", spheres * sizeof(std::uint32_t)));
     device.upload(*slotOf, 0, std::as_bytes(std::span(world.slotOf)));
     std::vector<glm::vec4> byId(spheres);
     for (std::uint32_t id = 0; id < spheres; ++id) byId[id] = world.bySlot[world.slotOf[id]];
-    tools->setOrder(sim::mortonOrder(byId));
+    const std::vector<std::uint32_t> order = sim::mortonOrder(byId);
+    tools->setOrder(order);
+    write(keep, "order.u32", std::as_bytes(std::span(order)));
     const sim::TierSource source{.position = position.get(), .slotOf = slotOf.get()};
     const auto put = [&] { device.upload(*position, 0, std::as_bytes(std::span(world.bySlot))); };
 
@@ -110,7 +113,7 @@ CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuff
     frame::codec::Decoder decoder(spheres);
     const auto keyframeMade = tier->download();
     (void)valueOf(decoder.apply(keyframeMade));
-    write(keep, 0, keyframeMade);
+    write(keep, "frame-0.spb", keyframeMade);
     std::vector<double> encode, keyframe, hash, decode;
     CodecSpeed speed;
     for (int round = 0; round < rounds; ++round) {
@@ -119,7 +122,7 @@ CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuff
         const bool hashed = round % 3 == 2;
         (hashed ? hash : encode).push_back(milliseconds(device, [&] { tier->next(source, hashed); }));
         const auto frame = tier->download();
-        write(keep, round + 1, frame);
+        write(keep, fmt::format("frame-{}.spb", round + 1), frame);
         const double took = milliseconds(device, [&] { (void)valueOf(decoder.apply(frame)); });
         if (!hashed) decode.push_back(took);
         speed.bytes = static_cast<double>(frame.size()) / spheres;

@@ -18,8 +18,10 @@ struct CodecSpeed {
     double bytes = 0;     // per sphere
 };
 
-// Ids are those of a lattice, or `shuffled`, which costs the gather more than any mixing can. Writes the frames into
-// the folder `keep` unless that is empty; throws what goes wrong as std::runtime_error.
-CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, bool shuffled, const std::string& keep);
+// The error is the smallest radius over `ratio`. Ids are those of a lattice, or `shuffled`, which costs the gather more
+// than any mixing can. Writes the frames, and the ids in their order, into the folder `keep` unless that is empty;
+// throws what goes wrong as std::runtime_error.
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, bool shuffled,
+                      const std::string& keep);
 
 }  // namespace spherule::bench

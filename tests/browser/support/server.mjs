@@ -48,9 +48,25 @@ async function start(words, folder) {
     ctl(...words) {
       return spherule("ctl", url.replace("http:", "ws:") + "ws", ...words);
     },
+    /** Ends it as the kernel does that needs memory: it can do nothing more. */
+    async kill() {
+      running.delete(server);
+      child.kill("SIGKILL");
+      await ended;
+    },
+    /** It stands still, with all its connections open, until it is thawed. */
+    freeze: () => child.kill("SIGSTOP"),
+    thaw: () => child.kill("SIGCONT"),
+    /** The value of a metric, as `name` or `name{label="value"}`; undefined: there is none. */
+    async metric(name) {
+      const text = await (await fetch(`${url}metrics`)).text();
+      const line = text.split("\n").find((one) => one.startsWith(`${name} `));
+      return line && Number(line.slice(name.length));
+    },
     async stop() {
       running.delete(server);
       child.kill("SIGTERM");
+      child.kill("SIGCONT"); // a failed test may have left it frozen
       const code = await ended;
       if (code !== 0) throw new Error(`the server ended with ${code}:\n${said}`);
     },

@@ -2,6 +2,9 @@ import { modeBase, modeMask, modeRuns, none, previous, widths } from "./format";
 import { predict } from "./predict";
 import { bitCount, readChanged, readRun } from "./values";
 
+/** Bits of the values of a run, by its axis's width code and its selector. */
+const narrowed = Uint8Array.from({ length: 64 }, (_, k) => widths[Math.max(0, (k >> 2) - (k & 3))] as number);
+
 /** Reads blocks, one after another; nothing is allocated per block. */
 export class BlockReader {
   private readonly width = new Uint8Array(24); // bits, by axis and run
@@ -29,23 +32,26 @@ export class BlockReader {
     const header = unitAt(words, unit);
     const mode = header & 3;
     const predictor = (header >> 2) & 3;
-    const wrong = faultOf(mode, predictor, keyframe, velocities);
-    if (wrong) return this.fail(wrong);
     const extra = unit + 1;
     const runs = mode >= modeRuns;
     const first = extra + (runs ? 3 : 0) + (mode === modeBase ? (predictor === none ? 6 : 2) : 0);
     if (first > end) return this.fail("goes beyond its chunk");
+    const { width } = this;
+    let sum = 0; // of the widths
     for (let axis = 0; axis < 3; axis++) {
       const code = (header >> (4 + 4 * axis)) & 15;
       const selectors = runs ? unitAt(words, extra + axis) : 0;
       for (let run = 0; run < 8; run++) {
-        const narrow = code - ((selectors >> (2 * run)) & 3);
-        this.width[8 * axis + run] = narrow > 0 ? (widths[narrow] as number) : 0;
+        const wide = narrowed[4 * code + ((selectors >> (2 * run)) & 3)] as number;
+        width[8 * axis + run] = wide;
+        sum += wide;
       }
     }
     this.readBase(words, extra + 3, mode, predictor);
-    const bits = mode === modeMask ? this.readMasked(words, extra, end) : this.readRuns(words, 16 * first, end);
+    const bits = mode === modeMask ? this.readMasked(words, extra, end) : this.readRuns(words, 16 * first, 8 * sum, end);
     if (bits < 0) return this.fail("goes beyond its chunk");
+    const wrong = faultOf(mode, predictor, keyframe, velocities);
+    if (wrong) return this.fail(wrong);
     predict(predictor, this.values, this.base, newest, before, at);
     return (bits + 15) >>> 4;
   }
@@ -68,12 +74,10 @@ export class BlockReader {
     }
   }
 
-  /** Values of all spheres from `bit` on. Gives the bit behind them, or -1. */
-  private readRuns(words: Uint32Array, bit: number, end: number): number {
+  /** Values of all spheres, `bits` in all, from `bit` on. Gives the bit behind them, or -1. */
+  private readRuns(words: Uint32Array, bit: number, bits: number, end: number): number {
     const { width, values } = this;
-    let sum = 0;
-    for (let run = 0; run < 24; run++) sum += width[run] as number;
-    if (bit + 8 * sum > 16 * end) return -1;
+    if (bit + bits > 16 * end) return -1;
     for (let run = 0; run < 24; run++) {
       const wide = width[run] as number;
       readRun(words, bit, wide, values, 8 * run);

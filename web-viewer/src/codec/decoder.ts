@@ -39,7 +39,7 @@ export class Decoder {
     const history = this.history;
     this.history = 0;
     const length = this.take(frame);
-    const head = headOf(this.words, length);
+    const head = headOf(this.words, frame.byteLength);
     this.checkOrder(head, history);
     if (frame.byteLength % 4 !== 0) throw new Error("frame, end: is no whole word");
     this.decode(head, length, history);

@@ -8,9 +8,9 @@ export interface FrameHead {
   hash: number | undefined;
 }
 
-/** Of a frame's first words; throws an Error where they are no head. */
-export function headOf(words: Uint32Array, length: number): FrameHead {
-  if (length < headWords) throw new Error(`frame, head: has ${4 * length} bytes of 16`);
+/** Of the first words of a frame of so many bytes; throws an Error where they are no head. */
+export function headOf(words: Uint32Array, bytes: number): FrameHead {
+  if (bytes < 4 * headWords) throw new Error(`frame, head: has ${bytes} bytes of 16`);
   const [kind = 0, spheres = 0, number = 0, hash = 0] = words;
   if ((kind & ~(keyframeFlag | hashedFlag)) >>> 0 !== magic) throw new Error("frame, head: is not that of codec SPB, version 1");
   if (spheres === 0) throw new Error("frame, head: has no spheres");

@@ -12,7 +12,7 @@ export function field(words: Uint32Array, bit: number, width: number): number {
 /** Eight fields of `width` bits into values[to ..]. */
 export function readRun(words: Uint32Array, bit: number, width: number, values: Int32Array, to: number): void {
   if (width === 0) {
-    values.fill(0, to, to + 8);
+    for (let k = 0; k < 8; k++) values[to + k] = 0;
     return;
   }
   if (width <= 4) {
@@ -34,26 +34,32 @@ export function readRun(words: Uint32Array, bit: number, width: number, values: 
   if (width <= 8) {
     // Four in a look.
     const mask = (1 << width) - 1;
-    for (let k = 0; k < 8; k += 4, bit += 4 * width) {
-      const at = bit >>> 5;
-      const shift = bit & 31;
-      let all = ((words[at] as number) >>> shift) | (((words[at + 1] as number) << 1) << (31 - shift));
-      values[to + k] = all & mask;
-      values[to + k + 1] = (all >>>= width) & mask;
-      values[to + k + 2] = (all >>>= width) & mask;
-      values[to + k + 3] = (all >>> width) & mask;
-    }
+    let at = bit >>> 5;
+    let shift = bit & 31;
+    let all = ((words[at] as number) >>> shift) | (((words[at + 1] as number) << 1) << (31 - shift));
+    values[to] = all & mask;
+    values[to + 1] = (all >>>= width) & mask;
+    values[to + 2] = (all >>>= width) & mask;
+    values[to + 3] = (all >>> width) & mask;
+    bit += 4 * width;
+    at = bit >>> 5;
+    shift = bit & 31;
+    all = ((words[at] as number) >>> shift) | (((words[at + 1] as number) << 1) << (31 - shift));
+    values[to + 4] = all & mask;
+    values[to + 5] = (all >>>= width) & mask;
+    values[to + 6] = (all >>>= width) & mask;
+    values[to + 7] = (all >>> width) & mask;
     return;
   }
   if (width <= 16) {
     // Two in a look.
     const mask = (1 << width) - 1;
-    for (let k = 0; k < 8; k += 2, bit += 2 * width) {
+    for (let k = to; k < to + 8; k += 2, bit += 2 * width) {
       const at = bit >>> 5;
       const shift = bit & 31;
       const both = ((words[at] as number) >>> shift) | (((words[at + 1] as number) << 1) << (31 - shift));
-      values[to + k] = both & mask;
-      values[to + k + 1] = (both >>> width) & mask;
+      values[k] = both & mask;
+      values[k + 1] = (both >>> width) & mask;
     }
     return;
   }

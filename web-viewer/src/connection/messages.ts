@@ -44,7 +44,8 @@ export interface View {
 }
 
 export type FromWorker =
-  | { kind: "link"; state: LinkState; retryIn?: number; reason?: string } // retryIn: ms
+  | { kind: "link"; state: LinkState; at: number; retryIn?: number; reason?: string } // at: when, as sharedNow() says; retryIn: ms
+  | { kind: "silent"; since: number | undefined } // when the server was last heard, as sharedNow() says; undefined: just now
   | { kind: "welcome"; welcome: Welcome }
   | { kind: "scene"; facts: SceneFacts }
   | { kind: "settings"; settings: Settings }

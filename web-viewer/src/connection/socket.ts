@@ -1,10 +1,15 @@
 import { Backoff } from "./backoff";
 import type { LinkState } from "./messages";
+import { Silence } from "./silence";
 
 export interface SocketEvents {
   opened(): void;
   received(data: ArrayBuffer): void;
   state(state: LinkState, retryIn?: number, reason?: string): void;
+  /** Nothing has come for a while: the server is to be asked for a word. */
+  ask(): void;
+  /** So long (ms), though it was asked; undefined: something has come again. */
+  silent(since: number | undefined): void;
 }
 
 const subprotocol = "spherule.v1";
@@ -15,11 +20,17 @@ export class Socket {
   private socket: WebSocket | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private readonly backoff = new Backoff();
+  private readonly silence: Silence;
 
   constructor(
     private readonly url: string,
     private readonly events: SocketEvents,
   ) {
+    this.silence = new Silence({
+      ask: () => events.ask(),
+      silent: (since) => events.silent(since),
+      giveUp: () => this.leave("nothing came any more"),
+    });
     this.connect();
   }
 
@@ -30,9 +41,10 @@ export class Socket {
     return true;
   }
 
-  /** Tries now instead of at the end of the wait. */
+  /** Tries now instead of at the end of the wait, or of the server's silence. */
   retry(): void {
-    if (this.socket) return;
+    if (this.socket && !this.silence.lasts) return;
+    if (this.socket) this.leave("");
     clearTimeout(this.timer);
     this.backoff.reset();
     this.connect();
@@ -43,22 +55,39 @@ export class Socket {
     const socket = new WebSocket(this.url, subprotocol);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
-    const silence = setTimeout(() => socket.close(), patience);
+    this.timer = setTimeout(() => this.leave("no answer"), patience);
     socket.onopen = () => {
-      this.events.opened();
+      if (this.socket === socket) this.events.opened();
     };
     socket.onmessage = (message: MessageEvent<unknown>) => {
-      clearTimeout(silence);
-      this.backoff.reset();
+      if (this.socket !== socket) return;
+      if (this.timer !== undefined) this.begun();
+      this.silence.heard();
       if (message.data instanceof ArrayBuffer) this.events.received(message.data);
     };
     socket.onclose = (closed) => {
-      clearTimeout(silence);
       if (this.socket !== socket) return;
-      this.socket = undefined;
-      const wait = this.backoff.next();
-      this.events.state("waiting", wait, closed.reason || (closed.wasClean ? "closed by the server" : "no answer"));
-      this.timer = setTimeout(() => this.connect(), wait);
+      this.leave(closed.reason || (closed.wasClean ? "closed by the server" : "no answer"));
     };
+  }
+
+  /** The server has said its first word. */
+  private begun(): void {
+    clearTimeout(this.timer);
+    this.timer = undefined;
+    this.backoff.reset();
+    this.silence.begin();
+  }
+
+  /** Turns away from this connection, which may never close by itself, and tries another before long. */
+  private leave(reason: string): void {
+    const socket = this.socket;
+    this.socket = undefined;
+    socket?.close();
+    this.silence.end();
+    clearTimeout(this.timer);
+    const wait = this.backoff.next();
+    this.events.state("waiting", wait, reason);
+    this.timer = setTimeout(() => this.connect(), wait);
   }
 }

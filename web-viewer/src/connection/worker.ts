@@ -48,15 +48,23 @@ function received(data: ArrayBuffer): void {
 
 let view: View | undefined;
 
+function sendView(): void {
+  send({ case: "view", value: create(ViewSchema, view) });
+}
+
 function connect(url: string): void {
   socket = new Socket(url, {
     opened: () => {
+      const at = sharedNow();
       stream.reset();
       send({ case: "hello", value: create(HelloSchema, { client: "spherule viewer", view }) });
-      page.postMessage({ kind: "link", state: "open" });
+      page.postMessage({ kind: "link", state: "open", at });
     },
     received,
-    state: (state, retryIn, reason) => page.postMessage({ kind: "link", state, retryIn, reason }),
+    state: (state, retryIn, reason) => page.postMessage({ kind: "link", state, at: sharedNow(), retryIn, reason }),
+    // A view that has been said before changes nothing, and is answered with what is sent.
+    ask: () => sendView(),
+    silent: (since) => page.postMessage({ kind: "silent", since: since === undefined ? since : sharedNow() - since }),
   });
 }
 
@@ -71,7 +79,7 @@ page.onmessage = ({ data }) => {
       break;
     case "view":
       view = data.view;
-      send({ case: "view", value: create(ViewSchema, view) });
+      sendView();
       break;
     case "drawing":
       stream.drawRate = data.rate;

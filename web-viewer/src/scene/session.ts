@@ -2,12 +2,15 @@ import type { Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, W
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
+import { markFirst } from "../marks";
 import { factsOf } from "./facts";
 import type { Facts } from "./facts";
 import { Lateness } from "./lateness";
 import { States } from "./states";
 import type { Pace } from "./timeline";
 import { Traffic } from "./traffic";
+
+const soon = 1000; // ms after its facts that the first state of a scene should have come
 
 export interface SessionEvents {
   welcomed(welcome: Welcome): void;
@@ -25,6 +28,7 @@ export class Session {
   link: LinkState = "connecting";
   linkReason = "";
   retryAt = 0; // ms, as sharedNow() says
+  silentSince: number | undefined; // ms: the connection is open, but the server does not answer
   welcome: Welcome | undefined;
   facts: Facts | undefined;
   settings: Settings | undefined;
@@ -35,6 +39,7 @@ export class Session {
   timeline: Timeline | undefined; // what there is to play; undefined: the server simulates
   recording: Recording | undefined; // what the server has recorded; undefined: it cannot record
   lastArrival = 0; // ms, of a frame of this epoch
+  private begun = 0; // ms: when its facts came
   frames = 0; // taken since the page was loaded
   lost = 0; // that could not be decoded since then
   readonly traffic = new Traffic();
@@ -52,12 +57,17 @@ export class Session {
   take(message: FromWorker): void {
     switch (message.kind) {
       case "link":
+        markFirst(message.state, message.at);
         this.link = message.state;
         this.linkReason = message.reason ?? "";
         this.retryAt = sharedNow() + (message.retryIn ?? 0);
+        this.silentSince = undefined;
         if (message.state !== "open") this.stream = undefined;
         this.lateness.reset();
         this.fresh ||= message.state === "open";
+        break;
+      case "silent":
+        this.silentSince = message.since;
         break;
       case "welcome":
         this.welcome = message.welcome;
@@ -66,10 +76,12 @@ export class Session {
         this.events.welcomed(message.welcome);
         break;
       case "scene": {
+        markFirst("scene");
         const before = this.facts;
         this.facts = factsOf(message.facts);
         if (this.fresh) this.states.begin(-1); // another server may use the same numbers for other epochs
         this.fresh = false;
+        if (this.states.epoch !== this.facts.epoch) this.begun = sharedNow();
         this.states.begin(this.facts.epoch);
         this.events.sceneChanged(this.facts, before);
         break;
@@ -83,6 +95,8 @@ export class Session {
         this.traffic.add(message.frame);
         this.lateness.add(arrival, ready);
         if (!this.states.push(message.frame, this.pace)) break;
+        markFirst("arrived", arrival);
+        markFirst("decoded");
         this.frames += 1;
         this.lastArrival = arrival;
         this.status = status;
@@ -127,6 +141,16 @@ export class Session {
     this.lastArrival = Math.max(this.lastArrival, now);
   }
 
+  /** The first state of the scene is about to come: a picture without it would only be in its way. */
+  awaitsState(now: number): boolean {
+    return this.live && !this.states.newest && (this.facts?.count ?? 0) > 0 && now - this.begun < soon;
+  }
+
+  /** The page hears from the server. */
+  get live(): boolean {
+    return this.link === "open" && this.silentSince === undefined;
+  }
+
   get paused(): boolean {
     const said = this.settings?.paused;
     return (this.timeline ? said : (this.status?.paused ?? said)) ?? false; // recorded frames have no status
@@ -148,7 +172,7 @@ export class Session {
   staleness(now: number): number {
     if (!this.facts) return 0;
     const silent = now - this.lastArrival;
-    const grace = this.link === "open" ? (this.paused ? Infinity : 5000) : 400;
+    const grace = this.live ? (this.paused ? Infinity : 5000) : 400;
     return Math.min(1, Math.max(0, (silent - grace) / 600));
   }
 }

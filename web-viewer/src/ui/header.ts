@@ -21,9 +21,9 @@ export class Header {
 
   update(now: number, contextLost: boolean): void {
     const { session } = this;
-    const state = contextLost ? "lost" : session.link;
+    const state = contextLost ? "lost" : session.silentSince !== undefined ? "silent" : session.link;
     this.link.dataset.state = state;
-    this.link.title = state === "waiting" ? `${session.linkReason}; click to try now` : "";
+    this.link.title = titleFor(state, session.linkReason);
     setText(this.words, this.wordsFor(state, now));
     if (!session.facts) return;
     setText(this.scene, session.facts.name);
@@ -38,8 +38,15 @@ export class Header {
         return this.session.facts ? "connected" : "waiting for the scene";
       case "connecting":
         return "connecting";
+      case "silent":
+        return `no answer for ${Math.round((now - (this.session.silentSince ?? now)) / 1000)} s`;
       default:
         return `offline, trying again in ${Math.max(0, Math.ceil((this.session.retryAt - now) / 1000))} s`;
     }
   }
+}
+
+function titleFor(state: string, reason: string): string {
+  if (state === "waiting") return `${reason}; click to try now`;
+  return state === "silent" ? "The picture is not live: nothing comes from the server; click to connect anew" : "";
 }

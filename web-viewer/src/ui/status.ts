@@ -28,7 +28,6 @@ export class StatusLine {
   update(now: number, fps: number): void {
     const { session } = this;
     const { facts, status, welcome, states } = session;
-    const live = session.link === "open";
     this.set("spheres", facts ? count(facts.count) : "–");
     this.set("time", states.newest ? seconds(states.newest.simTime) : "–");
     const plays = session.timeline !== undefined; // then nothing is computed
@@ -39,7 +38,7 @@ export class StatusLine {
     this.set("asleep", status && facts?.count ? `${Math.round((100 * status.sleeping) / facts.count)} %` : "–", plays);
     this.set("outside", status ? count(status.outside) : "0", !status?.outside);
     const rates = session.traffic.rates(now);
-    this.set("stream", live ? `${rates.frames.toFixed(0)}/s  ${bytesPerSecond(rates.bytes)}` : "–");
+    this.set("stream", session.live ? `${rates.frames.toFixed(0)}/s  ${bytesPerSecond(rates.bytes)}` : "–");
     const reason = reductionWords(session.stream);
     this.fields.get("stream")?.parentElement?.setAttribute("title", `States per second and their bytes. ${reason}`.trim());
     this.set("fps", fps > 0 ? fps.toFixed(0) : "idle");

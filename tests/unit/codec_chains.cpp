@@ -1,0 +1,185 @@
+// codec_chains SEED FILE: chains of random frames, sound and garbled, with what the decoder made of each, for other
+// decoders to be compared with. All numbers are 32 bits, little endian:
+//
+//     chain: spheres, frames; then for each frame: its bytes' count, those bytes; 1 where it was taken, else 0; the
+//     count of bytes of the reason why not, those bytes; newest positions; where the decoder has two states, 1 and
+//     those before, else 0
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "codec_support.h"
+#include "frame/codec.h"
+
+namespace spherule::codec {
+namespace {
+
+using Random = std::mt19937_64;
+
+std::uint32_t draw(Random& random, std::uint64_t below) {
+    return static_cast<std::uint32_t>(random() % below);
+}
+
+void put(std::ostream& out, std::span<const std::byte> bytes) {
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+void put(std::ostream& out, std::size_t number) {
+    const auto word = static_cast<std::uint32_t>(number);
+    put(out, std::as_bytes(std::span(&word, 1)));
+}
+
+// Mostly small; at the edges of blocks, groups and chunks; now and then of several chunks.
+std::uint32_t drawSpheres(Random& random) {
+    constexpr std::array<std::uint32_t, 10> edges{1, 2, 63, 64, 65, 2047, 2048, 2049, 16384, 16385};
+    const std::uint32_t kind = draw(random, 8);
+    if (kind == 0) return edges[draw(random, edges.size())];
+    if (kind == 1) return 1 + draw(random, 40'000);
+    return 1 + draw(random, 1U << (4 + draw(random, 9)));
+}
+
+// Positions that are anything, also no numbers.
+Positions wild(Random& random, std::uint32_t spheres) {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    constexpr std::array<float, 7> odd{inf, -inf, std::numeric_limits<float>::quiet_NaN(), 3e38F, -3e38F, 1e9F, -1e9F};
+    const auto reach = static_cast<float>(std::uint64_t{1} << draw(random, 40));
+    std::uniform_real_distribution<float> place(-reach, reach);
+    Positions positions(spheres);
+    for (glm::vec4& p : positions)
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = draw(random, 200) == 0 ? odd[draw(random, odd.size())] : place(random);
+    return positions;
+}
+
+Bytes garbled(Random& random, Bytes frame, const Bytes& other) {
+    const auto at = [&] { return static_cast<std::ptrdiff_t>(draw(random, frame.size())); };
+    switch (draw(random, 7)) {
+        case 0:
+            frame.resize(draw(random, frame.size()));
+            break;
+        case 1: {  // some bytes more
+            const std::size_t room = 1 + draw(random, 12);
+            for (std::size_t k = 0; k < room; ++k) frame.push_back(static_cast<std::byte>(random()));
+            break;
+        }
+        case 2: {  // its beginning, the end of another
+            if (other.empty()) break;
+            frame.resize(static_cast<std::size_t>(at()) & ~std::size_t{3});
+            const auto from = static_cast<std::ptrdiff_t>(std::min(frame.size(), other.size()));
+            frame.insert(frame.end(), other.begin() + from, other.end());
+            break;
+        }
+        case 3:  // its head
+            for (unsigned k = 1 + draw(random, 3); k > 0; --k)
+                frame[draw(random, 24) % frame.size()] = static_cast<std::byte>(random());
+            break;
+        case 4:  // nothing but bytes
+            std::ranges::generate(frame, [&] { return static_cast<std::byte>(random()); });
+            break;
+        default:  // some bits behind the head
+            for (unsigned k = 1 + draw(random, 6); k > 0; --k) {
+                const std::size_t byte = std::min<std::size_t>(16 + static_cast<std::size_t>(at()), frame.size() - 1);
+                frame[byte] ^= std::byte(1U << draw(random, 8));
+            }
+    }
+    return frame;
+}
+
+class Chain {
+  public:
+    Chain(Random& random, std::ostream& out) : random_(random), out_(out), spheres_(drawSpheres(random)) {}
+
+    void write() {
+        const std::uint32_t frames = spheres_ > 10'000 ? 12 : 60;
+        put(out_, spheres_);
+        put(out_, frames);
+        for (std::uint32_t k = 0; k < frames; ++k) give(k == 0 ? begin() : frame());
+    }
+
+  private:
+    Positions positions() {
+        if (draw(random_, 10) == 0) return wild(random_, spheres_);
+        return positionsAt(motion_.next());
+    }
+    bool hashed() { return draw(random_, 4) == 0; }
+    Bytes begin() {
+        encoder_.tier().begin(encoder_.put(positions()), hashed());
+        return last_ = encoder_.tier().download();
+    }
+    Bytes next() {
+        encoder_.tier().next(encoder_.put(positions()), hashed());
+        return last_ = encoder_.tier().download();
+    }
+    Bytes join() {
+        encoder_.tier().join(hashed());
+        return last_ = encoder_.tier().download();
+    }
+    // Where the chain is lost, a keyframe soon.
+    Bytes frame() {
+        const std::uint32_t kind = draw(random_, 32);
+        if (decoder_.wantsKeyframe() ? kind < 16 : kind < 2) return join();
+        if (kind == 17) return begin();
+        if (kind == 18) (void)next();  // is missed
+        if (kind < 26) return next();
+        const Bytes other = last_;
+        return garbled(random_, kind >= 29 ? join() : next(), other);
+    }
+
+    void give(const Bytes& bytes) {
+        put(out_, bytes.size());
+        put(out_, std::span(bytes));
+        const auto head = decoder_.apply(bytes);
+        put(out_, head ? 1 : 0);
+        const std::string reason = head ? "" : head.error().text();
+        put(out_, reason.size());
+        put(out_, std::as_bytes(std::span(reason)));
+        put(out_, std::as_bytes(decoder_.newest()));
+        const bool two = head && !head->keyframe;
+        put(out_, two ? 1 : 0);
+        if (two) put(out_, std::as_bytes(decoder_.before()));
+    }
+
+    Random& random_;
+    std::ostream& out_;
+    std::uint32_t spheres_;
+    Encoder encoder_{"cpu:1", spheres_};
+    Motion motion_{spheres_, random_()};
+    frame::codec::Decoder decoder_{spheres_};
+    Bytes last_;
+};
+
+void write(std::uint64_t seed, const std::string& path) {
+    constexpr int chains = 40;
+    std::ofstream out(path, std::ios::binary);
+    Random random(seed);
+    for (int k = 0; k < chains; ++k) Chain(random, out).write();
+    out.close();
+    if (!out) throw std::runtime_error("cannot write to " + path);
+}
+
+}  // namespace
+}  // namespace spherule::codec
+
+int main(int argc, char** argv) {
+    if (argc != 3) {
+        std::fputs("codec_chains SEED FILE\n", stderr);
+        return 2;
+    }
+    try {
+        spherule::codec::write(std::stoull(argv[1]), argv[2]);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,145 @@
+// What viewers are promised of a position, over all scenes that come with the program and all tiers: decoded, it is
+// within half a quantum of the simulation's, and what float32 rounds on the way. The encoder computes floor(fl(fl(x
+// fl(1 / quantum)) + 0.5)) in float32 from x relative to the bounds' centre: three roundings of at most 2^-24 each, of
+// up to |x| + quantum / 2 in all. So it is off by at most
+//
+//     quantum / 2 + 3 * 2^-24 * (|x| + quantum / 2)
+//
+// per axis. The decoder's side is in double, whose roundings are 2^29 times smaller; they, and the products of two
+// roundings, are covered by the part of quantum that the last product does not need.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "compute/device.h"
+#include "frame/channel.h"
+#include "frame/codec.h"
+#include "scene/catalog.h"
+#include "scene/json.h"
+#include "scene/load.h"
+#include "sim/morton.h"
+#include "sim/simulation.h"
+#include "sim/tier.h"
+
+namespace spherule::codec {
+namespace {
+
+constexpr std::array tiers{v1::FINE, v1::NORMAL, v1::ECO};
+
+template <class T>
+T valueOf(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().text());
+    return std::move(*result);
+}
+
+double bound(double x, double quantum) {
+    return quantum / 2 + 3 * std::ldexp(std::abs(x) + quantum / 2, -24);
+}
+
+// A scene of a lattice of more spheres than this gets its first so many: `stress-1m` stays as wide as it is, which is
+// what the rounding hangs on, but is only some layers high.
+constexpr std::uint32_t mostSpheres = 100'000;
+
+scene::Scene sceneOf(const std::string& name) {
+    const auto text = scene::embeddedScene(name, "cpu");
+    if (!text) throw std::runtime_error("no scene " + name);
+    v1::Scene message = valueOf(scene::parseJson(std::string(*text), name));
+    for (v1::Group& group : *message.mutable_groups())
+        if (group.has_lattice() && group.lattice().count() > mostSpheres)
+            group.mutable_lattice()->set_count(mostSpheres);
+    return valueOf(scene::build(message));
+}
+
+// One chain and who decodes it: from its beginning, and from a keyframe in the middle.
+struct Chain {
+    Chain(sim::TierTools& tools, double step)
+        : quantum(step), tier(valueOf(sim::Tier::create(tools, {.quantum = step}))) {}
+
+    double quantum;  // m
+    std::unique_ptr<sim::Tier> tier;
+    std::unique_ptr<frame::codec::Decoder> first, joined;
+    double worst = 0;  // error, in quanta
+};
+
+class CodecError : public testing::TestWithParam<std::string> {
+  protected:
+    CodecError()
+        : device_(valueOf(compute::openDevice("cpu"))),
+          simulation_(valueOf(sim::Simulation::create(*device_, sceneOf(GetParam())))),
+          tools_(valueOf(sim::TierTools::create(*device_, simulation_->count(), source().slotOf != nullptr))) {
+        order_ = sim::mortonOrder(simulation_->snapshot().position);
+        tools_->setOrder(order_);
+        for (const v1::Tier tier : tiers)
+            chains_.emplace_back(*tools_, frame::quantumOf(tier, simulation_->radii().smallest));
+    }
+
+    sim::TierSource source() { return simulation_->tierSource(); }
+
+    void step(int steps) {
+        for (int k = 0; k < steps; ++k)
+            if (const auto done = simulation_->step(); !done) throw std::runtime_error(done.error().text());
+    }
+
+    void take(Chain& chain, std::unique_ptr<frame::codec::Decoder>& decoder, const sim::State& state) {
+        if (!decoder) decoder = std::make_unique<frame::codec::Decoder>(simulation_->count());
+        const auto head = decoder->apply(chain.tier->download());
+        ASSERT_TRUE(head) << head.error().text();
+        const auto cells = decoder->newest();
+        std::size_t beyond = 0;
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto x = static_cast<double>(state.position[order_[k]][axis]);
+                const double error = std::abs(chain.quantum * cells[k][axis] - x);
+                if (!(error <= bound(x, chain.quantum))) ++beyond;
+                chain.worst = std::max(chain.worst, error / chain.quantum);
+            }
+        }
+        EXPECT_EQ(beyond, 0U) << "worst " << chain.worst << " quanta of " << chain.quantum << " m, frame "
+                              << head->number;
+    }
+
+    std::unique_ptr<compute::Device> device_;
+    std::unique_ptr<sim::Simulation> simulation_;
+    std::unique_ptr<sim::TierTools> tools_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Chain> chains_;
+};
+
+// Few steps of many spheres, many of few: 30 between frames takes the small scenes through their impacts.
+TEST_P(CodecError, StaysWithinWhatIsStated) {
+    constexpr int frames = 6;
+    const std::uint32_t spheres = simulation_->count();
+    const int between = std::clamp(static_cast<int>(20'000 / spheres), 1, 30);
+    step(2 * between);
+    for (int frame = 0; frame <= frames; ++frame) {
+        if (frame > 0) step(between);
+        const sim::State state = simulation_->snapshot();
+        for (Chain& chain : chains_) {
+            frame == 0 ? chain.tier->begin(source(), true) : chain.tier->next(source(), true);
+            take(chain, chain.first, state);
+            if (frame > frames / 2) take(chain, chain.joined, state);
+            if (frame != frames / 2) continue;
+            chain.tier->join(true);
+            take(chain, chain.joined, state);
+        }
+    }
+    // Of so many spheres some are nearly half way between two places of the grid, or the comparison would mean nothing.
+    if (spheres < 1000) return;
+    for (const Chain& chain : chains_) EXPECT_GT(chain.worst, 0.499);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, CodecError, testing::ValuesIn(scene::names()), [](const auto& named) {
+    std::string name = named.param;
+    std::ranges::replace(name, '-', '_');
+    return name;
+});
+
+}  // namespace
+}  // namespace spherule::codec
