@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything that must pass: installs what is missing, builds, checks the formatting and runs the tests.
 #
-#   ./tests/run.sh                  all tests but the benchmarks
+#   ./tests/run.sh                  all tests
 #   ./tests/run.sh --label unit     only those with this label; may be given several times
 #   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
 #   ./tests/run.sh --sanitize       what runs without OpenGL under ASan and UBSan, and under TSan, in place of the tests
@@ -66,7 +66,7 @@ check_format() {
 }
 
 run_tests() {
-    local chosen=(-LE '^bench$')
+    local chosen=()
     [[ ${#labels[@]} -eq 0 ]] || chosen=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
     ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error "${chosen[@]}"
 }
@@ -79,9 +79,9 @@ run_tidy() {
 # Mesa's renderer brings findings of its own: these tests compute on the CPU device.
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
-        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test codec_test store_test kernels_test pool_test physics_tests net_tests &&
+        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test codec_test store_test playing_test kernels_test pool_test physics_tests net_tests &&
         ctest --test-dir "build/$1" -j "$jobs" --output-on-failure --no-tests=error \
-            -R '^(scene_test|frame_test|codec_test|store_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
+            -R '^(scene_test|frame_test|codec_test|store_test|playing_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
 }
 
 # Finds go to build/fuzz/finds-TARGET.

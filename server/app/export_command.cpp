@@ -1,8 +1,6 @@
-#include <unistd.h>
-
-#include <chrono>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 #include "app/duration.h"
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "core/log.h"
 #include "store/exporter.h"
 #include "store/recording.h"
@@ -34,32 +33,6 @@ struct Range {
 };
 
 constexpr double sameTime = 1e-6;  // s; times are sums of steps
-
-using Clock = std::chrono::steady_clock;
-using namespace std::chrono_literals;
-
-// A line on the terminal that is rewritten a few times a second; silent elsewhere.
-class Progress {
-  public:
-    Progress() : shown_(isatty(STDERR_FILENO) != 0) {}
-    ~Progress() {
-        if (printed_) std::fputc('\n', stderr);
-    }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
-    void at(std::uint64_t frames, double time, double end) {
-        if (!shown_ || Clock::now() - last_ < 200ms) return;
-        last_ = Clock::now();
-        printed_ = true;
-        fmt::print(stderr, "\r{} frames, at {:.2f} s of {:.2f} s ", frames, time, end);
-    }
-
-  private:
-    bool shown_;
-    bool printed_ = false;
-    Clock::time_point last_ = Clock::now();
-};
 
 Result<Range> rangeOf(const ExportOptions& options) {
     Range range;
@@ -86,7 +59,11 @@ store::MadeExporter exporterFor(const ExportOptions& options) {
 
 // To the first frame that is not before `from`; false where there is none.
 Result<bool> enter(store::Recording& recording, double from) {
-    if (auto done = recording.seek(from); !done) return tl::unexpected(done.error());
+    if (auto done = recording.seek(from); !done) {
+        // Behind what is damaged the next keyframe is the first that there is.
+        spdlog::warn("{}", done.error().text());
+        if (!recording.recover(from)) return tl::unexpected(done.error());
+    }
     while (recording.time() < from - sameTime) {
         auto more = recording.next();
         if (!more || !*more) return more;
@@ -94,10 +71,15 @@ Result<bool> enter(store::Recording& recording, double from) {
     return true;
 }
 
-// Frames written. With `every`, the first frame at or after each multiple of it, counted from the first one.
-Result<std::uint64_t> write(store::Recording& recording, const Range& range, store::Exporter& exporter) {
+struct Written {
     std::uint64_t frames = 0;
-    Progress progress;
+    double error = 0;  // m, of positions on each axis, at most
+};
+
+// With `every`, the first frame at or after each multiple of it, counted from the first one.
+Result<Written> write(store::Recording& recording, const Range& range, store::Exporter& exporter) {
+    Written written;
+    ProgressLine progress;
     auto more = enter(recording, std::max(range.from, recording.begin()));
     const double first = recording.time();
     double due = 0;
@@ -109,18 +91,24 @@ Result<std::uint64_t> write(store::Recording& recording, const Range& range, sto
             if (at < due) continue;
             due = std::floor(at) + 1;
         }
-        if (auto done = exporter.add(recording.now()); !done) return tl::unexpected(done.error());
-        progress.at(++frames, time, std::min(range.to, recording.end()));
+        const store::Moment moment = recording.now();
+        if (auto done = exporter.add(moment); !done) return tl::unexpected(done.error());
+        ++written.frames;
+        written.error = std::max(written.error, moment.error);
+        progress.show([&] {
+            return fmt::format("{} frames, at {:.2f} s of {:.2f} s ", written.frames, time,
+                               std::min(range.to, recording.end()));
+        });
     }
     if (!more) {
         // What came before is sound, and finished; the damage decides the exit code.
         if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
         return fail(ErrorKind::Input, "",
                     fmt::format("{}; {} frames before it were exported; --from goes on behind it", more.error().text(),
-                                frames));
+                                written.frames));
     }
     if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
-    return frames;
+    return written;
 }
 
 Result<void> exportRecording(const ExportOptions& options) {
@@ -134,12 +122,15 @@ Result<void> exportRecording(const ExportOptions& options) {
         return fail(ErrorKind::Input, options.file,
                     fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),
                                 recording->end()));
+    std::error_code missing;  // of what is not there yet
+    if (std::filesystem::equivalent(options.file, options.out, missing))
+        return fail(ErrorKind::Input, options.out, "is the recording itself; choose another name");
     auto exporter = exporterFor(options);
     if (!exporter) return tl::unexpected(exporter.error());
-    const auto frames = write(*recording, *range, **exporter);
-    if (!frames) return tl::unexpected(frames.error());
-    spdlog::info("exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis", *frames,
-                 (*exporter)->path(), recording->now().error);
+    const auto written = write(*recording, *range, **exporter);
+    if (!written) return tl::unexpected(written.error());
+    spdlog::info("exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis",
+                 written->frames, (*exporter)->path(), written->error);
     return {};
 }
 

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -43,6 +44,9 @@ int runCommand(int argc, char** argv) {
 }  // namespace spherule::app
 
 int main(int argc, char** argv) {
+    // A file that may not grow any more, or a pipe that nobody reads, is an error of the write, not the end.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     try {
         return spherule::app::runCommand(argc, argv);
     } catch (const std::exception& error) {

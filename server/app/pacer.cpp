@@ -16,6 +16,7 @@ constexpr std::size_t mostRecent = 4096;
 
 constexpr double slowest = 0.001;
 constexpr double fastest = 1000;
+constexpr std::uint32_t mostSteps = 100'000;
 
 }  // namespace
 
@@ -23,6 +24,11 @@ Result<void> checkSpeed(double speed) {
     if (speed >= slowest && speed <= fastest) return {};
     return fail(ErrorKind::Refused, "set.speed",
                 fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
+}
+
+Result<void> checkStepCount(std::uint32_t count) {
+    if (count >= 1 && count <= mostSteps) return {};
+    return fail(ErrorKind::Refused, "step.count", fmt::format("is {}, must be within 1 and {}", count, mostSteps));
 }
 
 void Pacer::setSpeed(double speed) {

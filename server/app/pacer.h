@@ -1,14 +1,16 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 
 #include "core/result.h"
 
 namespace spherule::app {
 
-// Refuses what cannot be set as a speed.
+// Refuse what cannot be set as a speed, or be stepped at once.
 Result<void> checkSpeed(double speed);
+Result<void> checkStepCount(std::uint32_t count);
 
 // Decides when the next step is due, and measures how fast the simulation really goes. When the machine cannot keep up,
 // simulated time slows down: no more than a few late steps are made up for. One thread.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/facts.h"
+#include "app/utf8.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -32,6 +33,8 @@ Result<void> PlayLoop::run(const std::stop_token& stop) {
     *timeline.mutable_timeline() = player_.timeline();
     outlets_.keep(frame::share(std::move(timeline)));
     while (!stop.stop_requested()) {
+        // All that was asked for, before anything is decoded: of several seeks only the last counts.
+        while (auto request = requests_.tryPop()) serve(*request);
         const auto now = Chains::Clock::now();
         if (auto done = advance(now); !done) return done;
         sendSettings();
@@ -77,7 +80,7 @@ Result<void> PlayLoop::show() {
     state_.position.resize(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k)
         state_.position[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
-    if (epoch_ == 0 || recorded_ != recording.facts().epoch()) {
+    if (epoch_ == 0 || factsAt_ != recording.factsAt()) {
         const std::size_t bytes = state_.position.size() * sizeof(glm::vec4);
         auto made = device_->createBuffer("positions", bytes, "r");
         if (!made) return tl::unexpected(made.error());
@@ -85,6 +88,8 @@ Result<void> PlayLoop::show() {
         describe();
     }
     device_->upload(*positions_, 0, std::as_bytes(std::span(state_.position)));
+    time_ = recording.time();
+    step_ = recording.step();
     ++version_;
     return {};
 }
@@ -93,7 +98,7 @@ void PlayLoop::describe() {
     v1::ServerMessage message;
     v1::SceneFacts& facts = *message.mutable_scene();
     facts = player_.recording().facts();
-    recorded_ = facts.epoch();
+    factsAt_ = player_.recording().factsAt();
     facts.set_epoch(++epoch_);
     const auto radii = player_.recording().radii();
     smallest_ = radii.empty() ? 0 : static_cast<double>(*std::ranges::min_element(radii));
@@ -119,7 +124,7 @@ void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
     v1::ServerMessage message;
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(player_.recording().step());
-    message.mutable_event()->set_text(text);
+    message.mutable_event()->set_text(utf8(text));
     outlets_.everybody(frame::share(std::move(message)));
 }
 
@@ -134,8 +139,8 @@ void PlayLoop::produce(Chains::Clock::time_point now) {
                    .head =
                        [this, now] {
                            v1::Frame head;
-                           head.set_step(player_.recording().step());
-                           head.set_sim_time(player_.recording().time());
+                           head.set_step(step_);
+                           head.set_sim_time(time_);
                            *head.mutable_status() = status(now);
                            return head;
                        }},
@@ -161,8 +166,8 @@ void PlayLoop::report(Chains::Clock::time_point now) {
     nextReport_ = now + reportEvery;
     live_.update([&](LiveReport& report) {
         if (report.state != "draining") report.state = player_.paused() ? "paused" : "running";
-        report.steps = player_.recording().step();
-        report.simSeconds = player_.recording().time();
+        report.steps = step_;
+        report.simSeconds = time_;
         report.framesProduced = chains_.made();
         report.status = status(now);
     });

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "app/pacer.h"
+#include "app/utf8.h"
 
 namespace spherule::app {
 
 namespace {
 
-constexpr std::uint32_t mostSteps = 100'000;
 // s; a frame may come so much before its time, which waits and sums only meet to within rounding.
 constexpr double early = 1e-6;
 
@@ -43,12 +43,12 @@ Result<v1::Applied> Player::apply(const v1::Command& command, Clock::time_point 
             done = step(command.step().count(), now);
             break;
         case v1::Command::kReset:
-            wanted_ = recording_.begin();
+            seek(recording_.begin());
             break;
         case v1::Command::kSeek:
             if (!std::isfinite(command.seek().time()))
                 return fail(ErrorKind::Refused, "seek.time", "is no finite number");
-            wanted_ = std::clamp(command.seek().time(), recording_.begin(), recording_.end());
+            seek(std::clamp(command.seek().time(), recording_.begin(), recording_.end()));
             break;
         case v1::Command::kSet:
             done = setSpeed(command.set(), now);
@@ -74,17 +74,21 @@ Result<void> Player::setSpeed(const v1::Set& set, Clock::time_point now) {
     return {};
 }
 
+void Player::seek(double time) {
+    wanted_ = time;
+    steps_ = 0;
+}
+
 Result<void> Player::step(std::uint32_t count, Clock::time_point now) {
-    if (count < 1 || count > mostSteps)
-        return fail(ErrorKind::Refused, "step.count", fmt::format("is {}, must be within 1 and {}", count, mostSteps));
-    goOnFrom(next_.value_or(placeBy(now)), now);
+    if (auto right = checkStepCount(count); !right) return right;
+    if (!wanted_) goOnFrom(next_.value_or(placeBy(now)), now);
     paused_ = true;
-    steps_ = next_ ? count : 0;
+    steps_ = wanted_ || next_ ? count : 0;
     return {};
 }
 
 void Player::resume(Clock::time_point now) {
-    if (!next_) wanted_ = recording_.begin();
+    if (!wanted_ && !next_) wanted_ = recording_.begin();
     goOnFrom(placeBy(now), now);
     paused_ = false;
     steps_ = 0;
@@ -96,21 +100,17 @@ void Player::goOnFrom(double place, Clock::time_point now) {
 }
 
 double Player::placeBy(Clock::time_point now) const {
-    if (paused_ && steps_ == 0) return place_;
-    return place_ + speed_ * secondsOf(now - since_);
+    return goesOn() ? place_ + speed_ * secondsOf(now - since_) : place_;
 }
 
 Player::Moved Player::advance(Clock::time_point now) {
     Moved moved;
-    if (wanted_) {
-        const double place = *std::exchange(wanted_, std::nullopt);
-        goOnFrom(place, now);
-        goTo(place, moved);
-        return moved;
-    }
     const double place = placeBy(now) + speed_ * early;
-    const bool due = next_ && place >= *next_;
-    if (due && steps_ > 0) {
+    const bool due = goesOn() && next_ && place >= *next_;
+    if (wanted_) {
+        goOnFrom(*std::exchange(wanted_, std::nullopt), now);
+        goTo(place_, moved);
+    } else if (due && steps_ > 0) {
         --steps_;
         goTo(*next_, moved);
         if (steps_ == 0) goOnFrom(recording_.time(), now);
@@ -128,13 +128,17 @@ Player::Moved Player::advance(Clock::time_point now) {
 }
 
 void Player::goTo(double time, Moved& moved) {
-    if (auto done = recording_.seek(time); done)
+    const double before = recording_.time();
+    if (auto done = recording_.seek(time); done) {
         moved.shown = true;
-    else
+        findNext();
+    } else {
+        // Frames before the damage may have been reached.
+        moved.shown = recording_.time() != before && recording_.shows();
         skip(done.error(), time, moved);
+    }
     auto passed = recording_.takePassed();
     std::ranges::move(passed, std::back_inserter(moved.passed));
-    findNext();
 }
 
 // Goes on behind what is damaged, or pauses where nothing is.
@@ -143,8 +147,11 @@ void Player::skip(const Error& error, double from, Moved& moved) {
     if (recording_.recover(from)) {
         moved.shown = true;
         place_ += recording_.time() - from;
+        findNext();
     } else {
-        paused_ = true;
+        // Nothing is left: it stands at the end.
+        next_.reset();
+        place_ = recording_.end();
     }
 }
 
@@ -156,16 +163,16 @@ void Player::findNext() {
 
 std::optional<Player::Clock::time_point> Player::due() const {
     if (wanted_) return since_;
-    if (paused_ && steps_ == 0) return std::nullopt;
+    if (!goesOn()) return std::nullopt;
     const double wait = (next_.value_or(recording_.end()) - place_) / speed_;
-    // A recording may say that its next frame comes in a million years.
-    constexpr double longest = 3600;
+    // A recording may say that its next frame comes in a million years, and a clock holds three hundred.
+    constexpr double longest = 1e9;
     return since_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(wait, longest)));
 }
 
 v1::Timeline Player::timeline() const {
     v1::Timeline timeline;
-    timeline.set_file(name_);
+    timeline.set_file(utf8(name_));
     timeline.set_begin(recording_.begin());
     timeline.set_end(recording_.end());
     timeline.set_frames(recording_.frames());

@@ -25,7 +25,7 @@ class Player {
 
     struct Moved {
         bool shown = false;                     // another moment is
-        std::vector<v1::ServerMessage> passed;  // events and diagnostics on the way
+        std::vector<v1::ServerMessage> passed;  // events on the way
         std::vector<std::string> damage;        // what could not be played, and was skipped
     };
     // To where it is by now.
@@ -40,9 +40,11 @@ class Player {
     [[nodiscard]] v1::Settings settings() const;
 
   private:
+    [[nodiscard]] bool goesOn() const { return !paused_ || steps_ > 0; }
     [[nodiscard]] double placeBy(Clock::time_point now) const;
     void resume(Clock::time_point now);
     void goOnFrom(double place, Clock::time_point now);
+    void seek(double time);
     void goTo(double time, Moved& moved);
     Result<void> setSpeed(const v1::Set& set, Clock::time_point now);
     Result<void> step(std::uint32_t count, Clock::time_point now);

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include "app/duration.h"
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "app/recorder.h"
 #include "app/run_report.h"
 #include "app/tuner.h"
@@ -38,32 +37,6 @@ constexpr double mostSteps = 1e12;
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// A line on the terminal that is rewritten a few times a second; silent elsewhere.
-class Progress {
-  public:
-    explicit Progress(std::uint64_t steps) : steps_(steps), shown_(isatty(STDERR_FILENO) != 0) {}
-    ~Progress() {
-        if (shown_ && printed_) std::fputc('\n', stderr);
-    }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-
-    void at(std::uint64_t step, double simulated) {
-        if (!shown_ || secondsSince(last_) < 0.2) return;
-        last_ = Clock::now();
-        printed_ = true;
-        fmt::print(stderr, "\r{} of {} steps, {:.2f} s simulated, {:.2f} times real time ", step, steps_, simulated,
-                   simulated / secondsSince(start_));
-    }
-
-  private:
-    std::uint64_t steps_;
-    bool shown_;
-    bool printed_ = false;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point last_ = start_;
-};
 
 // Times a run stretch by stretch. Reports between two stretches do not count, dumps within one do.
 class Watch {
@@ -101,7 +74,8 @@ class Watch {
 // Runs `steps`, and calls `every` after each `stride` of them and at the end. `recorder`: may be null.
 Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, std::uint64_t steps, std::uint64_t stride,
                       const std::function<Result<void>()>& every) {
-    Progress progress(steps);
+    ProgressLine progress;
+    const auto began = Clock::now();
     Tuner tuner;
     const auto record = [recorder](v1::Event::Kind kind, const std::string& text) {
         return recorder != nullptr ? recorder->say(kind, text) : Result<void>();
@@ -122,7 +96,10 @@ Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, std::uint
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
         if (recorder != nullptr)
             if (auto done = recorder->stepped(k == steps); !done) return done;
-        progress.at(k, simulation.time());
+        progress.show([&] {
+            return fmt::format("{} of {} steps, {:.2f} s simulated, {:.2f} times real time ", k, steps,
+                               simulation.time(), simulation.time() / secondsSince(began));
+        });
         if (k % stride == 0 || k == steps)
             if (auto done = every(); !done) return done;
     }

@@ -37,9 +37,23 @@ Runtime::~Runtime() {
     if (show_.joinable()) show_.join();
 }
 
+namespace {
+
+// What is not expected to go wrong, such as a lack of memory, as an error.
+template <class Act>
+auto guarded(Act act) -> decltype(act()) {
+    try {
+        return act();
+    } catch (const std::exception& error) {
+        return fail(ErrorKind::DeviceLost, "simulation", std::string("ended: ") + error.what());
+    }
+}
+
+}  // namespace
+
 // The thread that owns the device, for its whole life.
 void Runtime::present(const std::stop_token& stop, const OpenShow& open, std::promise<Result<void>>& ready) {
-    const auto show = open({requests_, live_, outlets()});
+    const auto show = guarded([&] { return open({requests_, live_, outlets()}); });
     if (!show) {
         ready.set_value(tl::unexpected(show.error()));
         return;
@@ -47,12 +61,7 @@ void Runtime::present(const std::stop_token& stop, const OpenShow& open, std::pr
     ready.set_value({});
     settled_.wait(false);
     if (stop.stop_requested()) return;
-    Result<void> ended;
-    try {
-        ended = (*show)->run(stop);
-    } catch (const std::exception& error) {
-        ended = fail(ErrorKind::DeviceLost, "simulation", std::string("ended: ") + error.what());
-    }
+    const Result<void> ended = guarded([&] { return (*show)->run(stop); });
     if (!ended) {
         failure_ = ended.error();
         failed_ = true;

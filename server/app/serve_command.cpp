@@ -24,9 +24,7 @@ Result<std::unique_ptr<Show>> open(const ServeOptions& options, const quality::T
         report.scene = (*world)->simulation().scene().name;
         report.spheres = (*world)->simulation().count();
     });
-    auto loop = std::make_unique<SimLoop>(std::move(*world), stage, table, options.recordings);
-    if (auto done = loop->record(); !done) return tl::unexpected(done.error());
-    return loop;
+    return std::make_unique<SimLoop>(std::move(*world), stage, table, options.recordings);
 }
 
 int serve(const ServeOptions& options) {

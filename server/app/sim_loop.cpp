@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/facts.h"
+#include "app/utf8.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -41,6 +42,7 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
 
 Result<void> SimLoop::run(const std::stop_token& stop) {
     announce();
+    if (auto done = tape_.startFromOptions(); !done) return done;
     while (!stop.stop_requested()) {
         for (int k = 0; k < commandsPerStep; ++k) {
             auto request = requests_.tryPop();
@@ -57,7 +59,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
         report();
         tellOfTape();
     }
-    return {};
+    return finishTape();
 }
 
 Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
@@ -75,7 +77,7 @@ void SimLoop::serve(const Request& request) {
             *result.mutable_applied() = std::move(*applied);
         } else {
             result.mutable_refused()->set_field(applied.error().where);
-            result.mutable_refused()->set_reason(applied.error().message);
+            result.mutable_refused()->set_reason(utf8(applied.error().message));
         }
     } catch (const std::bad_alloc&) {
         result.mutable_refused()->set_reason("there is not enough memory for this");
@@ -156,8 +158,8 @@ void SimLoop::stopAtNonFinite() {
 
 void SimLoop::produce(Pacer::Clock::time_point now) {
     auto demands = outlets_.demands();
-    tape_.demand(demands, now);
     watched_ = !demands.empty();
+    tape_.demand(demands, now);
     sim::Simulation& simulation = world_.simulation();
     chains_.serve({.source = simulation.tierSource(),
                    .spheres = simulation.count(),

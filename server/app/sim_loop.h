@@ -20,9 +20,7 @@ class SimLoop : public Show {
   public:
     SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Table table, TapeOptions recordings);
 
-    // Begins the recording that the options ask for, if they do.
-    Result<void> record() { return tape_.startFromOptions(); }
-    // Until stopped, or the device is lost.
+    // Until stopped, the device is lost, or the recording that was asked for cannot be made.
     Result<void> run(const std::stop_token& stop) override;
 
   private:
@@ -40,6 +38,7 @@ class SimLoop : public Show {
     void publish(const frame::Link& link);
     void report();
     void tellOfTape();
+    Result<void> finishTape();
     void look(const std::vector<double>& passSeconds);
     void sendDial();
     [[nodiscard]] v1::Status status(Pacer::Clock::time_point now);

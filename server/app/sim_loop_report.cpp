@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/sim_loop.h"
+#include "app/utf8.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -25,7 +26,7 @@ void SimLoop::say(v1::Event::Kind kind, const std::string& text) {
     v1::ServerMessage message;
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(world_.simulation().steps());
-    message.mutable_event()->set_text(text);
+    message.mutable_event()->set_text(utf8(text));
     everybody(std::move(message));
 }
 
@@ -43,6 +44,7 @@ void SimLoop::keep(v1::ServerMessage message) {
 }
 
 void SimLoop::tellOfTape() {
+    if (!tape_.canRecord()) return;
     const auto news = tape_.news(Tape::Clock::now());
     if (!news) return;
     live_.update([&](LiveReport& report) { report.recording = *news; });
@@ -57,6 +59,16 @@ void SimLoop::sendDial() {
     v1::ServerMessage message;
     *message.mutable_dial() = observer_.dial();
     keep(std::move(message));
+}
+
+// At the end nobody else tells of it.
+Result<void> SimLoop::finishTape() {
+    const auto last = tape_.finish();
+    if (!last) return {};
+    if (!last->failure().empty()) return fail(ErrorKind::Refused, last->file(), last->failure());
+    spdlog::info("recorded {:.1f} s in {}, {:.1f} MB", last->duration(), last->file(),
+                 static_cast<double>(last->bytes()) / 1e6);
+    return {};
 }
 
 v1::Status SimLoop::status(Pacer::Clock::time_point now) {

@@ -1,5 +1,7 @@
 #include "app/tape.h"
 
+#include "app/utf8.h"
+
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -20,6 +22,7 @@ using namespace std::chrono_literals;
 constexpr auto keyframesEvery = 2s;
 constexpr auto newsEvery = 1s;
 constexpr std::uint64_t leastRoom = 1U << 20U;  // bytes
+constexpr std::size_t mostFiles = 1000;
 constexpr std::size_t longestName = 40;
 constexpr const char* suffix = ".sph";
 
@@ -61,14 +64,19 @@ Result<std::uint64_t> Tape::roomInFolder() const {
         return fail(ErrorKind::Refused, "",
                     fmt::format("the folder {} cannot be made: {}", options_.folder, error.message()));
     std::uint64_t taken = 0;
+    std::size_t files = 0;
     for (fs::directory_iterator file(options_.folder, error), end; !error && file != end; file.increment(error)) {
         std::error_code ignored;  // it may be gone by now
-        const auto bytes = file->path().extension() == suffix ? file->file_size(ignored) : 0;
+        if (file->path().extension() != suffix) continue;
+        const auto bytes = file->file_size(ignored);
         if (!ignored) taken += bytes;
+        ++files;
     }
     if (error)
         return fail(ErrorKind::Refused, "",
                     fmt::format("the folder {} cannot be read: {}", options_.folder, error.message()));
+    if (files >= mostFiles)
+        return fail(ErrorKind::Refused, "", fmt::format("{} has {} recordings: delete some", options_.folder, files));
     if (taken + leastRoom <= options_.folderBytes) return options_.folderBytes - taken;
     return fail(ErrorKind::Refused, "",
                 fmt::format("the recordings in {} take up {} MB, all that --recordings-limit allows: delete some",
@@ -93,7 +101,7 @@ Result<void> Tape::start(const std::string& path, bool replace, std::uint64_t mo
     writer_ = std::move(*writer);
     state_.Clear();
     state_.set_active(true);
-    state_.set_file(path);
+    state_.set_file(utf8(path));
     told_ = false;
     number_.reset();
     begin_ = time_ = offset_ = 0;
@@ -121,7 +129,7 @@ void Tape::keep(frame::SharedMessage message) {
 }
 
 void Tape::say(frame::SharedMessage message) {
-    if (writer_ && timed_) add(store::Kind::Other, message);
+    if (writer_ && timed_ && message->content().has_event()) add(store::Kind::Other, message);
 }
 
 void Tape::order(frame::SharedMessage message) {
@@ -132,8 +140,15 @@ void Tape::order(frame::SharedMessage message) {
 void Tape::frame(const frame::Link& link) {
     if (!writer_ || link.channel != channel_) return;
     using enum frame::Link::Kind;
-    if (link.kind == Delta && number_ != link.number - 1) return number_.reset();
+    if (link.kind == Delta && number_ != link.number - 1) {
+        number_.reset();
+        if (refused_) ++framesLost_;
+        return;
+    }
     const bool again = link.kind == Join && number_ == link.number;
+    // Joins of which others have need are of none here.
+    if (again && (!moved_ || Clock::now() - keyframe_ < keyframesEvery)) return;
+    refused_ = false;
     const bool first = !timed_;
     timeOf(link.message->content().frame());
     if (first) {
@@ -154,13 +169,15 @@ void Tape::timeOf(const v1::Frame& frame) {
     if (!timed_) begin_ = time_ = frame.sim_time();
     timed_ = true;
     if (frame.sim_time() + offset_ < time_) offset_ = time_ - frame.sim_time();
-    time_ = frame.sim_time() + offset_;
+    // Not less for being rounded.
+    time_ = std::max(time_, frame.sim_time() + offset_);
 }
 
 void Tape::add(store::Kind kind, const frame::SharedMessage& message) {
     if (writer_->add(kind, time_, message)) return;
     if (!message->content().has_frame()) return;
     number_.reset();
+    refused_ = true;
     ++framesLost_;
 }
 
@@ -172,6 +189,13 @@ void Tape::demand(std::vector<frame::Demand>& demands, Clock::time_point now) co
     own->lost = own->lost || !number_ || (moved_ && now - keyframe_ >= keyframesEvery);
 }
 
+std::optional<v1::Recording> Tape::finish() {
+    if (!writer_) return std::nullopt;
+    writer_->finish();
+    writer_->wait();
+    return news(Clock::now());
+}
+
 std::optional<v1::Recording> Tape::news(Clock::time_point now) {
     if (writer_) {
         const auto progress = writer_->progress();
@@ -179,7 +203,9 @@ std::optional<v1::Recording> Tape::news(Clock::time_point now) {
         state_.set_bytes(progress.bytes);
         if (progress.ended) {
             state_.set_active(false);
-            state_.set_failure(progress.failure);
+            state_.set_failure(progress.failure.empty() && progress.frames == 0
+                                   ? "nothing was recorded: no frame has come"
+                                   : progress.failure);
             writer_.reset();
             told_ = false;
         } else if (now - toldAt_ >= newsEvery) {

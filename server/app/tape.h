@@ -29,7 +29,7 @@ class Tape {
     Result<void> start();
     Result<void> stop();
 
-    // What viewers are told, at the same time as they are.
+    // What viewers are told, at the same time as they are: of what is said, events are recorded.
     void keep(frame::SharedMessage message);
     void say(frame::SharedMessage message);
     void order(frame::SharedMessage message);
@@ -39,6 +39,9 @@ class Tape {
     void demand(std::vector<frame::Demand>& demands, Clock::time_point now) const;
     // How it goes, where that is not what it last said; while it records, once a second.
     std::optional<v1::Recording> news(Clock::time_point now);
+    // Ends the recording, if there is one, waits for the disk, and tells how it is.
+    std::optional<v1::Recording> finish();
+    [[nodiscard]] bool canRecord() const { return !options_.folder.empty() || !options_.path.empty(); }
     [[nodiscard]] std::uint64_t framesLost() const { return framesLost_; }
 
   private:
@@ -56,7 +59,8 @@ class Tape {
     v1::Recording state_;
     std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nothing: a keyframe is wanted
     Clock::time_point keyframe_{};
-    bool moved_ = false;  // since that
+    bool moved_ = false;    // since that
+    bool refused_ = false;  // the chain is lost because the disk is too slow
     // Time in the recording: never goes back, though that of the simulation does when it is reset.
     double begin_ = 0, time_ = 0, offset_ = 0;  // s
     bool timed_ = false;

@@ -8,11 +8,7 @@
 
 namespace spherule::app {
 
-namespace {
-
-constexpr std::uint32_t mostSteps = 100'000;
-
-}  // namespace
+namespace {}  // namespace
 
 Result<std::unique_ptr<World>> World::open(const std::string& deviceChoice, const std::string& scene,
                                            const scene::Overrides& overrides) {
@@ -89,8 +85,7 @@ Result<v1::Applied> World::apply(const v1::Command& command) {
 }
 
 Result<v1::Applied> World::stepBy(std::uint32_t count) {
-    if (count < 1 || count > mostSteps)
-        return fail(ErrorKind::Refused, "step.count", fmt::format("is {}, must be within 1 and {}", count, mostSteps));
+    if (auto right = checkStepCount(count); !right) return tl::unexpected(right.error());
     paused_ = true;
     pendingSteps_ = count;
     pacer_.resume(Pacer::Clock::now());

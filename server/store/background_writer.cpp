@@ -45,14 +45,19 @@ bool BackgroundWriter::add(Kind kind, double time, frame::SharedMessage message)
         waitingBytes_ = bytes;
         waiting_.push_back({kind, time, std::move(message)});
     }
-    changed_.notify_one();
+    changed_.notify_all();
     return true;
 }
 
 void BackgroundWriter::finish() {
     const std::lock_guard lock(mutex_);
     finishing_ = true;
-    changed_.notify_one();
+    changed_.notify_all();
+}
+
+void BackgroundWriter::wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return progress_.ended; });
 }
 
 BackgroundWriter::Progress BackgroundWriter::progress() {
@@ -62,13 +67,17 @@ BackgroundWriter::Progress BackgroundWriter::progress() {
 
 void BackgroundWriter::write() {
     Result<void> done;
-    std::vector<Item> items;
-    while (done && wait(items)) done = take(items);
+    try {
+        std::vector<Item> items;
+        while (done && take(items)) done = put(items);
+    } catch (const std::exception& error) {
+        done = fail(ErrorKind::Refused, "", error.what());
+    }
     end(done);
 }
 
 // False when there is nothing more to come.
-bool BackgroundWriter::wait(std::vector<Item>& items) {
+bool BackgroundWriter::take(std::vector<Item>& items) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !waiting_.empty() || finishing_; });
     items.assign(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(waiting_.end()));
@@ -77,15 +86,18 @@ bool BackgroundWriter::wait(std::vector<Item>& items) {
     return !items.empty();
 }
 
-Result<void> BackgroundWriter::take(const std::vector<Item>& items) {
+Result<void> BackgroundWriter::put(const std::vector<Item>& items) {
     for (const Item& item : items) {
-        if (auto done = writer_.add(item.kind, item.time, item.message->binary()); !done) return done;
-        if (mostBytes_ == 0 || writer_.bytes() < mostBytes_) continue;
-        const std::lock_guard lock(mutex_);
-        finishing_ = true;
-        waiting_.clear();
-        progress_.failure = fmt::format("it has reached {} MB, the most that it may have", writer_.bytes() / 1'000'000);
-        break;
+        const std::string& bytes = item.message->binary();
+        if (mostBytes_ > 0 && writer_.bytesWith(bytes.size()) > mostBytes_) {
+            const std::lock_guard lock(mutex_);
+            finishing_ = true;
+            waiting_.clear();
+            progress_.failure = fmt::format("it has reached {:.1f} MB, the most that it may have",
+                                            static_cast<double>(mostBytes_) / 1e6);
+            break;
+        }
+        if (auto done = writer_.add(item.kind, item.time, bytes); !done) return done;
     }
     const std::lock_guard lock(mutex_);
     progress_.bytes = writer_.bytes();
@@ -99,8 +111,10 @@ void BackgroundWriter::end(const Result<void>& done) {
     const std::lock_guard lock(mutex_);
     progress_.ended = true;
     progress_.bytes = writer_.bytes();
+    progress_.frames = writer_.frames();
     if (!finished) progress_.failure = finished.error().message;
     waiting_.clear();
+    changed_.notify_all();
 }
 
 }  // namespace spherule::store

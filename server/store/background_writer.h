@@ -30,6 +30,7 @@ class BackgroundWriter {
     [[nodiscard]] bool add(Kind kind, double time, frame::SharedMessage message);
     // No record follows.
     void finish();
+    void wait();  // until all is written that will be
 
     struct Progress {
         std::uint64_t bytes = 0;
@@ -48,8 +49,8 @@ class BackgroundWriter {
 
     BackgroundWriter(Writer writer, std::uint64_t mostBytes);
     void write();
-    bool wait(std::vector<Item>& items);
-    Result<void> take(const std::vector<Item>& items);
+    bool take(std::vector<Item>& items);
+    Result<void> put(const std::vector<Item>& items);
     void end(const Result<void>& done);
 
     Writer writer_;  // of the thread

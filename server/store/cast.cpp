@@ -1,5 +1,6 @@
 #include "store/cast.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -29,14 +30,19 @@ Result<Cast> Cast::from(const v1::SceneFacts& facts, const v1::Order& order) {
     Cast cast{.epoch = facts.epoch(), .radii = {}, .order = order.number(), .ids = {}};
     if (order.epoch() != facts.epoch()) return bad("are of another epoch than the order");
     if (!set(cast.low, facts.bounds_min()) || !set(cast.high, facts.bounds_max())) return bad("have no bounds");
+    for (int axis = 0; axis < 3; ++axis)
+        if (cast.low[axis] > cast.high[axis]) return bad("have no bounds");
     if (facts.count() == 0) return bad("have no spheres");
     auto ids = frame::idsOf(order, facts.count());
     if (!ids) return tl::unexpected(ids.error());
     cast.ids = std::move(*ids);
     cast.radii.assign(facts.count(), facts.radius());
-    if (facts.radius() > 0) return cast;
-    if (facts.radii().size() != cast.radii.size() * sizeof(float)) return bad("have radii of other spheres");
-    std::memcpy(cast.radii.data(), facts.radii().data(), facts.radii().size());
+    if (!(facts.radius() > 0)) {
+        if (facts.radii().size() != cast.radii.size() * sizeof(float)) return bad("have radii of other spheres");
+        std::memcpy(cast.radii.data(), facts.radii().data(), facts.radii().size());
+    }
+    if (!std::ranges::all_of(cast.radii, [](float radius) { return radius > 0 && std::isfinite(radius); }))
+        return bad("have a radius that is none");
     return cast;
 }
 

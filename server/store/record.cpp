@@ -103,7 +103,8 @@ Result<Record> RecordFile::read(std::uint64_t offset) const {
     if (numberAt<std::uint64_t>(bytes, hashed) != XXH3_64bits(bytes.data(), hashed))
         return bad(offset, "is damaged: its checksum is another");
     bytes.resize(hashed);
-    record->payload = bytes.substr(recordHeadBytes);
+    bytes.erase(0, recordHeadBytes);
+    record->payload = std::move(bytes);
     return record;
 }
 

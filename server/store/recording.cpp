@@ -11,6 +11,7 @@ namespace {
 
 constexpr double sameTime = 1e-9;  // s; times that differ by less are meant to be one
 constexpr std::size_t mostPassed = 64;
+constexpr int mostTries = 64;  // each may read an order anew
 
 // What a record of this kind must hold.
 bool holds(Kind kind, const v1::ServerMessage& message) {
@@ -91,10 +92,14 @@ Result<void> Recording::walk(double time) {
 }
 
 bool Recording::recover(double time) {
-    return std::ranges::any_of(contents_.index.entries, [&](const Index::Entry& entry) {
+    int tries = 0;
+    for (const Index::Entry& entry : contents_.index.entries) {
         const bool begins = entry.kind == Kind::Keyframe || entry.kind == Kind::Join;
-        return begins && entry.time > time + sameTime && enter(entry.offset);
-    });
+        if (!begins || entry.time <= time + sameTime) continue;
+        if (enter(entry.offset)) return true;
+        if (++tries == mostTries) return false;
+    }
+    return false;
 }
 
 Result<std::optional<double>> Recording::nextTime() const {
@@ -127,7 +132,7 @@ Result<bool> Recording::next() {
 
 void Recording::pass(const Record& record) {
     v1::ServerMessage message;
-    if (!message.ParseFromString(record.payload) || (!message.has_event() && !message.has_diagnostics())) return;
+    if (!message.ParseFromString(record.payload) || !message.has_event()) return;
     if (passed_.size() == mostPassed) passed_.erase(passed_.begin());
     passed_.push_back(std::move(message));
 }
@@ -140,7 +145,10 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
     if (record.kind == Kind::Scene || record.kind == Kind::Order) {
         decoder_.reset();
         cast_.reset();
-        if (record.kind == Kind::Scene) facts_ = std::move(*message.mutable_scene());
+        if (record.kind == Kind::Scene) {
+            facts_ = std::move(*message.mutable_scene());
+            factsAt_ = offset;
+        }
         if (record.kind == Kind::Order) order_ = std::move(*message.mutable_order());
         return false;
     }
@@ -163,6 +171,7 @@ Result<void> Recording::prepare(std::uint64_t offset) {
         auto cast = Cast::from(facts_, *order_);
         if (!cast) return bad(offset, cast.error().text());
         cast_ = std::move(*cast);
+        order_.reset();
     }
     if (!decoder_) decoder_ = std::make_unique<frame::codec::Decoder>(cast_->spheres());
     return {};

@@ -47,7 +47,8 @@ class Recording {
     Result<void> seek(double time);
     // To the next frame, after open() the first; false at the end. After an error only seek() and recover() go on.
     Result<bool> next();
-    // To the first sound keyframe after `time` (s), for going on behind what is damaged; false when there is none.
+    // To the first sound keyframe after `time` (s), for going on behind what is damaged; false when there is none, or
+    // only behind very many that are damaged too.
     bool recover(double time);
 
     // After next(), seek() or recover(), until the next of them.
@@ -56,13 +57,17 @@ class Recording {
     [[nodiscard]] std::uint64_t step() const { return step_; }
     // When the frame after it comes, s simulated; nothing at the end.
     [[nodiscard]] Result<std::optional<double>> nextTime() const;
+    // Whether there is a moment; not after an error that came before the first frame behind a keyframe.
+    [[nodiscard]] bool shows() const { return cast_ && decoder_ && !decoder_->wantsKeyframe(); }
+    // Where in the file the present facts are; elsewhere are those of other spheres, whatever epoch they name.
+    [[nodiscard]] std::uint64_t factsAt() const { return factsAt_; }
     [[nodiscard]] std::span<const glm::ivec3> cells() const { return decoder_->newest(); }  // by place in the codec
     [[nodiscard]] std::span<const std::uint32_t> order() const { return cast_->ids; }  // ids, by place in the codec
     [[nodiscard]] std::span<const float> radii() const { return cast_->radii; }        // by id, m
     [[nodiscard]] double quantum() const { return quantum_; }                          // m
 
-    // Events and diagnostics that next() and a seek() forward went past, newest last, since they were last taken; of
-    // very many, the newest.
+    // Events that next() and a seek() forward went past, newest last, since they were last taken; of very many, the
+    // newest.
     std::vector<v1::ServerMessage> takePassed() { return std::exchange(passed_, {}); }
 
   private:
@@ -80,7 +85,8 @@ class Recording {
     Contents contents_;
     std::uint64_t offset_ = fileHeadBytes;  // of what comes next
     v1::SceneFacts facts_;
-    std::optional<v1::Order> order_;  // until somebody needs it
+    std::uint64_t factsAt_ = 0;       // byte of the file
+    std::optional<v1::Order> order_;  // until the cast is made of it
     std::optional<Cast> cast_;
     std::unique_ptr<frame::codec::Decoder> decoder_;
     double time_ = 0;

@@ -34,6 +34,11 @@ Result<void> Writer::add(Kind kind, double time, std::string_view message) {
     return file_.flush();
 }
 
+std::uint64_t Writer::bytesWith(std::size_t payload) const {
+    const std::uint64_t index = indexHeadBytes + entryBytes * (index_.entries.size() + 1);
+    return file_.size() + 2 * (recordHeadBytes + checksumBytes) + payload + index + trailerBytes;
+}
+
 Result<void> Writer::finish() {
     const std::uint64_t at = file_.size();
     std::string end = recordBytes(Kind::Index, time_, index_.payload());

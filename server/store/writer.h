@@ -26,6 +26,8 @@ class Writer {
     Result<void> finish();
 
     [[nodiscard]] std::uint64_t bytes() const { return file_.size(); }
+    // Of the file once it is finished, if another record of so long a payload comes.
+    [[nodiscard]] std::uint64_t bytesWith(std::size_t payload) const;
     [[nodiscard]] std::uint64_t frames() const { return index_.frames; }
 
   private:

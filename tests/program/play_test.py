@@ -157,8 +157,7 @@ class Record(Files):
     def test_a_full_disk_ends_the_recording_and_nothing_else(self):
         def little_room():
             resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, 300_000))
-        # Python ignores the signal that comes with the limit, and so does what it starts then.
-        with self.serve("box", "--record", self.recording, preexec_fn=little_room, restore_signals=False) as server:
+        with self.serve("box", "--record", self.recording, preexec_fn=little_room) as server:
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_recording_active", ""] == 0, 60))
             steps = server.metrics()["spherule_steps", ""]
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] > steps + 10))

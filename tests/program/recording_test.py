@@ -165,9 +165,8 @@ class Record(Files):
     def test_where_there_is_no_room_the_recording_so_far_stays(self):
         def little_room():
             resource.setrlimit(resource.RLIMIT_FSIZE, (1_500_000, 1_500_000))
-        # Python ignores the signal that comes with the limit, and so does what it starts then.
         done = call("run", "box-10k", "--for", "10s", "--device", "cpu", "--record", self.recording,
-                    "--record-rate", "60", preexec_fn=little_room, restore_signals=False)
+                    "--record-rate", "60", preexec_fn=little_room)
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertRegex(done.stderr.splitlines()[-1],
                          r"run.sph: cannot be written on after 1500000 bytes: File too large; raise the limit \(ulimit "

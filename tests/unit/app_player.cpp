@@ -58,6 +58,24 @@ class Playing : public testing::Test {
         command.mutable_set()->set_speed(speed);
         return give(command).has_value();
     }
+    // Where the first delta frame after `time` begins.
+    [[nodiscard]] std::uint64_t frameBehind(double time) const {
+        const auto file = store::RecordFile::open(path_);
+        for (std::uint64_t offset = store::fileHeadBytes;;) {
+            const auto record = file->read(offset);
+            if (!record) throw std::runtime_error(record.error().text());
+            if (record->kind == store::Kind::Delta && record->time > time) return offset;
+            offset = record->end;
+        }
+    }
+    // Changes a bit of that frame.
+    std::uint64_t damage(double time) {
+        const std::uint64_t offset = frameBehind(time);
+        std::string content = store::contentOf(path_);
+        content[offset + 40] = static_cast<char>(content[offset + 40] ^ 4);
+        store::put(path_, content);
+        return offset;
+    }
     // What a loop does: comes when it is due, at most so often. False where it waits for a command.
     bool comeWhenDue() {
         const auto due = player_->due();
@@ -185,18 +203,7 @@ TEST_F(Playing, ChangesNothingInWhatIsPlayed) {
 }
 
 TEST_F(Playing, WhatIsDamagedIsToldAndSkipped) {
-    std::string content = store::contentOf(path_);
-    // In the frame of 0.7 s; the next keyframe is that of 1.0 s.
-    auto file = store::RecordFile::open(path_);
-    std::uint64_t offset = store::fileHeadBytes;
-    for (;;) {
-        const auto record = file->read(offset);
-        ASSERT_TRUE(record);
-        if (record->kind == store::Kind::Delta && record->time > 0.65) break;
-        offset = record->end;
-    }
-    content[offset + 40] = static_cast<char>(content[offset + 40] ^ 4);
-    store::put(path_, content);
+    const std::uint64_t offset = damage(0.65);  // the next keyframe is that of 1.0 s
     open();
     EXPECT_NEAR(after(650ms), 0.6, 1e-9);
     EXPECT_NEAR(after(100ms), 1.0, 1e-9);
@@ -207,6 +214,89 @@ TEST_F(Playing, WhatIsDamagedIsToldAndSkipped) {
     ASSERT_TRUE(seek(0.8));
     EXPECT_NEAR(after(0ms), 1.0, 1e-9);
     EXPECT_EQ(moved_.damage.size(), 1U);
+}
+
+TEST_F(Playing, ADamagedEndIsTheEnd) {
+    damage(2.05);  // no keyframe comes behind that of 2.0 s
+    open(true);
+    EXPECT_NEAR(after(1300ms), 1.3, 1e-9);
+    after(900ms);
+    EXPECT_EQ(moved_.damage.size(), 1U);
+    EXPECT_NEAR(player_->recording().time(), 2.0, 1e-9);
+    EXPECT_TRUE(moved_.shown);
+    // Round again, and it is told once a round.
+    std::size_t told = 0;
+    for (int k = 0; k < 40; ++k) {
+        ASSERT_TRUE(comeWhenDue());
+        told += moved_.damage.size();
+    }
+    EXPECT_GE(told, 1U);
+    EXPECT_LE(told, 3U);
+    ASSERT_TRUE(tell(&v1::Command::mutable_pause));
+    ASSERT_TRUE(seek(2.15));
+    after(0ms);
+    EXPECT_EQ(moved_.damage.size(), 1U);
+    for (int k = 0; k < 5; ++k) {
+        after(100ms);
+        EXPECT_TRUE(moved_.damage.empty());
+    }
+    EXPECT_FALSE(player_->due());
+    ASSERT_TRUE(step(1000));
+    told = 0;
+    for (int k = 0; k < 100 && comeWhenDue(); ++k) told += moved_.damage.size();
+    EXPECT_LE(told, 1U);
+    EXPECT_FALSE(player_->due());
+    ASSERT_TRUE(tell(&v1::Command::mutable_resume));
+    EXPECT_NEAR(after(10ms), 0, 1e-9);
+}
+
+TEST_F(Playing, WaitsForAFrameThatIsLongInComing) {
+    // The same frames, 10,000 s apart.
+    std::string content = store::fileHead();
+    const auto film = store::RecordFile::open(path_);
+    for (std::uint64_t offset = store::fileHeadBytes;;) {
+        const auto record = film->read(offset);
+        if (!record || record->kind == store::Kind::Index) break;
+        content += store::recordBytes(record->kind, 1e5 * record->time, record->payload);
+        offset = record->end;
+    }
+    store::put(path_, content);
+    open();
+    EXPECT_NEAR(after(5000s), 0, 1e-9);
+    ASSERT_TRUE(player_->due());
+    EXPECT_GT(*player_->due(), now_);
+    EXPECT_NEAR(after(5001s), 1e4, 1e-9);
+}
+
+TEST_F(Playing, GoingElsewhereEndsTheSteps) {
+    open();
+    ASSERT_TRUE(step(1000));
+    after(0ms);
+    ASSERT_TRUE(tell(&v1::Command::mutable_reset));
+    after(0ms);
+    EXPECT_FALSE(player_->due());
+    ASSERT_TRUE(step(1000));
+    ASSERT_TRUE(seek(1));
+    ASSERT_TRUE(seek(1.5));
+    EXPECT_NEAR(after(0ms), 1.5, 1e-9);
+    EXPECT_FALSE(player_->due());
+    // Given together with a seek, steps and resuming go on from there.
+    ASSERT_TRUE(seek(0.5));
+    ASSERT_TRUE(step(2));
+    while (comeWhenDue()) continue;
+    EXPECT_NEAR(after(0ms), 0.7, 1e-9);
+    ASSERT_TRUE(seek(2.2));
+    after(0ms);
+    ASSERT_TRUE(seek(1));
+    ASSERT_TRUE(tell(&v1::Command::mutable_resume));
+    EXPECT_NEAR(after(0ms), 1, 1e-9);
+    EXPECT_NEAR(after(110ms), 1.1, 1e-9);
+}
+
+TEST_F(Playing, ANameThatIsNoTextBecomesOne) {
+    auto recording = store::Recording::open(path_);
+    const Player player(std::move(*recording), "bed-\xff.sph", false, now_);
+    EXPECT_EQ(player.timeline().file(), "bed-\xEF\xBF\xBD.sph");
 }
 
 }  // namespace

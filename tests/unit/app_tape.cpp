@@ -20,10 +20,7 @@ constexpr frame::Channel channel{v1::FINE, 30};
 // A tape, and a chain of frames like those that it would be told of.
 class Taping : public testing::Test {
   protected:
-    Taping() {
-        options_.folder = folder_ / "made";
-        keep(store::sceneMessage(1, spheres));
-    }
+    Taping() { options_.folder = folder_ / "made"; }
 
     void open() {
         v1::Welcome source;
@@ -31,9 +28,7 @@ class Taping : public testing::Test {
         tape_ = std::make_unique<Tape>(options_, source);
         keep(store::sceneMessage(1, spheres));
     }
-    void keep(v1::ServerMessage message) {
-        if (tape_) tape_->keep(frame::share(std::move(message)));
-    }
+    void keep(v1::ServerMessage message) { tape_->keep(frame::share(std::move(message))); }
     void order(std::uint32_t epoch = 1) { tape_->order(frame::share(store::orderMessage(epoch, spheres))); }
 
     frame::Link link(Kind kind, double time, std::uint32_t epoch = 1) {
@@ -196,22 +191,74 @@ TEST_F(Taping, ItsFolderHasALimit) {
     ASSERT_TRUE(tape_->start());
     for (int k = 0; k < 10'000; ++k) tape_->frame(link(k == 0 ? Kind::Keyframe : Kind::Delta, k));
     const v1::Recording state = ended();
-    EXPECT_EQ(state.failure(), "it has reached 1 MB, the most that it may have");
+    EXPECT_EQ(state.failure(), "it has reached 1.1 MB, the most that it may have");
     auto recording = store::Recording::open(state.file());
     ASSERT_TRUE(recording);
     EXPECT_EQ(recording->flaw(), "");
+    EXPECT_LE(std::filesystem::file_size(state.file()), 1'100'000U);
     EXPECT_NE(tape_->start().error().message.find("delete some"), std::string::npos);
     options_.folder.clear();
     open();
     EXPECT_NE(tape_->start().error().message.find("--recordings FOLDER"), std::string::npos);
 }
 
-TEST_F(Taping, AFullDiskEndsTheRecordingAndSaysSo) {
+TEST_F(Taping, WhereNothingCanBeWrittenItDoesNotBegin) {
     options_.path = "/dev/full";
     options_.replace = true;
     open();
-    // What is written at the beginning fails already.
-    EXPECT_FALSE(tape_->startFromOptions());
+    EXPECT_EQ(tape_->startFromOptions().error().kind, ErrorKind::Refused);
+}
+
+TEST_F(Taping, ARecordingWithoutFramesIsAFailure) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    const auto state = tape_->finish();
+    ASSERT_TRUE(state);
+    EXPECT_FALSE(state->active());
+    EXPECT_EQ(state->failure(), "nothing was recorded: no frame has come");
+}
+
+TEST_F(Taping, IsNotLargerForWhatOthersAskFor) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(link(Kind::Delta, 0.1));
+    for (int k = 0; k < 50; ++k) tape_->frame(link(Kind::Join, 0.1));
+    v1::ServerMessage figures;
+    figures.mutable_diagnostics();
+    tape_->say(frame::share(figures));
+    const auto state = tape_->finish();
+    ASSERT_TRUE(state);
+    const auto file = store::RecordFile::open(state->file());
+    int records = 0;
+    for (std::uint64_t offset = store::fileHeadBytes;;) {
+        const auto record = file->read(offset);
+        if (!record) break;
+        EXPECT_NE(record->kind, store::Kind::Join);
+        ++records;
+        offset = record->end;
+    }
+    EXPECT_EQ(records, 6);  // source, scene, order, two frames, index
+}
+
+TEST_F(Taping, RoundingDoesNotSetTimeBack) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    const auto after = [](int steps) {
+        double time = 0;
+        for (int k = 0; k < steps; ++k) time += 1.0 / 60;
+        return time;
+    };
+    tape_->frame(link(Kind::Keyframe, 0));
+    for (int last = 1; last < 60; ++last)
+        for (int first = 0; first < last; ++first) {
+            tape_->frame(link(Kind::Delta, after(last)));
+            tape_->frame(link(Kind::Delta, after(first)));
+        }
+    EXPECT_EQ(tape_->finish()->failure(), "");
 }
 
 TEST_F(Taping, AHostileSceneNameIsNoPath) {

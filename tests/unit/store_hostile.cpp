@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "store/bytes.h"
 #include "store_support.h"
@@ -74,6 +75,14 @@ TEST_F(Hostile, SpheresAreAsManyAsThereAreBytesFor) {
     EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->set_radii("abc"); }),
               "scene facts: have radii of other spheres");
     EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->set_count(0); }), "scene facts: have no spheres");
+    for (const float radius : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), INFINITY}) {
+        const std::vector<float> radii(Film::spheres, radius);
+        EXPECT_EQ(refusalWith(0, [&](auto& m) { m.mutable_scene()->set_radii(radii.data(), 4 * radii.size()); }),
+                  "scene facts: have a radius that is none");
+    }
+    EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->set_radius(INFINITY); }),
+              "scene facts: have a radius that is none");
+    EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->set_bounds_max(2, -5); }), "scene facts: have no bounds");
     EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->clear_bounds_max(); }), "scene facts: have no bounds");
     EXPECT_EQ(refusalWith(1, [](auto& m) { m.mutable_order()->mutable_ids()->at(0) = 3; }),
               "order: is no permutation: place 66");

@@ -40,9 +40,9 @@ void meet(uint other) {
 // Keeps a coordinate between two walls; returns it and the speed.
 vec2 bounce(float x, float v, float low, float high, uint face) {
     if ((params.closedFaces & (1u << face)) != 0u && x < low)
-        return vec2(low, v < 0.0f ? -params.wallRestitution * v : v);
+        return vec2(low, v < 0.0f ? -params.law.x * v : v);
     if ((params.closedFaces & (2u << face)) != 0u && x > high)
-        return vec2(high, v > 0.0f ? -params.wallRestitution * v : v);
+        return vec2(high, v > 0.0f ? -params.law.x * v : v);
     return vec2(x, v);
 }
 

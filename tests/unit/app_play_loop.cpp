@@ -1,0 +1,103 @@
+#include "app/play_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "codec_support.h"
+#include "frame/order.h"
+#include "store/record.h"
+#include "store_support.h"
+
+namespace spherule::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The records of a scene of so many spheres of radius 0.5 m, and of a keyframe, all at `time`.
+std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
+    v1::ServerMessage scene;
+    scene.mutable_scene()->set_epoch(epoch);
+    scene.mutable_scene()->set_count(spheres);
+    scene.mutable_scene()->set_radius(0.5F);
+    for (int axis = 0; axis < 3; ++axis) {
+        scene.mutable_scene()->add_bounds_min(0);
+        scene.mutable_scene()->add_bounds_max(8);
+    }
+    codec::Encoder encoder("cpu", spheres, 0.125);
+    const auto bytes = encoder.begin(codec::Positions(spheres));
+    std::vector<std::uint32_t> ids(spheres);
+    for (std::uint32_t id = 0; id < spheres; ++id) ids[id] = id;
+    v1::ServerMessage order;
+    *order.mutable_order() = frame::orderMessage(epoch, 1, ids);
+    v1::ServerMessage message;
+    v1::Frame& frame = *message.mutable_frame();
+    frame.set_epoch(epoch);
+    frame.set_order(1);
+    frame.set_quantum(0.125);
+    frame.set_count(spheres);
+    frame.set_spb(bytes.data(), bytes.size());
+    return store::recordBytes(store::Kind::Scene, time, scene.SerializeAsString()) +
+           store::recordBytes(store::Kind::Order, time, order.SerializeAsString()) +
+           store::recordBytes(store::Kind::Keyframe, time, message.SerializeAsString());
+}
+
+// What a viewer is told while a recording is played in a loop, until the scene has changed `changes` times.
+class Stage {
+  public:
+    std::vector<v1::SceneFacts> scenes;
+    std::vector<v1::Frame> frames;
+
+    void play(const std::string& path, std::size_t changes) {
+        Player player(std::move(*store::Recording::open(path)), "film.sph", true, Player::Clock::now());
+        PlayLoop loop(std::move(*compute::openDevice("cpu:1")), std::move(player),
+                      {requests_, live_, outlets(changes)});
+        EXPECT_TRUE(loop.run(stop_.get_token()));
+    }
+
+  private:
+    Outlets outlets(std::size_t changes) {
+        return {.keep =
+                    [this, changes](const frame::SharedMessage& message) {
+                        if (message->content().has_scene()) scenes.push_back(message->content().scene());
+                        if (scenes.size() > changes) stop_.request_stop();
+                    },
+                .everybody = [](const frame::SharedMessage&) {},
+                .order = [](const frame::SharedMessage&) {},
+                .frame = [this](const frame::Link& link) { frames.push_back(link.message->content().frame()); },
+                .reply = [](std::uint64_t, const v1::CommandResult&) {},
+                .viewers = [] { return 1U; },
+                .demands =
+                    [] {
+                        return std::vector<frame::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
+                    }};
+    }
+
+    BoundedQueue<Request> requests_{8};
+    Live live_;
+    std::stop_source stop_;
+};
+
+TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
+    for (const std::uint32_t second : {1U, 2U}) {
+        const store::Folder folder;
+        const std::string path = folder / "film.sph";
+        store::put(path, store::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
+        Stage stage;
+        stage.play(path, 6);
+        ASSERT_EQ(stage.scenes.size(), 7U);
+        const std::vector<std::uint32_t> counts = {2, 5, 3, 2, 5, 3, 2};
+        for (std::size_t k = 0; k < counts.size(); ++k) {
+            EXPECT_EQ(stage.scenes[k].count(), counts[k]);
+            EXPECT_EQ(stage.scenes[k].epoch(), k + 1);
+        }
+        ASSERT_FALSE(stage.frames.empty());
+        for (const v1::Frame& frame : stage.frames)
+            EXPECT_EQ(frame.count(), counts.at(frame.epoch() - 1)) << "of epoch " << frame.epoch();
+    }
+}
+
+}  // namespace
+}  // namespace spherule::app
