@@ -59,15 +59,13 @@ int serveUntilStopped(const OpenShow& open, const std::string& listen, const std
     auto runtime = Runtime::start(open, options);
     if (!runtime) return report(runtime.error());
     announce(**runtime, *endpoint, what);
-    while (!signals.wait())
-        if (const auto failure = (*runtime)->failure()) {
-            (*runtime)->drain();
-            return report(*failure);
-        }
+    bool stopped = false;
+    while (!stopped && !(*runtime)->failure()) stopped = signals.wait();
     signals.release();
-    spdlog::info("stopping; a second signal ends it at once");
+    if (stopped) spdlog::info("stopping; a second signal ends it at once");
     (*runtime)->drain();
-    return exitDone;
+    const auto failure = (*runtime)->failure();  // at the end, too
+    return failure ? report(*failure) : exitDone;
 }
 
 }  // namespace spherule::app

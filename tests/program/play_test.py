@@ -120,6 +120,7 @@ class Record(Files):
         with self.serve("two-spheres", "--record", self.recording) as server:
             time.sleep(2)
             self.assertEqual(server.end(), 0)
+            self.assertRegex(server.said, r"recorded [0-9.]+ s in \S*a\.sph, [0-9.]+ MB")
         begin, end, said = self.length_of(self.recording)
         self.assertLess(begin, 0.5)
         self.assertGreater(end, 1.2)
@@ -167,12 +168,28 @@ class Record(Files):
                                           r"written stays as it is\.")
         self.assertIn("is cut off", self.length_of(self.recording)[2])
 
+    def test_a_recording_of_nothing_is_a_failure(self):
+        scene = self.at("empty.json")
+        with open(scene, "w", encoding="utf-8") as file:
+            json.dump({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}, file)
+        with self.serve(scene, "--record", self.recording) as server:
+            self.assertEqual(server.end(), 4)
+            self.assertIn("nothing was recorded: no frame has come", server.said)
+
     def test_where_it_cannot_be_begun_nothing_is_served(self):
         with open(self.recording, "w", encoding="utf-8") as file:
             file.write("precious")
         done = call("serve", "two-spheres", "--device", "cpu:1", "--listen", "127.0.0.1:0", "--record", self.recording)
         self.assertEqual(done.returncode, 2)
         self.assertIn("is there already; give --force to replace it", done.stderr)
+        other = self.at("b.sph")
+        with self.serve("two-spheres", "--record", other) as server:
+            self.assertTrue(wait_for(lambda: self.recorded(server) > 0))
+            taken = server.stream.split("/")[2]
+            done = call("serve", "two-spheres", "--device", "cpu:1", "--listen", taken, "--record", self.recording, "--force")
+            self.assertEqual(done.returncode, 4, done.stderr)
+        with open(self.recording, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "precious")
         done = call("serve", "two-spheres", "--record-rate", "25")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--record-rate", done.stderr)

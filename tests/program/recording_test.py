@@ -219,6 +219,8 @@ class Export(Files):
                          f"spherule: {missing}: cannot be written: No such file or directory; make its folder first")
         self.assertEqual(self.refused(*export, self.recording),
                          f"spherule: {self.recording}: is there already; give --force to replace it, or another name")
+        self.assertEqual(self.refused(*export, self.recording, "--force"),
+                         f"spherule: {self.recording}: is the recording itself; choose another name")
         self.assertIn("is no recording", self.refused("export", __file__, "--format", "csv", "--out", out))
         self.assertIn("No space left on device", self.refused(*export, "/dev/full", "--force", code=4))
 
@@ -232,9 +234,11 @@ class Export(Files):
         self.assertRegex(said, r"the record at byte [0-9]+ is damaged: its checksum is another; [0-9]+ frames before it "
                                "were exported; --from goes on behind it$")
         before = frames_of(self.at("a.csv"))
-        after = self.times("b.csv", "--from", "4s")
         self.assertGreater(len(before), 10)
-        numpy.testing.assert_allclose((after[0], after[-1]), (4, 5), atol=1e-8)
+        # From a keyframe, and from before one: what lies between is damaged.
+        for begin in "4s", f"{before[-1][0] + 0.1}s":
+            after = self.times("b.csv", "--from", begin, "--force")
+            numpy.testing.assert_allclose((after[0], after[-1]), (4, 5), atol=1e-8)
 
 
 if __name__ == "__main__":

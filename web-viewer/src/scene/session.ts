@@ -37,7 +37,7 @@ export class Session {
   diagnostics: Diagnostics | undefined;
   stream: Stream | undefined; // what the server sends; undefined: it has not said
   timeline: Timeline | undefined; // what there is to play; undefined: the server simulates
-  recording: Recording | undefined; // what the server has recorded; undefined: it cannot record
+  recording: Recording | undefined; // what the server has recorded; undefined: it keeps none
   lastArrival = 0; // ms, of a frame of this epoch
   private begun = 0; // ms: when its facts came
   frames = 0; // taken since the page was loaded
@@ -153,7 +153,7 @@ export class Session {
 
   get paused(): boolean {
     const said = this.settings?.paused;
-    return (this.timeline ? said : (this.status?.paused ?? said)) ?? false; // recorded frames have no status
+    return (this.timeline ? said : (this.status?.paused ?? said)) ?? false;
   }
 
   /** Mean time between the frames of the recording that is played, s; 0 where none is. */

@@ -19,7 +19,10 @@ export class Playback {
     speeds: () => boolean,
   ) {
     this.seeker = new Seeker((time) => commands.seek(time), sharedNow);
-    this.scrubber = new Scrubber((time, last) => this.seeker.want(time, last && session.paused && speeds() ? session.spacing : 0));
+    this.scrubber = new Scrubber(
+      (time, last) => this.seeker.want(time, last && session.paused && speeds() ? session.spacing : 0),
+      () => void commands.step(1),
+    );
     this.element = this.scrubber.element;
   }
 
@@ -31,7 +34,7 @@ export class Playback {
     const speed = session.paused ? 0 : (session.settings?.speed ?? 1);
     seeker.heed({ now, newest: session.states.newest?.simTime, speed, spacing: session.spacing });
     const { wanted } = seeker;
-    scrubber.update(wanted ?? (shown && timeOf(shown)), wanted ?? session.states.newest?.simTime, session.link === "open");
+    scrubber.update(wanted ?? (shown && timeOf(shown)), wanted ?? session.states.newest?.simTime, session.link === "open", wanted === undefined && session.paused);
   }
 
   /** s; where the handle stands. */

@@ -25,10 +25,14 @@ export class Scrubber {
   );
   private timeline: Timeline | undefined;
   private stands = 0; // s: of the newest state, or what is on its way; the handle glides there
+  private still = false; // it is shown, and nothing goes on by itself
   private held = false; // by hand: what the server says meanwhile does not move it
 
-  /** `wished`: the person wants this moment, s; `last`: for now. */
-  constructor(private readonly wished: (time: number, last: boolean) => void) {
+  /** `wished`: the person wants this moment, s; `last`: for now; `stepped`: the next frame. */
+  constructor(
+    private readonly wished: (time: number, last: boolean) => void,
+    private readonly stepped: () => void,
+  ) {
     this.slider.addEventListener("pointerdown", () => (this.held = true));
     this.slider.addEventListener("input", () => {
       this.describe();
@@ -61,9 +65,10 @@ export class Scrubber {
     this.element.title = flaw ? `The recording ends before it was meant to: ${flaw}` : "";
   }
 
-  /** `time`: what the picture shows; `stands`: the newest state, or what is on its way; s. */
-  update(time: number | undefined, stands: number | undefined, open: boolean): void {
+  /** `time`: what the picture shows; `stands`: the newest state, or what is on its way; s. `still`: it stays there. */
+  update(time: number | undefined, stands: number | undefined, open: boolean, still: boolean): void {
     this.stands = stands ?? this.stands;
+    this.still = still;
     this.slider.disabled = !open;
     if (!open) this.held = false; // nobody will say that it was let go
     if (time === undefined || this.held) return;
@@ -94,13 +99,20 @@ export class Scrubber {
     if (!this.timeline || event.ctrlKey || event.metaKey || event.altKey) return;
     const { begin, end, frames } = this.timeline;
     const frame = (end - begin) / Math.max(1, Number(frames) - 1);
-    const at = frame > 0 ? Math.floor((this.stands - begin) / frame + 1e-3) : 0;
-    // The server goes to the last frame that is not after the time: from its middle, rounding cannot miss it.
-    const middle = (index: number): number => begin + (index + 0.5) * frame;
+    if (event.key === "ArrowRight" && this.still) {
+      event.preventDefault();
+      this.stands += frame; // about: until it is there
+      this.still = false;
+      this.stepped();
+      return;
+    }
+    // The server goes to the last frame that is not after the time. Frames need not be equally far from each other: a little
+    // before this one is the one before, wherever that is.
+    const back = this.still ? 1e-4 * frame : frame;
     const far = Math.min(1, tenth * (end - begin));
     const to: Record<string, number> = {
-      ArrowRight: middle(at + 1),
-      ArrowLeft: middle(at - 1),
+      ArrowRight: this.stands + frame,
+      ArrowLeft: this.stands - back,
       ArrowUp: this.stands + far,
       ArrowDown: this.stands - far,
       PageUp: this.stands + far,
@@ -114,6 +126,7 @@ export class Scrubber {
     this.slider.value = String(time); // between begin and end
     this.describe();
     this.stands = this.time; // for the next key, which may come before an answer
+    this.still = false;
     this.wished(this.time, true);
   }
 }
