@@ -32,6 +32,9 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
 Result<void> Recorder::begin() {
     v1::ServerMessage welcome;
     *welcome.mutable_welcome() = welcomeOf(device_.info());
+    // These name the machine and the number of threads, on which a recording does not depend.
+    welcome.mutable_welcome()->clear_renderer();
+    welcome.mutable_welcome()->clear_reason();
     if (auto done = add(store::Kind::Other, welcome); !done) return done;
     if (auto done = add(store::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
 

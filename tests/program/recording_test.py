@@ -217,8 +217,10 @@ class Export(Files):
         missing = self.at("no/out.csv")
         self.assertEqual(self.refused(*export, missing),
                          f"spherule: {missing}: cannot be written: No such file or directory; make its folder first")
-        self.assertEqual(self.refused(*export, self.recording),
-                         f"spherule: {self.recording}: is there already; give --force to replace it, or another name")
+        with open(self.at("there.csv"), "w", encoding="utf-8"):
+            pass
+        self.assertEqual(self.refused(*export, self.at("there.csv")), f"spherule: {self.at('there.csv')}: is there "
+                                                                      "already; give --force to replace it, or another name")
         self.assertEqual(self.refused(*export, self.recording, "--force"),
                          f"spherule: {self.recording}: is the recording itself; choose another name")
         self.assertIn("is no recording", self.refused("export", __file__, "--format", "csv", "--out", out))
