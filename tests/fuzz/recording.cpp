@@ -1,6 +1,7 @@
 // A file as a recording, opened and played from end to end, by seeking, and behind what is damaged. Bit 0 of the first
 // byte makes checksums and the beginning right, as a hostile writer would: nothing behind them was ever reached
 // otherwise. Bit 1 makes the place of the index right. The others say where to seek.
+#include <google/protobuf/stubs/logging.h>
 #include <sys/mman.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -90,6 +91,8 @@ void playFile(const std::string& path, unsigned where) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const auto quiet = google::protobuf::SetLogHandler(nullptr);  // of names that are no UTF-8
+    (void)quiet;
     if (size == 0) return 0;
     static const int file = memfd_create("recording", MFD_CLOEXEC);
     static const std::string path = "/proc/self/fd/" + std::to_string(file);
