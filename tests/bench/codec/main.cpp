@@ -37,7 +37,8 @@ void declare(CLI::App& app, Options& options) {
         ->capture_default_str();
     app.add_option("--speed", options.speed, "spheres for the times; 0: no times")->capture_default_str();
     app.add_option("--speed-ratio", options.speedRatio, "as --ratios, for the times")->capture_default_str();
-    app.add_option("--trajectories", options.trajectories, "a file that --keep wrote, in place of the simulation");
+    app.add_option("--trajectories", options.trajectories,
+                   "a file that --keep wrote, in place of the simulation; times are of its `moving`");
     app.add_option("--keep", options.keep, "file for the trajectories");
     app.add_option("--frames", options.frames, "folder for the frames that were timed, for tools/bench_codec.mjs");
 }
@@ -62,20 +63,32 @@ void printTable(const std::vector<bench::CodecSize>& sizes, double ratio) {
     }
 }
 
+void printSpeed(const Options& options, const std::string& what, const bench::CodecSpeed& speed) {
+    fmt::print(
+        "{} spheres, {}, {:.2f} bytes each: encode {:.1f} ms (fastest {:.1f} ms, {:.1f} million/s), keyframe {:.1f} "
+        "ms, "
+        "hash {:.1f} ms, decode {:.1f} ms\n",
+        options.speed, what, speed.bytes, speed.encode, speed.fastest, options.speed / speed.fastest / 1000,
+        speed.keyframe, speed.hash, speed.decode);
+}
+
+void measureSpeed(const Options& options, compute::Device& device) {
+    if (options.trajectories.empty()) {
+        for (const bool shuffled : {true, false})
+            printSpeed(options, shuffled ? "kicked, ids shuffled" : "kicked, ids of a lattice",
+                       bench::codecSpeed(device, options.speed, options.speedRatio, shuffled, options.frames));
+        return;
+    }
+    for (const bench::Trajectory& bed : bench::load(options.trajectories))
+        if (bed.name == "moving")
+            printSpeed(options, "copies of `moving`",
+                       bench::codecSpeed(device, options.speed, options.speedRatio, bed, options.frames));
+}
+
 void measure(const Options& options, compute::Device& device) {
     fmt::print("device: {}\n", device.info().renderer);
-    for (const bool shuffled : {true, false}) {
-        if (options.speed == 0) break;
-        const bench::CodecSpeed speed =
-            bench::codecSpeed(device, options.speed, options.speedRatio, shuffled, options.frames);
-        fmt::print(
-            "{} spheres, ids {}, {:.2f} bytes each: encode {:.1f} ms (fastest {:.1f} ms, {:.1f} million/s), keyframe "
-            "{:.1f} ms, "
-            "hash {:.1f} ms, decode {:.1f} ms\n",
-            options.speed, shuffled ? "shuffled" : "of a lattice", speed.bytes, speed.encode, speed.fastest,
-            options.speed / speed.fastest / 1000, speed.keyframe, speed.hash, speed.decode);
-    }
-    if (options.spheres == 0 && options.trajectories.empty()) return;
+    if (options.speed > 0) measureSpeed(options, device);
+    if (options.spheres == 0) return;
     const auto trajectories =
         options.trajectories.empty() ? bench::collapse(device, options.spheres) : bench::load(options.trajectories);
     if (!options.keep.empty()) bench::save(options.keep, trajectories);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -18,8 +19,8 @@ namespace spherule::bench {
 
 namespace {
 
-constexpr double radius = 0.016;  // m, the smallest
-constexpr float spacing = 0.04F;  // m
+constexpr double kickedRadius = 0.016;  // m, the smallest
+constexpr float spacing = 0.04F;        // m
 constexpr int rounds = 15;
 
 template <class T>
@@ -48,10 +49,22 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
+// Positions by slot (m), and the slot of each id.
+struct World {
+    explicit World(std::uint32_t spheres) : bySlot(spheres), slotOf(spheres) {}
+    virtual ~World() = default;
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+    virtual void move() = 0;  // to the next frame
+
+    std::vector<glm::vec4> bySlot;
+    std::vector<std::uint32_t> slotOf;
+};
+
 // A cube of spheres whose slots are in the order of a grid's cells, slice by slice. Their ids are those of a lattice,
 // row by row, or shuffled.
-struct World {
-    World(std::uint32_t spheres, bool shuffled) : bySlot(spheres), velocity(spheres), slotOf(spheres) {
+struct Kicked : World {
+    Kicked(std::uint32_t spheres, bool shuffled) : World(spheres), velocity(spheres) {
         const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(spheres)));
         std::uniform_real_distribution<float> jitter(-0.3F * spacing, 0.3F * spacing);
         std::uniform_real_distribution<float> speed(-0.01F, 0.01F);  // m per frame
@@ -72,7 +85,7 @@ struct World {
     }
 
     // Everything falls, and is kicked by about as much as spheres of a splash are.
-    void move() {
+    void move() override {
         std::normal_distribution<float> kick(0, 0.0025F);
         std::vector<float> kicks(4099);
         for (float& one : kicks) one = kick(random);
@@ -86,17 +99,40 @@ struct World {
     }
 
     std::mt19937 random{1};
-    std::vector<glm::vec4> bySlot, velocity;
-    std::vector<std::uint32_t> slotOf;
+    std::vector<glm::vec4> velocity;
 };
 
-}  // namespace
+// Copies of a simulated bed side by side, slots in an order in which neighbours are near each other.
+struct Copies : World {
+    Copies(std::uint32_t spheres, const Trajectory& bed) : World(spheres), bed_(bed) {
+        std::iota(slotOf.begin(), slotOf.end(), 0U);
+        place(0);
+        const std::vector<std::uint32_t> order = sim::mortonOrder(bySlot);
+        for (std::uint32_t slot = 0; slot < spheres; ++slot) slotOf[order[slot]] = slot;
+        place(0);
+    }
+    void move() override { place(++frame_); }
 
-CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, bool shuffled,
-                      const std::string& keep) {
-    World world(spheres, shuffled);
+  private:
+    void place(std::size_t frame) {
+        constexpr std::uint32_t row = 5;
+        constexpr float apart = 1.7F;  // m
+        const auto& positions = bed_.frames.at(frame);
+        for (std::uint32_t id = 0; id < slotOf.size(); ++id) {
+            const std::uint32_t copy = id / bed_.spheres;
+            const glm::vec3 corner = apart * glm::vec3(copy % row, copy / row, 0);
+            bySlot[slotOf[id]] = glm::vec4(positions[id % bed_.spheres] + corner, 0);
+        }
+    }
+
+    const Trajectory& bed_;
+    std::size_t frame_ = 0;
+};
+
+CodecSpeed timed(compute::Device& device, World& world, double quantum, const std::string& keep) {
+    const auto spheres = static_cast<std::uint32_t>(world.slotOf.size());
     const auto tools = valueOf(sim::TierTools::create(device, spheres, true));
-    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = 2 * radius / ratio}));
+    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     const auto slotOf = valueOf(device.createBuffer("slotOf", spheres * sizeof(std::uint32_t)));
     device.upload(*slotOf, 0, std::as_bytes(std::span(world.slotOf)));
@@ -134,6 +170,20 @@ CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double rat
     speed.hash = median(hash) - speed.encode;
     speed.decode = median(decode);
     return speed;
+}
+
+}  // namespace
+
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, bool shuffled,
+                      const std::string& keep) {
+    Kicked world(spheres, shuffled);
+    return timed(device, world, 2 * kickedRadius / ratio, keep);
+}
+
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, const Trajectory& bed,
+                      const std::string& keep) {
+    Copies world(spheres, bed);
+    return timed(device, world, 2 * bed.smallestRadius / ratio, keep);
 }
 
 }  // namespace spherule::bench

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "compute/device.h"
+#include "trajectories.h"
 
 namespace spherule::bench {
 
@@ -22,6 +23,9 @@ struct CodecSpeed {
 // than any mixing can. Writes the frames, and the ids in their order, into the folder `keep` unless that is empty;
 // throws what goes wrong as std::runtime_error.
 CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, bool shuffled,
+                      const std::string& keep);
+// The same of copies of a bed, from the first frame of the trajectory on.
+CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, const Trajectory& bed,
                       const std::string& keep);
 
 }  // namespace spherule::bench
