@@ -149,7 +149,8 @@ void Player::skip(const Error& error, double from, Moved& moved) {
         place_ += recording_.time() - from;
         findNext();
     } else {
-        // Nothing is left: it stands at the end.
+        // Nothing is left: it stands at the end. Looking for keyframes may have cost what was reached before.
+        moved.shown = moved.shown && recording_.shows();
         next_.reset();
         place_ = recording_.end();
     }

@@ -33,6 +33,7 @@ class Playing : public testing::Test {
     double after(std::chrono::milliseconds time) {
         now_ += time;
         moved_ = player_->advance(now_);
+        EXPECT_TRUE(!moved_.shown || player_->recording().shows());
         return player_->recording().time();
     }
 
@@ -58,19 +59,16 @@ class Playing : public testing::Test {
         command.mutable_set()->set_speed(speed);
         return give(command).has_value();
     }
-    // Where the first delta frame after `time` begins.
-    [[nodiscard]] std::uint64_t frameBehind(double time) const {
+    // Changes a bit of the first record of that kind after `time`; says where it begins.
+    std::uint64_t damage(double time, store::Kind kind = store::Kind::Delta) {
         const auto file = store::RecordFile::open(path_);
-        for (std::uint64_t offset = store::fileHeadBytes;;) {
-            const auto record = file->read(offset);
+        std::uint64_t offset = store::fileHeadBytes;
+        for (;;) {
+            const auto record = file->readHead(offset);
             if (!record) throw std::runtime_error(record.error().text());
-            if (record->kind == store::Kind::Delta && record->time > time) return offset;
+            if (record->kind == kind && record->time > time) break;
             offset = record->end;
         }
-    }
-    // Changes a bit of that frame.
-    std::uint64_t damage(double time) {
-        const std::uint64_t offset = frameBehind(time);
         std::string content = store::contentOf(path_);
         content[offset + 40] = static_cast<char>(content[offset + 40] ^ 4);
         store::put(path_, content);
@@ -246,6 +244,19 @@ TEST_F(Playing, ADamagedEndIsTheEnd) {
     for (int k = 0; k < 100 && comeWhenDue(); ++k) told += moved_.damage.size();
     EXPECT_LE(told, 1U);
     EXPECT_FALSE(player_->due());
+    ASSERT_TRUE(tell(&v1::Command::mutable_resume));
+    EXPECT_NEAR(after(10ms), 0, 1e-9);
+}
+
+TEST_F(Playing, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
+    damage(1.55);
+    damage(1.95, store::Kind::Join);
+    open();
+    EXPECT_NEAR(after(1300ms), 1.3, 1e-9);
+    after(400ms);
+    EXPECT_EQ(moved_.damage.size(), 1U);
+    after(1000ms);
+    EXPECT_TRUE(player_->paused());
     ASSERT_TRUE(tell(&v1::Command::mutable_resume));
     EXPECT_NEAR(after(10ms), 0, 1e-9);
 }
