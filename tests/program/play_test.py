@@ -173,6 +173,7 @@ class Record(Files):
         with open(scene, "w", encoding="utf-8") as file:
             json.dump({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}, file)
         with self.serve(scene, "--record", self.recording) as server:
+            self.assertTrue(wait_for(lambda: server.metrics()["spherule_recording_active", ""] == 1))
             self.assertEqual(server.end(), 4)
             self.assertIn("nothing was recorded: no frame has come", server.said)
 

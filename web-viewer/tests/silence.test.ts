@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
-import { afterEach, beforeEach, mock, test } from "node:test";
+import { afterEach, beforeEach, test } from "node:test";
 import { Silence } from "../src/connection/silence";
+import { timers } from "./support/timers";
 
 let now = 0;
 let said: string[] = [];
@@ -10,14 +11,14 @@ let silence: Silence;
 function pass(ms: number): void {
   for (let left = ms; left > 0; left -= 100) {
     now += 100;
-    mock.timers.tick(100);
+    timers.tick(100);
   }
 }
 
 const count = (word: string): number => said.filter((one) => one === word).length;
 
 beforeEach(() => {
-  mock.timers.enable();
+  timers.enable();
   now = 0;
   said = [];
   silence = new Silence(
@@ -34,7 +35,7 @@ beforeEach(() => {
 });
 afterEach(() => {
   silence.end();
-  mock.timers.reset();
+  timers.reset();
 });
 
 test("who is heard is left in peace", () => {
@@ -97,7 +98,7 @@ test("time in which the page slept is no silence", () => {
   silence.begin();
   for (let k = 0; k < 3; k++) {
     now += 3_600_000;
-    mock.timers.tick(500);
+    timers.tick(500);
   }
   assert.equal(count("silent") + count("gives up"), 0);
 });

@@ -1,11 +1,12 @@
 import assert from "node:assert/strict";
-import { mock, test } from "node:test";
+import { test } from "node:test";
 import { Buffers } from "../src/connection/buffers";
 import { Frames } from "../src/connection/frames";
 import { KeyframeWish } from "../src/connection/keyframe_wish";
 import type { Received } from "../src/connection/messages";
 import { Stream } from "../src/connection/stream";
 import { frameOf, keyframe, orderOf, still } from "./support/chain";
+import { timers } from "./support/timers";
 
 interface Said {
   sequence?: bigint;
@@ -85,29 +86,29 @@ test("keyframes that cannot be decoded do not make a loop", () => {
 });
 
 test("keyframes are asked for ever more rarely while none helps", () => {
-  mock.timers.enable();
+  timers.enable();
   let now = 0;
   const asked: [number, bigint][] = [];
   const wish = new KeyframeWish((sequence) => void asked.push([now, sequence]), () => now);
   for (now = 0; now <= 40_000; now += 500) {
     wish.want(BigInt(now));
-    mock.timers.tick(500);
+    timers.tick(500);
   }
   const times = asked.map(([at]) => at);
   assert.equal(times[0], 0);
   assert.ok(times.length >= 4 && times.length <= 6, `${times}`);
   const waits = times.slice(1).map((at, k) => at - (times[k] ?? 0));
   for (let k = 1; k < waits.length; k++) assert.ok((waits[k] ?? 0) >= (waits[k - 1] ?? 0), `${waits}`);
-  mock.timers.reset();
+  timers.reset();
 });
 
 test("a keyframe that came ends the plan to ask again", () => {
-  mock.timers.enable();
+  timers.enable();
   let asked = 0;
   const wish = new KeyframeWish(() => void (asked += 1), () => 0);
   assert.deepEqual([wish.want(1n), wish.want(2n), wish.want(3n)], [true, false, false]);
   wish.forget();
-  mock.timers.tick(60_000);
+  timers.tick(60_000);
   assert.equal(asked, 1);
-  mock.timers.reset();
+  timers.reset();
 });

@@ -1,6 +1,6 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
-import { mock, test } from "node:test";
+import { test } from "node:test";
 import { Clock } from "../src/clock";
 import { Watch } from "../src/connection/watch";
 import { keep, wishFrom } from "../src/connection/wish";
@@ -9,6 +9,7 @@ import { Tier } from "../src/gen/spherule/v1/frame_pb";
 import { Lateness } from "../src/scene/lateness";
 import { Traffic } from "../src/scene/traffic";
 import { streamRows } from "../src/ui/stream_words";
+import { timers } from "./support/timers";
 
 const usual = { tier: Tier.NORMAL, rate: 30, fixed: false };
 
@@ -40,22 +41,22 @@ test("what makes no sense is no wish", () => {
 });
 
 test("a hidden page asks for no frames after a while, and for its own again when it is shown", () => {
-  mock.timers.enable();
+  timers.enable();
   const asked: number[] = [];
   const watch = new Watch(usual, (view) => void asked.push(view.rate));
   watch.show(true);
   watch.show(false);
-  mock.timers.tick(1000);
+  timers.tick(1000);
   watch.show(true);
-  mock.timers.tick(10_000);
+  timers.tick(10_000);
   assert.deepEqual(asked, []);
   watch.show(false);
-  mock.timers.tick(10_000);
+  timers.tick(10_000);
   assert.equal(watch.view.rate, 0, "also for the next hello");
   watch.want({ ...usual, rate: 60 });
   watch.show(true);
   assert.deepEqual(asked, [0, 0, 60]);
-  mock.timers.reset();
+  timers.reset();
 });
 
 test("traffic forgets what is older than two seconds", () => {

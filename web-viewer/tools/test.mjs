@@ -19,6 +19,8 @@ try {
     format: "esm",
     target: "node18",
     sourcemap: "inline",
+    // Packages of the older kind ask for Node's own modules in this way.
+    banner: { js: 'import { createRequire } from "node:module"; const require = createRequire(import.meta.url);' },
     logLevel: "warning",
   });
   const bundles = tests.map((name) => path.join(out, name.replace(/\.ts$/, ".mjs")));
