@@ -128,7 +128,7 @@ void Tape::keep(frame::SharedMessage message) {
     }
 }
 
-void Tape::say(frame::SharedMessage message) {
+void Tape::say(const frame::SharedMessage& message) {
     if (writer_ && timed_ && message->content().has_event()) add(store::Kind::Other, message);
 }
 

@@ -31,7 +31,7 @@ class Tape {
 
     // What viewers are told, at the same time as they are: of what is said, events are recorded.
     void keep(frame::SharedMessage message);
-    void say(frame::SharedMessage message);
+    void say(const frame::SharedMessage& message);
     void order(frame::SharedMessage message);
     void frame(const frame::Link& link);
 
