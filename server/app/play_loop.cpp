@@ -53,15 +53,7 @@ Chains::Clock::duration PlayLoop::patience(Chains::Clock::time_point now) const 
 }
 
 void PlayLoop::serve(const Request& request) {
-    v1::CommandResult result;
-    result.set_id(request.command.id());
-    if (auto applied = player_.apply(request.command, Player::Clock::now())) {
-        *result.mutable_applied() = std::move(*applied);
-    } else {
-        result.mutable_refused()->set_field(applied.error().where);
-        result.mutable_refused()->set_reason(applied.error().message);
-    }
-    outlets_.reply(request.session, std::move(result));
+    outlets_.reply(request.session, resultOf(request.command, player_.apply(request.command, Player::Clock::now())));
 }
 
 Result<void> PlayLoop::advance(Chains::Clock::time_point now) {

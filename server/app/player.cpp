@@ -137,6 +137,7 @@ void Player::goTo(double time, Moved& moved) {
         moved.shown = recording_.time() != before && recording_.shows();
         skip(done.error(), time, moved);
     }
+    if (moved.shown) settings_ = recording_.settings();
     auto passed = recording_.takePassed();
     std::ranges::move(passed, std::back_inserter(moved.passed));
 }
@@ -182,7 +183,7 @@ v1::Timeline Player::timeline() const {
 }
 
 v1::Settings Player::settings() const {
-    v1::Settings settings = recording_.settings();
+    v1::Settings settings = settings_;
     settings.set_speed(speed_);
     settings.set_paused(paused_);
     return settings;

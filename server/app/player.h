@@ -60,6 +60,7 @@ class Player {
     std::optional<double> wanted_;  // s of the recording, by a command
     double place_ = 0;              // s of the recording, at `since_`
     Clock::time_point since_;
+    v1::Settings settings_;       // recorded, of what is shown
     std::optional<double> next_;  // time of the frame after the present one; nothing at the end
 };
 

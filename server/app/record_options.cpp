@@ -25,25 +25,26 @@ CLI::Option* addFile(CLI::App& command, RecordOptions& options) {
 
 }  // namespace
 
-void RecordOptions::addTo(CLI::App& command) {
-    CLI::Option* const file = addFile(command, *this);
-    addCommon(command, *this, file);
-    command.add_option("--record-rate", rate, "frames per simulated second, at most one a step")
+void addRecord(CLI::App& command, RecordOptions& options) {
+    CLI::Option* const file = addFile(command, options);
+    addCommon(command, options, file);
+    command.add_option("--record-rate", options.rate, "frames per simulated second, at most one a step")
         ->capture_default_str()
         ->check(CLI::Range(0.001, 1e6))
         ->needs(file);
 }
 
-void TapeOptions::addTo(CLI::App& command) {
-    addFile(command, *this);
-    addCommon(command, *this, nullptr);
-    command.add_option("--record-rate", rate, "frames per second of recordings: 5, 10, 20, 30 or 60")
+void addTape(CLI::App& command, TapeOptions& options) {
+    addFile(command, options);
+    addCommon(command, options, nullptr);
+    command.add_option("--record-rate", options.rate, "frames per second of recordings: 5, 10, 20, 30 or 60")
         ->capture_default_str()
         ->check(CLI::IsMember({5.0, 10.0, 20.0, 30.0, 60.0}));
-    command.add_option("--recordings", folder, "folder of the recordings that viewers start; empty: they cannot")
+    command
+        .add_option("--recordings", options.folder, "folder of the recordings that viewers start; empty: they cannot")
         ->capture_default_str();
     command
-        .add_option("--recordings-limit", folderBytes,
+        .add_option("--recordings-limit", options.folderBytes,
                     "what all recordings in that folder may take up, such as 4GiB [4GiB]")
         ->transform(CLI::AsSizeValue(false));
 }

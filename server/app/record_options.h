@@ -15,18 +15,17 @@ struct RecordOptions {
     v1::Tier tier = v1::FINE;
     double rate = 30;      // frames per second
     bool replace = false;  // a file that is there
-
-    // For `run`: frames per simulated second, at most one a step.
-    void addTo(CLI::App& command);
 };
 
 // What is recorded while viewers watch.
 struct TapeOptions : RecordOptions {
     std::string folder = "recordings";                    // of those that viewers start
     std::uint64_t folderBytes = std::uint64_t{4} << 30U;  // that all recordings in it may have
-
-    // For `serve`: frames per second as viewers get them.
-    void addTo(CLI::App& command);
 };
+
+// For `run`: the rate is that of frames per simulated second, at most one a step.
+void addRecord(CLI::App& command, RecordOptions& options);
+// For `serve`: frames per second as viewers get them.
+void addTape(CLI::App& command, TapeOptions& options);
 
 }  // namespace spherule::app

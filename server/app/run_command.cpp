@@ -195,7 +195,7 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--every", options->every,
                         "report this often, or with --dump write a state; absent: once, at the end");
     command->add_option("--dump", options->dump, "write states to this CSV file");
-    options->record.addTo(*command);
+    addRecord(*command, options->record);
     command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {

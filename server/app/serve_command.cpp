@@ -42,7 +42,7 @@ void addServe(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("serve", "simulate and show it in a browser");
     options->scene.addTo(*command);
     addListen(*command, options->listen);
-    options->recordings.addTo(*command);
+    addTape(*command, options->recordings);
     command->add_option(
         "--quality-table", options->table,
         "a measure.json of `spherule measure`: what the dial says of errors and costs, in place of what "

@@ -30,6 +30,9 @@ struct Outlets {
     std::function<std::vector<frame::Demand>()> demands;
 };
 
+// The answer to a command.
+v1::CommandResult resultOf(const v1::Command& command, const Result<v1::Applied>& applied);
+
 // What a show has to do with: what is asked of it, what it says of itself, where its results go.
 struct Stage {
     BoundedQueue<Request>& requests;

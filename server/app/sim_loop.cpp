@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/facts.h"
-#include "app/utf8.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -70,25 +69,19 @@ Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
 }
 
 void SimLoop::serve(const Request& request) {
-    v1::CommandResult result;
-    result.set_id(request.command.id());
+    Result<v1::Applied> applied;
     try {
-        if (auto applied = apply(request.command)) {
-            *result.mutable_applied() = std::move(*applied);
-        } else {
-            result.mutable_refused()->set_field(applied.error().where);
-            result.mutable_refused()->set_reason(utf8(applied.error().message));
-        }
+        applied = apply(request.command);
     } catch (const std::bad_alloc&) {
-        result.mutable_refused()->set_reason("there is not enough memory for this");
+        applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
     }
-    if (result.has_applied() && changesWorld(request.command)) {
+    if (applied && changesWorld(request.command)) {
         tuner_.forget();
         observer_.disturbed();
         nextReport_ = {};  // what energy there is at the start is soon gone
     }
-    if (!request.command.has_query() && result.has_applied()) announce();
-    outlets_.reply(request.session, std::move(result));
+    if (!request.command.has_query() && applied) announce();
+    outlets_.reply(request.session, resultOf(request.command, applied));
 }
 
 Result<v1::Applied> SimLoop::apply(const v1::Command& command) {

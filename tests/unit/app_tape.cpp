@@ -264,13 +264,13 @@ TEST_F(Taping, RoundingDoesNotSetTimeBack) {
 TEST_F(Taping, AHostileSceneNameIsNoPath) {
     open();
     v1::ServerMessage scene = store::sceneMessage(1, spheres);
-    scene.mutable_scene()->set_name("../../etc/passwd\n;" + std::string(500, 'x'));
+    scene.mutable_scene()->set_name("../../up/away\n;" + std::string(500, 'x'));
     keep(scene);
     order();
     ASSERT_TRUE(tape_->start());
     const std::filesystem::path path = tape_->news(Tape::Clock::now())->file();
     EXPECT_EQ(path.parent_path().string(), folder_ / "made");
-    EXPECT_EQ(path.filename().string().find("etcpasswdxxx"), 0U);
+    EXPECT_EQ(path.filename().string().find("upawayxxx"), 0U);
     EXPECT_LT(path.filename().string().size(), 80U);
 }
 

@@ -28,7 +28,7 @@ export class Scrubber {
   private still = false; // it is shown, and nothing goes on by itself
   private held = false; // by hand: what the server says meanwhile does not move it
 
-  /** `wished`: the person wants this moment, s; `last`: for now; `stepped`: the next frame. */
+  /** `wished`: the person wants this moment, s; `last`: the hand has let go; `stepped`: the next frame. */
   constructor(
     private readonly wished: (time: number, last: boolean) => void,
     private readonly stepped: () => void,
