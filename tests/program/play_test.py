@@ -159,7 +159,10 @@ class Record(Files):
         def little_room():
             resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, 300_000))
         with self.serve("box", "--record", self.recording, preexec_fn=little_room) as server:
-            self.assertTrue(wait_for(lambda: server.metrics()["spherule_recording_active", ""] == 0, 60))
+            def has_ended():
+                seen = server.metrics()
+                return seen["spherule_recording_bytes", ""] > 0 and seen["spherule_recording_active", ""] == 0
+            self.assertTrue(wait_for(has_ended, 60))
             steps = server.metrics()["spherule_steps", ""]
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] > steps + 10))
             self.assertEqual(server.end(), 0)
