@@ -51,7 +51,8 @@ async function says(page, id, pattern) {
 function traces(page, words) {
   return page.evaluate((wanted) => {
     const fields = [...document.querySelectorAll("input")].map((input) => input.value).join(" ");
-    const places = { document: document.documentElement.outerHTML, fields, address: location.href, local: JSON.stringify(localStorage), session: JSON.stringify(sessionStorage) };
+    const stores = { local: JSON.stringify(localStorage), session: JSON.stringify(sessionStorage) };
+    const places = { document: document.documentElement.outerHTML, fields, address: location.href, ...stores };
     return Object.keys(places).filter((place) => places[place].includes(wanted));
   }, words);
 }
