@@ -70,6 +70,7 @@ int serveUntilStopped(const OpenShow& open, const ServingOptions& serving, const
     const auto options = netOptionsOf(serving);
     if (!options) return report(options.error());
     const Signals signals;
+    logInBackground();
     auto runtime = Runtime::start(open, *options);
     if (!runtime) return report(runtime.error());
     announce(**runtime, *options, what);

@@ -1,6 +1,7 @@
 #include "core/log.h"
 
 #include <fmt/chrono.h>
+#include <spdlog/async.h>
 #include <spdlog/formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -15,28 +16,32 @@ namespace spherule {
 namespace {
 
 constexpr const char* loggerName = "spherule";
+constexpr std::size_t mostWaiting = 1024;  // messages
 
-// What belongs to the message that this thread logs: spdlog formats it before the call returns.
-struct Event {
-    std::string_view name;
-    std::initializer_list<LogField> fields;
-};
-thread_local const Event* current = nullptr;
+// Marks a message that is a JSON object's members already.
+constexpr const char* membersMark = "event";
+
+nlohmann::ordered_json objectOf(std::string_view message) {
+    return {{"message", message}};
+}
+
+// An object without its braces; what is no UTF-8 is replaced.
+std::string membersOf(const nlohmann::ordered_json& object) {
+    const std::string text = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return text.substr(1, text.size() - 2);
+}
 
 class JsonLines final : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
         const auto time = std::chrono::time_point_cast<std::chrono::milliseconds>(message.time).time_since_epoch();
         const auto level = spdlog::level::to_string_view(message.level);
-        nlohmann::ordered_json json = {
-            {"time", fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(message.time), time.count() % 1000)},
-            {"level", std::string_view(level.data(), level.size())},
-            {"message", std::string_view(message.payload.data(), message.payload.size())}};
-        if (current != nullptr) {
-            json["event"] = current->name;
-            for (const LogField& field : current->fields) json[std::string(field.name)] = field.value;
-        }
-        const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+        const std::string_view payload(message.payload.data(), message.payload.size());
+        const std::string text =
+            fmt::format(R"({{"time":"{:%Y-%m-%dT%H:%M:%S}.{:03}Z","level":"{}",{}}})"
+                        "\n",
+                        fmt::gmtime(message.time), time.count() % 1000, std::string_view(level.data(), level.size()),
+                        message.source.funcname == membersMark ? std::string(payload) : membersOf(objectOf(payload)));
         line.append(text.data(), text.data() + text.size());
     }
     [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<JsonLines>(); }
@@ -52,28 +57,39 @@ std::string asText(std::string_view message, std::initializer_list<LogField> fie
 
 bool isJson = false;
 
-}  // namespace
-
-void startLog(bool verbose, LogFormat format) {
-    spdlog::drop(loggerName);
-    isJson = format == LogFormat::Json;
-    auto logger = isJson ? spdlog::stderr_logger_mt(loggerName) : spdlog::stderr_color_mt(loggerName);
+void use(std::shared_ptr<spdlog::logger> logger, spdlog::level::level_enum level) {
     if (isJson)
         logger->set_formatter(std::make_unique<JsonLines>());
     else
         logger->set_pattern("%H:%M:%S.%e %^%l%$ %v");
-    logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
+    logger->set_level(level);
     spdlog::set_default_logger(std::move(logger));
+}
+
+}  // namespace
+
+void startLog(bool verbose, LogFormat format) {
+    isJson = format == LogFormat::Json;
+    use(isJson ? spdlog::stderr_logger_mt(loggerName) : spdlog::stderr_color_mt(loggerName),
+        verbose ? spdlog::level::debug : spdlog::level::info);
+}
+
+void logInBackground() {
+    const auto now = spdlog::default_logger();
+    spdlog::init_thread_pool(mostWaiting, 1);
+    use(std::make_shared<spdlog::async_logger>(loggerName, now->sinks().begin(), now->sinks().end(),
+                                               spdlog::thread_pool(), spdlog::async_overflow_policy::overrun_oldest),
+        now->level());
 }
 
 void logEvent(spdlog::level::level_enum level, std::string_view event, std::string_view message,
               std::initializer_list<LogField> fields) {
     if (!spdlog::should_log(level)) return;
     if (!isJson) return spdlog::log(level, "{}", asText(message, fields));
-    const Event here{event, fields};
-    current = &here;
-    spdlog::log(level, "{}", message);
-    current = nullptr;
+    nlohmann::ordered_json object = objectOf(message);
+    object["event"] = event;
+    for (const LogField& field : fields) object[std::string(field.name)] = field.value;
+    spdlog::default_logger_raw()->log(spdlog::source_loc{membersMark, 1, membersMark}, level, "{}", membersOf(object));
 }
 
 }  // namespace spherule

@@ -11,8 +11,12 @@ namespace spherule {
 enum class LogFormat { Text, Json };
 
 // Sends the program's log to stderr, so that stdout stays free for results: lines of text, or one JSON object a line
-// with "time" (UTC), "level" and "message". Call again to change it, before there are other threads.
+// with "time" (UTC), "level" and "message". Call once, from main.
 void startLog(bool verbose, LogFormat format);
+
+// From here on a thread of its own writes the log: who logs never waits for whoever reads it, and when too much waits,
+// the oldest is left out. What is left is written when the program ends.
+void logInBackground();
 
 struct LogField {
     std::string_view name;  // of letters and underscores

@@ -4,12 +4,28 @@
 
 namespace spherule::net {
 
+namespace {
+
+void tell(Throttle& throttle, std::string_view event, std::string_view message, std::string_view cause,
+          const std::string& who) {
+    const auto more = throttle.pass(Throttle::Clock::now());
+    if (!more) return;
+    logEvent(spdlog::level::info, event, message,
+             {{"cause", std::string(cause)}, {"from", who}, {"more", std::to_string(*more)}});
+}
+
+}  // namespace
+
 void Refusals::add(Rejection cause, const std::string& who) {
     ++counters_.rejectedFor(cause);
-    const auto more = throttles_[static_cast<std::size_t>(cause)].pass(Throttle::Clock::now());
-    if (!more) return;
-    logEvent(spdlog::level::info, "rejected", "turned away",
-             {{"cause", std::string(nameOf(cause))}, {"from", who}, {"more", std::to_string(*more)}});
+    tell(throttles_[static_cast<std::size_t>(cause)], "rejected", "turned away", nameOf(cause), who);
+}
+
+void Refusals::ended(CloseCause cause, const std::string& who) {
+    ++counters_.closedBy(cause);
+    if (cause == CloseCause::Left || cause == CloseCause::Drained) return;
+    const auto place = static_cast<std::size_t>(cause);
+    tell(endThrottles_[place], "session_ended", "a session was ended", closeCauseNames[place], who);
 }
 
 }  // namespace spherule::net

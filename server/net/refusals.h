@@ -9,18 +9,21 @@
 
 namespace spherule::net {
 
-// Counts what is turned away, and logs it: each cause at most once in ten seconds, so that nobody fills the disk with
-// it. On the io thread.
+// Counts what is turned away and what ends, and logs it: each cause at most once in ten seconds, so that nobody fills
+// the disk with it. On the io thread.
 class Refusals {
   public:
     explicit Refusals(Counters& counters) : counters_(counters) {}
 
     // `who`: an address, or an address and a name; printable.
     void add(Rejection cause, const std::string& who);
+    // A session that had begun.
+    void ended(CloseCause cause, const std::string& who);
 
   private:
     Counters& counters_;
     std::array<Throttle, rejectionNames.size()> throttles_{};
+    std::array<Throttle, closeCauseNames.size()> endThrottles_{};
 };
 
 }  // namespace spherule::net

@@ -178,13 +178,7 @@ void Session::finish(CloseCause cause) {
     outbox_.clear();
     beast::get_lowest_layer(stream_).close();
     --context_.counters.sessions;
-    ++context_.counters.closedBy(cause);
-    const auto level =
-        cause == CloseCause::Left || cause == CloseCause::Drained ? spdlog::level::debug : spdlog::level::info;
-    logEvent(level, "session_ended", "a session has ended",
-             {{"cause", std::string(closeCauseNames[static_cast<std::size_t>(cause)])},
-              {"session", std::to_string(id_)},
-              {"from", who()}});
+    context_.refusals.ended(cause, who());
     context_.hub.remove(id_);
     context_.lease.left(id_);
     visit_.reset();

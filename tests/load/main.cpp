@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <map>
@@ -74,7 +75,7 @@ void declare(CLI::App& app, Options& options) {
     app.footer(
         "Faults are what docs/protocol.md and docs/codec.md do not allow, a healthy viewer that is disconnected, and "
         "one\n"
-        "without frames for 5 s: let the scene run.\n\n"
+        "without frames for 5 s: let the scene run. A server with tokens gets that of SPHERULE_TOKEN.\n\n"
         "Exit codes: 0 no faults, 1 faults, 2 usage, or no server.");
 }
 
@@ -99,8 +100,10 @@ load::Wish wishOf(const Options& options) {
     boost::asio::ip::tcp::socket socket(io);
     const auto server = boost::asio::connect(socket, found, error);
     if (error) throw std::runtime_error(options.url + ": cannot be reached: " + error.message());
+    const char* const token = std::getenv("SPHERULE_TOKEN");
     return {.server = server,
             .url = *url,
+            .token = token == nullptr ? "" : token,
             .tier = options.tier,
             .rate = options.rate,
             .fixed = options.fixed,

@@ -20,6 +20,8 @@ import time
 
 from serving import Server
 
+# A crowd comes from one address, and all at once.
+UNLIMITED = ["--max-sessions", "0", "--max-sessions-per-address", "0", "--connections-per-second", "0"]
 OF_INTEREST = ["spherule_frames_sent_total", "spherule_bytes_sent_total", "spherule_states_produced_total",
                "spherule_chains_lost_total", "spherule_sessions_accepted_total"]
 
@@ -68,7 +70,7 @@ def program(args):
 
 def crowd(args, *show):
     tenth = args.viewers // 10
-    with Server(program(args), *show) as server:
+    with Server(program(args), *show, *UNLIMITED) as server:
         if show[0] == "serve":
             settle(server, args.settle)
         before = server.metrics()
@@ -145,7 +147,7 @@ def stretch(args, server, viewers):
 
 def cost(args):
     alone, crowded = [], []
-    with Server(program(args), "serve", args.scene, "--no-sleep", "--device", args.device) as server:
+    with Server(program(args), "serve", args.scene, "--no-sleep", "--device", args.device, *UNLIMITED) as server:
         settle(server, args.settle)
         for number in range(args.stretches):
             say(f"stretch {number + 1} of {args.stretches}")

@@ -6,7 +6,9 @@ import urllib.request
 
 
 class Server:
-    def __init__(self, binary, command, *options, **more):
+    def __init__(self, binary, command, *options, token=None, **more):
+        """`token`: for /metrics, of a server that asks for one."""
+        self._token = token
         self._command = [binary, command, *options, "--listen", "127.0.0.1:0"]
         self._more = more
         self.said = ""  # once it has ended
@@ -42,7 +44,9 @@ class Server:
         return f"ws://{self._address}/ws"
 
     def get(self, path):
-        with urllib.request.urlopen(f"http://{self._address}{path}", timeout=30) as answer:
+        headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
+        request = urllib.request.Request(f"http://{self._address}{path}", headers=headers)
+        with urllib.request.urlopen(request, timeout=30) as answer:
             return answer.read().decode()
 
     def fetch(self, path, tls):

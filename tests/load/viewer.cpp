@@ -102,6 +102,7 @@ void Viewer::handshake(const SharedSession& session) {
 void Viewer::hello(const SharedSession& session) {
     v1::ClientMessage message;
     message.mutable_hello()->set_client(fmt::format("load {} {}", kindNames[static_cast<std::size_t>(kind_)], index_));
+    message.mutable_hello()->set_token(wish_.token);
     v1::View& view = *message.mutable_hello()->mutable_view();
     view.set_rate(wish_.rate);
     view.set_tier(wish_.tier);

@@ -24,6 +24,7 @@ namespace spherule::load {
 struct Wish {
     boost::asio::ip::tcp::endpoint server;
     net::Url url;
+    std::string token{};
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 20;
     bool fixed = false;

@@ -1,0 +1,203 @@
+"""What hostile clients do to a server's port, each kind from an address of its own, and what they expect to come of it.
+
+An attacker repeats `attempt` for as long as it is told. It tallies what it saw: `tried`, and by `answers` how each ended. Wire
+formats are written out: no client of ours would send them.
+"""
+import asyncio
+import os
+import random
+import struct
+
+UPGRADE = ("GET /ws HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
+           "Sec-WebSocket-Protocol: spherule.v1\r\n{more}\r\n")
+
+
+def frame(payload, first=0x82):
+    """A masked WebSocket frame (RFC 6455, 5.2); the mask is zero."""
+    size = len(payload)
+    if size < 126:
+        head = struct.pack("!BB", first, 0x80 | size)
+    elif size < 65536:
+        head = struct.pack("!BBH", first, 0x80 | 126, size)
+    else:
+        head = struct.pack("!BBQ", first, 0x80 | 127, size)
+    return head + bytes(4) + payload
+
+
+def field(number, value):
+    """A length-delimited field of protobuf, of fewer than 128 bytes."""
+    return bytes([number << 3 | 2, len(value)]) + value
+
+
+def hello(token):
+    return frame(field(1, field(1, b"an attacker") + field(3, token.encode())))
+
+
+class Attacker:
+    """`address`: where it comes from; `pause`: s between two attempts of one of its `hands`."""
+    hands, pause = 4, 0.1
+
+    def __init__(self, port, address, tokens):
+        self._port, self._address, self.tokens = port, address, tokens
+        self.tried, self.answers = 0, {}
+
+    async def run(self):
+        await asyncio.gather(*(self._hand() for _ in range(self.hands)))
+
+    async def _hand(self):
+        while True:
+            self.tried += 1
+            answer = "not let in"
+            try:
+                reader, writer = await asyncio.wait_for(
+                    asyncio.open_connection("127.0.0.1", self._port, local_addr=(self._address, 0)), 10)
+                try:
+                    answer = await asyncio.wait_for(self.attempt(reader, writer), 60)
+                finally:
+                    writer.transport.abort()
+            except (OSError, asyncio.TimeoutError, asyncio.IncompleteReadError):
+                pass
+            self.answers[answer] = self.answers.get(answer, 0) + 1
+            await asyncio.sleep(self.pause)
+
+    async def upgrade(self, reader, writer, host="localhost", more=""):
+        """The status of the answer."""
+        writer.write(UPGRADE.format(host=host, more=more).encode())
+        return await self.status(reader)
+
+    @staticmethod
+    async def status(reader):
+        head = await reader.readuntil(b"\r\n\r\n")
+        return head.split(b" ", 2)[1].decode()
+
+    @staticmethod
+    async def close_code(reader):
+        """Of the close frame, whatever comes before it."""
+        while True:
+            first, size = await reader.readexactly(2)
+            if size == 126:
+                size = int.from_bytes(await reader.readexactly(2), "big")
+            elif size == 127:
+                size = int.from_bytes(await reader.readexactly(8), "big")
+            payload = await reader.readexactly(size)
+            if first & 15 == 8:
+                return str(int.from_bytes(payload[:2], "big"))
+
+    async def attempt(self, reader, writer):
+        raise NotImplementedError
+
+
+class Stalled(Attacker):
+    """Let in as a viewer, and then reads nothing."""
+    hands = 10
+
+    async def attempt(self, reader, writer):
+        if await self.upgrade(reader, writer) != "101":
+            return "refused"
+        writer.write(hello(self.tokens["viewer"]))
+        await asyncio.sleep(1)  # for something to have come
+        writer.transport.pause_reading()
+        while not writer.transport.is_closing():
+            writer.write(frame(b"", 0x89))  # a ping now and then finds out whether the server has had enough
+            await asyncio.sleep(1)
+        return "dropped"
+
+
+class Storm(Attacker):
+    """Comes 300 times a second, says hello, and is gone."""
+    hands, pause = 30, 0.1
+
+    async def attempt(self, reader, writer):
+        status = await self.upgrade(reader, writer)
+        writer.write(hello(self.tokens["viewer"]))
+        return status
+
+
+class Garbage(Attacker):
+    """Random bytes instead of HTTP, and instead of WebSocket frames."""
+
+    async def attempt(self, reader, writer):
+        garbage = os.urandom(random.randrange(1, 2000))
+        if random.random() < 0.5:
+            writer.write(b"\x00" + garbage + b"\r\n\r\n")
+            return await self.status(reader)
+        await self.upgrade(reader, writer)
+        writer.write(b"\xf0" + garbage + bytes(200))
+        return await self.close_code(reader)
+
+
+class Oversize(Attacker):
+    """Headers, bodies and messages that are too long."""
+
+    async def attempt(self, reader, writer):
+        kind = random.randrange(3)
+        if kind == 0:
+            writer.write(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"x" * 20_000 + b"\r\n\r\n")
+            return await self.status(reader)
+        if kind == 1:
+            writer.write(b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 20000\r\n\r\n" + bytes(20_000))
+            return await self.status(reader)
+        await self.upgrade(reader, writer)
+        writer.write(frame(bytes(10_000)))
+        return await self.close_code(reader)
+
+
+class Slow(Attacker):
+    """A request of which a byte comes every second, and never the last."""
+    hands = 20
+
+    async def attempt(self, reader, writer):
+        answer = asyncio.ensure_future(reader.read(1))
+        for byte in UPGRADE.format(host="localhost", more=""):
+            writer.write(byte.encode())
+            await asyncio.wait({answer}, timeout=1)
+            if answer.done():
+                return "closed" if not answer.result() else "answered"
+        return "answered"
+
+
+class Guesser(Attacker):
+    """Tries tokens, at the stream and at /metrics."""
+    hands, pause = 20, 0
+
+    async def attempt(self, reader, writer):
+        token = os.urandom(16).hex()
+        if random.random() < 0.5:
+            writer.write(f"GET /metrics HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {token}\r\n\r\n".encode())
+            return await self.status(reader)
+        if await self.upgrade(reader, writer) != "101":
+            return "refused"
+        writer.write(hello(token))
+        return await self.close_code(reader)
+
+
+class Stranger(Attacker):
+    """From another site, by another name, without a token, with a command before it."""
+
+    async def attempt(self, reader, writer):
+        kind = random.randrange(4)
+        if kind == 0:
+            return await self.upgrade(reader, writer, more="Origin: https://evil.example\r\n")
+        if kind == 1:
+            return await self.upgrade(reader, writer, host="evil.example")
+        await self.upgrade(reader, writer)
+        writer.write(hello("") if kind == 2 else frame(field(2, field(2, b""))))
+        return await self.close_code(reader)
+
+
+class Commander(Attacker):
+    """A viewer who commands, hundreds of times a second."""
+    hands, pause = 2, 1
+
+    async def attempt(self, reader, writer):
+        if await self.upgrade(reader, writer) != "101":
+            return "refused"
+        writer.write(hello(self.tokens["viewer"]))
+        writer.write(frame(field(3, b"\x08\x00")))  # no frames
+        writer.write(300 * frame(field(2, b"\x08\x07" + field(2, b""))))
+        await asyncio.sleep(1)
+        return "talked" if not reader.at_eof() else "dropped"
+
+
+ALL = (Stalled, Storm, Garbage, Oversize, Slow, Guesser, Stranger, Commander)
