@@ -9,7 +9,7 @@ trap 'rm -rf --one-file-system "$work"' EXIT
 root=$work/root
 
 mirror=$(apt-get indextargets --format '$(SITE)' 'Codename: bookworm' 'Created-By: Packages' | head -n 1)
-if ! debootstrap --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$work/log" 2>&1; then
+if ! debootstrap --variant=minbase bookworm "$root" ${mirror:+"$mirror"} >"$work/log" 2>&1; then
     tail -n 20 "$work/log" >&2
     exit 1
 fi
