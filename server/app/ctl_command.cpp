@@ -4,6 +4,7 @@
 
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "app/secret_files.h"
 #include "net/ctl.h"
 
 namespace spherule::app {
@@ -11,7 +12,9 @@ namespace spherule::app {
 namespace {
 
 struct CtlOptions {
-    std::string url;
+    net::Target target;
+    std::string tokenFile;
+    std::string authoritiesFile;
     std::vector<std::string> words;
     unsigned timeoutSeconds = 30;
 };
@@ -19,7 +22,17 @@ struct CtlOptions {
 int ctl(const CtlOptions& options) {
     const auto command = net::commandFrom(options.words);
     if (!command) return report(command.error());
-    const auto result = net::sendCommand(options.url, *command, std::chrono::seconds(options.timeoutSeconds));
+    net::Target target = options.target;
+    target.timeout = std::chrono::seconds(options.timeoutSeconds);
+    auto token = tokenOf("--token-file", options.tokenFile, "SPHERULE_TOKEN");
+    if (!token) return report(token.error());
+    target.token = std::move(*token);
+    auto authorities = contentOf("--ca", options.authoritiesFile);
+    if (!authorities) return report(authorities.error());
+    target.authorities = std::move(*authorities);
+    const auto result = net::sendCommand(target, *command, [](const v1::Person& holder) {
+        fmt::print(stderr, "{} (session {}) has the controls; asking for them\n", holder.client(), holder.session());
+    });
     if (!result) return report(result.error());
     fmt::print("{}\n", net::resultText(*result));
     return result->has_applied() ? exitDone : exitRefused;
@@ -30,10 +43,14 @@ int ctl(const CtlOptions& options) {
 void addCtl(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<CtlOptions>();
     CLI::App* command = app.add_subcommand("ctl", "send one command to a running server and print its answer");
-    command->add_option("url", options->url, "such as ws://127.0.0.1:8080/ws")->required();
+    command->add_option("url", options->target.url, "such as ws://127.0.0.1:8080/ws, or wss:// for TLS")->required();
     command->add_option("command", options->words, "words, such as: set gravity 0 0 -1.6; or a JSON object")
         ->required();
-    command->add_option("--timeout", options->timeoutSeconds, "s to wait for the answer")->capture_default_str();
+    command->add_option("--token-file", options->tokenFile,
+                        "a file with the server's token; or give the token itself as SPHERULE_TOKEN");
+    command->add_option("--ca", options->authoritiesFile, "trust what these certificates (PEM) sign, and no others");
+    command->add_option("--timeout", options->timeoutSeconds, "s to wait for the answer, and for the controls")
+        ->capture_default_str();
     // Numbers such as -1.6 are words of the command, not options.
     command->positionals_at_end();
     command->footer(fmt::format("Commands:\n{}\n{}", net::commandForms, exitCodesText));

@@ -1,12 +1,16 @@
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <map>
+#include <string>
 
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "app/settings.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -20,7 +24,21 @@ int runCommand(int argc, char** argv) {
     app.footer(exitCodesText);
     bool verbose = false;
     app.add_flag("-v,--verbose", verbose, "log more");
-    app.parse_complete_callback([&verbose] { startLog(verbose); });
+    LogFormat format = LogFormat::Text;
+    const std::map<std::string, LogFormat> formats = {{"text", LogFormat::Text}, {"json", LogFormat::Json}};
+    app.add_option("--log-format", format, "text or json, one object a line [text]")
+        ->transform(CLI::CheckedTransformer(formats).description(""))
+        ->envname("SPHERULE_LOG_FORMAT");
+    bool printConfig = false;
+    app.add_flag("--print-config", printConfig, "print the settings of the command instead, as --config takes them")
+        ->configurable(false);
+    addConfig(app);
+    app.parse_complete_callback([&] {
+        startLog(verbose, format);
+        if (!printConfig) return;
+        fmt::print("{}", settingsText(app));
+        throw CLI::Success();
+    });
 
     int exitCode = exitDone;
     addServe(app, exitCode);
@@ -29,6 +47,7 @@ int runCommand(int argc, char** argv) {
     addExport(app, exitCode);
     addPlan(app, exitCode);
     addCtl(app, exitCode);
+    addHealth(app, exitCode);
     addProbe(app, exitCode);
     addMeasure(app, exitCode);
     try {

@@ -57,11 +57,8 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
 
     to.gauge("spherule_sessions", "Open sessions", count(net.sessions));
     to.counter("spherule_sessions_accepted_total", "Sessions ever", count(net.accepted));
-    to.counter("spherule_handshakes_refused_total", "WebSocket handshakes refused", count(net.handshakesRefused));
     to.counter("spherule_http_requests_total", "HTTP requests answered", count(net.httpRequests));
     to.counter("spherule_commands_total", "Commands received", count(net.commands));
-    to.counter("spherule_commands_refused_total", "Commands refused before they reached the simulation",
-               count(net.commandsRefused));
     to.counter("spherule_frames_sent_total", "State frames sent, over all sessions", count(net.framesSent));
     to.counter("spherule_chains_lost_total", "Times that a viewer missed a frame and needed a keyframe",
                count(net.chainsLost));
@@ -69,6 +66,9 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     for (std::size_t cause = 0; cause < net.closed.size(); ++cause)
         to.counter("spherule_sessions_closed_total", "Sessions ended, by cause", count(net.closed[cause]),
                    {{"cause", std::string(net::closeCauseNames[cause])}});
+    for (std::size_t cause = 0; cause < net.rejected.size(); ++cause)
+        to.counter("spherule_rejected_total", "Connections, requests, handshakes and commands turned away, by cause",
+                   count(net.rejected[cause]), {{"cause", std::string(net::rejectionNames[cause])}});
     return prometheus::TextSerializer().Serialize(to.registry.Collect());
 }
 

@@ -56,11 +56,6 @@ void SceneOptions::addTo(CLI::App& command) {
     command.add_flag("--no-sleep", overrides.noSleep, "no sphere is put to sleep");
 }
 
-void addListen(CLI::App& command, std::string& listen) {
-    listen = "127.0.0.1:8080";
-    command.add_option("--listen", listen, "host:port; port 0 takes a free one")->capture_default_str();
-}
-
 int report(const Error& error) {
     fmt::print(stderr, "spherule: {}\n", error.text());
     return exitCodeOf(error.kind);

@@ -27,14 +27,12 @@ void addPlay(CLI::App& app, int& exitCode);
 void addExport(CLI::App& app, int& exitCode);
 void addPlan(CLI::App& app, int& exitCode);
 void addCtl(CLI::App& app, int& exitCode);
+void addHealth(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);
 void addMeasure(CLI::App& app, int& exitCode);
 
 // --quality and --substeps.
 void addQuality(CLI::App& command, scene::Overrides& overrides);
-
-// --listen.
-void addListen(CLI::App& command, std::string& listen);
 
 // Prints the error to stderr and gives its exit code.
 int report(const Error& error);

@@ -4,6 +4,7 @@
 #include "app/options.h"
 #include "app/play_loop.h"
 #include "app/serving.h"
+#include "app/settings.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -12,7 +13,7 @@ namespace {
 
 struct PlayOptions {
     std::string file;
-    std::string listen;
+    ServingOptions serving;
     double speed = 1;
     bool again = false;
     bool paused = false;
@@ -58,13 +59,14 @@ void addPlay(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<PlayOptions>();
     CLI::App* command = app.add_subcommand("play", "show a recording in a browser");
     command->add_option("file", options->file, "the recording")->required();
-    addListen(*command, options->listen);
+    options->serving.addTo(*command);
     command->add_option("--speed", options->speed, "recorded seconds per second")->capture_default_str();
     command->add_flag("--loop", options->again, "from the end, go on at the beginning");
     command->add_flag("--paused", options->paused, "wait for somebody to resume it");
     command->footer(exitCodesText);
+    addSettings(*command);
     command->callback([options, &exitCode] {
-        exitCode = serveUntilStopped([&](const Stage& stage) { return open(*options, stage); }, options->listen,
+        exitCode = serveUntilStopped([&](const Stage& stage) { return open(*options, stage); }, options->serving,
                                      "plays " + options->file + ":");
     });
 }

@@ -28,6 +28,7 @@ class Runtime {
     [[nodiscard]] LiveReport report() const { return live_.read(); }
     // Why the show ended by itself, when it did. Any thread.
     [[nodiscard]] std::optional<Error> failure() const;
+    Result<void> setSecrets(const net::Secrets& secrets) { return server_->setSecrets(secrets); }
     // Tells the viewers, lets them go, stops.
     void drain();
 

@@ -1,6 +1,7 @@
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/serving.h"
+#include "app/settings.h"
 #include "app/sim_loop.h"
 
 namespace spherule::app {
@@ -10,7 +11,7 @@ namespace {
 struct ServeOptions {
     SceneOptions scene;
     TapeOptions recordings;
-    std::string listen;
+    ServingOptions serving;
     std::string table;
 };
 
@@ -31,7 +32,7 @@ int serve(const ServeOptions& options) {
     const Result<quality::Table> table =
         options.table.empty() ? quality::ownTable() : quality::loadTable(options.table);
     if (!table) return report(table.error());
-    return serveUntilStopped([&](const Stage& stage) { return open(options, *table, stage); }, options.listen,
+    return serveUntilStopped([&](const Stage& stage) { return open(options, *table, stage); }, options.serving,
                              "serves");
 }
 
@@ -41,13 +42,14 @@ void addServe(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ServeOptions>();
     CLI::App* command = app.add_subcommand("serve", "simulate and show it in a browser");
     options->scene.addTo(*command);
-    addListen(*command, options->listen);
+    options->serving.addTo(*command);
     addTape(*command, options->recordings);
     command->add_option(
         "--quality-table", options->table,
         "a measure.json of `spherule measure`: what the dial says of errors and costs, in place of what "
         "came with the program");
     command->footer(exitCodesText);
+    addSettings(*command);
     command->callback([options, &exitCode] { exitCode = serve(*options); });
 }
 

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdio>
 
-#include "app/endpoint.h"
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/runtime.h"
@@ -16,19 +15,20 @@ namespace spherule::app {
 
 namespace {
 
-// SIGINT and SIGTERM, blocked in all threads so that main can wait for them.
-class StopSignals {
+// SIGINT, SIGTERM and SIGHUP, blocked in all threads so that main can wait for them.
+class Signals {
   public:
-    StopSignals() {
+    Signals() {
         sigemptyset(&set_);
         sigaddset(&set_, SIGINT);
         sigaddset(&set_, SIGTERM);
+        sigaddset(&set_, SIGHUP);
         pthread_sigmask(SIG_BLOCK, &set_, nullptr);
     }
-    // False when none came within a fifth of a second.
-    [[nodiscard]] bool wait() const {
+    // Which came within a fifth of a second; -1: none.
+    [[nodiscard]] int wait() const {
         const timespec timeout{0, 200'000'000};
-        return sigtimedwait(&set_, nullptr, &timeout) > 0;
+        return sigtimedwait(&set_, nullptr, &timeout);
     }
     // From here on they end the program at once.
     void release() const { pthread_sigmask(SIG_UNBLOCK, &set_, nullptr); }
@@ -37,30 +37,48 @@ class StopSignals {
     sigset_t set_{};
 };
 
-void announce(const Runtime& runtime, const Endpoint& endpoint, const std::string& what) {
+std::string_view doorOf(const net::Options& options) {
+    if (options.open) return "everybody who reaches it may watch and command";
+    if (!net::guarded(options.secrets)) return "only this machine reaches it";
+    return options.secrets.controllerToken.empty() ? "it asks for a token; nobody may command" : "it asks for a token";
+}
+
+void announce(const Runtime& runtime, const net::Options& options, const std::string& what) {
     const LiveReport live = runtime.report();
-    const bool any = endpoint.host == "0.0.0.0" || endpoint.host == "::";
-    const std::string host = any ? "127.0.0.1" : endpoint.host;
+    const bool any = options.host == "0.0.0.0" || options.host == "::";
+    const std::string host = any ? "127.0.0.1" : options.host;
     const std::string shown = host.find(':') == std::string::npos ? host : "[" + host + "]";
-    fmt::print("spherule {} {} ({} spheres) on {}\n  {}\n  stop with Ctrl-C\n  open http://{}:{}/\n", what, live.scene,
-               live.spheres, live.device.renderer, live.device.reason, shown, runtime.port());
+    fmt::print("spherule {} {} ({} spheres) on {}\n  {}\n  {}\n  stop with Ctrl-C\n  open {}://{}:{}/\n", what,
+               live.scene, live.spheres, live.device.renderer, live.device.reason, doorOf(options),
+               options.secrets.certificate.empty() ? "http" : "https", shown, runtime.port());
     std::fflush(stdout);
+}
+
+// What was wrong with the new ones is said; the old ones go on.
+void reload(Runtime& runtime, const ServingOptions& options) {
+    const auto secrets = secretsOf(options);
+    const auto done = secrets ? runtime.setSecrets(*secrets) : tl::unexpected(secrets.error());
+    if (done)
+        spdlog::info("tokens and certificate have been read anew, for those who come from now on");
+    else
+        spdlog::error("tokens and certificate stay as they were: {}", done.error().text());
 }
 
 }  // namespace
 
-int serveUntilStopped(const OpenShow& open, const std::string& listen, const std::string& what) {
-    const auto endpoint = endpointOf(listen);
-    if (!endpoint) return report(endpoint.error());
-    const StopSignals signals;
-    net::Options options;
-    options.host = endpoint->host;
-    options.port = endpoint->port;
-    auto runtime = Runtime::start(open, options);
+int serveUntilStopped(const OpenShow& open, const ServingOptions& serving, const std::string& what) {
+    const auto options = netOptionsOf(serving);
+    if (!options) return report(options.error());
+    const Signals signals;
+    auto runtime = Runtime::start(open, *options);
     if (!runtime) return report(runtime.error());
-    announce(**runtime, *endpoint, what);
+    announce(**runtime, *options, what);
     bool stopped = false;
-    while (!stopped && !(*runtime)->failure()) stopped = signals.wait();
+    while (!stopped && !(*runtime)->failure()) {
+        const int signal = signals.wait();
+        if (signal == SIGHUP) reload(**runtime, serving);
+        stopped = signal > 0 && signal != SIGHUP;
+    }
     signals.release();
     if (stopped) spdlog::info("stopping; a second signal ends it at once");
     (*runtime)->drain();

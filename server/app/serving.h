@@ -2,12 +2,13 @@
 
 #include <string>
 
+#include "app/serving_options.h"
 #include "app/show.h"
 
 namespace spherule::app {
 
-// Serves a show on "host:port" until it fails or the program is told to stop (SIGINT, SIGTERM), and gives the exit
-// code. `what` is said of it at the beginning, such as "serves".
-int serveUntilStopped(const OpenShow& open, const std::string& listen, const std::string& what);
+// Serves a show until it fails or the program is told to stop (SIGINT, SIGTERM), and gives the exit code. SIGHUP reads
+// tokens and certificate anew. `what` is said of the show at the beginning, such as "serves".
+int serveUntilStopped(const OpenShow& open, const ServingOptions& options, const std::string& what);
 
 }  // namespace spherule::app

@@ -3,12 +3,16 @@
 #include <utility>
 
 #include <google/protobuf/util/json_util.h>
+#include <openssl/err.h>
+#include <openssl/ssl.h>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket/stream.hpp>
+
+#include "net/transport.h"
 
 namespace spherule::net {
 
@@ -28,8 +32,10 @@ constexpr std::uint16_t closedAbnormally = 1006;
 
 // Every wait is an asynchronous call and a run of the io_context, because Beast's waiting calls know no timeout.
 struct Client::Connection {
+    explicit Connection(Tls tls) : stream(beast::tcp_stream(io), std::move(tls)) {}
+
     asio::io_context io{1};
-    websocket::stream<beast::tcp_stream, false> stream{io};
+    websocket::stream<Transport, false> stream;
     beast::flat_buffer incoming{};
     std::string url{};
     Timeout timeout{};
@@ -61,20 +67,41 @@ struct Client::Connection {
         return *done;
     }
 
+    // Shakes hands, where there is TLS, with who must be `host`.
+    Result<void> meet(const std::string& host) {
+        auto* const secure = stream.next_layer().secure();
+        if (secure == nullptr) return {};
+        // Several servers may live at one address.
+        SSL_set_tlsext_host_name(secure->native_handle(), host.c_str());
+        secure->set_verify_callback(asio::ssl::host_name_verification(host));
+        const error_code failed =
+            waitFor([&](auto done) { secure->async_handshake(asio::ssl::stream_base::client, done); });
+        if (!failed) return {};
+        const long why = SSL_get_verify_result(secure->native_handle());
+        return tl::unexpected(
+            error("no TLS with it: " + (why == X509_V_OK ? failed.message()
+                                                         : std::string("its certificate is refused: ") +
+                                                               X509_verify_cert_error_string(why))));
+    }
+
     [[nodiscard]] Error error(const std::string& what) const {
         return {.kind = ErrorKind::Refused, .where = url, .message = what};
     }
 };
 
 Result<Url> parseUrl(const std::string& url) {
-    constexpr std::string_view scheme = "ws://";
     const auto refuse = [&](const std::string& why) {
-        return fail(ErrorKind::Input, url, why + "; wanted is ws://host:port/ws");
+        return fail(ErrorKind::Input, url, why + "; wanted is ws://host:port/ws, or wss:// for TLS");
     };
-    if (url.compare(0, scheme.size(), scheme) != 0) return refuse("does not begin with ws://");
+    const bool secure = url.starts_with("wss://");
+    if (!secure && !url.starts_with("ws://")) return refuse("does not begin with ws:// or wss://");
+    const std::string_view scheme = secure ? "wss://" : "ws://";
     const std::size_t slash = url.find('/', scheme.size());
     std::string authority = url.substr(scheme.size(), slash - scheme.size());
-    Url result{.host = "", .port = "80", .path = slash == std::string::npos ? "/ws" : url.substr(slash)};
+    Url result{.secure = secure,
+               .host = "",
+               .port = secure ? "443" : "80",
+               .path = slash == std::string::npos ? "/ws" : url.substr(slash)};
     const std::size_t colon = authority.rfind(':');
     if (colon != std::string::npos && authority.back() != ']') {
         result.port = authority.substr(colon + 1);
@@ -92,11 +119,17 @@ Client::Client(std::unique_ptr<Connection> connection) : connection_(std::move(c
 
 Client::~Client() = default;
 
-Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout timeout,
-                                                const std::string& subprotocol) {
+Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout timeout, const std::string& subprotocol,
+                                                const std::string& authorities) {
     const auto parts = parseUrl(url);
     if (!parts) return tl::unexpected(parts.error());
-    auto connection = std::make_unique<Connection>();
+    Tls tls;
+    if (parts->secure) {
+        auto made = clientTls(authorities);
+        if (!made) return tl::unexpected(made.error());
+        tls = std::move(*made);
+    }
+    auto connection = std::make_unique<Connection>(std::move(tls));
     connection->url = url;
     connection->timeout = timeout;
     auto& stream = connection->stream;
@@ -106,6 +139,7 @@ Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout 
         error = connection->waitFor([&](auto done) { beast::get_lowest_layer(stream).async_connect(endpoints, done); });
     }
     if (error) return tl::unexpected(connection->error("cannot be reached: " + error.message()));
+    if (auto met = connection->meet(parts->host); !met) return tl::unexpected(met.error());
     stream.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
         if (!subprotocol.empty()) request.set(http::field::sec_websocket_protocol, subprotocol);
     }));

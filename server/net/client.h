@@ -14,12 +14,13 @@
 namespace spherule::net {
 
 struct Url {
+    bool secure = false;
     std::string host;
     std::string port;
     std::string path;
 };
 
-// Of ws://host[:port][/path]; port 80 and path /ws where they are missing.
+// Of ws://host[:port][/path], or wss:// for TLS; port 80, or 443, and path /ws where they are missing.
 Result<Url> parseUrl(const std::string& url);
 
 // How the connection ended: the server's close frame, or code 1006 when there was none.
@@ -33,8 +34,11 @@ class Client {
   public:
     using Timeout = std::chrono::milliseconds;
 
+    // Whom `authorities` (PEM) certify is trusted, or, without any, whom the system trusts; the certificate must be the
+    // host's.
     static Result<std::unique_ptr<Client>> connect(const std::string& url, Timeout timeout,
-                                                   const std::string& subprotocol = "spherule.v1");
+                                                   const std::string& subprotocol = "spherule.v1",
+                                                   const std::string& authorities = "");
     ~Client();
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "net/counters.h"
 #include "net/hub.h"
+#include "net/lease.h"
+#include "net/refusals.h"
 #include "net/server.h"
+#include "net/tls.h"
 
 namespace spherule::net {
 
@@ -12,6 +18,21 @@ struct Context {
     Handlers handlers;
     Counters counters{};
     Hub hub{};
+    Refusals refusals{counters};
+    // These change with the secrets. On the io thread.
+    std::shared_ptr<const Admission> admission{};
+    Tls tls{};
+    std::shared_ptr<Visitors> visitors = std::make_shared<Visitors>(options.visitors);
+    // Where it is known who is who, or that anybody may come, one at a time has the controls.
+    bool leased = options.open || guarded(options.secrets);
+    Lease lease{[this](const v1::Control& now) { tellControl(now); }};
+
+    void tellControl(const v1::Control& now) {
+        if (!leased) return;
+        v1::ServerMessage message;
+        *message.mutable_control() = now;
+        hub.keep(frame::share(std::move(message)));
+    }
 };
 
 }  // namespace spherule::net

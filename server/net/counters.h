@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <string_view>
 
+#include "net/rejection.h"
+
 namespace spherule::net {
 
 // Why a session ended.
 enum class CloseCause : std::uint8_t {
     Left,         // the client closed, with or without a close frame
     NoHello,      // 1008: no hello first, none in time, or a second one
+    NoToken,      // 4401: none, or one that is not known
     Undecodable,  // 1007
     TooBig,       // 1009
     Protocol,     // 1002: not WebSocket
@@ -21,8 +24,8 @@ enum class CloseCause : std::uint8_t {
     Drained,      // 1012: the server stopped
 };
 
-constexpr std::array<std::string_view, 9> closeCauseNames = {
-    "left", "no_hello", "undecodable", "too_big", "protocol", "overflow", "stalled", "silent", "drained"};
+constexpr std::array<std::string_view, 10> closeCauseNames = {
+    "left", "no_hello", "no_token", "undecodable", "too_big", "protocol", "overflow", "stalled", "silent", "drained"};
 
 // For metrics. Written by the io thread, read by any.
 struct Counters {
@@ -30,16 +33,17 @@ struct Counters {
 
     Count sessions = 0;  // open now
     Count accepted = 0;  // ever
-    Count handshakesRefused = 0;
     Count httpRequests = 0;
     Count commands = 0;
-    Count commandsRefused = 0;  // by the network: queue full or unknown
     Count framesSent = 0;
     Count chainsLost = 0;  // by sessions that were still busy with the frame before, or could not decode one
     Count bytesSent = 0;   // payload of messages
-    std::array<Count, closeCauseNames.size()> closed{};  // by CloseCause
+    std::array<Count, closeCauseNames.size()> closed{};   // by CloseCause
+    std::array<Count, rejectionNames.size()> rejected{};  // by Rejection
 
     Count& closedBy(CloseCause cause) { return closed[static_cast<std::size_t>(cause)]; }
+    Count& rejectedFor(Rejection cause) { return rejected[static_cast<std::size_t>(cause)]; }
+    [[nodiscard]] const Count& rejectedFor(Rejection cause) const { return rejected[static_cast<std::size_t>(cause)]; }
     [[nodiscard]] const Count& closedBy(CloseCause cause) const { return closed[static_cast<std::size_t>(cause)]; }
 };
 

@@ -23,33 +23,103 @@ std::string figures(const v1::Statistics& statistics) {
 
 }  // namespace
 
-Result<v1::CommandResult> sendCommand(const std::string& url, v1::Command command, std::chrono::milliseconds timeout) {
-    auto client = Client::connect(url, timeout);
+namespace {
+
+// What a server has to say before, as far as that decides whether a command is one's to give.
+struct Standing {
+    std::uint64_t session = 0;
+    v1::Role role = v1::ROLE_UNSPECIFIED;
+    std::optional<v1::Control> control;  // of a server that gives the controls to one at a time
+
+    void hear(const v1::ServerMessage& message) {
+        if (message.has_welcome()) {
+            session = message.welcome().session();
+            role = message.welcome().role();
+        }
+        if (message.has_control()) control = message.control();
+    }
+    [[nodiscard]] bool mustAsk() const {
+        return role == v1::CONTROLLER && control && control->has_holder() && control->holder().session() != session;
+    }
+};
+
+// One connection to a server, with a limit on each wait.
+class Conversation {
+  public:
+    Conversation(std::unique_ptr<Client> client, const Target& target) : client_(std::move(client)), target_(target) {}
+
+    Result<void> say(const v1::ClientMessage& message) { return client_->send(message); }
+
+    Result<v1::CommandResult> give(const v1::Command& command) {
+        v1::ClientMessage message;
+        *message.mutable_command() = command;
+        if (auto sent = say(message); !sent) return tl::unexpected(sent.error());
+        v1::CommandResult result;
+        auto heard = hearUntil(
+            [&](const v1::ServerMessage& answer) {
+                if (!answer.has_result() || answer.result().id() != command.id()) return false;
+                result = answer.result();
+                return true;
+            },
+            "gave no answer in time; the command may still apply");
+        if (!heard) return tl::unexpected(heard.error());
+        return result;
+    }
+
+    Result<void> askForControls() {
+        v1::ClientMessage ask;
+        ask.mutable_ask_control();
+        if (auto sent = say(ask); !sent) return sent;
+        return hearUntil([&](const auto&) { return !standing.mustAsk(); }, "the controls were not handed over in time");
+    }
+
+    void end() { client_->close(); }
+
+    Standing standing;
+
+  private:
+    // Hears until `enough`, or fails with `late`.
+    Result<void> hearUntil(const std::function<bool(const v1::ServerMessage&)>& enough, const char* late) {
+        const auto end = std::chrono::steady_clock::now() + target_.timeout;
+        for (;;) {
+            const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+            if (left.count() <= 0) return fail(ErrorKind::Refused, target_.url, late);
+            auto received = client_->receive(left);
+            if (!received) return tl::unexpected(received.error());
+            if (!*received) continue;
+            standing.hear(**received);
+            if (enough(**received)) return {};
+        }
+    }
+
+    std::unique_ptr<Client> client_;
+    const Target& target_;
+};
+
+}  // namespace
+
+Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
+                                      const std::function<void(const v1::Person& holder)>& asks) {
+    auto client = Client::connect(target.url, target.timeout, "spherule.v1", target.authorities);
     if (!client) return tl::unexpected(client.error());
+    Conversation conversation(std::move(*client), target);
+    if (command.id() == 0) command.set_id(1);
 
     v1::ClientMessage hello;
     hello.mutable_hello()->set_client("spherule ctl");
+    hello.mutable_hello()->set_token(target.token);
     hello.mutable_hello()->mutable_view()->set_rate(0);
-    if (auto sent = (*client)->send(hello); !sent) return tl::unexpected(sent.error());
+    if (auto sent = conversation.say(hello); !sent) return tl::unexpected(sent.error());
 
-    if (command.id() == 0) command.set_id(1);
-    const std::uint64_t id = command.id();
-    v1::ClientMessage message;
-    *message.mutable_command() = std::move(command);
-    if (auto sent = (*client)->send(message); !sent) return tl::unexpected(sent.error());
-
-    const auto end = std::chrono::steady_clock::now() + timeout;
-    for (;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-        if (left.count() <= 0)
-            return fail(ErrorKind::Refused, url, "gave no answer in time; the command may still apply");
-        auto received = (*client)->receive(left);
-        if (!received) return tl::unexpected(received.error());
-        if (*received && (*received)->has_result() && (*received)->result().id() == id) {
-            (*client)->close();
-            return std::move(*(*received)->mutable_result());
-        }
+    auto result = conversation.give(command);
+    // Only now it is known who has the controls: that comes before the answer.
+    if (result && result->has_refused() && conversation.standing.mustAsk()) {
+        asks(conversation.standing.control->holder());
+        if (auto handed = conversation.askForControls(); !handed) return tl::unexpected(handed.error());
+        result = conversation.give(command);
     }
+    if (result) conversation.end();
+    return result;
 }
 
 std::string resultText(const v1::CommandResult& result) {

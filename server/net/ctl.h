@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,19 @@ extern const std::string_view commandForms;
 // file. Anything else is an error that lists what is accepted.
 Result<v1::Command> commandFrom(const std::vector<std::string>& words);
 
-// Connects, says hello without asking for states, sends the command and waits for its result. A refused command is a
-// result, not an error. `timeout` bounds each of the steps.
-Result<v1::CommandResult> sendCommand(const std::string& url, v1::Command command, std::chrono::milliseconds timeout);
+// Where to, and as whom.
+struct Target {
+    std::string url;
+    std::string token{};                        // empty: none
+    std::string authorities{};                  // PEM, as Client::connect wants it
+    std::chrono::milliseconds timeout{30'000};  // of each of the steps
+};
+
+// Connects, says hello without asking for states, sends the command and waits for its result. Where somebody else has
+// the controls, it asks for them first, and `asks` is called with who that is. A refused command is a result, not an
+// error.
+Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
+                                      const std::function<void(const v1::Person& holder)>& asks);
 
 // For people: "applied at step 120", with the figures of a query on the lines that follow, or "refused: ...".
 std::string resultText(const v1::CommandResult& result);

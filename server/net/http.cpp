@@ -23,12 +23,41 @@ namespace {
 
 constexpr std::uint32_t headerLimit = 16U * 1024U;
 constexpr std::uint64_t bodyLimit = 10'000;
-constexpr std::chrono::seconds timeLimit{30};  // for a request, and for its answer
+constexpr std::chrono::seconds answerLimit{30};
 constexpr std::chrono::seconds goodbyeLimit{2};
 constexpr std::string_view streamPath = "/ws";
+constexpr std::string_view figuresPath = "/metrics";
+
+// The page is made of files of this server, talks to it alone, and is in nobody's frame.
+constexpr const char* contentPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src "
+    "'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 std::string pathOf(std::string_view target) {
     return std::string(target.substr(0, target.find('?')));
+}
+
+std::string_view fieldOf(const http::request<http::string_body>& request, http::field field) {
+    const auto value = request[field];
+    return {value.data(), value.size()};
+}
+
+// Of "Authorization: Bearer TOKEN"; empty without one.
+std::string_view bearerOf(const http::request<http::string_body>& request) {
+    constexpr std::string_view scheme = "Bearer ";
+    const std::string_view value = fieldOf(request, http::field::authorization);
+    return value.starts_with(scheme) ? value.substr(scheme.size()) : std::string_view();
+}
+
+void describe(http::fields& answer) {
+    answer.set(http::field::server, "spherule/" SPHERULE_VERSION);
+    answer.set("Content-Security-Policy", contentPolicy);
+    answer.set("X-Content-Type-Options", "nosniff");
+    answer.set("Referrer-Policy", "no-referrer");
+    answer.set("Cross-Origin-Opener-Policy", "same-origin");
+    answer.set("Cross-Origin-Resource-Policy", "same-origin");
+    answer.set(http::field::cache_control, "no-cache");
 }
 
 bool asksForSubprotocol(const http::request<http::string_body>& request) {
@@ -38,18 +67,34 @@ bool asksForSubprotocol(const http::request<http::string_body>& request) {
 
 }  // namespace
 
-HttpConnection::HttpConnection(beast::tcp_stream stream, Context& context)
-    : context_(context), stream_(std::move(stream)) {}
+HttpConnection::HttpConnection(Transport stream, std::unique_ptr<Visitors::Visit> visit, std::string peer,
+                               Context& context)
+    : context_(context),
+      stream_(std::move(stream)),
+      visit_(std::move(visit)),
+      peer_(std::move(peer)),
+      delay_(stream_.get_executor()) {}
 
 void HttpConnection::run() {
-    boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
+    boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->shakeHands(); });
+}
+
+void HttpConnection::shakeHands() {
+    auto* const secure = stream_.secure();
+    if (secure == nullptr) return read();
+    tcp().expires_after(context_.options.requestTimeout);
+    secure->async_handshake(boost::asio::ssl::stream_base::server, [self = shared_from_this()](ErrorCode error) {
+        if (!error) return self->read();
+        self->context_.refusals.add(error == beast::error::timeout ? Rejection::SlowRequest : Rejection::Tls,
+                                    self->peer_);
+    });
 }
 
 void HttpConnection::read() {
     parser_.emplace();
     parser_->header_limit(headerLimit);
     parser_->body_limit(bodyLimit);
-    stream_.expires_after(timeLimit);
+    tcp().expires_after(context_.options.requestTimeout);
     http::async_read(stream_, incoming_, *parser_,
                      [self = shared_from_this()](ErrorCode error, std::size_t) { self->onRead(error); });
 }
@@ -60,83 +105,130 @@ void HttpConnection::onRead(ErrorCode error) {
     ++context_.counters.httpRequests;
     const Request request = parser_->release();
     const std::string path = pathOf({request.target().data(), request.target().size()});
+    if (!context_.admission->isHost(fieldOf(request, http::field::host))) {
+        return refuse(
+            request, Rejection::Host, 421,
+            "this server does not go by the name in the Host header: use its address, or start it with --host NAME");
+    }
     if (path == streamPath) return onUpgrade(request);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
-        return refuse(request, 405, "only GET and HEAD are answered here");
+        return refuse(request, Rejection::BadRequest, 405, "only GET and HEAD are answered here");
     }
-    if (path.empty() || path.front() != '/') return refuse(request, 400, "the target must be a path");
+    if (path.empty() || path.front() != '/') {
+        return refuse(request, Rejection::BadRequest, 400, "the target must be a path");
+    }
+    if (!mayRead(request, path)) return;
     answer(request, context_.handlers.get(path, context_.counters));
+}
+
+// The page is for everybody, and so is health: a probe has no token. Refuses by itself.
+bool HttpConnection::mayRead(const Request& request, const std::string& path) {
+    if (path != figuresPath || context_.admission->roleOf(bearerOf(request))) return true;
+    if (bearerOf(request).empty())
+        refuse(request, Rejection::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");
+    else
+        refuseLater(request);
+    return false;
+}
+
+// Whoever tries many tokens waits for each.
+void HttpConnection::refuseLater(const Request& request) {
+    tcp().expires_never();
+    delay_.expires_after(context_.options.guessDelay);
+    delay_.async_wait([self = shared_from_this(), request](ErrorCode) {
+        self->refuse(request, Rejection::WrongToken, 401, "this token is not known here");
+    });
 }
 
 void HttpConnection::onUpgrade(const Request& request) {
     if (!beast::websocket::is_upgrade(request)) {
-        return refuse(request, 400, "this is the stream: open it as a WebSocket with subprotocol spherule.v1");
+        return refuse(request, Rejection::Handshake, 400,
+                      "this is the stream: open it as a WebSocket with subprotocol spherule.v1");
+    }
+    // Only browsers say where they come from; whoever else can open the stream could say anything there.
+    const std::string_view origin = fieldOf(request, http::field::origin);
+    if (!origin.empty() && !context_.admission->isOrigin(origin, fieldOf(request, http::field::host))) {
+        return refuse(request, Rejection::Origin, 403,
+                      "pages of this origin may not open the stream: start the server with --origin, if they should");
     }
     if (!asksForSubprotocol(request)) {
-        ++context_.counters.handshakesRefused;
-        return refuse(request, 400, "the WebSocket must ask for subprotocol spherule.v1");
+        return refuse(request, Rejection::Subprotocol, 400, "the WebSocket must ask for subprotocol spherule.v1");
     }
-    std::make_shared<Session>(std::move(stream_), context_)->run(request);
+    if (const auto cause = visit_->openSession()) {
+        return refuse(request, *cause, 503,
+                      *cause == Rejection::Sessions ? "as many sessions are open as may be: try again later"
+                                                    : "as many sessions of this address are open as may be");
+    }
+    std::make_shared<Session>(std::move(stream_), std::move(visit_), peer_, context_)->run(request);
 }
 
 void HttpConnection::answer(const Request& request, HttpAnswer answer) {
     const auto send = [this](auto response) {
         const auto shared = std::make_shared<decltype(response)>(std::move(response));
-        stream_.expires_after(timeLimit);
+        tcp().expires_after(answerLimit);
         http::async_write(stream_, *shared, [self = shared_from_this(), shared](ErrorCode error, std::size_t) {
             if (error) return;
             if (!shared->keep_alive()) return self->shutdown();
             self->read();
         });
     };
-    const auto describe = [&](auto& response) {
+    const auto begin = [&](auto& response) {
         response.version(request.version());
         response.keep_alive(request.keep_alive());
         response.result(static_cast<unsigned>(answer.status));
-        response.set(http::field::server, "spherule/" SPHERULE_VERSION);
+        describe(response);
         response.set(http::field::content_type, answer.contentType);
         if (answer.status == 405) response.set(http::field::allow, "GET, HEAD");
+        if (answer.status == 401) response.set(http::field::www_authenticate, "Bearer");
+        if (answer.status == 503) response.set(http::field::retry_after, "5");
     };
     if (request.method() == http::verb::head) {
         http::response<http::empty_body> response;
-        describe(response);
+        begin(response);
         response.content_length(answer.body.size());
         return send(std::move(response));
     }
     http::response<http::string_body> response;
-    describe(response);
+    begin(response);
     response.body() = std::move(answer.body);
     response.prepare_payload();
     send(std::move(response));
 }
 
-void HttpConnection::refuse(const Request& request, int status, const std::string& text) {
+void HttpConnection::refuse(const Request& request, Rejection cause, int status, const std::string& text) {
+    context_.refusals.add(cause, peer_);
     answer(request, {.status = status, .contentType = "text/plain; charset=utf-8", .body = text + "\n"});
 }
 
 // The rest of the request is still on the wire, so the connection cannot be used again.
 void HttpConnection::refuseUnread(ErrorCode error) {
+    if (error == beast::error::timeout && (parser_->got_some() || incoming_.size() > 0))
+        context_.refusals.add(Rejection::SlowRequest, peer_);
     if (error.category() != http::make_error_code(http::error::bad_method).category()) return;  // broken or too slow
     Request request;
     request.version(11);
     request.keep_alive(false);
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-        return refuse(request, 431, "the headers are longer than 16 KiB");
+        return refuse(request, Rejection::LongHeader, 431, "the headers are longer than 16 KiB");
     }
-    if (error == http::error::body_limit) return refuse(request, 413, "the body is longer than 10,000 bytes");
-    refuse(request, 400, "not an HTTP request: " + error.message());
+    if (error == http::error::body_limit) {
+        return refuse(request, Rejection::LongBody, 413, "the body is longer than 10,000 bytes");
+    }
+    refuse(request, Rejection::Malformed, 400, "not an HTTP request: " + error.message());
 }
 
 void HttpConnection::shutdown() {
+    tcp().expires_after(goodbyeLimit);
+    // Within TLS, this waits for the peer's goodbye, and reads what is left on the way there.
+    if (auto* const secure = stream_.secure()) return secure->async_shutdown([self = shared_from_this()](ErrorCode) {});
     ErrorCode ignored;
-    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(goodbyeLimit);
+    tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
     discard();
 }
 
 // A socket closed over unread bytes resets the connection, and the answer may be lost with it.
 void HttpConnection::discard() {
-    stream_.async_read_some(boost::asio::buffer(discarded_), [self = shared_from_this()](ErrorCode error, std::size_t) {
+    tcp().async_read_some(boost::asio::buffer(discarded_), [self = shared_from_this()](ErrorCode error, std::size_t) {
         if (!error) self->discard();
     });
 }

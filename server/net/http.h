@@ -5,20 +5,22 @@
 #include <optional>
 #include <string>
 
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
 #include "net/context.h"
+#include "net/transport.h"
 
 namespace spherule::net {
 
 // One connection that speaks HTTP/1.1: answers GET and HEAD through Handlers.get until the client leaves or asks for
-// the stream at /ws, which makes it a Session. Everything happens on the strand of its stream.
+// the stream at /ws, which makes it a Session. Whoever does not mean this server, or has no business at the stream, is
+// refused. Everything happens on the strand of its stream.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
-    HttpConnection(boost::beast::tcp_stream stream, Context& context);
+    HttpConnection(Transport stream, std::unique_ptr<Visitors::Visit> visit, std::string peer, Context& context);
 
     void run();
 
@@ -27,17 +29,24 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
     using Request = Parser::value_type;
 
+    void shakeHands();
     void read();
     void onRead(ErrorCode error);
     void onUpgrade(const Request& request);
+    [[nodiscard]] bool mayRead(const Request& request, const std::string& path);
     void answer(const Request& request, HttpAnswer answer);
-    void refuse(const Request& request, int status, const std::string& text);
+    void refuse(const Request& request, Rejection cause, int status, const std::string& text);
+    void refuseLater(const Request& request);
     void refuseUnread(ErrorCode error);
     void shutdown();
     void discard();
+    boost::beast::tcp_stream& tcp() { return stream_.next_layer(); }
 
     Context& context_;
-    boost::beast::tcp_stream stream_;
+    Transport stream_;
+    std::unique_ptr<Visitors::Visit> visit_;
+    std::string peer_;  // address
+    boost::asio::steady_timer delay_;
     boost::beast::flat_buffer incoming_;
     std::optional<Parser> parser_;
     std::array<char, 4096> discarded_{};

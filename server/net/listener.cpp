@@ -39,6 +39,10 @@ Result<void> Listener::open() {
         tcp::resolver(io_).resolve(options.host, std::to_string(options.port), tcp::resolver::passive, error);
     if (error) return fail(ErrorKind::Input, address, "cannot be listened on: " + error.message());
     const tcp::endpoint endpoint = found.begin()->endpoint();
+    if (!options.open && !guarded(options.secrets) && !endpoint.address().is_loopback())
+        return fail(ErrorKind::Input, address,
+                    "others reach this address: say who may come in (--controller-token-file FILE, --viewer-token-file "
+                    "FILE), or that everybody may view and command (--open)");
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
     if (!error) acceptor_.bind(endpoint, error);
@@ -79,11 +83,22 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
         });
         return;
     }
+    // Nothing that could be read here is worth an error: the peer may be gone already.
     error_code ignored;
+    const auto address = socket.remote_endpoint(ignored).address();
+    if (const auto cause = context_.visitors->refuses(address, Visitors::Clock::now())) {
+        context_.refusals.add(*cause, address.to_string());
+        // Without this, each would leave a closed connection behind for a minute.
+        socket.set_option(asio::socket_base::linger(true, 0), ignored);
+        socket.close(ignored);
+        return accept();
+    }
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
     setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &mostUnsent, sizeof mostUnsent);
-    std::make_shared<HttpConnection>(boost::beast::tcp_stream(std::move(socket)), context_)->run();
+    std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), context_.tls),
+                                     context_.visitors->admit(address), address.to_string(), context_)
+        ->run();
     accept();
 }
 

@@ -18,7 +18,8 @@ constexpr std::chrono::seconds dropTime{1};  // for sessions to notice that they
 class RunningServer final : public Server {
   public:
     RunningServer(const Options& options, Handlers handlers)
-        : context_{.options = options, .handlers = std::move(handlers)},
+        : scheme_(options.secrets.certificate.empty() ? "http" : "https"),
+          context_{.options = options, .handlers = std::move(handlers)},
           listener_(std::make_shared<Listener>(io_, context_)) {}
 
     RunningServer(const RunningServer&) = delete;
@@ -30,6 +31,15 @@ class RunningServer final : public Server {
     }
 
     Result<void> start() {
+        const Options& options = context_.options;
+        for (const std::string& origin : options.places.origins)
+            if (auto good = checkOrigin(origin); !good) return good;
+        for (const std::string& host : options.places.hosts)
+            if (auto good = checkHost(host); !good) return good;
+        auto made = make(options.secrets);
+        if (!made) return tl::unexpected(made.error());
+        take(std::move(*made));
+        context_.tellControl(context_.lease.state());
         if (auto opened = listener_->open(); !opened) return opened;
         listener_->run();
         thread_ = std::thread([this] { io_.run(); });
@@ -53,6 +63,13 @@ class RunningServer final : public Server {
     [[nodiscard]] std::vector<frame::Demand> demands() override { return context_.hub.demands(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }
 
+    Result<void> setSecrets(const Secrets& secrets) override {
+        auto made = make(secrets);
+        if (!made) return tl::unexpected(made.error());
+        boost::asio::post(io_, [this, taken = std::move(*made)] { take(taken); });
+        return {};
+    }
+
     void drain() override {
         boost::asio::post(io_, [listener = listener_] { listener->close(); });
         context_.hub.drain();
@@ -62,7 +79,33 @@ class RunningServer final : public Server {
     }
 
   private:
+    // What is made of the secrets.
+    struct Keys {
+        std::shared_ptr<const Admission> admission;
+        Tls tls;
+    };
+
+    [[nodiscard]] Result<Keys> make(const Secrets& secrets) const {
+        if (guarded(secrets) != guarded(context_.options.secrets))
+            return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
+        Keys keys{.admission = std::make_shared<Admission>(context_.options.places, secrets, scheme_), .tls = nullptr};
+        if (secrets.certificate.empty() == (scheme_ == "http")) {
+            if (secrets.certificate.empty()) return keys;
+            auto tls = serverTls(secrets);
+            if (!tls) return tl::unexpected(tls.error());
+            keys.tls = std::move(*tls);
+            return keys;
+        }
+        return fail(ErrorKind::Input, "--tls-certificate", "cannot come or go while the server runs");
+    }
+
+    void take(const Keys& keys) {
+        context_.admission = keys.admission;
+        context_.tls = keys.tls;
+    }
+
     boost::asio::io_context io_{1};
+    std::string scheme_;
     Context context_;  // after io_: the hub lets go of its sessions while their executor still exists
     std::shared_ptr<Listener> listener_;
     std::thread thread_;

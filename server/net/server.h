@@ -9,7 +9,9 @@
 
 #include "core/result.h"
 #include "frame/channel.h"
+#include "net/admission.h"
 #include "net/counters.h"
+#include "net/visitors.h"
 #include "spherule/v1/control.pb.h"
 
 // One port: the page, health, metrics and the WebSocket stream. Knows nothing of the simulation.
@@ -19,12 +21,21 @@ using SessionId = std::uint64_t;
 
 struct Options {
     std::string host = "127.0.0.1";
-    std::uint16_t port = 8080;                          // 0: any free one
-    std::size_t maxMessageBytes = 1U << 20U;            // a longer one closes with 1009
+    std::uint16_t port = 8080;  // 0: any free one
+    // Without tokens, an address that others reach is listened on only where everybody may view and command.
+    bool open = false;
+    Places places;
+    Secrets secrets;
+    VisitorLimits visitors;
+    double commandsPerSecond = 100;                     // of one session; as many at once; 0: no limit
+    std::chrono::milliseconds guessDelay{1'000};        // before a wrong token is answered
+    std::size_t firstMessageBytes = 4096;               // of a hello, and of all that viewers send
+    std::size_t maxMessageBytes = 1U << 20U;            // of controllers; a longer one closes with 1009
     std::size_t controlQueue = 64;                      // messages per session; overflow closes with 1013
     std::chrono::milliseconds progressTimeout{10'000};  // a write without progress for this long ends the session
     std::chrono::milliseconds idleTimeout{60'000};      // a silent peer is pinged, then dropped
     std::chrono::milliseconds helloTimeout{10'000};     // for the client's first message
+    std::chrono::milliseconds requestTimeout{10'000};   // for a request, from its connection or from the answer before
     std::chrono::milliseconds drainTimeout{10'000};
 };
 
@@ -67,10 +78,14 @@ class Server {
     // Not from the io thread.
     virtual void drain() = 0;
 
+    // Tokens and certificate for whoever comes from now on. Whether there are any cannot change. An error: the old ones
+    // stay. Not from the io thread.
+    virtual Result<void> setSecrets(const Secrets& secrets) = 0;
+
     [[nodiscard]] virtual const Counters& counters() const = 0;
 };
 
-// Binds and starts the io thread.
+// Binds and starts the io thread. TLS is spoken where there is a certificate.
 Result<std::unique_ptr<Server>> startServer(const Options& options, Handlers handlers);
 
 }  // namespace spherule::net

@@ -16,20 +16,24 @@ using websocket::close_code;
 namespace {
 
 constexpr std::uint32_t defaultRate = 30;
+constexpr auto tokenWanted = static_cast<close_code>(4401);
 constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is given back after the message
 
 }  // namespace
 
-Session::Session(beast::tcp_stream stream, Context& context)
+Session::Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const std::string& peer, Context& context)
     : context_(context),
       stream_(std::move(stream)),
+      visit_(std::move(visit)),
+      peer_(peer),
       watchTimer_(stream_.get_executor()),
       liveness_({.hello = context.options.helloTimeout,
                  .progress = context.options.progressTimeout,
                  .idle = context.options.idleTimeout},
                 Liveness::Clock::now()),
       outbox_(context.options.controlQueue),
-      pace_(Pace::Clock::now()) {}
+      pace_(Pace::Clock::now()),
+      commands_(context.options.commandsPerSecond, TokenBucket::Clock::now()) {}
 
 void Session::run(const Request& upgrade) {
     id_ = context_.hub.add(shared_from_this());
@@ -51,13 +55,13 @@ void Session::configure() {
         answer.set(http::field::server, "spherule/" SPHERULE_VERSION);
         answer.set(http::field::sec_websocket_protocol, beast::string_view(subprotocol.data(), subprotocol.size()));
     }));
-    stream_.read_message_max(context_.options.maxMessageBytes);
+    stream_.read_message_max(context_.options.firstMessageBytes);
     stream_.auto_fragment(false);
 }
 
 void Session::onAccepted(ErrorCode error) {
     if (error) {
-        ++context_.counters.handshakesRefused;
+        context_.refusals.add(Rejection::Handshake, peer_);
         return finish(CloseCause::Protocol);
     }
     if (finished_) return;
@@ -81,32 +85,69 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
         } else if (message->has_hello() == helloDone_) {
             close(close_code::policy_error, helloDone_ ? "hello was said before" : "the first message must be hello",
                   CloseCause::NoHello);
-        } else if (!helloDone_) {
-            encoding_ = encoding;
-            onHello(message->hello());
-        } else if (message->has_view()) {
-            onView(message->view());
-        } else if (message->has_ack()) {
-            onAck(message->ack());
         } else {
-            onCommand(std::move(*message->mutable_command()));
+            if (!helloDone_) encoding_ = encoding;
+            onMessage(std::move(*message));
         }
     }
     incoming_.clear();
     if (incoming_.capacity() > keptBuffer) incoming_.shrink_to_fit();
-    read();
+    if (!turnedAway_) read();
+}
+
+void Session::onMessage(v1::ClientMessage message) {
+    switch (message.kind_case()) {
+        case v1::ClientMessage::kHello:
+            return onHello(message.hello());
+        case v1::ClientMessage::kView:
+            return onView(message.view());
+        case v1::ClientMessage::kAck:
+            return onAck(message.ack());
+        case v1::ClientMessage::kAskControl:
+        case v1::ClientMessage::kYieldControl:
+        case v1::ClientMessage::kKeepControl:
+            return onControls(message);
+        case v1::ClientMessage::kCommand:
+        case v1::ClientMessage::KIND_NOT_SET:  // of a newer protocol: a command, at least, is answered
+            return onCommand(std::move(*message.mutable_command()));
+    }
 }
 
 void Session::onHello(const v1::Hello& hello) {
     helloDone_ = true;
     client_ = printable(hello.client());
     liveness_.helloCame();
-    spdlog::debug("session {}: hello from {}", id_, client_);
+    const auto role = context_.admission->roleOf(hello.token());
+    if (!role) return turnAway(!hello.token().empty());
+    admit(hello, *role);
+}
+
+void Session::admit(const v1::Hello& hello, v1::Role role) {
+    role_ = role;
+    if (role == v1::CONTROLLER) stream_.read_message_max(context_.options.maxMessageBytes);
+    spdlog::debug("session {}: hello from {}", id_, who());
     v1::ServerMessage message;
     *message.mutable_welcome() = context_.handlers.welcome(hello);
+    message.mutable_welcome()->set_role(role);
+    message.mutable_welcome()->set_session(id_);
     queue(frame::share(std::move(message)));
     context_.hub.join(id_);
     onView(hello.view());
+}
+
+// Whoever tries many tokens waits for each; meanwhile nothing more is read.
+void Session::turnAway(bool guessed) {
+    context_.refusals.add(guessed ? Rejection::WrongToken : Rejection::NoToken, peer_);
+    if (!guessed) return close(tokenWanted, "this server asks for a token", CloseCause::NoToken);
+    turnedAway_ = true;
+    watchTimer_.expires_after(context_.options.guessDelay);
+    watchTimer_.async_wait([self = shared_from_this()](ErrorCode error) {
+        if (error || self->finished_) return;
+        self->turnedAway_ = false;
+        self->close(tokenWanted, "this token is not known here", CloseCause::NoToken);
+        self->watch();
+        self->read();  // the peer's goodbye
+    });
 }
 
 void Session::onView(const v1::View& view) {
@@ -130,21 +171,6 @@ void Session::onAck(const v1::Ack& ack) {
     pump();
 }
 
-void Session::onCommand(v1::Command command) {
-    const std::uint64_t id = command.id();
-    ++context_.counters.commands;
-    if (command.kind_case() == v1::Command::KIND_NOT_SET) return refuse(id, "the command is not known to this server");
-    if (!context_.handlers.submit(id_, std::move(command))) refuse(id, "the command queue is full");
-}
-
-void Session::refuse(std::uint64_t command, const std::string& reason) {
-    ++context_.counters.commandsRefused;
-    v1::ServerMessage message;
-    message.mutable_result()->set_id(command);
-    message.mutable_result()->mutable_refused()->set_reason(reason);
-    queue(std::make_shared<frame::Message>(std::move(message)));
-}
-
 void Session::finish(CloseCause cause) {
     if (finished_) return;
     finished_ = true;
@@ -155,8 +181,13 @@ void Session::finish(CloseCause cause) {
     ++context_.counters.closedBy(cause);
     const auto level =
         cause == CloseCause::Left || cause == CloseCause::Drained ? spdlog::level::debug : spdlog::level::info;
-    spdlog::log(level, "session {} ({}) ended: {}", id_, client_, closeCauseNames[static_cast<std::size_t>(cause)]);
+    logEvent(level, "session_ended", "a session has ended",
+             {{"cause", std::string(closeCauseNames[static_cast<std::size_t>(cause)])},
+              {"session", std::to_string(id_)},
+              {"from", who()}});
     context_.hub.remove(id_);
+    context_.lease.left(id_);
+    visit_.reset();
 }
 
 CloseCause Session::causeOf(ErrorCode error) const {

@@ -7,7 +7,6 @@
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -20,6 +19,8 @@
 #include "net/liveness.h"
 #include "net/outbox.h"
 #include "net/pace.h"
+#include "net/token_bucket.h"
+#include "net/transport.h"
 
 namespace spherule::net {
 
@@ -30,7 +31,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
   public:
     using Request = boost::beast::http::request<boost::beast::http::string_body>;
 
-    Session(boost::beast::tcp_stream stream, Context& context);
+    Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const std::string& peer, Context& context);
 
     // Answers an upgrade request and serves the client until one side leaves. Call once, on the strand.
     void run(const Request& upgrade);
@@ -47,11 +48,16 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void onAccepted(ErrorCode error);
     void read();
     void onRead(ErrorCode error, std::size_t bytes);
+    void onMessage(v1::ClientMessage message);
     void onHello(const v1::Hello& hello);
+    void admit(const v1::Hello& hello, v1::Role role);
+    void turnAway(bool guessed);
     void onView(const v1::View& view);
     void onAck(const v1::Ack& ack);
     void onCommand(v1::Command command);
-    void refuse(std::uint64_t command, const std::string& reason);
+    void refuse(std::uint64_t command, Rejection cause, const std::string& reason);
+    void onControls(const v1::ClientMessage& message);
+    [[nodiscard]] std::string who() const;
 
     void queue(frame::SharedMessage message);
     void pump();
@@ -77,7 +83,9 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     }
 
     Context& context_;
-    boost::beast::websocket::stream<boost::beast::tcp_stream, false> stream_;
+    boost::beast::websocket::stream<Transport, false> stream_;
+    std::unique_ptr<Visitors::Visit> visit_;
+    std::string peer_;  // address
     boost::asio::steady_timer watchTimer_;
     boost::beast::flat_buffer incoming_;
     Liveness liveness_;
@@ -87,11 +95,14 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     Pace pace_;
     frame::SharedMessage writing_;
     Encoding encoding_ = Encoding::Binary;
+    TokenBucket commands_;
+    v1::Role role_ = v1::ROLE_UNSPECIFIED;
     SessionId id_ = 0;
     std::string client_ = "a client";
     CloseCause cause_ = CloseCause::Left;
     bool helloDone_ = false;
-    bool asked_ = false;  // for a keyframe
+    bool turnedAway_ = false;  // and will be told so
+    bool asked_ = false;       // for a keyframe
     bool pinging_ = false;
     bool draining_ = false;
     bool closing_ = false;  // a close frame is on its way: nothing else may be written

@@ -16,7 +16,7 @@ constexpr std::size_t word = 4;
 
 constexpr std::array kernelFiles =
     std::to_array<std::string_view>({"codec_choose.comp", "codec_sum.comp", "scan_reduce.comp", "scan_top.comp",
-                                     "scan_spread.comp", "codec_layout.comp", "codec_pack.comp", "codec_hash.comp"});
+                                     "scan_spread.comp", "codec_layout.comp", "codec_place.comp", "codec_hash.comp"});
 
 std::uint32_t over(std::uint32_t values, std::uint32_t per) {
     return values / per + (values % per != 0 ? 1 : 0);
@@ -52,13 +52,13 @@ Result<std::unique_ptr<TierTools>> TierTools::create(compute::Device& device, st
         std::string_view kinds = "u";
     };
     const std::size_t blocks = tools->blocks_;
-    for (const Wanted& wanted :
-         {Wanted{tools->order_, "codec order", spheres}, Wanted{tools->values_, "codec values", blocks * CODEC_VALUES},
-          Wanted{tools->scratch_, "codec scratch", blocks * CODEC_SCRATCH},
-          Wanted{tools->groupWords_, "codec groups", tools->groups_},
-          Wanted{tools->sums_, "codec sums", over(tools->groups_, SCAN_BLOCK)},
-          Wanted{tools->parameters_, "codec parameters", codec_layout::parameterWords.size(),
-                 codec_layout::parameterWords}}) {
+    for (const Wanted& wanted : {Wanted{tools->order_, "codec order", spheres},
+                                 Wanted{tools->blockWords_, "codec blocks", blocks * CODEC_PACKED},
+                                 Wanted{tools->scratch_, "codec scratch", blocks * CODEC_SCRATCH},
+                                 Wanted{tools->groupWords_, "codec groups", tools->groups_},
+                                 Wanted{tools->sums_, "codec sums", over(tools->groups_, SCAN_BLOCK)},
+                                 Wanted{tools->parameters_, "codec parameters", codec_layout::parameterWords.size(),
+                                        codec_layout::parameterWords}}) {
         auto made = device.createBuffer(wanted.label, word * wanted.words, wanted.kinds);
         if (!made) return tl::unexpected(made.error());
         wanted.buffer = std::move(*made);
@@ -137,16 +137,17 @@ void Tier::encode(Kind kind, const TierSource& source, bool hash) {
     auto& t = tools_;
     compute::Buffer* const slotOf = source.slotOf == nullptr ? t.order_.get() : source.slotOf;
     const std::uint32_t sums = over(t.groups_, SCAN_BLOCK);
-    t.run(T::Choose,
-          {source.position, slotOf, t.order_.get(), newest_.get(), before_.get(), t.values_.get(), t.scratch_.get()},
-          t.blocks_);
+    t.run(
+        T::Choose,
+        {source.position, slotOf, t.order_.get(), newest_.get(), before_.get(), t.blockWords_.get(), t.scratch_.get()},
+        t.blocks_);
     if (kind != Kind::Join) std::swap(newest_, before_);
     t.run(T::Sum, {t.scratch_.get(), t.groupWords_.get()}, t.groups_);
     t.run(T::Reduce, {t.groupWords_.get(), t.sums_.get()}, sums, t.groups_);
     t.run(T::Top, {t.sums_.get()}, 1, sums);
     t.run(T::Spread, {t.groupWords_.get(), t.sums_.get()}, sums, t.groups_);
     t.run(T::Layout, {t.scratch_.get(), t.groupWords_.get(), frame_.get()}, t.groups_);
-    t.run(T::Pack, {t.values_.get(), t.scratch_.get(), frame_.get()}, t.blocks_);
+    t.run(T::Place, {t.blockWords_.get(), t.scratch_.get(), frame_.get()}, t.blocks_);
     if (hash) t.run(T::Hash, {newest_.get(), frame_.get()}, t.blocks_);
 }
 

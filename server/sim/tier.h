@@ -30,7 +30,7 @@ class TierTools {
 
   private:
     friend class Tier;
-    enum Kernel : std::uint8_t { Choose, Sum, Reduce, Top, Spread, Layout, Pack, Hash, KernelCount };
+    enum Kernel : std::uint8_t { Choose, Sum, Reduce, Top, Spread, Layout, Place, Hash, KernelCount };
 
     TierTools(compute::Device& device, std::uint32_t spheres);
     void run(Kernel kernel, std::initializer_list<compute::Buffer*> buffers, std::uint32_t count,
@@ -39,7 +39,7 @@ class TierTools {
     compute::Device& device_;
     std::uint32_t spheres_, blocks_, groups_, chunks_;
     std::array<std::unique_ptr<compute::Kernel>, KernelCount> kernels_;
-    std::unique_ptr<compute::Buffer> order_, values_, scratch_, groupWords_, sums_, parameters_;
+    std::unique_ptr<compute::Buffer> order_, blockWords_, scratch_, groupWords_, sums_, parameters_;
 };
 
 // Where the positions are: vec4, xyz in m; slotOf by id (anything where the tools are without slots).

@@ -6,16 +6,35 @@ uint laneOf(uint k) {
     return (k % 8u) * 8u + k / 8u;
 }
 
-// Bits that a width code stands for. Sums of comparisons, because compilers make branches of choices.
+// Width codes and widths differ from how many bits there are only above 12: by what stands in the digits of a constant,
+// because compilers make branches, or much longer code, of choices.
+
+// Bits that a width code stands for.
 uint widthOf(uint code) {
-    return min(code, 12u) + 2u * uint(code > 12u) + 4u * uint(code > 13u) + 14u * uint(code > 14u);
+    return code + ((0x11040100u >> (8u * max(code, 12u) - 96u)) & 255u);
 }
 
-// The narrowest width code that holds `value`: from the exponent of a float, which processors with vectors have for many
-// at once. Whatever has 19 bits or more has the same code.
+// The bits of `value`, or 19 where it has more: from the exponent of a float, which processors with vectors have for many at
+// once.
+uint bitsOf(uint value) {
+    return max(floatBitsToUint(float(int(min(value, 262144u)))) >> 23u, 126u) - 126u;
+}
+
+// The narrowest width code that holds `value`.
 uint codeFor(uint value) {
-    uint bits = max(floatBitsToUint(float(int(min(value, 262144u)))) >> 23u, 126u) - 126u;
-    return min(bits, 13u) + uint(bits > 14u) + uint(bits > 18u);
+    uint bits = bitsOf(value);
+    return bits - ((0x44321100u >> (4u * max(bits, 12u) - 48u)) & 15u);
+}
+
+// widthOf(codeFor(value)), for less.
+uint widthFor(uint value) {
+    uint bits = bitsOf(value);
+    return bits + ((0xd0123010u >> (4u * max(bits, 12u) - 48u)) & 15u);
+}
+
+// The narrowest that a run may have, where the code of its axis is `widest`.
+uint leastCode(uint widest) {
+    return max(widest, 3u) - 3u;
 }
 
 uint zigzag(uint value) {

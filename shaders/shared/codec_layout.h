@@ -8,6 +8,7 @@
 #define CODEC_CHUNK 8u          // groups
 #define CODEC_FRAME_HEAD 4u     // words
 #define CODEC_MOST_WORDS 197u   // of a block
+#define CODEC_PACKED 208u       // words from one block to the next where they wait to be put together: whole cache lines
 #define CODEC_MASK_WIDTHS 12u   // bits of x, y and z together above which a mask is not tried
 
 #define CODEC_MAGIC 0x00015053u
@@ -25,12 +26,11 @@
 #define CODEC_NONE 3u
 
 // Scratch of a block: HEADER (and in the upper half the header of the next block of the group that is there), SIZE (units;
-// 0: not there), OFFSET (units in the chunks), then what the mode asks for.
-#define CODEC_SCRATCH 8u        // words
+// 0: not there), OFFSET (units in the chunks).
+#define CODEC_SCRATCH 4u        // words
 #define CODEC_HEADER 0u
 #define CODEC_SIZE 1u
 #define CODEC_OFFSET 2u
-#define CODEC_EXTRA 3u
 
 // The uniform block, std140.
 struct Parameters {

@@ -1,4 +1,5 @@
 """A `spherule serve` or `spherule play` on a free port, for as long as a with statement."""
+import http.client
 import re
 import subprocess
 import urllib.request
@@ -16,7 +17,7 @@ class Server:
         self.greeting = []
         for line in self._process.stdout:
             self.greeting.append(line)
-            found = re.search(r"http://(127\.0\.0\.1:\d+)", line)
+            found = re.search(r"https?://(127\.0\.0\.1:\d+)", line)
             if found:
                 self._address = found.group(1)
                 return self
@@ -43,6 +44,21 @@ class Server:
     def get(self, path):
         with urllib.request.urlopen(f"http://{self._address}{path}", timeout=30) as answer:
             return answer.read().decode()
+
+    def fetch(self, path, tls):
+        """The same within TLS; `tls`: an ssl.SSLContext."""
+        with urllib.request.urlopen(f"https://{self._address}{path}", timeout=30, context=tls) as answer:
+            return answer.read().decode()
+
+    def status(self, path, **headers):
+        connection = http.client.HTTPConnection(self._address, timeout=30)
+        connection.putrequest("GET", path, skip_host="Host" in headers)
+        for name, value in headers.items():
+            connection.putheader(name, value)
+        connection.endheaders()
+        status = connection.getresponse().status
+        connection.close()
+        return status
 
     def metrics(self):
         """The samples of /metrics: {(name, first label's value or ""): value}."""

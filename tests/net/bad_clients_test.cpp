@@ -15,7 +15,7 @@ TEST(BadClients, AreRefusedWithoutTheSubprotocol) {
         EXPECT_NE(client.error().text().find("must ask for subprotocol spherule.v1"), std::string::npos);
     }
     EXPECT_TRUE(Client::connect(owner.url(), patience, "chat, spherule.v1"));
-    EXPECT_EQ(owner.counters().handshakesRefused, 4U);
+    EXPECT_EQ(owner.counters().rejectedFor(Rejection::Subprotocol), 4U);
 }
 
 TEST(BadClients, AreClosedWhenTheySayNoHello) {

@@ -121,7 +121,13 @@ TEST(Urls, AreTakenApart) {
     EXPECT_EQ(brief->port, "80");
     EXPECT_EQ(brief->path, "/ws");
     EXPECT_EQ(parseUrl("ws://[::1]:81/x")->port, "81");
-    for (const std::string wrong : {"", "localhost:8080", "http://localhost", "wss://localhost", "ws://", "ws://:80"}) {
+    EXPECT_FALSE(brief->secure);
+    const auto secure = parseUrl("wss://localhost");
+    ASSERT_TRUE(secure);
+    EXPECT_TRUE(secure->secure);
+    EXPECT_EQ(secure->port, "443");
+    for (const std::string wrong :
+         {"", "localhost:8080", "http://localhost", "https://localhost", "ws://", "ws://:80"}) {
         EXPECT_FALSE(parseUrl(wrong)) << wrong;
     }
 }

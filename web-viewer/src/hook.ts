@@ -16,7 +16,7 @@ import type { Viewer } from "./viewer";
  * worker), `decoded` (it is here), `drawn` (its picture has been handed to the browser).
  */
 export interface Hook {
-  /** "connecting", "open", "silent" (open, but the server does not answer) or "waiting" (for the next attempt). */
+  /** "connecting", "open", "silent" (open, but the server does not answer) "waiting" (for the next attempt) or "locked" (a token is needed). */
   readonly connection: string;
   /** Size of the canvas in its own pixels, pictures drawn since the page was loaded. */
   readonly picture: { width: number; height: number; drawn: number; contextLost: boolean };
@@ -37,6 +37,9 @@ export interface Hook {
   readonly diagnostics: { substeps: number; stepMs: number; energyRises: boolean; step: number } | undefined;
   /** The positions of the dial, from fast to accurate. */
   readonly dial: { model: string; substeps: number; stepMs: number; own: boolean }[];
+  /** "everybody" (steers), "watching", "free" (nobody has the controls), "mine" or "taken"; and this page's number. */
+  readonly standing: string;
+  readonly session: number;
   /** Simulated times, s: of the picture, and of the two states that it is mixed of. */
   readonly shown: { time: number; from: number; to: number } | undefined;
   /** Of a server that plays a recording: what there is to play, where the handle stands, and whether it waits for a seek. */
@@ -161,6 +164,12 @@ export function hookFor({ session, camera, stage, reports, page, seenAt }: Viewe
         stepMs,
         own,
       }));
+    },
+    get standing() {
+      return page.steering.standing.kind;
+    },
+    get session() {
+      return Number(session.welcome?.session ?? 0);
     },
     get shown() {
       const shown = session.states.shown(sharedNow());

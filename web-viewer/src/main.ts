@@ -1,6 +1,8 @@
 import { modeList } from "./colour/modes";
+import { withoutToken } from "./connection/address";
 import { wishFrom } from "./connection/wish";
 import { hookFor } from "./hook";
+import type { Choices } from "./ui/panel";
 import { Viewer } from "./viewer";
 
 /** Starting choices may be given in the address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
@@ -9,12 +11,21 @@ function chosen<T extends string>(name: string, allowed: readonly T[]): T | unde
   return allowed.find((value) => value === asked);
 }
 
+function server(): string {
+  const url = new URL("ws", location.href);
+  url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  url.search = url.hash = "";
+  return url.href;
+}
+
 function start(): void {
   const canvas = document.querySelector<HTMLCanvasElement>("#picture");
   const place = document.querySelector<HTMLElement>("#page");
   if (!canvas || !place) throw new Error("The page lacks its canvas.");
+  const clean = withoutToken(location.href);
+  if (clean !== undefined) history.replaceState(history.state, "", clean);
   const mode = chosen("colour", modeList);
-  const viewer = new Viewer(canvas, place, {
+  const choices: Choices = {
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
@@ -22,12 +33,10 @@ function start(): void {
     push: false,
     impulse: 1,
     view: wishFrom(new URLSearchParams(location.search), () => localStorage),
-  });
+  };
+  const viewer = new Viewer(canvas, place, choices, server());
   window.spherule = hookFor(viewer);
-  const url = new URL("ws", location.href);
-  url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-  url.search = "";
-  viewer.start(url.href);
+  viewer.start(clean !== undefined);
 }
 
 try {

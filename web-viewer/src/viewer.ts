@@ -2,8 +2,11 @@ import { Camera } from "./camera/camera";
 import { listen } from "./camera/gestures";
 import { pick, rayThrough } from "./camera/ray";
 import { AutoRange } from "./colour/range";
+import { Admission } from "./connection/admission";
 import { Commands } from "./connection/commands";
+import type { Report } from "./connection/commands";
 import { Link } from "./connection/link";
+import { TokenStore } from "./connection/token_store";
 import { Watch } from "./connection/watch";
 import { keep } from "./connection/wish";
 import { Reports } from "./hook";
@@ -14,8 +17,10 @@ import { highSpeed } from "./scene/positions";
 import { Session } from "./scene/session";
 import type { Shown } from "./scene/states";
 import { Clock, sharedNow } from "./clock";
+import { sentence } from "./ui/format";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
+import { longStay } from "./ui/toasts";
 
 /** Joins the parts: what comes from the server goes to the picture and the page, what the person does goes back. */
 export class Viewer {
@@ -26,9 +31,11 @@ export class Viewer {
   private readonly commands: Commands;
   readonly page: Page;
   private readonly link: Link;
+  private readonly admission: Admission;
   private readonly speeds = new AutoRange(0.1);
   private readonly clock = new Clock();
   private readonly watch: Watch;
+  private note = ""; // for who is asked for a token
   private told = 0; // ms: when the worker heard of the drawing
   private drawn = ""; // what the canvas shows
   private measured = -1; // step whose speeds the range knows
@@ -37,12 +44,17 @@ export class Viewer {
     canvas: HTMLCanvasElement,
     place: HTMLElement,
     private readonly choices: Choices,
+    private readonly url: string, // of the server
   ) {
     this.stage = new Stage(canvas, choices.quality, () => (this.drawn = ""));
     this.link = new Link(new Worker("worker.js"), (message) => this.session.take(message));
     this.watch = new Watch({ ...choices.view }, (view) => this.link.watch(view));
     this.session = new Session((state) => this.link.recycle(state.positions), {
-      welcomed: (welcome) => this.page.panel.offer(welcome),
+      linked: (change) => this.admission.changed(change),
+      welcomed: (welcome) => {
+        this.admission.welcomed();
+        this.page.panel.offer(welcome);
+      },
       sceneChanged: (facts, before) => {
         const same = facts.name === before?.name;
         this.camera.look(facts, same);
@@ -59,13 +71,26 @@ export class Viewer {
       happened: (event) => this.page.toasts.show("Server", event.text, "plain"),
       broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
-    this.commands = new Commands(this.link, (report) => {
+    this.admission = new Admission(new TokenStore(url, () => sessionStorage), {
+      ask: (wrong) => {
+        this.page.prompt.ask(wrong ? sentence(wrong) : this.note);
+        this.note = "";
+      },
+      done: () => this.page.prompt.close(),
+      identify: (token) => this.link.identify(token),
+      held: (held) => this.page.panel.holdToken(held),
+    });
+    const report = (report: Report): void => {
       this.reports.add(report);
       const applied = report.outcome.case === "applied";
       if (!applied || !report.quiet) this.page.toasts.show(report.what, report.words, applied ? "good" : "bad");
-    });
+    };
+    this.commands = new Commands(this.link, report, () => this.page.steering.hindered());
     this.page = new Page(place, this.session, this.commands, this.speeds, choices, {
-      retry: () => this.link.retry(),
+      retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
+      submitToken: (text) => this.admission.submit(text),
+      forgetToken: () => this.admission.forget(),
+      aboutControl: (wish) => this.link.aboutControl(wish),
       themed: (theme) => this.stage.setTheme(theme),
       qualityChosen: (quality) => this.stage.choose(quality),
       viewWished: (view) => {
@@ -78,8 +103,13 @@ export class Viewer {
     this.listen(canvas);
   }
 
-  start(url: string): void {
-    this.link.connect(url, this.watch.view);
+  /** `strayed`: there was a token in the page's address. */
+  start(strayed: boolean): void {
+    if (strayed) {
+      this.note = "The one in the address was not used: tokens do not belong where others may see them.";
+      this.page.toasts.show("Token ignored", "Tokens do not belong in addresses, which others may see.", "bad", longStay);
+    }
+    this.link.connect(this.url, this.watch.view, this.admission.begin());
     const resized = (): void => {
       this.camera.resize(window.innerWidth, window.innerHeight);
       this.stage.resize(window.innerWidth, window.innerHeight);

@@ -3,8 +3,10 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
 import { Decoder } from "../src/codec/decoder";
+import { widths } from "../src/codec/format";
 import { hashOf } from "../src/codec/hash";
-import { field, readRun } from "../src/codec/values";
+import { move } from "../src/codec/move";
+import { field } from "../src/codec/values";
 
 // Tests run in web-viewer/. The C++ tests read the same files.
 const golden = (name: string) => new Uint8Array(readFileSync(path.join("..", "tests", "golden", "codec", name)));
@@ -127,16 +129,46 @@ test("garbled frames are refused or mean something", () => {
   assert.ok(refused > 300);
 });
 
+/** Words of some bits, and the field of `width` bits from `at` on. */
+const words = new Uint32Array(220).map((_, k) => Math.imul(k + 1, 0x9e3779b1));
+const view = new DataView(words.buffer);
+const bits = [...words].flatMap((word) => Array.from({ length: 32 }, (_, k) => (word >>> k) & 1));
+const plainField = (at: number, width: number): number =>
+  bits.slice(at, at + width).reduce((sum, one, k) => sum | (one << k), 0);
+
 test("fields of every width are read at every bit", () => {
-  const words = new Uint32Array(20).map((_, k) => Math.imul(k + 1, 0x9e3779b1));
-  const bits = [...words].flatMap((word) => Array.from({ length: 32 }, (_, k) => (word >>> k) & 1));
-  const values = new Int32Array(8);
   for (let width = 0; width <= 32; width++) {
-    for (let bit = 0; bit < 64; bit++) {
-      const plain = (at: number) => bits.slice(at, at + width).reduce((sum, one, k) => sum | (one << k), 0);
-      assert.equal(field(words, bit, width), plain(bit));
-      readRun(words, bit, width, values, 0);
-      values.forEach((value, k) => assert.equal(value, plain(bit + k * width)));
+    for (let bit = 0; bit < 64; bit++) assert.equal(field(view, bit, width), plainField(bit, width));
+  }
+});
+
+test("runs of every width move their spheres, from whatever is predicted", () => {
+  const newest = Int32Array.from({ length: 195 }, (_, k) => Math.imul(k + 3, 0x85ebca77));
+  const last = Int32Array.from({ length: 195 }, (_, k) => Math.imul(k + 5, 0xc2b2ae3d));
+  const base = Int32Array.of(-7, 0x7ffffff0, 512);
+  const predicted = [
+    (now: number) => now,
+    (now: number, before: number) => 2 * now - before,
+    (now: number, before: number) => now + (((now - before) | 0) >> 1),
+    () => 0,
+  ];
+  for (const [predictor, from] of predicted.entries()) {
+    for (const begin of [0, 1, 2, 3]) {
+      const width = Uint8Array.from({ length: 24 }, (_, run) => widths[(7 * run + 5 * begin) % 16] as number);
+      const expect = last.slice();
+      let bit = 8 * begin;
+      for (let run = 0; run < 24; run++) {
+        const wide = width[run] as number;
+        for (let k = 0; k < 8; k++, bit += wide) {
+          const at = 3 + 3 * (8 * (run % 8) + k) + (run >> 3);
+          const value = plainField(bit, wide);
+          const residual = (value >>> 1) ^ -(value & 1);
+          expect[at] = from(newest[at] as number, last[at] as number) + (base[run >> 3] as number) + residual;
+        }
+      }
+      const moved = last.slice();
+      move(predictor, view, begin, width, base, newest, moved, 3);
+      assert.deepEqual(moved, expect);
     }
   }
 });

@@ -1,9 +1,22 @@
 // Bundles the page: index.html, viewer.js, worker.js, style.css, favicon.svg, and nothing fetched from elsewhere.
 import * as esbuild from "esbuild";
-import { copyFileSync, mkdirSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { generate } from "./generate.mjs";
 import { options, root } from "./options.mjs";
+
+/** lil-gui's style sheet holds a font for its arrows, which the page's security policy forbids; the page draws its own. */
+const withoutFont = {
+  name: "without font",
+  setup(build) {
+    build.onLoad({ filter: /lil-gui\.css$/ }, ({ path: file }) => {
+      const whole = readFileSync(file, "utf8");
+      const contents = whole.replace(/@font-face\s*\{[^}]*\}/, "");
+      if (contents === whole) throw new Error("lil-gui's style sheet has no font any more: build.mjs need not take it out");
+      return { contents, loader: "css" };
+    });
+  },
+};
 
 const { out, protoc, debug } = options();
 generate(protoc);
@@ -23,6 +36,7 @@ await esbuild.build({
   sourcemap: debug ? "inline" : false,
   legalComments: "none",
   loader: { ".glsl": "text" },
+  plugins: [withoutFont],
   logLevel: "warning",
 });
 for (const file of ["index.html", "favicon.svg"]) {

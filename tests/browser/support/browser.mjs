@@ -19,10 +19,10 @@ export async function launch(...more) {
 }
 
 /**
- * Opens the page and waits until it has a state and says what it shows. `picture`: what the page calls the quality of its
- * picture; `fixed`: it is sent what it asks for, however slowly it draws here.
+ * Goes to the page. `picture`: what it calls the quality of its picture; `fixed`: it is sent what it asks for, however slowly it
+ * draws here.
  */
-export async function open(browser, url, { size = [960, 540], picture = "light", colour = "", fixed = true, ...context } = {}) {
+export async function visit(browser, url, { size = [960, 540], picture = "light", colour = "", fixed = true, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, ...context });
   page.setDefaultTimeout(patience);
   page.faults = [];
@@ -35,12 +35,23 @@ export async function open(browser, url, { size = [960, 540], picture = "light",
   if (fixed) address.searchParams.set("fixed", "");
   if (colour) address.searchParams.set("colour", colour);
   await page.goto(address.href);
+  return page;
+}
+
+/** Opens the page and waits until it has a state and says what it shows. */
+export async function open(browser, url, options) {
+  const page = await visit(browser, url, options);
+  await shows(page);
+  return page;
+}
+
+/** Waits until the page has a state and says what it shows. */
+export async function shows(page) {
   await when(page, () => {
     const title = document.querySelector('[data-testid="scene-name"]');
     const legend = document.querySelector('[data-testid="legend"]');
     return window.spherule?.frames > 0 && title.textContent === spherule.scene && !legend.hidden;
   });
-  return page;
 }
 
 export const control = (id) => `[data-testid="${id}"]`;

@@ -1,25 +1,26 @@
 import { modeBase, modeMask, modeRuns, none, previous, widths } from "./format";
-import { predict } from "./predict";
-import { bitCount, readChanged, readRun } from "./values";
+import { move } from "./move";
+import { bitCount, moveChanged } from "./values";
 
 /** Bits of the values of a run, by its axis's width code and its selector. */
 const narrowed = Uint8Array.from({ length: 64 }, (_, k) => widths[Math.max(0, (k >> 2) - (k & 3))] as number);
+
+const noWidths = new Uint8Array(24);
 
 /** Reads blocks, one after another; nothing is allocated per block. */
 export class BlockReader {
   private readonly width = new Uint8Array(24); // bits, by axis and run
   private readonly changed = new Uint8Array(24); // mode mask: bit per value
   private readonly base = new Int32Array(3);
-  private readonly values = new Int32Array(192);
   /** What is wrong with the block, where `read` gave -1. */
   fault = "";
 
   /**
    * The block at `unit` (16 bits): its new positions go into `before` at `at`. Gives the unit behind it, or -1 where it
-   * goes beyond the unit `end` or breaks the rules of keyframes. `words` has two words behind `end`.
+   * goes beyond the unit `end` or breaks the rules of keyframes. `view` has eight bytes behind `end`.
    */
   read(
-    words: Uint32Array,
+    view: DataView,
     unit: number,
     end: number,
     keyframe: boolean,
@@ -29,31 +30,26 @@ export class BlockReader {
     at: number,
   ): number {
     if (unit >= end) return this.fail("goes beyond its chunk");
-    const header = unitAt(words, unit);
+    const header = view.getUint16(2 * unit, true);
     const mode = header & 3;
     const predictor = (header >> 2) & 3;
     const extra = unit + 1;
     const runs = mode >= modeRuns;
     const first = extra + (runs ? 3 : 0) + (mode === modeBase ? (predictor === none ? 6 : 2) : 0);
     if (first > end) return this.fail("goes beyond its chunk");
-    const { width } = this;
-    let sum = 0; // of the widths
-    for (let axis = 0; axis < 3; axis++) {
-      const code = (header >> (4 + 4 * axis)) & 15;
-      const selectors = runs ? unitAt(words, extra + axis) : 0;
-      for (let run = 0; run < 8; run++) {
-        const wide = narrowed[4 * code + ((selectors >> (2 * run)) & 3)] as number;
-        width[8 * axis + run] = wide;
-        sum += wide;
-      }
-    }
-    this.readBase(words, extra + 3, mode, predictor);
-    const bits = mode === modeMask ? this.readMasked(words, extra, end) : this.readRuns(words, 16 * first, 8 * sum, end);
-    if (bits < 0) return this.fail("goes beyond its chunk");
+    const sum = this.readWidths(view, header, runs ? extra : -1);
+    this.readBase(view, extra + 3, mode, predictor);
+    const behind = mode === modeMask ? this.readMasks(view, extra, end) : 16 * first + 8 * sum; // bits
+    if (behind < 0 || behind > 16 * end) return this.fail("goes beyond its chunk");
     const wrong = faultOf(mode, predictor, keyframe, velocities);
     if (wrong) return this.fail(wrong);
-    predict(predictor, this.values, this.base, newest, before, at);
-    return (bits + 15) >>> 4;
+    if (mode === modeMask) {
+      move(predictor, view, 0, noWidths, this.base, newest, before, at);
+      this.moveMasked(view, behind, before, at);
+    } else {
+      move(predictor, view, 2 * first, this.width, this.base, newest, before, at);
+    }
+    return (behind + 15) >>> 4;
   }
 
   private fail(fault: string): number {
@@ -61,70 +57,64 @@ export class BlockReader {
     return -1;
   }
 
-  private readBase(words: Uint32Array, unit: number, mode: number, predictor: number): void {
+  /** Selectors are at the unit `selected`, or all 0 where it is -1. Gives the sum. */
+  private readWidths(view: DataView, header: number, selected: number): number {
+    const { width } = this;
+    let sum = 0;
+    for (let axis = 0; axis < 3; axis++) {
+      const code = (header >> (4 + 4 * axis)) & 15;
+      const selectors = selected < 0 ? 0 : view.getUint16(2 * (selected + axis), true);
+      for (let run = 0; run < 8; run++) {
+        const wide = narrowed[4 * code + ((selectors >> (2 * run)) & 3)] as number;
+        width[8 * axis + run] = wide;
+        sum += wide;
+      }
+    }
+    return sum;
+  }
+
+  private readBase(view: DataView, unit: number, mode: number, predictor: number): void {
     if (mode !== modeBase) {
       this.base.fill(0);
     } else if (predictor === none) {
-      for (let axis = 0; axis < 3; axis++) this.base[axis] = wordAt(words, unit + 2 * axis);
+      for (let axis = 0; axis < 3; axis++) this.base[axis] = view.getInt32(2 * unit + 4 * axis, true);
     } else {
-      const bits = wordAt(words, unit);
+      const bits = view.getInt32(2 * unit, true);
       for (let axis = 0; axis < 3; axis++) {
         this.base[axis] = ((bits << (22 - 10 * axis)) >> 22) << (2 * (bits >>> 30));
       }
     }
   }
 
-  /** Values of all spheres, `bits` in all, from `bit` on. Gives the bit behind them, or -1. */
-  private readRuns(words: Uint32Array, bit: number, bits: number, end: number): number {
-    const { width, values } = this;
-    if (bit + bits > 16 * end) return -1;
-    for (let run = 0; run < 24; run++) {
-      const wide = width[run] as number;
-      readRun(words, bit, wide, values, 8 * run);
-      bit += 8 * wide;
-    }
-    return bit;
-  }
-
-  /** Masks and values from `unit` on. Gives the bit behind them, or -1. */
-  private readMasked(words: Uint32Array, unit: number, end: number): number {
-    const { width, changed, values } = this;
+  /** Masks from `unit` on. Gives the bit behind the values that follow them, or -1 where there is no room for them. */
+  private readMasks(view: DataView, unit: number, end: number): number {
+    const { width, changed } = this;
     let byte = 2 * unit + 3;
     if (byte > 2 * end) return -1;
+    let sum = 0;
     for (let run = 0; run < 24; run++) {
       changed[run] = 0;
-      if (!((byteAt(words, 2 * unit + (run >> 3)) >> (run & 7)) & 1)) continue;
+      if (!((view.getUint8(2 * unit + (run >> 3)) >> (run & 7)) & 1)) continue;
       if (byte >= 2 * end) return -1;
-      changed[run] = byteAt(words, byte++);
+      const which = view.getUint8(byte++);
+      changed[run] = which;
+      sum += (width[run] as number) * (bitCount[which] as number);
     }
-    let bit = 8 * byte;
-    let sum = 0;
-    for (let run = 0; run < 24; run++) sum += (width[run] as number) * (bitCount[changed[run] as number] as number);
-    if (bit + sum > 16 * end) return -1;
-    for (let run = 0; run < 24; run++) {
-      const which = changed[run] as number;
-      const wide = width[run] as number;
-      if (which === 0) {
-        values.fill(0, 8 * run, 8 * run + 8);
-        continue;
-      }
-      readChanged(words, bit, wide, which, values, 8 * run);
-      bit += wide * (bitCount[which] as number);
-    }
-    return bit;
+    return 8 * byte + sum;
   }
-}
 
-function unitAt(words: Uint32Array, unit: number): number {
-  return ((words[unit >>> 1] as number) >>> (16 * (unit & 1))) & 0xffff;
-}
-
-function byteAt(words: Uint32Array, byte: number): number {
-  return ((words[byte >>> 2] as number) >>> (8 * (byte & 3))) & 0xff;
-}
-
-function wordAt(words: Uint32Array, unit: number): number {
-  return unitAt(words, unit) | (unitAt(words, unit + 1) << 16);
+  /** The values that end before the bit `behind`, from the last run on: so it need not be kept where they begin. */
+  private moveMasked(view: DataView, behind: number, before: Int32Array, at: number): void {
+    const { width, changed } = this;
+    let bit = behind;
+    for (let run = 23; run >= 0; run--) {
+      const which = changed[run] as number;
+      if (which === 0) continue;
+      const wide = width[run] as number;
+      bit -= wide * (bitCount[which] as number);
+      moveChanged(view, bit, wide, which, before, at + (run >> 3) + 24 * (run & 7));
+    }
+  }
 }
 
 /** What is wrong with such a block, apart from its size. */

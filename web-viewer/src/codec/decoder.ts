@@ -12,7 +12,8 @@ export class Decoder {
   /** On the grid, x y z, in the codec's order; whole blocks. The other array holds those of the frame before. */
   newest: Int32Array;
   before: Int32Array;
-  private words = new Uint32Array(0);
+  private words = new Uint32Array(0); // of the frame, and two more
+  private view = new DataView(this.words.buffer); // the same
   private number = 0;
   private history = 0; // states that are known, at most 2
   private readonly blocks: number;
@@ -55,7 +56,10 @@ export class Decoder {
   /** The frame's words, aligned, with two more behind them. */
   private take(frame: Uint8Array): number {
     const length = frame.byteLength >>> 2;
-    if (this.words.length < length + 2) this.words = new Uint32Array(length + (length >>> 3) + 2);
+    if (this.words.length < length + 2) {
+      this.words = new Uint32Array(length + (length >>> 3) + 2);
+      this.view = new DataView(this.words.buffer);
+    }
     new Uint8Array(this.words.buffer).set(frame.subarray(0, 4 * length));
     return length;
   }
@@ -86,7 +90,7 @@ export class Decoder {
   }
 
   private decodeChunk(keyframe: boolean, velocities: boolean, chunk: number, begin: number, end: number): void {
-    const { words, newest, before, reader } = this;
+    const { words, view, newest, before, reader } = this;
     const last = Math.min(this.blocks, (chunk + 1) * chunkBlocks);
     let word = begin;
     for (let first = chunk * chunkBlocks; first < last; first += groupBlocks) {
@@ -100,7 +104,7 @@ export class Decoder {
       for (let k = 0; k < count; k++) {
         const at = (first + k) * 3 * blockSpheres;
         if ((bitmap >>> k) & 1) {
-          unit = reader.read(words, unit, 2 * end, keyframe, velocities, newest, before, at);
+          unit = reader.read(view, unit, 2 * end, keyframe, velocities, newest, before, at);
           if (unit < 0) throw new Error(`frame, block ${first + k}: ${reader.fault}`);
         } else {
           if (keyframe) throw new Error(`frame, block ${first + k}: is missing in a keyframe`);

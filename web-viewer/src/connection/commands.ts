@@ -32,11 +32,12 @@ export interface Drop {
   radius: number;
 }
 
-/** What the page can ask of the simulation. Each answer goes to `report` as well. */
+/** What the page can ask of the simulation. Each answer goes to `report` as well; nothing is asked while that is hindered. */
 export class Commands {
   constructor(
     private readonly link: Link,
     private readonly report: (report: Report) => void,
+    private readonly hindered: () => boolean,
   ) {}
 
   pause(): Promise<Outcome> {
@@ -96,6 +97,7 @@ export class Commands {
   }
 
   private async give(what: string, kind: CommandKind, quiet = false): Promise<Outcome> {
+    if (this.hindered()) return { case: "lost" };
     const outcome = await this.link.send(kind);
     this.report({ what, outcome, words: wordsFor(outcome), quiet });
     return outcome;

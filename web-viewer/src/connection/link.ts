@@ -1,11 +1,11 @@
 import { create } from "@bufbuild/protobuf";
 import { CommandSchema } from "../gen/spherule/v1/control_pb";
 import type { Command, CommandResult } from "../gen/spherule/v1/control_pb";
-import type { FromWorker, LinkState, ToWorker, View } from "./messages";
+import type { ControlWish, FromWorker, LinkState, ToWorker, View } from "./messages";
 
 export type CommandKind = Command["kind"];
 
-/** How a command ended; `lost` when the connection went before its answer came. */
+/** How a command ended; `lost` when it was not sent, or the connection went before its answer came. */
 export type Outcome = CommandResult["outcome"] | { case: "lost"; value?: undefined };
 
 /** The page's side of the connection: messages come to `listen`, commands go out and resolve with their outcome. */
@@ -25,8 +25,14 @@ export class Link {
     };
   }
 
-  connect(url: string, view: View): void {
-    this.post({ kind: "connect", url, view });
+  /** `token`: for a server that asks for one; empty: there is none. */
+  connect(url: string, view: View, token: string): void {
+    this.post({ kind: "connect", url, view, token });
+  }
+
+  /** Connects anew with this token, or, where it is empty, without. */
+  identify(token: string): void {
+    this.post({ kind: "token", token });
   }
 
   retry(): void {
@@ -47,6 +53,10 @@ export class Link {
     const id = ++this.lastId;
     this.post({ kind: "command", command: create(CommandSchema, { id, kind }) });
     return new Promise((resolve) => this.waiting.set(id, resolve));
+  }
+
+  aboutControl(wish: ControlWish): void {
+    this.post({ kind: "control", wish });
   }
 
   /** Gives the buffer of a state that is no longer needed back to the decoder. */

@@ -1,6 +1,8 @@
 import type {
+  ClientMessage,
   Command,
   CommandResult,
+  Control,
   Diagnostics,
   Dial,
   Event,
@@ -15,7 +17,20 @@ import type { Status, Tier } from "../gen/spherule/v1/frame_pb";
 
 /** What passes between the page and the worker that holds its connection. */
 
-export type LinkState = "connecting" | "open" | "waiting";
+/** `locked`: the server wants a token, or another one; nothing is tried until there is one. */
+export type LinkState = "connecting" | "open" | "waiting" | "locked";
+
+/** How the page is with its server, and since when, as sharedNow() says. */
+export interface LinkChange {
+  state: LinkState;
+  at: number; // ms
+  retryIn?: number; // ms
+  reason?: string; // why it is not open
+  refused?: boolean; // the server has turned this page away, and the reason is its own
+}
+
+/** What is said about who has the controls. */
+export type ControlWish = Extract<ClientMessage["kind"], { case: "askControl" | "yieldControl" | "keepControl" }>;
 
 /** A state of all spheres. */
 export interface State {
@@ -44,7 +59,7 @@ export interface View {
 }
 
 export type FromWorker =
-  | { kind: "link"; state: LinkState; at: number; retryIn?: number; reason?: string } // at: when, as sharedNow() says; retryIn: ms
+  | ({ kind: "link" } & LinkChange)
   | { kind: "silent"; since: number | undefined } // when the server was last heard, as sharedNow() says; undefined: just now
   | { kind: "welcome"; welcome: Welcome }
   | { kind: "scene"; facts: SceneFacts }
@@ -57,13 +72,16 @@ export type FromWorker =
   | { kind: "dial"; dial: Dial }
   | { kind: "timeline"; timeline: Timeline }
   | { kind: "recording"; recording: Recording }
+  | { kind: "control"; control: Control }
   | { kind: "lost"; count: number } // frames that could not be decoded since the page was loaded
   | { kind: "broken"; reason: string }; // a message that could not be read
 
 export type ToWorker =
-  | { kind: "connect"; url: string; view: View }
+  | { kind: "connect"; url: string; view: View; token: string }
+  | { kind: "token"; token: string } // for the next hello, which is said at once
   | { kind: "retry" }
   | { kind: "view"; view: View }
   | { kind: "drawing"; rate: number } // pictures per second; 0: unknown
   | { kind: "command"; command: Command }
+  | { kind: "control"; wish: ControlWish }
   | { kind: "recycle"; buffer: ArrayBuffer };

@@ -1,11 +1,11 @@
 import { Backoff } from "./backoff";
-import type { LinkState } from "./messages";
+import type { LinkChange } from "./messages";
 import { Silence } from "./silence";
 
 export interface SocketEvents {
   opened(): void;
   received(data: ArrayBuffer): void;
-  state(state: LinkState, retryIn?: number, reason?: string): void;
+  changed(change: Omit<LinkChange, "at">): void;
   /** Nothing has come for a while: the server is to be asked for a word. */
   ask(): void;
   /** So long (ms), though it was asked; undefined: something has come again. */
@@ -13,6 +13,8 @@ export interface SocketEvents {
 }
 
 const subprotocol = "spherule.v1";
+const wantsToken = 4401; // close codes
+const turnedAway = [1008, 1013];
 const patience = 10_000; // ms for the server's first word after opening, before trying again
 
 /** A WebSocket that connects again by itself, sooner after a connection that worked than after one that did not. */
@@ -29,7 +31,7 @@ export class Socket {
     this.silence = new Silence({
       ask: () => events.ask(),
       silent: (since) => events.silent(since),
-      giveUp: () => this.leave("nothing came any more"),
+      giveUp: () => this.leave({ reason: "nothing came any more" }),
     });
     this.connect();
   }
@@ -43,19 +45,22 @@ export class Socket {
 
   /** Tries now instead of at the end of the wait, or of the server's silence. */
   retry(): void {
-    if (this.socket && !this.silence.lasts) return;
-    if (this.socket) this.leave("");
-    clearTimeout(this.timer);
+    if (!this.socket || this.silence.lasts) this.renew();
+  }
+
+  /** Begins anew, whatever there is. */
+  renew(): void {
+    this.drop();
     this.backoff.reset();
     this.connect();
   }
 
   private connect(): void {
-    this.events.state("connecting");
+    this.events.changed({ state: "connecting" });
     const socket = new WebSocket(this.url, subprotocol);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
-    this.timer = setTimeout(() => this.leave("no answer"), patience);
+    this.timer = setTimeout(() => this.leave({ reason: "no answer" }), patience);
     socket.onopen = () => {
       if (this.socket === socket) this.events.opened();
     };
@@ -67,7 +72,9 @@ export class Socket {
     };
     socket.onclose = (closed) => {
       if (this.socket !== socket) return;
-      this.leave(closed.reason || (closed.wasClean ? "closed by the server" : "no answer"));
+      const reason = closed.reason || (closed.wasClean ? "closed by the server" : "no answer");
+      if (closed.code === wantsToken) this.lock(reason);
+      else this.leave({ reason, refused: turnedAway.includes(closed.code) });
     };
   }
 
@@ -80,14 +87,25 @@ export class Socket {
   }
 
   /** Turns away from this connection, which may never close by itself, and tries another before long. */
-  private leave(reason: string): void {
+  private leave(why: { reason: string; refused?: boolean }): void {
+    this.drop();
+    const retryIn = this.backoff.next();
+    this.events.changed({ state: "waiting", retryIn, ...why });
+    this.timer = setTimeout(() => this.connect(), retryIn);
+  }
+
+  /** The same hello would be refused again: waits for another one. */
+  private lock(reason: string): void {
+    this.drop();
+    this.events.changed({ state: "locked", reason });
+  }
+
+  private drop(): void {
     const socket = this.socket;
     this.socket = undefined;
     socket?.close();
     this.silence.end();
     clearTimeout(this.timer);
-    const wait = this.backoff.next();
-    this.events.state("waiting", wait, reason);
-    this.timer = setTimeout(() => this.connect(), wait);
+    this.timer = undefined;
   }
 }

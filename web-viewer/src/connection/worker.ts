@@ -3,6 +3,7 @@ import { AckSchema, ClientMessageSchema, HelloSchema, ViewSchema } from "../gen/
 import type { ClientMessage } from "../gen/spherule/v1/control_pb";
 import { sharedNow } from "../clock";
 import { Buffers } from "./buffers";
+import { clientName } from "./client";
 import { decode, forPage } from "./decode";
 import { Frames } from "./frames";
 import type { FromWorker, ToWorker, View } from "./messages";
@@ -47,6 +48,7 @@ function received(data: ArrayBuffer): void {
 }
 
 let view: View | undefined;
+let token = "";
 
 function sendView(): void {
   send({ case: "view", value: create(ViewSchema, view) });
@@ -57,11 +59,11 @@ function connect(url: string): void {
     opened: () => {
       const at = sharedNow();
       stream.reset();
-      send({ case: "hello", value: create(HelloSchema, { client: "spherule viewer", view }) });
+      send({ case: "hello", value: create(HelloSchema, { client: clientName, view, token }) });
       page.postMessage({ kind: "link", state: "open", at });
     },
     received,
-    state: (state, retryIn, reason) => page.postMessage({ kind: "link", state, at: sharedNow(), retryIn, reason }),
+    changed: (change) => page.postMessage({ kind: "link", at: sharedNow(), ...change }),
     // A view that has been said before changes nothing, and is answered with what is sent.
     ask: () => sendView(),
     silent: (since) => page.postMessage({ kind: "silent", since: since === undefined ? since : sharedNow() - since }),
@@ -72,7 +74,12 @@ page.onmessage = ({ data }) => {
   switch (data.kind) {
     case "connect":
       view = data.view;
+      token = data.token;
       connect(data.url);
+      break;
+    case "token":
+      token = data.token;
+      socket?.renew();
       break;
     case "retry":
       socket?.retry();
@@ -86,6 +93,9 @@ page.onmessage = ({ data }) => {
       break;
     case "command":
       send({ case: "command", value: data.command });
+      break;
+    case "control":
+      send(data.wish);
       break;
     case "recycle":
       buffers.giveBack(data.buffer);

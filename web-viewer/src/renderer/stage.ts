@@ -70,6 +70,7 @@ export class Stage {
     if (!this.picture) return false;
     if (elapsed !== undefined && this.control.took(elapsed)) this.fit();
     this.picture.draw(shown, paint);
+    this.canvas.classList.toggle("empty", !this.facts);
     this.drawn += 1;
     return true;
   }

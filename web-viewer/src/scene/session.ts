@@ -1,6 +1,6 @@
-import type { Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Control, Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
-import type { FromWorker, LinkState, State } from "../connection/messages";
+import type { FromWorker, LinkChange, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
 import { markFirst } from "../marks";
 import { factsOf } from "./facts";
@@ -13,6 +13,7 @@ import { Traffic } from "./traffic";
 const soon = 1000; // ms after its facts that the first state of a scene should have come
 
 export interface SessionEvents {
+  linked(change: LinkChange): void;
   welcomed(welcome: Welcome): void;
   sceneChanged(facts: Facts, before: Facts | undefined): void;
   settled(settings: Settings): void;
@@ -27,6 +28,7 @@ export interface SessionEvents {
 export class Session {
   link: LinkState = "connecting";
   linkReason = "";
+  refusal = ""; // why the server turned the page away; empty: it did not, or that is over
   retryAt = 0; // ms, as sharedNow() says
   silentSince: number | undefined; // ms: the connection is open, but the server does not answer
   welcome: Welcome | undefined;
@@ -37,6 +39,7 @@ export class Session {
   diagnostics: Diagnostics | undefined;
   stream: Stream | undefined; // what the server sends; undefined: it has not said
   timeline: Timeline | undefined; // what there is to play; undefined: the server simulates
+  control: Control | undefined; // who has the controls; undefined: everybody steers, or it is not known yet
   recording: Recording | undefined; // what the server has recorded; undefined: it keeps none
   lastArrival = 0; // ms, of a frame of this epoch
   private begun = 0; // ms: when its facts came
@@ -62,15 +65,18 @@ export class Session {
         this.linkReason = message.reason ?? "";
         this.retryAt = sharedNow() + (message.retryIn ?? 0);
         this.silentSince = undefined;
-        if (message.state !== "open") this.stream = undefined;
+        if (message.state === "waiting") this.refusal = message.refused ? this.linkReason : "";
+        if (message.state !== "open") this.stream = this.control = undefined;
         this.lateness.reset();
         this.fresh ||= message.state === "open";
+        this.events.linked(message);
         break;
       case "silent":
         this.silentSince = message.since;
         break;
       case "welcome":
         this.welcome = message.welcome;
+        this.refusal = "";
         this.timeline = undefined; // it may be another server
         this.recording = undefined;
         this.events.welcomed(message.welcome);
@@ -111,6 +117,9 @@ export class Session {
         this.events.recorded(message.recording, before);
         break;
       }
+      case "control":
+        this.control = message.control;
+        break;
       case "stream":
         this.stream = message.stream;
         break;

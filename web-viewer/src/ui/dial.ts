@@ -54,6 +54,14 @@ export class Dial {
     this.show();
   }
 
+  /** `why`: it is out of use; empty: it is not. */
+  restrict(why: string): void {
+    this.slider.disabled = why !== "";
+    this.slider.title = why;
+    if (why) this.turning = false; // nobody will hear that it was let go
+    this.show();
+  }
+
   private show(): void {
     const { dial, settings } = this;
     this.element.hidden = !dial || !settings;

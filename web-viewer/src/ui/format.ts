@@ -1,5 +1,10 @@
 const gap = "\u202f"; // narrow and not broken
 
+/** With a capital and a full stop. */
+export function sentence(words: string): string {
+  return words.charAt(0).toUpperCase() + words.slice(1).replace(/[.\s]*$/, ".");
+}
+
 /** 12 345 */
 export function count(value: number): string {
   return Math.round(value)

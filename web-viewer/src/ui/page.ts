@@ -3,6 +3,7 @@ import type { Insets } from "../camera/view";
 import { modeList } from "../colour/modes";
 import type { AutoRange } from "../colour/range";
 import type { Commands } from "../connection/commands";
+import type { ControlWish } from "../connection/messages";
 import type { Recording } from "../gen/spherule/v1/control_pb";
 import type { ThemeName } from "../renderer/theme";
 import type { Session } from "../scene/session";
@@ -19,13 +20,17 @@ import { Legend } from "./legend";
 import { Panel } from "./panel";
 import type { Choices, PanelActions } from "./panel";
 import { Playback } from "./playback";
+import { Prompt } from "./prompt";
 import { endOf, RecordButton } from "./record";
 import { StatusLine } from "./status";
+import { Steering } from "./steering";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
 export interface PageActions extends PanelActions {
   retry(): void;
+  submitToken(text: string): boolean;
+  aboutControl(wish: ControlWish): void;
   camera: Camera;
 }
 
@@ -37,6 +42,8 @@ export class Page {
   readonly inspector = new Inspector();
   readonly panel: Panel;
   readonly playback: Playback;
+  readonly prompt: Prompt;
+  readonly steering: Steering;
   private readonly header: Header;
   private readonly record: RecordButton;
   private readonly transport: Transport;
@@ -79,6 +86,7 @@ export class Page {
       camera: actions.camera,
       colour: (index) => this.panel.colourBy(modeList[index] ?? choices.mode),
       push: () => {
+        if (this.steering.hindered()) return;
         choices.push = !choices.push;
         this.panel.refresh();
       },
@@ -89,16 +97,18 @@ export class Page {
         this.help.element.close();
       },
     };
-    this.keys = () => keysFor(keyActions, this.playing);
+    this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
+    this.steering = new Steering(session, this.toasts, actions.aboutControl, (why) => this.panel.restrict(why));
+    this.keys = () => (this.prompt.open ? [] : keysFor(keyActions, this.playing));
     listenForKeys(() => this.keys());
     this.record = new RecordButton(commands);
     this.transport = new Transport(this.record.element, { ...act, home: () => actions.camera.reset() });
     this.playback = new Playback(session, commands, () => choices.mode === "speed" || this.inspector.selected !== undefined);
-    const { header, legend, inspector, panel, status, toasts, help } = this;
+    const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, this.playback.element, this.transport.element));
+    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, steering.element, this.playback.element, this.transport.element));
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
-    place.append(header.element, foot, panel.element, status.element, toasts.element, help.element);
+    place.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
     new ResizeObserver(() => this.measureDeck()).observe(this.deck);
     document.documentElement.dataset.theme = choices.theme;
     this.showPanel(!narrow.matches);
@@ -109,14 +119,16 @@ export class Page {
   update(now: number, shown: Shown | undefined, picturesPerSecond: number, contextLost: boolean): void {
     this.inspector.update(this.session.facts, shown);
     this.setPlaying(this.session.timeline !== undefined);
-    this.transport.update(this.session.paused);
-    this.playback.update(now, shown);
-    this.record.offer(this.playing ? undefined : this.session.recording);
+    this.steering.update();
+    const { why } = this.steering;
+    this.transport.update(this.session.paused, why);
+    this.playback.update(now, shown, why);
+    this.record.offer(this.playing ? undefined : this.session.recording, why);
     this.legend.update(this.choices.mode, this.session.facts);
     document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
     if (now - this.lastFigures < 200) return; // figures that change faster cannot be read
     this.lastFigures = now;
-    this.header.update(now, contextLost);
+    this.header.update(now, this.steering.standing, contextLost);
     this.status.update(now, picturesPerSecond);
     this.panel.stream.update(this.session, now);
   }

@@ -13,6 +13,7 @@ import { goalFrom, goalNames, goals, heldBy } from "./auto";
 import type { GoalName } from "./auto";
 import { Dial } from "./dial";
 import { presetOf, presets } from "./gravity";
+import { Restriction } from "./restriction";
 import { StatisticsTables } from "./statistics";
 import { StreamFolder } from "./stream";
 import { tag } from "./tag";
@@ -32,6 +33,7 @@ export interface PanelActions {
   themed(theme: ThemeName): void;
   qualityChosen(quality: QualityChoice): void;
   viewWished(view: View): void;
+  forgetToken(): void;
 }
 
 /** The controls at the side. Commands go out when a control is let go; what the server settled on comes back. */
@@ -52,8 +54,11 @@ export class Panel {
     auto: "off" as GoalName,
     goal: 0, // in the unit of what is held
   };
+  private readonly steering: GUI[] = []; // folders with which the world is changed
   private readonly simulated: GUI[] = []; // folders that are of no use in a recording
   private playback!: GUI;
+  private readonly access: GUI; // of no use where there is no token
+  private readonly restriction: Restriction;
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly scene: OptionController;
   private readonly dial = new Dial(({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }));
@@ -78,6 +83,23 @@ export class Panel {
     this.addLook();
     this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, (view) => actions.viewWished(view));
     this.addStatistics();
+    this.access = this.gui.addFolder("Access").hide();
+    tag("forget-token", this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget the token")).domElement.title =
+      "This tab remembers it until it is closed";
+    this.restriction = new Restriction([this.scene, ...this.steering.flatMap((folder) => folder.controllers)]);
+  }
+
+  /** `why`: what changes the world is out of use; empty: it is not. */
+  restrict(why: string): void {
+    if (why) this.choices.push = false;
+    this.restriction.set(why);
+    this.dial.restrict(why);
+    this.refresh();
+  }
+
+  /** Whether there is a token to be forgotten. */
+  holdToken(held: boolean): void {
+    this.access.show(held);
   }
 
   /** A recording is played, or else a scene simulated: only what works is offered. */
@@ -166,6 +188,7 @@ export class Panel {
     const { world } = this;
     const folder = this.gui.addFolder("World");
     this.playback = folder;
+    this.steering.push(folder);
     folder.domElement.classList.add("playback");
     const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
     tag("gravity-preset", folder.add(world, "gravity", [...Object.keys(presets), "Own"]).name("Gravity, m/s²")).onFinishChange((name: string) => {
@@ -191,6 +214,7 @@ export class Panel {
   private addQuality(): void {
     const { world } = this;
     const folder = this.simulation("Quality");
+    this.steering.push(folder);
     folder.$children.append(this.dial.element);
     const hold = (): void => void this.change("Automatic", { auto: goalFrom(world.auto, world.goal) });
     tag("auto", folder.add(world, "auto", goalNames).name("Automatic")).onFinishChange((name: GoalName) => {
@@ -203,6 +227,7 @@ export class Panel {
 
   private addDrop(): void {
     const folder = this.simulation("Drop spheres");
+    this.steering.push(folder);
     tag("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"));
     tag("drop-radius", folder.add(this.drop, "radius").min(1e-4).decimals(4).name("Radius, m"));
     tag("drop", folder.add({ act: () => this.dropNow() }, "act").name("Drop"));
@@ -210,6 +235,7 @@ export class Panel {
 
   private addPush(): void {
     const folder = this.simulation("Push");
+    this.steering.push(folder);
     tag("push", folder.add(this.choices, "push").name("Click pushes"));
     tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s")).domElement.title = impulseNote;
   }

@@ -26,15 +26,16 @@ export class Playback {
     this.element = this.scrubber.element;
   }
 
-  /** `now`: ms, as sharedNow() says. */
-  update(now: number, shown: Shown | undefined): void {
+  /** `now`: ms, as sharedNow() says; `why`: it is out of use; empty: it is not. */
+  update(now: number, shown: Shown | undefined, why: string): void {
     const { session, seeker, scrubber } = this;
     if (scrubber.offer(session.timeline)) seeker.forget();
     if (!session.timeline) return;
     const speed = session.paused ? 0 : (session.settings?.speed ?? 1);
     seeker.heed({ now, newest: session.states.newest?.simTime, speed, spacing: session.spacing });
     const { wanted } = seeker;
-    scrubber.update(wanted ?? (shown && timeOf(shown)), wanted ?? session.states.newest?.simTime, session.link === "open", wanted === undefined && session.paused);
+    scrubber.enable(session.link === "open" && !why, why);
+    scrubber.update(wanted ?? (shown && timeOf(shown)), wanted ?? session.states.newest?.simTime, wanted === undefined && session.paused);
   }
 
   /** s; where the handle stands. */

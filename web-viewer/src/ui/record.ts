@@ -9,19 +9,23 @@ export class RecordButton {
   private readonly words = h("span", { "data-testid": "record-words" });
   readonly element = h("button", { type: "button", class: "record", "data-testid": "record", click: () => void this.toggle() }, h("i"), this.words);
   private recording: Recording | undefined;
+  private why = "";
+  private asked = false; // a second click would ask for the opposite of what is under way
 
   constructor(private readonly commands: Commands) {
-    this.offer(undefined);
+    this.offer(undefined, "");
   }
 
-  /** undefined: there is nothing to record. */
-  offer(recording: Recording | undefined): void {
-    if (recording === this.recording && this.element.title) return;
+  /** `recording` undefined: there is nothing to record. `why`: it is out of use; empty: it is not. */
+  offer(recording: Recording | undefined, why: string): void {
+    if (recording === this.recording && why === this.why && this.element.title) return;
     this.recording = recording;
+    this.why = why;
+    this.enable();
     this.element.hidden = !recording;
     const active = recording?.active ?? false;
     const title = active ? `Stop recording ${recording?.file ?? ""}`.trim() : "Record what is simulated, on the server";
-    this.element.title = title;
+    this.element.title = why || title;
     this.element.setAttribute("aria-label", title);
     this.element.setAttribute("aria-pressed", String(active));
     this.words.hidden = !active;
@@ -29,10 +33,16 @@ export class RecordButton {
   }
 
   private async toggle(): Promise<void> {
-    const { element, commands, recording } = this;
-    element.disabled = true; // a second click would ask for the opposite of what is under way
+    const { commands, recording } = this;
+    this.asked = true;
+    this.enable();
     await (recording?.active ? commands.stopRecording() : commands.record());
-    element.disabled = false;
+    this.asked = false;
+    this.enable();
+  }
+
+  private enable(): void {
+    this.element.disabled = this.asked || this.why !== "";
   }
 }
 

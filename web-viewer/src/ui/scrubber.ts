@@ -66,14 +66,19 @@ export class Scrubber {
   }
 
   /** `time`: what the picture shows; `stands`: the newest state, or what is on its way; s. `still`: it stays there. */
-  update(time: number | undefined, stands: number | undefined, open: boolean, still: boolean): void {
+  update(time: number | undefined, stands: number | undefined, still: boolean): void {
     this.stands = stands ?? this.stands;
     this.still = still;
-    this.slider.disabled = !open;
-    if (!open) this.held = false; // nobody will say that it was let go
     if (time === undefined || this.held) return;
     this.slider.value = String(time);
     this.describe();
+  }
+
+  /** `why`: the handle is out of use; empty: that says itself. */
+  enable(usable: boolean, why: string): void {
+    this.slider.disabled = !usable;
+    this.slider.title = why;
+    if (!usable) this.held = false; // nobody will say that it was let go
   }
 
   /** s; what the handle says. */

@@ -10,6 +10,12 @@ const most = 3;
 export class Toasts {
   readonly element = h("div", { class: "toasts", "data-testid": "toasts", role: "status", "aria-live": "polite" });
 
+  /** What is said already is not said again. */
+  once(title: string, text: string, tone: Tone): void {
+    const said = [...this.element.children].some((toast) => toast.lastElementChild?.textContent === text);
+    if (!said) this.show(title, text, tone);
+  }
+
   show(title: string, text: string, tone: Tone, stay: number = stays[tone]): void {
     const toast = h(
       "div",

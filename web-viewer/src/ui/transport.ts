@@ -28,7 +28,9 @@ export class Transport {
   private readonly reset: HTMLButtonElement;
   private readonly steps = h("input", { type: "number", min: "1", max: "100000", value: "10", "data-testid": "step-count" });
   private readonly unit: HTMLButtonElement;
-  private paused: boolean | undefined;
+  private playing = false; // a recording
+  private paused = false;
+  private why = ""; // it is out of use; empty: it is not
 
   constructor(record: HTMLElement, actions: TransportActions) {
     const button = (id: string, click: () => void, path: string, filled = false): HTMLButtonElement =>
@@ -58,33 +60,44 @@ export class Transport {
       named(button("help", () => actions.help(), icons.help), "Keys and gestures (?)"),
       named(button("panel-toggle", () => actions.panel(), icons.panel), "Controls (C)"),
     );
-    this.setPlaying(false);
+    this.describe();
   }
 
   /** Of a recording, or else of a simulation: what the same buttons are called. */
   setPlaying(playing: boolean): void {
-    const unit = playing ? "frame" : "step";
-    this.element.setAttribute("aria-label", playing ? "Playback" : "Simulation");
-    named(this.step, `One ${unit} (.)`);
-    this.steps.title = `How many ${unit}s`;
-    this.steps.setAttribute("aria-label", `Number of ${unit}s`);
-    this.unit.textContent = `${unit}s`;
-    named(this.reset, playing ? "To the beginning (R)" : "Reset the scene (R)");
-    this.reset.replaceChildren(icon(playing ? icons.begin : icons.reset));
-    this.reset.classList.toggle("filled", playing);
+    this.playing = playing;
+    this.describe();
   }
 
-  update(paused: boolean): void {
-    if (paused === this.paused) return;
+  update(paused: boolean, why: string): void {
+    if (paused === this.paused && why === this.why) return;
     this.paused = paused;
+    this.why = why;
+    this.describe();
+  }
+
+  private describe(): void {
+    const { playing, paused, why } = this;
+    const unit = playing ? "frame" : "step";
+    this.element.setAttribute("aria-label", playing ? "Playback" : "Simulation");
+    named(this.step, `One ${unit} (.)`, why);
+    this.steps.title = why || `How many ${unit}s`;
+    this.steps.setAttribute("aria-label", `Number of ${unit}s`);
+    this.unit.textContent = `${unit}s`;
+    this.unit.title = why;
+    named(this.reset, playing ? "To the beginning (R)" : "Reset the scene (R)", why);
+    this.reset.replaceChildren(icon(playing ? icons.begin : icons.reset));
+    this.reset.classList.toggle("filled", playing);
     this.pause.replaceChildren(icon(paused ? icons.play : icons.pause));
-    named(this.pause, paused ? "Resume (space)" : "Pause (space)");
+    named(this.pause, paused ? "Resume (space)" : "Pause (space)", why);
     this.pause.dataset.paused = String(paused);
+    for (const control of [this.pause, this.step, this.steps, this.unit, this.reset]) control.disabled = why !== "";
   }
 }
 
-function named(button: HTMLButtonElement, title: string): HTMLButtonElement {
-  button.title = title;
-  button.setAttribute("aria-label", title);
+/** `why`: it is out of use. */
+function named(button: HTMLButtonElement, name: string, why = ""): HTMLButtonElement {
+  button.title = why || name;
+  button.setAttribute("aria-label", name);
   return button;
 }

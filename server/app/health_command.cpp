@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "app/endpoint.h"
+#include "app/exit_codes.h"
+#include "app/options.h"
+#include "app/serving_options.h"
+#include "app/settings.h"
+#include "net/fetch.h"
+
+namespace spherule::app {
+
+namespace {
+
+constexpr std::chrono::seconds patience{5};
+
+struct HealthOptions {
+    std::string listen;
+    std::string certificateFile;
+};
+
+// One who listens everywhere is asked here.
+std::string reachable(const std::string& host) {
+    if (host == "0.0.0.0") return "127.0.0.1";
+    return host == "::" ? "::1" : host;
+}
+
+int health(const HealthOptions& options) {
+    const auto endpoint = endpointOf(options.listen);
+    if (!endpoint) return report(endpoint.error());
+    const auto answer = net::fetch({.secure = !options.certificateFile.empty(),
+                                    .host = reachable(endpoint->host),
+                                    .port = std::to_string(endpoint->port),
+                                    .path = "/readyz"},
+                                   patience);
+    if (!answer) return report(answer.error());
+    fmt::print("{}", answer->body);
+    return answer->status == 200 ? exitDone : exitRefused;
+}
+
+}  // namespace
+
+void addHealth(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<HealthOptions>();
+    CLI::App* command =
+        app.add_subcommand("health", "ask a server on this machine whether it is ready, as its /readyz says");
+    addListen(*command, options->listen);
+    command->add_option("--tls-certificate", options->certificateFile, "it speaks TLS, with this certificate");
+    command->footer(exitCodesText);
+    addSettings(*command);
+    command->callback([options, &exitCode] { exitCode = health(*options); });
+}
+
+}  // namespace spherule::app

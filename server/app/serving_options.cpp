@@ -1,0 +1,97 @@
+#include "app/serving_options.h"
+
+#include <utility>
+
+#include "app/endpoint.h"
+#include "app/secret_files.h"
+
+namespace spherule::app {
+
+void addListen(CLI::App& command, std::string& listen) {
+    listen = "127.0.0.1:8080";
+    command.add_option("--listen", listen, "host:port; port 0 takes a free one")->capture_default_str();
+}
+
+void ServingOptions::addTo(CLI::App& command) {
+    constexpr const char* group = "Who may come in";
+    addListen(command, listen);
+    command.add_option("--viewer-token-file", viewerTokenFile, "a file with the token of those who may watch")
+        ->group(group);
+    command
+        .add_option("--controller-token-file", controllerTokenFile,
+                    "a file with the token of those who may also command")
+        ->group(group);
+    command
+        .add_flag("--open", net.open,
+                  "let everybody who reaches the address watch and command; for addresses that others reach")
+        ->group(group);
+    command
+        .add_option("--origin", net.places.origins,
+                    "a site whose pages may open the stream, such as https://spherule.example.org")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(group);
+    command.add_option("--host", net.places.hosts, "a name that this server goes by, beside localhost and addresses")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(group);
+    command.add_option("--tls-certificate", certificateFile, "speak TLS with this chain of certificates (PEM)")
+        ->group(group);
+    command.add_option("--tls-key", keyFile, "the certificate's private key (PEM)")->group(group);
+
+    constexpr const char* limits = "Limits (0: none)";
+    command.add_option("--max-sessions", net.visitors.sessions, "viewers at a time")
+        ->capture_default_str()
+        ->group(limits);
+    command.add_option("--max-sessions-per-address", net.visitors.sessionsPerAddress, "the same, of one address")
+        ->capture_default_str()
+        ->group(limits);
+    command
+        .add_option("--connections-per-second", net.visitors.connectionsPerSecond,
+                    "new connections of one address, on average")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber)
+        ->group(limits);
+    command.add_option("--commands-per-second", net.commandsPerSecond, "of one client, on average")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber)
+        ->group(limits);
+}
+
+Result<net::Secrets> secretsOf(const ServingOptions& options) {
+    auto viewer = tokenOf("--viewer-token-file", options.viewerTokenFile, "SPHERULE_VIEWER_TOKEN");
+    if (!viewer) return tl::unexpected(viewer.error());
+    auto controller = tokenOf("--controller-token-file", options.controllerTokenFile, "SPHERULE_CONTROLLER_TOKEN");
+    if (!controller) return tl::unexpected(controller.error());
+    if (!viewer->empty() && *viewer == *controller)
+        return fail(ErrorKind::Input, "--viewer-token-file", "is the token of controllers, too: give each their own");
+    if (options.certificateFile.empty() != options.keyFile.empty())
+        return fail(ErrorKind::Input, options.keyFile.empty() ? "--tls-key" : "--tls-certificate",
+                    "is missing: TLS needs a certificate and its key");
+    auto certificate = contentOf("--tls-certificate", options.certificateFile);
+    if (!certificate) return tl::unexpected(certificate.error());
+    auto key = contentOf("--tls-key", options.keyFile);
+    if (!key) return tl::unexpected(key.error());
+    return net::Secrets{.viewerToken = std::move(*viewer),
+                        .controllerToken = std::move(*controller),
+                        .certificate = std::move(*certificate),
+                        .key = std::move(*key)};
+}
+
+Result<net::Options> netOptionsOf(const ServingOptions& options) {
+    const auto endpoint = endpointOf(options.listen);
+    if (!endpoint) return tl::unexpected(endpoint.error());
+    auto secrets = secretsOf(options);
+    if (!secrets) return tl::unexpected(secrets.error());
+    if (options.net.open && net::guarded(*secrets))
+        return fail(ErrorKind::Input, "--open", "lets everybody in, and a token keeps them out: give one of the two");
+    net::Options result = options.net;
+    result.host = endpoint->host;
+    result.port = endpoint->port;
+    result.secrets = std::move(*secrets);
+    return result;
+}
+
+}  // namespace spherule::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "core/result.h"
+#include "net/server.h"
+
+namespace spherule::app {
+
+// How a show is served, as the command line says: where, to whom, and how much of it.
+struct ServingOptions {
+    std::string listen = "127.0.0.1:8080";
+    std::string viewerTokenFile, controllerTokenFile;
+    std::string certificateFile, keyFile;
+    net::Options net;  // but for the address and the secrets
+
+    void addTo(CLI::App& command);
+};
+
+// --listen, with its default.
+void addListen(CLI::App& command, std::string& listen);
+
+// With address and secrets.
+Result<net::Options> netOptionsOf(const ServingOptions& options);
+// Of the files, as they are now, or of SPHERULE_VIEWER_TOKEN and SPHERULE_CONTROLLER_TOKEN: on the command line, other
+// users of the machine would see them.
+Result<net::Secrets> secretsOf(const ServingOptions& options);
+
+}  // namespace spherule::app

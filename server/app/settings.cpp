@@ -1,0 +1,88 @@
+#include "app/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+namespace spherule::app {
+
+namespace {
+
+std::string variableFor(const std::string& option) {
+    std::string name = "SPHERULE_" + option;
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::toupper(c)); });
+    return name;
+}
+
+bool isSetting(const CLI::App& command, const CLI::Option& option) {
+    return option.get_configurable() && &option != command.get_help_ptr();
+}
+
+// CLI11 looks at the environment only for what the file has not said.
+class FileAfterEnvironment final : public CLI::ConfigTOML {
+  public:
+    std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+        auto settings = CLI::ConfigTOML::from_config(input);
+        std::erase_if(settings, [](const CLI::ConfigItem& item) {
+            const char* const value = std::getenv(variableFor(item.name).c_str());
+            return value != nullptr && *value != 0;
+        });
+        return settings;
+    }
+};
+
+// Quoted, unless it is a number or a truth.
+std::string valueText(const std::string& value) {
+    double number = 0;
+    if (value == "true" || value == "false" || CLI::detail::lexical_cast(value, number)) return value;
+    return '"' + value + '"';
+}
+
+// As it was given, or by default; empty where there is neither.
+std::string valueOf(const CLI::Option& option) {
+    std::vector<std::string> values = option.results();
+    if (values.empty() && !option.get_default_str().empty()) values = {option.get_default_str()};
+    if (values.empty()) return "";
+    if (values.size() == 1) return valueText(values.front());
+    std::string list;
+    for (const std::string& value : values) list += (list.empty() ? "" : ", ") + valueText(value);
+    return "[" + list + "]";
+}
+
+}  // namespace
+
+void addSettings(CLI::App& command) {
+    command.fallthrough();  // --config, --print-config, --log-format and --verbose, which are everywhere
+    for (CLI::Option* option : command.get_options())
+        if (isSetting(command, *option)) option->envname(variableFor(option->get_single_name()));
+}
+
+void addConfig(CLI::App& app) {
+    app.set_config("--config", "", "a file of settings, such as --print-config writes")->envname("SPHERULE_CONFIG");
+    app.config_formatter(std::make_shared<FileAfterEnvironment>());
+    app.allow_config_extras(false);
+}
+
+std::string settingsText(const CLI::App& app) {
+    std::string text;
+    for (const CLI::App* command : app.get_subcommands()) {
+        text += fmt::format("[{}]\n", command->get_name());
+        for (const CLI::Option* option : command->get_options()) {
+            if (!isSetting(*command, *option)) continue;
+            const std::string value = valueOf(*option);
+            text += fmt::format("\n# {}\n", option->get_description());
+            if (value.empty())
+                text += fmt::format("#{}\n", option->get_single_name());
+            else
+                text += fmt::format("{}={}\n", option->get_single_name(), value);
+        }
+    }
+    return text;
+}
+
+}  // namespace spherule::app

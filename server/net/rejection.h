@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace spherule::net {
+
+// Why something from outside was turned away. In the order of the names below, which metrics and logs use.
+enum class Rejection : std::uint8_t {
+    // Connections, closed without an answer.
+    Connections,     // as many are open as may be
+    ConnectionRate,  // of this address, too many in a second
+    Tls,             // no TLS, or none that is good enough
+    // Requests.
+    SlowRequest,  // it did not come in time
+    Malformed,    // not HTTP
+    LongHeader,
+    LongBody,
+    BadRequest,  // a method or a target that is not answered
+    Host,        // a name that is not this server's
+    NoToken,
+    WrongToken,
+    // Handshakes of the stream.
+    Origin,  // a page of another site
+    Subprotocol,
+    Handshake,           // not WebSocket
+    Sessions,            // as many are open as may be
+    SessionsPerAddress,  // the same, of this address
+    // Commands.
+    UnknownCommand,
+    CommandRate,
+    CommandQueue,
+    ViewersCommand,
+    ControlsHeld,  // by somebody else
+};
+
+constexpr std::array<std::string_view, 21> rejectionNames = {
+    "connections",          "connection_rate", "tls",          "slow_request",  "malformed",
+    "long_header",          "long_body",       "bad_request",  "host",          "no_token",
+    "wrong_token",          "origin",          "subprotocol",  "handshake",     "sessions",
+    "sessions_per_address", "unknown_command", "command_rate", "command_queue", "viewers_command",
+    "controls_held"};
+
+constexpr std::string_view nameOf(Rejection cause) {
+    return rejectionNames[static_cast<std::size_t>(cause)];
+}
+
+}  // namespace spherule::net

@@ -1,0 +1,61 @@
+// What a session may command.
+#include <utility>
+
+#include "net/session.h"
+
+namespace spherule::net {
+
+namespace {
+
+// Who may give it: a controller what changes anything, everybody what does not.
+bool changes(v1::Command::KindCase kind) {
+    return kind != v1::Command::kQuery;
+}
+
+}  // namespace
+
+void Session::onCommand(v1::Command command) {
+    const std::uint64_t id = command.id();
+    ++context_.counters.commands;
+    if (!commands_.take(TokenBucket::Clock::now()))
+        return refuse(id, Rejection::CommandRate, "too many commands came from this client within a second");
+    if (command.kind_case() == v1::Command::KIND_NOT_SET)
+        return refuse(id, Rejection::UnknownCommand, "the command is not known to this server");
+    if (changes(command.kind_case())) {
+        if (role_ != v1::CONTROLLER)
+            return refuse(id, Rejection::ViewersCommand, "a viewer may not command: that takes the controllers' token");
+        if (context_.leased && !context_.lease.take(id_, client_))
+            return refuse(id, Rejection::ControlsHeld,
+                          context_.lease.state().holder().client() + " (session " +
+                              std::to_string(context_.lease.state().holder().session()) +
+                              ") has the controls: ask for them");
+    }
+    if (!context_.handlers.submit(id_, std::move(command)))
+        refuse(id, Rejection::CommandQueue, "the command queue is full");
+}
+
+void Session::refuse(std::uint64_t command, Rejection cause, const std::string& reason) {
+    context_.refusals.add(cause, who());
+    v1::ServerMessage message;
+    message.mutable_result()->set_id(command);
+    message.mutable_result()->mutable_refused()->set_reason(reason);
+    queue(std::make_shared<frame::Message>(std::move(message)));
+}
+
+// Where everybody has the controls, there is nothing to ask for.
+void Session::onControls(const v1::ClientMessage& message) {
+    if (!context_.leased) return;
+    if (role_ != v1::CONTROLLER || !commands_.take(TokenBucket::Clock::now())) {
+        context_.refusals.add(role_ != v1::CONTROLLER ? Rejection::ViewersCommand : Rejection::CommandRate, who());
+        return;
+    }
+    if (message.has_ask_control()) context_.lease.ask(id_, client_);
+    if (message.has_yield_control()) context_.lease.yield(id_, message.yield_control().session());
+    if (message.has_keep_control()) context_.lease.keep(id_);
+}
+
+std::string Session::who() const {
+    return peer_ + " (" + client_ + ")";
+}
+
+}  // namespace spherule::net

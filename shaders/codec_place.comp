@@ -1,0 +1,28 @@
+// The codec, last pass, one invocation per block: moves the units that `codec_choose` left to where they are in the frame.
+// Where a block begins in the upper half of a word, the block before it writes that half: it holds a header.
+#include "shared/kernel.h"
+#include "shared/codec_layout.h"
+PARAMETERS
+
+BUFFER(0, readonly, uint, blockWords, BlockWordsBlock)
+BUFFER(1, readonly, uint, scratch, ScratchBlock)
+BUFFER(2, writeonly, uint, frame, FrameBlock)
+
+KERNEL(params.blocks) {
+    uint head = invocation * CODEC_SCRATCH;
+    uint size = scratch[head + CODEC_SIZE];
+    if (size == 0u) return;
+    uint offset = scratch[head + CODEC_OFFSET] + 2u * (CODEC_FRAME_HEAD + params.chunks);
+    uint behind = scratch[head + CODEC_HEADER] & 0xffff0000u;
+    int from = int(invocation * CODEC_PACKED);
+    int to = int((offset + 1u) / 2u);
+    if (offset % 2u == 0u) {
+        int whole = int(size / 2u);
+        for (int k = 0; k < whole; ++k) frame[to + k] = blockWords[from + k];
+        if (size % 2u != 0u) frame[to + whole] = (blockWords[from + whole] & 0xffffu) | behind;
+    } else {
+        int whole = int((size - 1u) / 2u);
+        for (int k = 0; k < whole; ++k) frame[to + k] = (blockWords[from + k] >> 16u) | (blockWords[from + k + 1] << 16u);
+        if (size % 2u == 0u) frame[to + whole] = (blockWords[from + whole] >> 16u) | behind;
+    }
+}

@@ -1,0 +1,307 @@
+#include "net/admission.h"
+
+#include "owner.h"
+#include "raw_socket.h"
+
+namespace spherule::net {
+namespace {
+
+const std::string viewers = "viewers-token-of-a-test";
+const std::string controllers = "controllers-token-of-a-test";
+
+Admission plain(Places places = {}) {
+    return {std::move(places), {}, "http"};
+}
+
+TEST(Admission, KnowsTheNamesOfThisServer) {
+    const Admission here = plain({.hosts = {"Spherule.Example.org", "other.example:8443"}});
+    for (const std::string host :
+         {"localhost", "localhost:8080", "LOCALHOST", "127.0.0.1:8080", "[::1]:8080", "10.1.2.3",
+          "spherule.example.org", "spherule.example.org:80", "SPHERULE.example.org", "other.example:8443"})
+        EXPECT_TRUE(here.isHost(host)) << host;
+    for (const std::string host :
+         {"", "evil.example", "localhost.evil.example", "xspherule.example.org", "spherule.example.org.evil.example",
+          "other.example", "other.example:8444", "127.0.0.1.evil.example", "localhost:", "localhost:80x", "[::1", "a b",
+          "localhost:8080:9", "::1", "[evil.example]:80", "localhost\t"})
+        EXPECT_FALSE(here.isHost(host)) << host;
+}
+
+TEST(Admission, KnowsTheSitesWhosePagesMayOpenTheStream) {
+    const Admission here = plain({.origins = {"https://Spherule.example.org"}});
+    EXPECT_TRUE(here.isOrigin("http://localhost:8080", "localhost:8080"));
+    EXPECT_TRUE(here.isOrigin("https://spherule.example.org", "localhost:8080"));
+    EXPECT_TRUE(here.isHost("spherule.example.org")) << "its host goes without saying";
+    for (const std::string origin : {"null", "http://localhost", "http://localhost:8081", "https://localhost:8080",
+                                     "http://evil.example", "http://spherule.example.org",
+                                     "https://spherule.example.org:444", "https://spherule.example.org.evil.example",
+                                     "https://evil-spherule.example.org", "https://spherule.example.org/"})
+        EXPECT_FALSE(here.isOrigin(origin, "localhost:8080")) << origin;
+}
+
+TEST(Admission, GivesRolesForTokens) {
+    EXPECT_EQ(plain().roleOf(""), v1::CONTROLLER) << "without tokens, everybody is let in";
+    const Admission both({}, {.viewerToken = viewers, .controllerToken = controllers}, "http");
+    EXPECT_EQ(both.roleOf(viewers), v1::VIEWER);
+    EXPECT_EQ(both.roleOf(controllers), v1::CONTROLLER);
+    for (const std::string& token :
+         {std::string(), viewers + "x", viewers.substr(1), controllers + std::string(1, '\0')})
+        EXPECT_FALSE(both.roleOf(token)) << token;
+    const Admission watched({}, {.viewerToken = viewers}, "http");
+    EXPECT_FALSE(watched.roleOf("")) << "a token that nobody has is not the empty one";
+    const Admission steered({}, {.controllerToken = controllers}, "http");
+    EXPECT_FALSE(steered.roleOf(""));
+}
+
+TEST(Admission, RefusesWhatCannotBeMeant) {
+    EXPECT_TRUE(checkOrigin("https://spherule.example.org:8443"));
+    EXPECT_TRUE(checkOrigin("http://[::1]:8080"));
+    for (const std::string origin : {"", "*", "spherule.example.org", "https://", "https://a/", "https://*.example.org",
+                                     "https://a:b", "ftp://a", "https://a b"})
+        EXPECT_FALSE(checkOrigin(origin)) << origin;
+    for (const std::string host : {"", "*", "*.example.org", "http://a", "a:", "a b", "a/b"})
+        EXPECT_FALSE(checkHost(host)) << host;
+    EXPECT_TRUE(checkToken(viewers, "here"));
+    for (const std::string& token : {std::string("short"), std::string(16, ' '), std::string(16, '\n'),
+                                     std::string(257, 'x'), std::string("0123456789abcde\xc3")})
+        EXPECT_FALSE(checkToken(token, "here")) << token;
+}
+
+class Guarded : public testing::Test {
+  protected:
+    static Options options() {
+        Options options = quickOptions();
+        options.secrets.viewerToken = viewers;
+        options.secrets.controllerToken = controllers;
+        options.guessDelay = 300ms;
+        options.places.hosts = {"spherule.example.org"};
+        return options;
+    }
+
+    std::unique_ptr<Client> joinAs(const std::string& token) {
+        auto client = connect(owner_);
+        v1::ClientMessage hello = helloOf(0);
+        hello.mutable_hello()->set_token(token);
+        EXPECT_TRUE(client->send(hello));
+        welcome_ = next(*client).welcome();
+        return client;
+    }
+
+    // The answer to a command, whatever comes before.
+    static v1::CommandResult give(Client& client, const v1::Command& command) {
+        v1::ClientMessage message;
+        *message.mutable_command() = command;
+        EXPECT_TRUE(client.send(message));
+        for (;;) {
+            const auto answer = next(client);
+            if (answer.has_result() || answer.kind_case() == v1::ServerMessage::KIND_NOT_SET) return answer.result();
+        }
+    }
+
+    static v1::Command pause() {
+        v1::Command command;
+        command.set_id(7);
+        command.mutable_pause();
+        return command;
+    }
+
+    std::uint64_t rejected(Rejection cause) { return owner_.counters().rejectedFor(cause); }
+
+    std::string ask(const std::string& head) {
+        const RawSocket socket(owner_.server().port());
+        socket.send(head + "Connection: close\r\n\r\n");
+        return socket.readAll();
+    }
+
+    static std::string upgrade(const std::string& host, const std::string& more) {
+        return "GET /ws HTTP/1.1\r\nHost: " + host +
+               "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+               "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: spherule.v1\r\n" +
+               more + "\r\n";
+    }
+
+    std::string open(const std::string& host, const std::string& more) {
+        const RawSocket socket(owner_.server().port());
+        socket.send(upgrade(host, more));
+        return socket.readUntil("\r\n\r\n").substr(9, 3);
+    }
+
+    Owner owner_{options()};
+    v1::Welcome welcome_;
+};
+
+TEST_F(Guarded, NobodyComesInWithoutAToken) {
+    const auto client = connect(owner_);
+    ASSERT_TRUE(client->send(helloOf(60)));
+    const auto end = readToEnd(*client);
+    EXPECT_EQ(end.code, 4401);
+    EXPECT_EQ(end.reason, "this server asks for a token");
+    EXPECT_EQ(rejected(Rejection::NoToken), 1U);
+    EXPECT_TRUE(eventually([&] { return owner_.counters().closedBy(CloseCause::NoToken) == 1; }));
+}
+
+TEST_F(Guarded, AGuessTakesTimeAndIsCounted) {
+    const auto began = std::chrono::steady_clock::now();
+    const auto client = connect(owner_);
+    v1::ClientMessage hello = helloOf(60);
+    hello.mutable_hello()->set_token("controllers-token-of-a-tesT");
+    ASSERT_TRUE(client->send(hello));
+    v1::ClientMessage command;
+    *command.mutable_command() = pause();
+    ASSERT_TRUE(client->send(command));
+    owner_.publish(64);
+    const auto received = client->receive(patience);
+    ASSERT_FALSE(received) << "nothing of a protected stream is sent";
+    EXPECT_EQ(client->closed()->code, 4401);
+    EXPECT_EQ(client->closed()->reason, "this token is not known here");
+    EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
+    EXPECT_EQ(rejected(Rejection::WrongToken), 1U);
+    EXPECT_TRUE(owner_.commands().empty());
+}
+
+TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
+    const auto client = joinAs(viewers);
+    EXPECT_EQ(welcome_.role(), v1::VIEWER);
+    const auto result = give(*client, pause());
+    EXPECT_EQ(result.id(), 7U);
+    EXPECT_NE(result.refused().reason().find("a viewer may not command"), std::string::npos);
+    v1::Command query;
+    query.set_id(8);
+    query.mutable_query();
+    EXPECT_TRUE(give(*client, query).has_applied());
+    ASSERT_EQ(owner_.commands().size(), 1U);
+    EXPECT_TRUE(owner_.commands()[0].has_query());
+    EXPECT_EQ(rejected(Rejection::ViewersCommand), 1U);
+}
+
+TEST_F(Guarded, OneControllerAtATimeHasTheControls) {
+    const auto first = joinAs(controllers);
+    EXPECT_EQ(welcome_.role(), v1::CONTROLLER);
+    const std::uint64_t holder = welcome_.session();
+    const auto second = joinAs(controllers);
+    EXPECT_TRUE(give(*first, pause()).has_applied());
+    EXPECT_NE(give(*second, pause()).refused().reason().find("session " + std::to_string(holder)), std::string::npos);
+    EXPECT_EQ(rejected(Rejection::ControlsHeld), 1U);
+    first->close();
+    EXPECT_TRUE(eventually([&] { return give(*second, pause()).has_applied(); }));
+}
+
+TEST_F(Guarded, AViewersMessagesAreShort) {
+    const auto client = joinAs(viewers);
+    ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
+    EXPECT_EQ(readToEnd(*client).code, 1009);
+}
+
+TEST_F(Guarded, WhatComesBeforeTheTokenIsShort) {
+    const auto client = connect(owner_);
+    ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
+    EXPECT_EQ(readToEnd(*client).code, 1009);
+}
+
+TEST_F(Guarded, CommandsComeAtALimitedRate) {
+    const auto client = joinAs(controllers);
+    bool refused = false;
+    for (int k = 0; k < 300 && !refused; ++k) {
+        const auto result = give(*client, pause());
+        refused = result.refused().reason().find("too many commands") != std::string::npos;
+        EXPECT_TRUE(result.has_applied() || refused);
+    }
+    EXPECT_TRUE(refused);
+    EXPECT_GE(rejected(Rejection::CommandRate), 1U);
+}
+
+TEST_F(Guarded, APageOfAnotherSiteCannotOpenTheStream) {
+    EXPECT_EQ(open("localhost", "Origin: http://evil.example\r\n"), "403");
+    EXPECT_EQ(open("localhost", "Origin: null\r\n"), "403");
+    EXPECT_EQ(rejected(Rejection::Origin), 2U);
+    EXPECT_EQ(open("localhost", "Origin: http://localhost\r\n"), "101");
+    EXPECT_EQ(open("localhost", ""), "101") << "no browser";
+}
+
+TEST_F(Guarded, ANameThatOnlyLeadsHereIsNotServed) {
+    EXPECT_EQ(open("evil.example", "Origin: http://evil.example\r\n"), "421");
+    EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: evil.example\r\n").substr(9, 3), "421");
+    EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\n").substr(9, 3), "421");
+    EXPECT_EQ(rejected(Rejection::Host), 3U);
+    EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: spherule.example.org\r\n").substr(9, 3), "200");
+}
+
+TEST_F(Guarded, FiguresNeedAToken) {
+    const std::string request = "GET /metrics HTTP/1.1\r\nHost: localhost\r\n";
+    const auto answer = ask(request);
+    EXPECT_EQ(answer.substr(9, 3), "401");
+    EXPECT_NE(answer.find("WWW-Authenticate: Bearer"), std::string::npos);
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_EQ(ask(request + "Authorization: Bearer nonsense\r\n").substr(9, 3), "401");
+    EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
+    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "404") << "past the door";
+    EXPECT_EQ(ask("GET /metrics?token=" + viewers + " HTTP/1.1\r\nHost: localhost\r\n").substr(9, 3), "401");
+}
+
+TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
+    const auto before = joinAs(viewers);
+    Secrets secrets = options().secrets;
+    secrets.viewerToken = "the-viewers-new-token";
+    ASSERT_TRUE(owner_.server().setSecrets(secrets));
+    const auto late = connect(owner_);
+    v1::ClientMessage hello = helloOf(0);
+    hello.mutable_hello()->set_token(viewers);
+    ASSERT_TRUE(late->send(hello));
+    EXPECT_EQ(readToEnd(*late).code, 4401);
+    joinAs("the-viewers-new-token");
+    EXPECT_EQ(welcome_.role(), v1::VIEWER);
+    EXPECT_FALSE(owner_.server().setSecrets({})) << "a guarded server never opens by itself";
+}
+
+TEST(Doors, AreNotOpenedToOthersUnasked) {
+    Options options = quickOptions();
+    options.host = "0.0.0.0";
+    const auto refused = startServer(options, {});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::Input);
+    EXPECT_NE(refused.error().text().find("--open"), std::string::npos);
+    options.open = true;
+    EXPECT_NO_THROW(Owner{options});
+}
+
+TEST(Doors, LetSoManyInAndNoMore) {
+    Options options = quickOptions();
+    options.visitors.sessions = 2;
+    Owner owner(options);
+    const auto first = join(owner, 0);
+    {
+        const auto second = join(owner, 0);
+        const auto third = Client::connect(owner.url(), patience);
+        ASSERT_FALSE(third);
+        EXPECT_NE(third.error().text().find("HTTP 503"), std::string::npos) << third.error().text();
+    }
+    EXPECT_EQ(owner.counters().rejectedFor(Rejection::Sessions), 1U);
+    EXPECT_TRUE(eventually([&] { return Client::connect(owner.url(), patience).has_value(); }));
+}
+
+TEST(Doors, AskThoseWhoComeTooOftenToWait) {
+    Options options = quickOptions();
+    options.visitors.connectionsPerSecond = 5;
+    Owner owner(options);
+    int answered = 0;
+    for (int k = 0; k < 12; ++k) {
+        const RawSocket socket(owner.server().port());
+        socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+        if (!socket.readAll().empty()) ++answered;
+    }
+    EXPECT_GE(answered, 5);
+    EXPECT_LT(answered, 12);
+    EXPECT_EQ(owner.counters().rejectedFor(Rejection::ConnectionRate), 12U - static_cast<unsigned>(answered));
+}
+
+TEST(Doors, CloseOnRequestsThatNeverEnd) {
+    Options options = quickOptions();
+    options.requestTimeout = 200ms;
+    Owner owner(options);
+    const RawSocket socket(owner.server().port());
+    socket.send("GET / HTTP/1.1\r\nHost: loc");
+    EXPECT_EQ(socket.readAll(), "");
+    EXPECT_TRUE(eventually([&] { return owner.counters().rejectedFor(Rejection::SlowRequest) == 1; }));
+}
+
+}  // namespace
+}  // namespace spherule::net

@@ -1,0 +1,66 @@
+#include "net/visitors.h"
+
+#include <gtest/gtest.h>
+
+namespace spherule::net {
+namespace {
+
+using namespace std::chrono_literals;
+using boost::asio::ip::make_address;
+
+TEST(TokenBucket, LetsThroughWhatComesOnAverage) {
+    auto now = TokenBucket::Clock::time_point();
+    TokenBucket bucket(10, now);
+    int taken = 0;
+    for (int k = 0; k < 1000; ++k, now += 10ms) taken += bucket.take(now) ? 1 : 0;
+    EXPECT_NEAR(taken, 110, 1) << "ten a second for ten seconds, and a second's worth at once";
+}
+
+TEST(TokenBucket, OfNoRateLetsEverythingThrough) {
+    TokenBucket bucket(0, {});
+    for (int k = 0; k < 1000; ++k) EXPECT_TRUE(bucket.take({}));
+}
+
+TEST(Visitors, OfOneIPv6NetworkAreOne) {
+    const auto visitors = std::make_shared<Visitors>(VisitorLimits{.sessions = 0, .sessionsPerAddress = 2});
+    const auto now = Visitors::Clock::now();
+    const auto come = [&](const char* from) {
+        EXPECT_FALSE(visitors->refuses(make_address(from), now));
+        return visitors->admit(make_address(from));
+    };
+    const auto first = come("2001:db8::1");
+    const auto second = come("2001:db8::2");
+    const auto third = come("2001:db8::3");
+    const auto other = come("2001:db8:0:1::1");
+    EXPECT_FALSE(first->openSession());
+    EXPECT_FALSE(second->openSession());
+    EXPECT_EQ(third->openSession(), Rejection::SessionsPerAddress);
+    EXPECT_FALSE(other->openSession());
+    const auto mapped = come("::ffff:10.0.0.1");
+    const auto same = come("10.0.0.1");
+    EXPECT_EQ(visitors->known(), 3U);
+}
+
+TEST(Visitors, ThatAreGoneAreForgotten) {
+    const auto visitors = std::make_shared<Visitors>(VisitorLimits{});
+    auto now = Visitors::Clock::now();
+    for (unsigned k = 0; k < 100'000; ++k, now += 1ms) {
+        const boost::asio::ip::address_v4 from(0x0a000000U + k);
+        if (!visitors->refuses(from, now)) visitors->admit(from);
+    }
+    EXPECT_LT(visitors->known(), 10'000U);
+}
+
+TEST(Visitors, HaveALimitOfConnectionsTogether) {
+    const auto visitors =
+        std::make_shared<Visitors>(VisitorLimits{.sessions = 10, .sessionsPerAddress = 0, .connectionsPerSecond = 0});
+    std::vector<std::unique_ptr<Visitors::Visit>> inside;
+    const auto from = make_address("10.0.0.1");
+    while (!visitors->refuses(from, {})) inside.push_back(visitors->admit(from));
+    EXPECT_EQ(inside.size(), 74U);
+    inside.pop_back();
+    EXPECT_FALSE(visitors->refuses(from, {}));
+}
+
+}  // namespace
+}  // namespace spherule::net

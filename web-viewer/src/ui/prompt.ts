@@ -1,0 +1,93 @@
+import { h, icon, setText } from "./dom";
+
+const eye = "M2.5 10S5.3 5 10 5s7.5 5 7.5 5-2.8 5-7.5 5-7.5-5-7.5-5zM10 7.8a2.2 2.2 0 1 1 0 4.4 2.2 2.2 0 0 1 0-4.4z";
+const struckEye = `${eye}M3.5 16.5l13-13`;
+
+/** Asks for the token of a server. What was typed stays in the field only until it is handed over. */
+export class Prompt {
+  private readonly field = h("input", {
+    id: "token",
+    type: "password",
+    autocomplete: "off",
+    autocapitalize: "off",
+    spellcheck: "false",
+    "aria-describedby": "token-wrong",
+    "data-testid": "token-field",
+  });
+  private readonly reveal = h("button", { type: "button", class: "reveal", "data-testid": "token-reveal", click: () => this.show(this.field.type === "password") });
+  private readonly wrong = h("p", { id: "token-wrong", class: "wrong", role: "alert", "data-testid": "token-wrong" });
+  private readonly connect = h("button", { type: "submit", class: "primary", "data-testid": "token-connect" });
+  readonly element: HTMLDialogElement;
+
+  /** `submit` hands the text over; returns whether there was a token in it. */
+  constructor(
+    host: string,
+    private readonly submit: (text: string) => boolean,
+  ) {
+    const form = h(
+      "form",
+      { submit: (event) => this.submitted(event) },
+      h("h2", { id: "token-title" }, "Token needed"),
+      h("p", { id: "token-about" }, h("b", {}, host), " asks for a token."),
+      h("label", { for: "token" }, "Token"),
+      h("div", { class: "entry" }, this.field, this.reveal),
+      this.wrong,
+      h("div", { class: "row" }, h("small", {}, "Kept until this tab is closed."), this.connect),
+    );
+    const attributes = { class: "prompt", "data-testid": "token-prompt", "aria-labelledby": "token-title", "aria-describedby": "token-about" };
+    this.element = h("dialog", { ...attributes, close: () => this.clear() }, form);
+    this.clear();
+    this.wait(false);
+  }
+
+  /** `wrong`: what the matter is with the token that there was; empty: there was none. */
+  ask(wrong: string): void {
+    this.wait(false);
+    this.complain(wrong);
+    if (!this.element.open) this.element.showModal();
+    this.field.focus();
+  }
+
+  get open(): boolean {
+    return this.element.open;
+  }
+
+  close(): void {
+    this.wait(false);
+    this.complain("");
+    this.element.close();
+  }
+
+  private submitted(event: Event): void {
+    event.preventDefault();
+    const text = this.field.value;
+    this.clear();
+    this.complain("");
+    if (this.submit(text)) this.wait(true);
+    else this.ask("There is no token in the field.");
+  }
+
+  private complain(wrong: string): void {
+    setText(this.wrong, wrong);
+    this.field.setAttribute("aria-invalid", String(wrong !== ""));
+  }
+
+  /** For the server's answer. */
+  private wait(waiting: boolean): void {
+    this.field.disabled = this.reveal.disabled = this.connect.disabled = waiting;
+    setText(this.connect, waiting ? "Connecting…" : "Connect");
+  }
+
+  private clear(): void {
+    this.field.value = "";
+    this.show(false);
+  }
+
+  private show(shown: boolean): void {
+    this.field.type = shown ? "text" : "password";
+    this.reveal.replaceChildren(icon(shown ? struckEye : eye));
+    this.reveal.title = shown ? "Hide the token" : "Show the token";
+    this.reveal.setAttribute("aria-label", "Show the token");
+    this.reveal.setAttribute("aria-pressed", String(shown));
+  }
+}
