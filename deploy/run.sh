@@ -5,7 +5,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-"$root/deploy/install_packages.sh" build run
+"$root/deploy/install_packages.sh" build run egl software
 (
     cd "$root"
     cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=OFF

@@ -2,6 +2,7 @@
 # Everything that must pass: installs what is missing, builds, checks the formatting and runs the tests.
 #
 #   ./tests/run.sh                  all tests
+#   ./tests/run.sh --all            all tests, and deploy/verify_image.sh, which needs root
 #   ./tests/run.sh --label unit     only those with this label; may be given several times
 #   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
 #   ./tests/run.sh --sanitize       what runs without OpenGL under ASan and UBSan, and under TSan, in place of the tests
@@ -14,22 +15,28 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=build/release
 jobs=$(nproc)
 
+all=
 labels=()
 tidy=
 sanitize=
 fuzz=
 while [[ $# -gt 0 ]]; do
     case $1 in
+        --all) all=1; shift ;;
         --label) labels+=("${2:?--label needs a name}"); shift 2 ;;
         --tidy) tidy=1; shift ;;
         --sanitize) sanitize=1; shift ;;
         --fuzz) fuzz=${2:?--fuzz needs seconds}; shift 2 ;;
-        -h | --help) sed -n '2,10s/^# \?//p' "$0"; exit 0 ;;
+        -h | --help) sed -n '2,11s/^# \?//p' "$0"; exit 0 ;;
         *) echo "unknown option $1; see $0 --help" >&2; exit 2 ;;
     esac
 done
 if [[ -n $tidy$sanitize$fuzz && ${#labels[@]} -gt 0 ]]; then
     echo "--label chooses among the tests; --tidy, --sanitize and --fuzz run others" >&2
+    exit 2
+fi
+if [[ -n $all && -n $tidy$sanitize$fuzz${labels[*]-} ]]; then
+    echo "--all is all tests; --label, --tidy, --sanitize and --fuzz choose" >&2
     exit 2
 fi
 
@@ -93,14 +100,14 @@ fuzzed() {
 }
 
 if [[ -n $fuzz ]]; then
-    needed packages ./deploy/install_packages.sh build run test fuzz
+    needed packages ./deploy/install_packages.sh build run egl software test fuzz
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
     needed build cmake --build --preset fuzz -j "$jobs" --target fuzz_scene fuzz_message fuzz_codec fuzz_recording
     for target in scene message codec recording; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
     summary
     exit
 fi
-needed packages ./deploy/install_packages.sh build run test
+needed packages ./deploy/install_packages.sh build run egl software test
 if [[ -n $sanitize ]]; then
     phase asan sanitized asan
     phase tsan sanitized tsan
@@ -108,6 +115,7 @@ if [[ -n $sanitize ]]; then
     exit
 fi
 needed ase ./tests/unpack_ase.sh build/ase
+needed nginx ./tests/deploy/unpack_nginx.sh build/nginx
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
 needed build cmake --build --preset release -j "$jobs"
 phase format check_format
@@ -116,4 +124,5 @@ if [[ -n $tidy ]]; then
 else
     phase tests run_tests
 fi
+[[ -z $all ]] || phase image ./deploy/verify_image.sh --software
 summary

@@ -18,9 +18,9 @@ export function spherule(...words) {
   });
 }
 
-/** Serves the scene; `port` 0 takes a free one. `folder`: where it runs. */
-export function serve(scene, { port = 0, device = "cpu", folder } = {}) {
-  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], folder);
+/** Serves the scene; `port` 0 takes a free one. `folder`: where it runs. `settings`: environment variables. */
+export function serve(scene, { port = 0, device = "cpu", folder, settings } = {}) {
+  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], folder, settings);
 }
 
 /** Plays the recording. */
@@ -28,8 +28,9 @@ export function play(file, ...options) {
   return start(["play", file, "--listen", "127.0.0.1:0", ...options]);
 }
 
-async function start(words, folder) {
-  const child = spawn(binary, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+async function start(words, folder, settings) {
+  const env = { ...process.env, ...settings };
+  const child = spawn(binary, words, { cwd: folder, env, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   const ended = new Promise((resolve) => child.once("exit", resolve));

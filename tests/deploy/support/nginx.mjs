@@ -1,0 +1,79 @@
+// deploy/nginx/spherule.conf as it is but for its ports and paths, in a real nginx.
+import { execFileSync, spawn } from "node:child_process";
+import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import net from "node:net";
+import os from "node:os";
+import path from "node:path";
+import { certify } from "./certificates.mjs";
+
+export const name = "spherule.example.org";
+
+const root = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../..");
+const program = ["/usr/sbin/nginx", path.join(root, "build/nginx/usr/sbin/nginx")].find(existsSync);
+
+export async function freePort() {
+  const server = net.createServer();
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  const { port } = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
+/** A file of the repository. */
+export const read = (file) => readFileSync(path.join(root, file), "utf8");
+
+/** nginx between `tls` (https) or `plain` (http) and the server at `upstream`, ports of 127.0.0.1. */
+export async function start({ tls, plain, upstream }) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), "spherule-nginx-"));
+  chmodSync(folder, 0o755); // its workers are somebody else
+  const ca = certify(folder, name);
+  let site = read("deploy/nginx/spherule.conf");
+  for (const [written, here] of [
+    ["listen 80;", `listen 127.0.0.1:${plain};`],
+    ["listen 443 ssl", `listen 127.0.0.1:${tls} ssl`],
+    ["server 127.0.0.1:8080;", `server 127.0.0.1:${upstream};`],
+    ["/etc/nginx/tls/spherule.pem", path.join(folder, "chain.pem")],
+    ["/etc/nginx/tls/spherule.key", path.join(folder, "leaf.key")],
+  ]) {
+    if (!site.includes(written)) throw new Error(`spherule.conf has no "${written}"`);
+    site = site.replaceAll(written, here);
+  }
+  writeFileSync(path.join(folder, "site.conf"), site);
+  const temporary = ["client_body", "proxy", "fastcgi", "uwsgi", "scgi"].map((one) => `${one}_temp_path temp-${one};`);
+  writeFileSync(
+    path.join(folder, "nginx.conf"),
+    `daemon off; pid nginx.pid; error_log stderr crit; worker_processes 1; events {}
+     http { access_log off; ${temporary.join(" ")} include site.conf; }`,
+  );
+  const words = ["-p", folder, "-e", "stderr", "-c", "nginx.conf"];
+  execFileSync(program, [...words, "-t", "-q"]); // throws with what it says
+  const child = spawn(program, words, { stdio: ["ignore", "ignore", "inherit"] });
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  while (!(await answers(tls))) if (child.exitCode !== null) throw new Error("nginx has ended");
+  return {
+    ca,
+    url: `https://${name}:${tls}/`,
+    /** What Chromium takes to find the name here, and to trust this one certificate. */
+    switches: [`--host-resolver-rules=MAP ${name} 127.0.0.1`, `--ignore-certificate-errors-spki-list=${pin(folder)}`],
+    async stop() {
+      child.kill("SIGQUIT");
+      const code = await ended;
+      rmSync(folder, { recursive: true });
+      if (code !== 0) throw new Error(`nginx ended with ${code}`);
+    },
+  };
+}
+
+/** The leaf's public key, as Chromium names it. */
+function pin(folder) {
+  const shell = "openssl x509 -in leaf.pem -noout -pubkey | openssl pkey -pubin -outform der | openssl dgst -sha256 -binary";
+  return execFileSync("sh", ["-c", shell], { cwd: folder }).toString("base64");
+}
+
+async function answers(port) {
+  await new Promise((resolve) => setTimeout(resolve, 50));
+  return new Promise((resolve) => {
+    const socket = net.connect(port, "127.0.0.1", () => resolve(true));
+    socket.on("error", () => resolve(false)).on("connect", () => socket.destroy());
+  });
+}
