@@ -36,6 +36,9 @@ void addQuality(CLI::App& command, scene::Overrides& overrides);
 // --listen.
 void addListen(CLI::App& command, std::string& listen);
 
+// --watchdog: s without progress, after which a command ends with exitDeviceLost; 0: never.
+void addWatchdog(CLI::App& command, double& seconds);
+
 // Prints the error to stderr and gives its exit code.
 int report(const Error& error);
 

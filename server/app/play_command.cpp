@@ -5,6 +5,7 @@
 #include "app/play_loop.h"
 #include "app/serving.h"
 #include "core/log.h"
+#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -13,12 +14,14 @@ namespace {
 struct PlayOptions {
     std::string file;
     std::string listen;
+    double watchdog = 0;
     double speed = 1;
     bool again = false;
     bool paused = false;
 };
 
 Result<Player> playerOf(const PlayOptions& options) {
+    const pulse::Unwatched reading;
     auto recording = store::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
     if (!recording->flaw().empty())
@@ -43,7 +46,6 @@ Result<std::unique_ptr<Show>> open(const PlayOptions& options, const Stage& stag
     auto device = compute::openDevice("cpu");
     if (!device) return tl::unexpected(device.error());
     stage.live.update([&](LiveReport& report) {
-        report.state = "running";
         report.device = (*device)->info();
         report.device.reason = "a recording needs no GPU";
         report.scene = player->recording().facts().name();
@@ -59,13 +61,14 @@ void addPlay(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("play", "show a recording in a browser");
     command->add_option("file", options->file, "the recording")->required();
     addListen(*command, options->listen);
+    addWatchdog(*command, options->watchdog);
     command->add_option("--speed", options->speed, "recorded seconds per second")->capture_default_str();
     command->add_flag("--loop", options->again, "from the end, go on at the beginning");
     command->add_flag("--paused", options->paused, "wait for somebody to resume it");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
         exitCode = serveUntilStopped([&](const Stage& stage) { return open(*options, stage); }, options->listen,
-                                     "plays " + options->file + ":");
+                                     options->watchdog, "plays " + options->file + ":");
     });
 }
 

@@ -11,6 +11,7 @@ struct ServeOptions {
     SceneOptions scene;
     TapeOptions recordings;
     std::string listen;
+    double watchdog = 0;
     std::string table;
 };
 
@@ -18,7 +19,6 @@ Result<std::unique_ptr<Show>> open(const ServeOptions& options, const quality::T
     auto world = World::open(options.scene.device, options.scene.scene, options.scene.overrides);
     if (!world) return tl::unexpected(world.error());
     stage.live.update([&](LiveReport& report) {
-        report.state = "running";
         report.device = (*world)->device().info();
         report.scenes = scene::names();
         report.scene = (*world)->simulation().scene().name;
@@ -32,7 +32,7 @@ int serve(const ServeOptions& options) {
         options.table.empty() ? quality::ownTable() : quality::loadTable(options.table);
     if (!table) return report(table.error());
     return serveUntilStopped([&](const Stage& stage) { return open(options, *table, stage); }, options.listen,
-                             "serves");
+                             options.watchdog, "serves");
 }
 
 }  // namespace
@@ -42,6 +42,7 @@ void addServe(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("serve", "simulate and show it in a browser");
     options->scene.addTo(*command);
     addListen(*command, options->listen);
+    addWatchdog(*command, options->watchdog);
     addTape(*command, options->recordings);
     command->add_option(
         "--quality-table", options->table,

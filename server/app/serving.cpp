@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <pthread.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -25,13 +26,20 @@ class StopSignals {
         sigaddset(&set_, SIGTERM);
         pthread_sigmask(SIG_BLOCK, &set_, nullptr);
     }
-    // False when none came within a fifth of a second.
-    [[nodiscard]] bool wait() const {
-        const timespec timeout{0, 200'000'000};
+    // False when none came within so many ms.
+    [[nodiscard]] bool wait(long patience) const {
+        const timespec timeout{0, patience * 1'000'000};
         return sigtimedwait(&set_, nullptr, &timeout) > 0;
     }
-    // From here on they end the program at once.
-    void release() const { pthread_sigmask(SIG_UNBLOCK, &set_, nullptr); }
+    // From here on they end the program at once, also where it is the first of a container, whom the system would not
+    // end by itself.
+    void release() const {
+        struct sigaction now {};
+        now.sa_handler = [](int signal) { _exit(exitBySignal + signal); };
+        sigaction(SIGINT, &now, nullptr);
+        sigaction(SIGTERM, &now, nullptr);
+        pthread_sigmask(SIG_UNBLOCK, &set_, nullptr);
+    }
 
   private:
     sigset_t set_{};
@@ -49,23 +57,33 @@ void announce(const Runtime& runtime, const Endpoint& endpoint, const std::strin
 
 }  // namespace
 
-int serveUntilStopped(const OpenShow& open, const std::string& listen, const std::string& what) {
+int serveUntilStopped(const OpenShow& open, const std::string& listen, double watchdog, const std::string& what) {
     const auto endpoint = endpointOf(listen);
     if (!endpoint) return report(endpoint.error());
     const StopSignals signals;
     net::Options options;
     options.host = endpoint->host;
     options.port = endpoint->port;
-    auto runtime = Runtime::start(open, options);
+    auto runtime = Runtime::start(open, options, Watchdog::Seconds(watchdog));
     if (!runtime) return report(runtime.error());
-    announce(**runtime, *endpoint, what);
     bool stopped = false;
-    while (!stopped && !(*runtime)->failure()) stopped = signals.wait();
+    while (!stopped && !(*runtime)->opened() && !(*runtime)->failure()) stopped = signals.wait(10);
+    const bool opened = (*runtime)->opened();
+    if (opened && !stopped) announce(**runtime, *endpoint, what);
+    while (!stopped && !(*runtime)->failure()) stopped = signals.wait(200);
     signals.release();
+    if (stopped && !opened) {
+        spdlog::info("stopped before the scene was there");
+        endNow(exitDone);  // nobody watches, and nothing is recorded
+    }
     if (stopped) spdlog::info("stopping; a second signal ends it at once");
-    (*runtime)->drain();
+    const bool clean = (*runtime)->drain();
     const auto failure = (*runtime)->failure();  // at the end, too
-    return failure ? report(*failure) : exitDone;
+    int exitCode = exitDone;
+    if (failure) exitCode = report(*failure);
+    if (clean) return exitCode;
+    if (!failure) exitCode = report({ErrorKind::DeviceLost, "step", "the one under way did not end in time"});
+    endNow(exitCode);
 }
 
 }  // namespace spherule::app

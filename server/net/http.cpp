@@ -76,6 +76,10 @@ void HttpConnection::onUpgrade(const Request& request) {
         ++context_.counters.handshakesRefused;
         return refuse(request, 400, "the WebSocket must ask for subprotocol spherule.v1");
     }
+    if (!context_.handlers.ready()) {
+        ++context_.counters.handshakesRefused;
+        return refuse(request, 503, "the scene is not ready yet: see /readyz, and try again soon");
+    }
     std::make_shared<Session>(std::move(stream_), context_)->run(request);
 }
 

@@ -53,8 +53,12 @@ class RunningServer final : public Server {
     [[nodiscard]] std::vector<frame::Demand> demands() override { return context_.hub.demands(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }
 
-    void drain() override {
+    void stopAccepting() override {
         boost::asio::post(io_, [listener = listener_] { listener->close(); });
+    }
+
+    void drain() override {
+        stopAccepting();
         context_.hub.drain();
         if (context_.hub.waitEmpty(context_.options.drainTimeout)) return;
         context_.hub.dropAll();
