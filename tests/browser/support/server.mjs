@@ -18,9 +18,9 @@ export function spherule(...words) {
   });
 }
 
-/** Serves the scene; `port` 0 takes a free one. `folder`: where it runs. */
-export function serve(scene, { port = 0, device = "cpu", folder } = {}) {
-  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], folder);
+/** Serves the scene; `port` 0 takes a free one. `folder`: where it runs; `environment`: besides that of the test. */
+export function serve(scene, { port = 0, device = "cpu", folder, environment } = {}) {
+  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], folder, environment);
 }
 
 /** Plays the recording. */
@@ -28,8 +28,8 @@ export function play(file, ...options) {
   return start(["play", file, "--listen", "127.0.0.1:0", ...options]);
 }
 
-async function start(words, folder) {
-  const child = spawn(binary, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+async function start(words, folder, environment) {
+  const child = spawn(binary, words, { cwd: folder, env: { ...process.env, ...environment }, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   const ended = new Promise((resolve) => child.once("exit", resolve));
@@ -47,6 +47,12 @@ async function start(words, folder) {
     /** Gives a command as a shell would; returns what ctl printed, or throws when it was refused. */
     ctl(...words) {
       return spherule("ctl", url.replace("http:", "ws:") + "ws", ...words);
+    },
+    /** Its exit code, once it has ended by itself. */
+    async ended() {
+      const code = await ended;
+      running.delete(server);
+      return code;
     },
     /** Ends it as the kernel does that needs memory: it can do nothing more. */
     async kill() {
