@@ -4,7 +4,8 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { launch, open, when } from "./support/browser.mjs";
+import { control, launch, open, when } from "./support/browser.mjs";
+import { collisions } from "./support/layout.mjs";
 import { serve, stopAll } from "./support/server.mjs";
 
 let browser;
@@ -31,25 +32,26 @@ function faultyDriver() {
   };
 }
 
-const toasts = (page) => page.$$eval('[data-testid="toast"]', (shown) => shown.map((toast) => toast.textContent));
+const farewell = (page) => page.textContent(control("farewell"));
 
-/** The page says why it hears nothing, still does when other messages would be gone, and no more with the next server. */
+/** The page says why it hears nothing, until the next server answers; and nothing lies over it. */
 async function expectSaid(page, port, pattern) {
-  await when(page, (source) => new RegExp(source).test(document.querySelector('[data-testid="toasts"]').textContent), pattern.source);
   await when(page, () => /^offline, trying again in \d+ s$/.test(document.querySelector('[data-testid="connection"]').textContent));
-  await new Promise((resolve) => setTimeout(resolve, 8000));
-  assert.equal((await toasts(page)).filter((text) => pattern.test(text)).length, 1);
-  if (process.env.SCREENSHOTS) await page.screenshot({ path: path.join(process.env.SCREENSHOTS, `${pattern.source.length}.png`) });
-  const fits = await page.$eval('[data-testid="toast"]', (toast) => {
-    const box = toast.getBoundingClientRect();
-    return box.left >= 0 && box.right <= innerWidth && box.top >= 0 && box.bottom <= innerHeight && toast.scrollWidth <= toast.clientWidth;
-  });
-  assert.ok(fits, "it is cut off");
+  assert.match(await farewell(page), pattern);
+  await settledToasts(page);
+  assert.deepEqual(await collisions(page, 10), []);
+  assert.match(await farewell(page), pattern);
+  if (process.env.SCREENSHOTS) await page.screenshot({ path: path.join(process.env.SCREENSHOTS, `farewell-${port}.png`) });
   const frames = await page.evaluate(() => spherule.frames);
   const next = await serve("pour", { port });
   await when(page, (then) => spherule.connection === "open" && spherule.frames > then + 3, frames);
-  assert.deepEqual((await toasts(page)).filter((text) => pattern.test(text)), []);
+  assert.equal(await farewell(page), "");
   await next.stop();
+}
+
+/** Messages of before are gone. */
+async function settledToasts(page) {
+  await when(page, () => document.querySelector('[data-testid="toast"]') === null);
 }
 
 test("a device that is lost is told, and the page goes on with the server that is started again", async () => {

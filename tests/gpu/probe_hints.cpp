@@ -149,7 +149,8 @@ TEST(ProbeHints, AMissingSoftwareRendererIsToldLast) {
 
 TEST(ProbeHints, ADriverThatReportsNoResetIsTold) {
     Probe seen = withSoftware();
-    seen.chosen = DeviceInfo{.kind = "gpu"};
+    seen.chosen.emplace();
+    seen.chosen->kind = "gpu";
     expectHint(seen, {}, "does not report a reset");
 }
 

@@ -6,7 +6,6 @@ import { Commands } from "./connection/commands";
 import { Link } from "./connection/link";
 import { Watch } from "./connection/watch";
 import { keep } from "./connection/wish";
-import { Event_Kind } from "./gen/spherule/v1/control_pb";
 import { Reports } from "./hook";
 import { markFirst } from "./marks";
 import { paletteFor } from "./renderer/palette";
@@ -17,8 +16,6 @@ import type { Shown } from "./scene/states";
 import { Clock, sharedNow } from "./clock";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
-
-const farewells = [Event_Kind.DRAINING, Event_Kind.DEVICE_LOST];
 
 /** Joins the parts: what comes from the server goes to the picture and the page, what the person does goes back. */
 export class Viewer {
@@ -45,10 +42,7 @@ export class Viewer {
     this.link = new Link(new Worker("worker.js"), (message) => this.session.take(message));
     this.watch = new Watch({ ...choices.view }, (view) => this.link.watch(view));
     this.session = new Session((state) => this.link.recycle(state.positions), {
-      welcomed: (welcome) => {
-        this.page.toasts.release();
-        this.page.panel.offer(welcome);
-      },
+      welcomed: (welcome) => this.page.panel.offer(welcome),
       sceneChanged: (facts, before) => {
         const same = facts.name === before?.name;
         this.camera.look(facts, same);
@@ -62,10 +56,7 @@ export class Viewer {
       dialled: (dial) => this.page.panel.setDial(dial),
       diagnosed: (diagnostics) => this.page.panel.diagnose(diagnostics),
       recorded: (recording, before) => this.page.recorded(recording, before),
-      happened: ({ kind, text }) => {
-        if (farewells.includes(kind)) this.page.toasts.hold("Server", text);
-        else this.page.toasts.show("Server", text, "plain");
-      },
+      happened: ({ text }) => this.page.toasts.show("Server", text, "plain"),
       broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
     this.commands = new Commands(this.link, (report) => {

@@ -5,6 +5,7 @@ import { h, setText } from "./dom";
 export class Header {
   private readonly scene = h("h1", { "data-testid": "scene-name" }, "Spherule");
   private readonly description = h("p", { "data-testid": "scene-description" });
+  private readonly farewell = h("p", { class: "farewell", "data-testid": "farewell", role: "status" });
   private readonly dot = h("i");
   private readonly words = h("span", { "data-testid": "connection" });
   private readonly link: HTMLButtonElement;
@@ -16,7 +17,7 @@ export class Header {
   ) {
     this.link = h("button", { class: "link", type: "button", "data-testid": "retry", click: retry }, this.dot, this.words);
     const brand = h("div", { class: "brand" }, h("span", { class: "mark" }), "Spherule", this.link);
-    this.element = h("header", {}, brand, this.scene, this.description);
+    this.element = h("header", {}, brand, this.scene, this.farewell, this.description);
   }
 
   update(now: number, contextLost: boolean): void {
@@ -25,6 +26,9 @@ export class Header {
     this.link.dataset.state = state;
     this.link.title = titleFor(state, session.linkReason);
     setText(this.words, this.wordsFor(state, now));
+    setText(this.farewell, session.farewell);
+    this.farewell.hidden = session.farewell === "";
+    this.description.hidden = session.farewell !== "";
     if (!session.facts) return;
     setText(this.scene, session.facts.name);
     setText(this.description, session.facts.description);

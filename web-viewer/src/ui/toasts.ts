@@ -10,28 +10,7 @@ const most = 3;
 export class Toasts {
   readonly element = h("div", { class: "toasts", "data-testid": "toasts", role: "status", "aria-live": "polite" });
 
-  private held: HTMLElement | undefined;
-
   show(title: string, text: string, tone: Tone, stay: number = stays[tone]): void {
-    const toast = this.add(title, text, tone);
-    setTimeout(() => {
-      toast.classList.add("leaving");
-      setTimeout(() => toast.remove(), 300);
-    }, stay);
-  }
-
-  /** Stays until `release`, or until another is held: it says why nothing comes any more. */
-  hold(title: string, text: string): void {
-    this.release();
-    this.held = this.add(title, text, "bad");
-  }
-
-  release(): void {
-    this.held?.remove();
-    this.held = undefined;
-  }
-
-  private add(title: string, text: string, tone: Tone): HTMLElement {
     const toast = h(
       "div",
       { class: `toast ${tone}`, "data-testid": "toast", "data-tone": tone },
@@ -40,8 +19,10 @@ export class Toasts {
     );
     toast.addEventListener("click", () => toast.remove());
     this.element.append(toast);
-    const passing = [...this.element.children].filter((one) => one !== this.held);
-    for (const one of passing.slice(0, -most)) one.remove();
-    return toast;
+    while (this.element.childElementCount > most) this.element.firstElementChild?.remove();
+    setTimeout(() => {
+      toast.classList.add("leaving");
+      setTimeout(() => toast.remove(), 300);
+    }, stay);
   }
 }
