@@ -67,7 +67,7 @@ class Lost(Faults):
         driver.strike()
         self.told(viewer, self.cause)
         self.assertEqual(server.wait(), 75)
-        self.assertLess(time.monotonic() - begun, 10)  # though the driver takes nothing down any more
+        self.assertLess(time.monotonic() - begun, 20)  # though the driver takes nothing down any more
         self.assertRegex(server.said, rf"(?m)^spherule: llvmpipe.*: {self.cause}; start it again$")
         self.recorded(whole=True)
 
@@ -78,7 +78,7 @@ class Lost(Faults):
         begun = time.monotonic()
         driver.strike()
         self.assertEqual(server.wait(), 75)
-        self.assertLess(time.monotonic() - begun, 10)
+        self.assertLess(time.monotonic() - begun, 20)
 
     def test_run_keeps_its_recording_and_ends_though_the_driver_hangs_as_it_goes(self):
         driver = self.driver("reset")
@@ -116,13 +116,13 @@ class Hangs(Faults):
         self.told(viewer, self.cause)
         wait()
         self.assertEqual(server.wait(), 75)
-        self.assertLess(time.monotonic() - begun, 15)
+        self.assertLess(time.monotonic() - begun, 25)
         self.assertRegex(server.said, rf"(?m)^spherule: watchdog: {self.cause}; start it again$")
 
     def test_a_device_that_computes_no_more_is_noticed(self):
         driver = self.driver("hang")
         server = self.serve("--watchdog", "3s", "--record", self.recording, driver=driver)
-        viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 60)
+        viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 20)
         driver.strike()
         self.unhealthy_then_ended(server, viewer, lambda: None)
         self.recorded(whole=False)
@@ -134,10 +134,13 @@ class Hangs(Faults):
             self.unhealthy_then_ended(server, viewer, lambda: held.wait_for_the_end(15))
 
     def test_a_program_that_was_stopped_as_a_whole_goes_on(self):
-        server = self.serve("--watchdog", "3s", device="cpu")
-        os.kill(server.pid, signal.SIGSTOP)
-        time.sleep(5)
-        os.kill(server.pid, signal.SIGCONT)
+        server = self.serve("--watchdog", "4s", device="cpu:1")
+        with HeldThread(server.pid, "simulation"):  # it is in the middle of something, and not the first to wake
+            time.sleep(1)
+            os.kill(server.pid, signal.SIGSTOP)
+            time.sleep(5)
+            os.kill(server.pid, signal.SIGCONT)
+            time.sleep(0.5)
         viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 3)
         self.assertEqual(server.get("/healthz"), "alive\n")
         self.assertIsNone(viewer.closed)
@@ -151,7 +154,7 @@ class Hangs(Faults):
         begun = time.monotonic()
         os.kill(server.pid, signal.SIGTERM)
         self.assertEqual(server.wait(), 75)
-        self.assertLess(time.monotonic() - begun, 15)
+        self.assertLess(time.monotonic() - begun, 25)
         self.assertEqual(viewer.ended()[0], 1012)
         self.assertRegex(server.said, r"(?m)^spherule: step: the one under way did not end in time; start it again$")
 

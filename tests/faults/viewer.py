@@ -73,7 +73,7 @@ class Viewer:
     def of(self, kind):
         return [message[kind] for _, message in list(self.messages) if kind in message]
 
-    def wait(self, condition, patience=30):
+    def wait(self, condition, patience=90):
         """Until `condition(self)`; fails with what has come."""
         end = time.monotonic() + patience
         while not condition(self):
