@@ -6,6 +6,8 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/pulse.h"
+
 namespace spherule::app {
 
 Result<Dump> Dump::create(const std::string& path) {
@@ -17,6 +19,7 @@ Result<Dump> Dump::create(const std::string& path) {
 
 Result<void> Dump::write(sim::Simulation& simulation) {
     const sim::State state = simulation.snapshot();
+    const pulse::Unwatched writing;
     const glm::dvec3 centre = simulation.scene().bounds.centre();
     std::string text;
     for (std::uint32_t id = 0; id < state.count(); ++id) {

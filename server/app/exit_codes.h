@@ -5,15 +5,18 @@
 namespace spherule::app {
 
 constexpr int exitDone = 0;
-constexpr int exitInput = 2;  // usage or scene
+constexpr int exitFault = 1;  // of the program
+constexpr int exitInput = 2;  // usage, scene or file
 constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
 constexpr int exitDiverged = 5;
 constexpr int exitDeviceLost = 75;  // worth another start
+constexpr int exitBySignal = 128;   // plus its number: the second that asked the program to stop
 
 constexpr const char* exitCodesText =
-    "Exit codes: 0 done, 1 out of memory, 2 usage or scene, 3 no device, 4 refused, 5 a sphere left the numbers, 75 "
-    "device lost.";
+    "Exit codes: 0 done, 1 a fault of the program, 2 usage, scene or file, 3 no device, 4 refused (memory, disk, "
+    "port), "
+    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 130 or 143 a second signal.";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {
@@ -28,7 +31,7 @@ constexpr int exitCodeOf(ErrorKind kind) {
         case ErrorKind::Diverged:
             return exitDiverged;
     }
-    return exitInput;
+    return exitFault;
 }
 
 }  // namespace spherule::app

@@ -13,7 +13,7 @@ namespace spherule::app {
 
 // What the simulation thread last said of itself, for health pages and metrics. Any thread.
 struct LiveReport {
-    std::string state = "starting";  // starting, running, paused, draining, failed
+    std::string state = "starting";  // starting, running, paused; draining or failed for good
     compute::DeviceInfo device;
     std::vector<std::string> scenes;  // that can be loaded by name
     std::string scene;
@@ -27,7 +27,11 @@ struct LiveReport {
     v1::Recording recording;                     // the present one, or the last
     std::uint64_t recordingFramesLost = 0;
     std::vector<double> passSeconds;  // since the start, by sim::Pass
-    std::chrono::steady_clock::time_point heartbeat = std::chrono::steady_clock::now();
+
+    [[nodiscard]] bool ends() const { return state == "draining" || state == "failed"; }
+    void becomes(const char* next) {
+        if (!ends()) state = next;
+    }
 };
 
 class Live {
@@ -36,7 +40,6 @@ class Live {
     void update(Change change) {
         const std::lock_guard lock(mutex_);
         change(report_);
-        report_.heartbeat = std::chrono::steady_clock::now();
     }
     [[nodiscard]] LiveReport read() const {
         const std::lock_guard lock(mutex_);

@@ -3,9 +3,9 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <map>
+#include <new>
 #include <string>
 
 #include "app/exit_codes.h"
@@ -68,9 +68,13 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     try {
         return spherule::app::runCommand(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::fputs("spherule: there is not enough memory for this; use fewer spheres, or give the program more\n",
+                   stderr);
+        return spherule::app::exitRefused;
     } catch (const std::exception& error) {
-        // Out of memory, most likely: all that is expected to go wrong comes as a result.
+        // All that is expected to go wrong comes as a result.
         std::fprintf(stderr, "spherule: %s\n", error.what());
-        return EXIT_FAILURE;
+        return spherule::app::exitFault;
     }
 }

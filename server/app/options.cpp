@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "app/duration.h"
 #include "app/exit_codes.h"
 #include "core/quantity.h"
 #include "scene/goal.h"
@@ -56,8 +57,23 @@ void SceneOptions::addTo(CLI::App& command) {
     command.add_flag("--no-sleep", overrides.noSleep, "no sphere is put to sleep");
 }
 
+void addWatchdog(CLI::App& command, double& seconds) {
+    constexpr const char* name = "--watchdog";
+    seconds = 60;
+    command
+        .add_option_function<std::string>(
+            name, [&seconds](const std::string& time) { seconds = secondsOf(time, name).value_or(seconds); },
+            "end with exit code 75 when no kernel has come to its end for this long; 0: never")
+        ->check([](const std::string& time) {
+            const auto given = secondsOf(time, name);
+            return given ? "" : given.error().text();
+        })
+        ->default_str("60s");
+}
+
 int report(const Error& error) {
-    fmt::print(stderr, "spherule: {}\n", error.text());
+    const char* const advice = error.kind == ErrorKind::DeviceLost ? "; start it again" : "";
+    fmt::print(stderr, "spherule: {}{}\n", error.text(), advice);
     return exitCodeOf(error.kind);
 }
 

@@ -34,6 +34,9 @@ void addMeasure(CLI::App& app, int& exitCode);
 // --quality and --substeps.
 void addQuality(CLI::App& command, scene::Overrides& overrides);
 
+// --watchdog: s without progress, after which a command ends with exitDeviceLost; 0: never.
+void addWatchdog(CLI::App& command, double& seconds);
+
 // Prints the error to stderr and gives its exit code.
 int report(const Error& error);
 

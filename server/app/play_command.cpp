@@ -6,6 +6,7 @@
 #include "app/serving.h"
 #include "app/settings.h"
 #include "core/log.h"
+#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -20,6 +21,7 @@ struct PlayOptions {
 };
 
 Result<Player> playerOf(const PlayOptions& options) {
+    const pulse::Unwatched reading;
     auto recording = store::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
     if (!recording->flaw().empty())
@@ -44,7 +46,6 @@ Result<std::unique_ptr<Show>> open(const PlayOptions& options, const Stage& stag
     auto device = compute::openDevice("cpu");
     if (!device) return tl::unexpected(device.error());
     stage.live.update([&](LiveReport& report) {
-        report.state = "running";
         report.device = (*device)->info();
         report.device.reason = "a recording needs no GPU";
         report.scene = player->recording().facts().name();

@@ -7,6 +7,7 @@
 #include "app/facts.h"
 #include "app/utf8.h"
 #include "core/log.h"
+#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -33,6 +34,7 @@ Result<void> PlayLoop::run(const std::stop_token& stop) {
     *timeline.mutable_timeline() = player_.timeline();
     outlets_.keep(frame::share(std::move(timeline)));
     while (!stop.stop_requested()) {
+        pulse::beat("serving viewers");
         // All that was asked for, before anything is decoded: of several seeks only the last counts.
         while (auto request = requests_.tryPop()) serve(*request);
         const auto now = Chains::Clock::now();
@@ -157,7 +159,7 @@ void PlayLoop::report(Chains::Clock::time_point now) {
     if (now < nextReport_) return;
     nextReport_ = now + reportEvery;
     live_.update([&](LiveReport& report) {
-        if (report.state != "draining") report.state = player_.paused() ? "paused" : "running";
+        report.becomes(player_.paused() ? "paused" : "running");
         report.steps = step_;
         report.simSeconds = time_;
         report.framesProduced = chains_.made();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/facts.h"
+#include "core/pulse.h"
 #include "frame/channel.h"
 #include "frame/order.h"
 #include "sim/morton.h"
@@ -95,6 +96,7 @@ Result<void> Recorder::write(store::Kind kind) {
         tier_->join(true);
     device_.endTimer();
     const std::vector<std::byte> bytes = tier_->download();
+    if (auto alive = device_.status(); !alive) return alive;  // else they may be none
 
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
@@ -111,6 +113,7 @@ Result<void> Recorder::write(store::Kind kind) {
 }
 
 Result<void> Recorder::add(store::Kind kind, const v1::ServerMessage& message) {
+    const pulse::Unwatched writing;
     return writer_.add(kind, simulation_.time(), message.SerializeAsString());
 }
 

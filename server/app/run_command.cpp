@@ -13,6 +13,7 @@
 #include "app/recorder.h"
 #include "app/run_report.h"
 #include "app/tuner.h"
+#include "app/watchdog.h"
 #include "compute/device.h"
 #include "core/log.h"
 #include "quality/overlap_watch.h"
@@ -28,6 +29,7 @@ struct RunOptions {
     std::string duration;
     std::string every;
     std::string dump;
+    double watchdog = 0;
     bool json = false;
 };
 
@@ -168,6 +170,8 @@ Result<void> run(const RunOptions& options) {
     if (!every) return tl::unexpected(every.error());
     if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
 
+    Watchdog watchdog{Watchdog::Seconds(options.watchdog)};  // ends after the device: that may hang as it goes
+    watchdog.start([](const Error& error) { endNow(report(error)); });
     auto device = compute::openDevice(options.scene.device);
     if (!device) return tl::unexpected(device.error());
     spdlog::info("on {}: {}", (*device)->info().renderer, (*device)->info().reason);
@@ -196,6 +200,7 @@ void addRun(CLI::App& app, int& exitCode) {
                         "report this often, or with --dump write a state; absent: once, at the end");
     command->add_option("--dump", options->dump, "write states to this CSV file");
     addRecord(*command, options->record);
+    addWatchdog(*command, options->watchdog);
     command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {

@@ -1,72 +1,83 @@
 #include "app/runtime.h"
 
-#include <future>
+#include <pthread.h>
+
+#include <fmt/format.h>
+
+#include <new>
 
 #include "app/facts.h"
+#include "app/options.h"
+#include "app/utf8.h"
 
 namespace spherule::app {
 
-Result<std::unique_ptr<Runtime>> Runtime::start(const OpenShow& open, const net::Options& listen) {
-    std::promise<Result<void>> ready;  // outlives the thread that keeps it
-    std::unique_ptr<Runtime> runtime(new Runtime());
-    auto opened = ready.get_future();
-    runtime->show_ = std::jthread(
-        [self = runtime.get(), open, &ready](const std::stop_token& stop) { self->present(stop, open, ready); });
-    const Result<void> show = opened.get();
-    Result<std::unique_ptr<net::Server>> server = tl::unexpected(Error{});
-    if (show) server = net::startServer(listen, runtime->handlers());
-    if (show && server) {
-        runtime->server_ = std::move(*server);
-    } else {
-        runtime->show_.request_stop();
-    }
-    runtime->settle();
-    if (!show) return tl::unexpected(show.error());
-    if (!server) return tl::unexpected(server.error());
-    return runtime;
-}
-
-void Runtime::settle() {
-    settled_ = true;
-    settled_.notify_all();
-}
-
-Runtime::~Runtime() {
-    show_.request_stop();
-    settle();
-    if (show_.joinable()) show_.join();
-}
-
 namespace {
 
-// What is not expected to go wrong, such as a lack of memory, as an error.
-template <class Act>
-auto guarded(Act act) -> decltype(act()) {
-    try {
-        return act();
-    } catch (const std::exception& error) {
-        return fail(ErrorKind::DeviceLost, "simulation", std::string("ended: ") + error.what());
-    }
-}
+using namespace std::chrono_literals;
+constexpr auto stepPatience = 10s;  // for the step under way and the recording, once the show is to end
 
 }  // namespace
 
+Runtime::Runtime(Watchdog::Seconds patience) : watchdog_(patience), site_(live_, watchdog_) {}
+
+Result<std::unique_ptr<Runtime>> Runtime::start(const OpenShow& open, const net::Options& listen,
+                                                Watchdog::Seconds patience) {
+    std::unique_ptr<Runtime> runtime(new Runtime(patience));
+    auto server = net::startServer(listen, runtime->handlers());
+    if (!server) return tl::unexpected(server.error());
+    runtime->server_ = std::move(*server);
+    runtime->watchdog_.start([self = runtime.get()](const Error& error) { self->hung(error); });
+    runtime->thread_ =
+        std::jthread([self = runtime.get(), open](const std::stop_token& stop) { self->present(stop, open); });
+    return runtime;
+}
+
+Runtime::~Runtime() {
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
+    watchdog_.stop();
+}
+
 // The thread that owns the device, for its whole life.
-void Runtime::present(const std::stop_token& stop, const OpenShow& open, std::promise<Result<void>>& ready) {
-    const auto show = guarded([&] { return open({requests_, live_, outlets()}); });
-    if (!show) {
-        ready.set_value(tl::unexpected(show.error()));
-        return;
+void Runtime::present(const std::stop_token& stop, const OpenShow& open) {
+    pthread_setname_np(pthread_self(), "simulation");
+    Result<void> done;
+    try {
+        done = run(stop, open);
+    } catch (const std::bad_alloc&) {
+        done = fail(opened() ? ErrorKind::DeviceLost : ErrorKind::Refused, "memory",
+                    "there is not enough for this scene; use fewer spheres, or give the program more");
+    } catch (const std::exception& error) {
+        done = fail(ErrorKind::DeviceLost, "simulation", std::string("ended: ") + error.what());
     }
-    ready.set_value({});
-    settled_.wait(false);
-    if (stop.stop_requested()) return;
-    const Result<void> ended = guarded([&] { return (*show)->run(stop); });
-    if (!ended) {
-        failure_ = ended.error();
-        failed_ = true;
-        live_.update([](LiveReport& report) { report.state = "failed"; });
+    if (done || done.error().kind != ErrorKind::DeviceLost) show_.reset();
+    const std::lock_guard lock(mutex_);
+    if (!done) failure_ = done.error();
+    ended_ = true;
+    changed_.notify_all();
+}
+
+Result<void> Runtime::run(const std::stop_token& stop, const OpenShow& open) {
+    auto show = open({requests_, live_, outlets()});
+    if (!show) return tl::unexpected(show.error());
+    show_ = std::move(*show);
+    live_.update([](LiveReport& report) { report.becomes("running"); });
+    {
+        const std::lock_guard lock(mutex_);
+        opened_ = true;
     }
+    return show_->run(stop);
+}
+
+bool Runtime::opened() const {
+    const std::lock_guard lock(mutex_);
+    return opened_;
+}
+
+std::optional<Error> Runtime::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
 }
 
 Outlets Runtime::outlets() {
@@ -92,29 +103,51 @@ net::Handlers Runtime::handlers() {
             [this](net::SessionId session, v1::Command command) {
                 return requests_.push({session, std::move(command)});
             },
+        .ready = [this] { return opened(); },
         .get = [this](const std::string& path, const net::Counters& counters) { return site_.get(path, counters); }};
 }
 
-std::optional<Error> Runtime::failure() const {
-    if (!failed_) return std::nullopt;
-    return failure_;
+bool Runtime::drain() {
+    beginToEnd(failure());
+    thread_.request_stop();
+    std::unique_lock lock(mutex_);
+    const bool ended = changed_.wait_for(lock, stepPatience, [this] { return ended_; });
+    const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
+    lock.unlock();
+    refuseWaiting();
+    server_->drain();
+    return ended && !lost;
 }
 
-void Runtime::drain() {
-    live_.update([](LiveReport& report) { report.state = "draining"; });
+// On the watchdog's thread. What the thread that hangs has recorded plays as it is.
+void Runtime::hung(const Error& error) {
+    const int exitCode = app::report(error);
+    beginToEnd(error);
+    server_->drain();
+    endNow(exitCode);
+}
+
+void Runtime::beginToEnd(const std::optional<Error>& failure) {
+    live_.update([&](LiveReport& report) { report.state = failure ? "failed" : "draining"; });
+    server_->stopAccepting();
     v1::ServerMessage message;
-    message.mutable_event()->set_kind(v1::Event::DRAINING);
-    message.mutable_event()->set_text("The server is stopping.");
-    server_->broadcast(std::make_shared<const frame::Message>(std::move(message)));
-    show_.request_stop();
-    if (show_.joinable()) show_.join();
+    v1::Event& event = *message.mutable_event();
+    const bool lost = failure && failure->kind == ErrorKind::DeviceLost;
+    event.set_kind(lost ? v1::Event::DEVICE_LOST : v1::Event::DRAINING);
+    event.set_text(failure ? utf8(fmt::format("The simulation has ended ({}): this page goes on by itself once the "
+                                              "server has been started again.",
+                                              failure->text()))
+                           : "The server is stopping.");
+    server_->broadcast(frame::share(std::move(message)));
+}
+
+void Runtime::refuseWaiting() {
     while (auto request = requests_.tryPop()) {
         v1::CommandResult result;
         result.set_id(request->command.id());
         result.mutable_refused()->set_reason("the server is stopping");
         server_->reply(request->session, std::move(result));
     }
-    server_->drain();
 }
 
 }  // namespace spherule::app

@@ -19,7 +19,6 @@ Result<std::unique_ptr<Show>> open(const ServeOptions& options, const quality::T
     auto world = World::open(options.scene.device, options.scene.scene, options.scene.overrides);
     if (!world) return tl::unexpected(world.error());
     stage.live.update([&](LiveReport& report) {
-        report.state = "running";
         report.device = (*world)->device().info();
         report.scenes = scene::names();
         report.scene = (*world)->simulation().scene().name;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <pthread.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -25,13 +26,21 @@ class Signals {
         sigaddset(&set_, SIGHUP);
         pthread_sigmask(SIG_BLOCK, &set_, nullptr);
     }
-    // Which came within a fifth of a second; -1: none.
-    [[nodiscard]] int wait() const {
-        const timespec timeout{0, 200'000'000};
+    // Which came within so many ms; -1: none.
+    [[nodiscard]] int wait(long patience) const {
+        const timespec timeout{0, patience * 1'000'000};
         return sigtimedwait(&set_, nullptr, &timeout);
     }
-    // From here on they end the program at once.
-    void release() const { pthread_sigmask(SIG_UNBLOCK, &set_, nullptr); }
+    // From here on they end the program at once, also where it is the first of a container, whom the system would not
+    // end by itself.
+    void release() const {
+        struct sigaction now {};
+        std::signal(SIGHUP, SIG_IGN);
+        now.sa_handler = [](int signal) { _exit(exitBySignal + signal); };
+        sigaction(SIGINT, &now, nullptr);
+        sigaction(SIGTERM, &now, nullptr);
+        pthread_sigmask(SIG_UNBLOCK, &set_, nullptr);
+    }
 
   private:
     sigset_t set_{};
@@ -71,20 +80,32 @@ int serveUntilStopped(const OpenShow& open, const ServingOptions& serving, const
     if (!options) return report(options.error());
     const Signals signals;
     logInBackground();
-    auto runtime = Runtime::start(open, *options);
+    auto runtime = Runtime::start(open, *options, Watchdog::Seconds(serving.watchdog));
     if (!runtime) return report(runtime.error());
-    announce(**runtime, *options, what);
-    bool stopped = false;
-    while (!stopped && !(*runtime)->failure()) {
-        const int signal = signals.wait();
+    // Whether it is to stop. A fault of the show ends the wait, too.
+    const auto stopsWithin = [&](long patience) {
+        const int signal = signals.wait(patience);
         if (signal == SIGHUP) reload(**runtime, serving);
-        stopped = signal > 0 && signal != SIGHUP;
-    }
+        return signal > 0 && signal != SIGHUP;
+    };
+    bool stopped = false;
+    while (!stopped && !(*runtime)->opened() && !(*runtime)->failure()) stopped = stopsWithin(10);
+    const bool opened = (*runtime)->opened();
+    if (opened && !stopped) announce(**runtime, *options, what);
+    while (!stopped && !(*runtime)->failure()) stopped = stopsWithin(200);
     signals.release();
+    if (stopped && !opened) {
+        spdlog::info("stopped before the scene was there");
+        endNow(exitDone);  // nobody watches, and nothing is recorded
+    }
     if (stopped) spdlog::info("stopping; a second signal ends it at once");
-    (*runtime)->drain();
+    const bool clean = (*runtime)->drain();
     const auto failure = (*runtime)->failure();  // at the end, too
-    return failure ? report(*failure) : exitDone;
+    int exitCode = exitDone;
+    if (failure) exitCode = report(*failure);
+    if (clean && logIsWritten()) return exitCode;
+    if (!clean && !failure) exitCode = report({ErrorKind::DeviceLost, "step", "the one under way did not end in time"});
+    endNow(exitCode);
 }
 
 }  // namespace spherule::app

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/endpoint.h"
+#include "app/options.h"
 #include "app/secret_files.h"
 
 namespace spherule::app {
@@ -15,6 +16,7 @@ void addListen(CLI::App& command, std::string& listen) {
 void ServingOptions::addTo(CLI::App& command) {
     constexpr const char* group = "Who may come in";
     addListen(command, listen);
+    addWatchdog(command, watchdog);
     command.add_option("--viewer-token-file", viewerTokenFile, "a file with the token of those who may watch")
         ->group(group);
     command

@@ -14,7 +14,8 @@ struct ServingOptions {
     std::string listen = "127.0.0.1:8080";
     std::string viewerTokenFile, controllerTokenFile;
     std::string certificateFile, keyFile;
-    net::Options net;  // but for the address and the secrets
+    double watchdog = 0;  // s, as addWatchdog says
+    net::Options net;     // but for the address and the secrets
 
     void addTo(CLI::App& command);
 };

@@ -8,6 +8,7 @@
 
 #include "app/facts.h"
 #include "core/log.h"
+#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -42,7 +43,14 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
 Result<void> SimLoop::run(const std::stop_token& stop) {
     announce();
     if (auto done = tape_.startFromOptions(); !done) return done;
+    const Result<void> done = simulate(stop);
+    const Result<void> finished = finishTape();
+    return done ? finished : done;
+}
+
+Result<void> SimLoop::simulate(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
+        pulse::beat("serving viewers");
         for (int k = 0; k < commandsPerStep; ++k) {
             auto request = requests_.tryPop();
             if (!request) break;
@@ -55,10 +63,10 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
             serve(*request);
         }
         produce(Pacer::Clock::now());
-        report();
+        if (auto done = report(); !done) return done;
         tellOfTape();
     }
-    return finishTape();
+    return {};
 }
 
 Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {

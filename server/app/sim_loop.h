@@ -24,6 +24,7 @@ class SimLoop : public Show {
     Result<void> run(const std::stop_token& stop) override;
 
   private:
+    Result<void> simulate(const std::stop_token& stop);
     void serve(const Request& request);
     Result<v1::Applied> apply(const v1::Command& command);
     void announce();
@@ -36,7 +37,7 @@ class SimLoop : public Show {
     void produce(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
     void publish(const frame::Link& link);
-    void report();
+    Result<void> report();
     void tellOfTape();
     Result<void> finishTape();
     void look(const std::vector<double>& passSeconds);

@@ -98,10 +98,12 @@ void SimLoop::look(const std::vector<double>& passSeconds) {
     everybody(std::move(message));
 }
 
-void SimLoop::report() {
+// Also while it is paused, and no step tells, the device may be lost.
+Result<void> SimLoop::report() {
     const auto now = Pacer::Clock::now();
-    if (now < nextReport_) return;
+    if (now < nextReport_) return {};
     nextReport_ = now + reportEvery;
+    if (auto alive = world_.device().status(); !alive) return alive;
     const auto times = world_.simulation().passSeconds();
     if (watched_ || live_.askedWithin(interest)) {
         look(times);
@@ -110,7 +112,7 @@ void SimLoop::report() {
         observer_.rest();
     }
     live_.update([&](LiveReport& report) {
-        if (report.state != "draining") report.state = world_.paused() ? "paused" : "running";
+        report.becomes(world_.paused() ? "paused" : "running");
         report.scene = world_.simulation().scene().name;
         report.spheres = world_.simulation().count();
         report.steps = world_.simulation().steps();
@@ -123,6 +125,7 @@ void SimLoop::report() {
         report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));
         for (std::size_t pass = 0; pass < times.size(); ++pass) report.passSeconds[pass] += times[pass];
     });
+    return {};
 }
 
 }  // namespace spherule::app

@@ -1,9 +1,10 @@
 #include "app/site.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <chrono>
 #include <utility>
 
 #include "embedded/page.h"
@@ -11,9 +12,6 @@
 namespace spherule::app {
 
 namespace {
-
-// A step of a large scene on a software renderer takes seconds.
-constexpr std::chrono::seconds longestSilence{60};
 
 std::string_view typeOf(std::string_view path) {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> types = {{
@@ -36,10 +34,13 @@ net::HttpAnswer file(std::string_view path) {
     return {404, "text/plain; charset=utf-8", "There is nothing here. The page is at /.\n"};
 }
 
-net::HttpAnswer health(const LiveReport& live) {
-    const auto silence = std::chrono::steady_clock::now() - live.heartbeat;
-    if (silence < longestSilence) return {200, "text/plain; charset=utf-8", "alive\n"};
-    return {503, "text/plain; charset=utf-8", "the simulation thread is silent\n"};
+// Half of what the watchdog waits for, so that it can be seen before it is over.
+net::HttpAnswer health(const Watchdog& watchdog) {
+    const auto silence = watchdog.silence();
+    if (2 * silence <= watchdog.limit()) return {200, "text/plain; charset=utf-8", "alive\n"};
+    return {503, "text/plain; charset=utf-8",
+            fmt::format("nothing has progressed for {:.1f} s; after {:g} s the watchdog ends it\n", silence.count(),
+                        watchdog.limit().count())};
 }
 
 net::HttpAnswer readiness(const LiveReport& live) {
@@ -58,7 +59,7 @@ net::HttpAnswer readiness(const LiveReport& live) {
 }  // namespace
 
 net::HttpAnswer Site::get(const std::string& path, const net::Counters& counters) {
-    if (path == "/healthz") return health(live_.read());
+    if (path == "/healthz") return health(watchdog_);
     if (path == "/readyz") return readiness(live_.read());
     if (path == "/metrics") {
         live_.asked();

@@ -4,6 +4,7 @@
 
 #include "app/live.h"
 #include "app/metrics.h"
+#include "app/watchdog.h"
 #include "net/server.h"
 
 namespace spherule::app {
@@ -11,12 +12,13 @@ namespace spherule::app {
 // What GET answers: the page and its files, /healthz, /readyz and /metrics. Used by the io thread.
 class Site {
   public:
-    explicit Site(Live& live) : live_(live) {}
+    Site(Live& live, const Watchdog& watchdog) : live_(live), watchdog_(watchdog) {}
     // `counters` are those of the server that asks.
     net::HttpAnswer get(const std::string& path, const net::Counters& counters);
 
   private:
     Live& live_;
+    const Watchdog& watchdog_;
     Metrics metrics_;
 };
 

@@ -59,8 +59,8 @@ Result<Probe> probe(const std::string& choice) {
             const auto name = device.software() ? std::string("software") : fmt::format("gpu:{}", gpus++);
             result.devices.push_back(probeDevice(device, name));
         }
-    } else if (!result.chosen) {
-        result.problem = loaded.error().text();
+    } else {
+        result.eglProblem = loaded.error().text();
     }
     result.hints = detail::hintsFor(result, detail::hostFacts());
     return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,7 @@ struct Limits {
 };
 
 struct Probe {
+    std::string eglProblem;  // why there is no EGL at all; empty where there is
     std::string clientExtensions;
     std::vector<ProbeVendor> vendors;
     std::vector<ProbeDevice> devices;  // preferred first
@@ -62,13 +64,25 @@ std::string probeJson(const Probe& probe);  // one line
 namespace detail {
 
 struct HostFacts {
-    bool nvidiaKernelModule = false;          // /proc/driver/nvidia or /dev/nvidiactl
+    enum class Place { Host, Container, Pod };
+    Place place = Place::Host;
+    bool nvidiaDriver = false;                // its kernel module, by /proc/driver/nvidia or /dev/nvidiactl
+    bool nvidiaLibrary = false;               // libEGL_nvidia.so.0 can be opened, whether or not a vendor file names it
+    bool migSlice = false;                    // a part of a GPU
     std::string nvidiaCapabilities;           // NVIDIA_DRIVER_CAPABILITIES, empty when unset
+    std::string vendorVariable;               // __EGL_VENDOR_LIBRARY_..., which is set and replaces glvnd's own search
+    std::vector<std::string> unsearched;      // NVIDIA's vendor files where EGL does not look
     std::vector<std::string> closedDrmFiles;  // below /dev/dri, not ours to open
+    std::vector<std::string> closedNvidiaFiles;  // /dev/nvidia*, the same
 };
 
-HostFacts hostFacts();
+// Below `root` lie dev, proc, usr, ...; the environment is that of this process.
+HostFacts hostFacts(const std::filesystem::path& root = "/");
+// What to do about what is missing, most useful first: each a sentence that says what, where and what to do.
+// docs/troubleshooting.md has them all.
 std::vector<std::string> hintsFor(const Probe& probe, const HostFacts& host);
+// Why an NVIDIA driver that is here, or was here, gives no OpenGL; empty where nothing points to one.
+std::string nvidiaHint(const Probe& probe, const HostFacts& host);
 std::vector<ProbeVendor> eglVendors();
 
 }  // namespace detail

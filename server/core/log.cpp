@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 namespace spherule {
 
@@ -80,6 +81,16 @@ void logInBackground() {
     use(std::make_shared<spdlog::async_logger>(loggerName, now->sinks().begin(), now->sinks().end(),
                                                spdlog::thread_pool(), spdlog::async_overflow_policy::overrun_oldest),
         now->level());
+}
+
+bool logIsWritten() {
+    const auto pool = spdlog::thread_pool();
+    if (!pool) return true;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    while (pool->queue_size() > 0 && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // for the last one, which has left the row
+    return pool->queue_size() == 0;
 }
 
 void logEvent(spdlog::level::level_enum level, std::string_view event, std::string_view message,

@@ -17,6 +17,8 @@ void startLog(bool verbose, LogFormat format);
 // From here on a thread of its own writes the log: who logs never waits for whoever reads it, and when too much waits,
 // the oldest is left out. What is left is written when the program ends.
 void logInBackground();
+// Waits for that, a second at most; false where nobody takes it.
+[[nodiscard]] bool logIsWritten();
 
 struct LogField {
     std::string_view name;  // of letters and underscores

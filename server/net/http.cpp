@@ -154,6 +154,9 @@ void HttpConnection::onUpgrade(const Request& request) {
     if (!asksForSubprotocol(request)) {
         return refuse(request, Rejection::Subprotocol, 400, "the WebSocket must ask for subprotocol spherule.v1");
     }
+    if (!context_.handlers.ready()) {
+        return refuse(request, Rejection::NotReady, 503, "the scene is not ready yet: see /readyz, and try again soon");
+    }
     if (const auto cause = visit_->openSession()) {
         return refuse(request, *cause, 503,
                       *cause == Rejection::Sessions ? "as many sessions are open as may be: try again later"

@@ -26,6 +26,12 @@ constexpr int sendBuffer = 256 * 1024;
 constexpr int mostUnsent = 32 * 1024;
 constexpr std::chrono::milliseconds retryAfter{100};
 
+std::string adviceOn(const error_code& error) {
+    if (error == asio::error::access_denied) return "ports below 1024 need a privilege: choose one above";
+    if (error == asio::error::address_in_use) return "end what listens there, or choose another port (0: any free one)";
+    return "choose an address of this machine (0.0.0.0: all of them)";
+}
+
 }  // namespace
 
 Listener::Listener(asio::io_context& io, Context& context)
@@ -48,9 +54,7 @@ Result<void> Listener::open() {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error) {
-        return fail(
-            ErrorKind::Refused, address,
-            "cannot be listened on: " + error.message() + "; choose another address, or port 0 for any free one");
+        return fail(ErrorKind::Refused, address, "cannot be listened on: " + error.message() + "; " + adviceOn(error));
     }
     port_ = acceptor_.local_endpoint().port();
     return {};

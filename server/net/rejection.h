@@ -25,6 +25,7 @@ enum class Rejection : std::uint8_t {
     Origin,  // a page of another site
     Subprotocol,
     Handshake,           // not WebSocket
+    NotReady,            // the scene is still being made
     Sessions,            // as many are open as may be
     SessionsPerAddress,  // the same, of this address
     // Commands.
@@ -35,12 +36,28 @@ enum class Rejection : std::uint8_t {
     ControlsHeld,  // by somebody else
 };
 
-constexpr std::array<std::string_view, 21> rejectionNames = {
-    "connections",          "connection_rate", "tls",          "slow_request",  "malformed",
-    "long_header",          "long_body",       "bad_request",  "host",          "no_token",
-    "wrong_token",          "origin",          "subprotocol",  "handshake",     "sessions",
-    "sessions_per_address", "unknown_command", "command_rate", "command_queue", "viewers_command",
-    "controls_held"};
+constexpr std::array<std::string_view, 22> rejectionNames = {"connections",
+                                                             "connection_rate",
+                                                             "tls",
+                                                             "slow_request",
+                                                             "malformed",
+                                                             "long_header",
+                                                             "long_body",
+                                                             "bad_request",
+                                                             "host",
+                                                             "no_token",
+                                                             "wrong_token",
+                                                             "origin",
+                                                             "subprotocol",
+                                                             "handshake",
+                                                             "not_ready",
+                                                             "sessions",
+                                                             "sessions_per_address",
+                                                             "unknown_command",
+                                                             "command_rate",
+                                                             "command_queue",
+                                                             "viewers_command",
+                                                             "controls_held"};
 
 constexpr std::string_view nameOf(Rejection cause) {
     return rejectionNames[static_cast<std::size_t>(cause)];

@@ -70,8 +70,12 @@ class RunningServer final : public Server {
         return {};
     }
 
-    void drain() override {
+    void stopAccepting() override {
         boost::asio::post(io_, [listener = listener_] { listener->close(); });
+    }
+
+    void drain() override {
+        stopAccepting();
         context_.hub.drain();
         if (context_.hub.waitEmpty(context_.options.drainTimeout)) return;
         context_.hub.dropAll();

@@ -49,6 +49,7 @@ struct HttpAnswer {
 struct Handlers {
     std::function<v1::Welcome(const v1::Hello&)> welcome;
     std::function<bool(SessionId, v1::Command)> submit;  // false: the queue is full
+    std::function<bool()> ready = [] { return true; };   // false: there is no stream yet, it is refused with 503
     // status 404 where there is nothing; `counters` are the server's.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;
 };
@@ -74,6 +75,8 @@ class Server {
     // The chains that are watched, and whether somebody waits for a keyframe: no frame comes to them before.
     [[nodiscard]] virtual std::vector<frame::Demand> demands() = 0;
 
+    // Closes the port; who is connected stays.
+    virtual void stopAccepting() = 0;
     // Stops accepting, closes sessions with 1012 after what is queued, waits up to drainTimeout.
     // Not from the io thread.
     virtual void drain() = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/pulse.h"
 #include "scene/occupancy.h"
 #include "scene/source.h"
 #include "scene/surroundings.h"
@@ -42,6 +43,7 @@ bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector
     const std::uint64_t budget = occupancy.work() + std::clamp(workPerSphere * spheres.size(), workAtLeast, workAtMost);
     std::uint64_t work = 0;
     for (const std::uint32_t i : byFallingRadius(spheres)) {
+        pulse::beat("placing spheres");
         const auto radius = static_cast<double>(spheres[i].radius);
         do {
             work += 1 + obstacles.size();

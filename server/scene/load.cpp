@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/pulse.h"
 #include "scene/build.h"
 #include "scene/catalog.h"
 #include "scene/check.h"
@@ -45,6 +46,7 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
 
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides) {
     if (isPath(source)) {
+        const pulse::Unwatched reading;
         const std::filesystem::path path(source);
         const auto text = readFile(path);
         if (!text) return tl::unexpected(text.error());

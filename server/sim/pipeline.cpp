@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "scene/load.h"
 #include "scene/materials.h"
 #include "sim/shaders.h"
@@ -25,6 +27,14 @@ glm::uvec4 groupsFor(std::uint32_t invocations) {
     const std::uint32_t groups = (invocations + workgroup - 1) / workgroup;
     const std::uint32_t x = std::min(groups, mostGroupsPerAxis);
     return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, invocations};
+}
+
+// What was refused is one array: whoever has to make room needs to know of them all.
+Error withNeed(Error error, const Plan& plan) {
+    if (error.kind == ErrorKind::Refused)
+        error.message +=
+            fmt::format(" (the scene needs {:.1f} MiB in all)", static_cast<double>(plan.bytes()) / (1 << 20));
+    return error;
 }
 
 // Arrays whose size goes with the number of listed pairs.
@@ -70,7 +80,7 @@ Result<void> Pipeline::allocate() {
     slots_.fill(absent_.get());
     for (const ArraySpec& spec : plan_.arrays) {
         auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, wordsOf(spec.array));
-        if (!made) return tl::unexpected(made.error());
+        if (!made) return tl::unexpected(withNeed(made.error(), plan_));
         adopt(spec.array, std::move(*made));
     }
     auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters), layout::parameterWords);

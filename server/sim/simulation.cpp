@@ -134,8 +134,8 @@ Statistics Simulation::statistics() {
 
 // Once a step: the device is still there, and every cell group has found room for its pairs.
 Result<void> Simulation::guard() {
+    readCounters();  // waits for the step: a device that was lost in it is lost by now, and the counters are none
     if (auto alive = device_.status(); !alive) return alive;
-    readCounters();
     if (counters_.sampled > 0 && !sampled_) {
         sampled_ = true;
         notices_.push_back(fmt::format(

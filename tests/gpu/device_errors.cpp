@@ -6,7 +6,7 @@ namespace {
 
 class DeviceDeathTest : public DeviceTest {
   protected:
-    static void SetUpTestSuite() { startLog(false); }
+    static void SetUpTestSuite() { startLog(false, LogFormat::Text); }
 
     // The child starts anew and opens its own device: Mesa's threads do not survive a fork.
     void SetUp() override { testing::FLAGS_gtest_death_test_style = "threadsafe"; }

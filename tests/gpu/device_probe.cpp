@@ -7,17 +7,6 @@
 namespace spherule::compute {
 namespace {
 
-bool mentions(const std::vector<std::string>& hints, const std::string& part) {
-    return std::any_of(hints.begin(), hints.end(), [&](const auto& h) { return h.find(part) != std::string::npos; });
-}
-
-ProbeDevice device(const std::string& choice, const std::string& problem = "") {
-    ProbeDevice result;
-    result.choice = choice;
-    result.problem = problem;
-    return result;
-}
-
 TEST(Probe, ListsTheSoftwareDeviceAndItsLimits) {
     const auto result = probe("software");
     ASSERT_TRUE(result.has_value()) << result.error().text();
@@ -64,45 +53,6 @@ TEST(Probe, UnknownChoiceIsRefused) {
     const auto result = probe("fast");
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().kind, ErrorKind::Input);
-}
-
-TEST(ProbeHints, ContainerWithoutGraphicsIsTold) {
-    detail::HostFacts host;
-    host.nvidiaKernelModule = true;
-    host.nvidiaCapabilities = "compute,utility";
-    EXPECT_TRUE(mentions(detail::hintsFor({}, host), "NVIDIA_DRIVER_CAPABILITIES=compute,utility,graphics"));
-}
-
-TEST(ProbeHints, NvidiaWithoutVendorFileIsTold) {
-    detail::HostFacts host;
-    host.nvidiaKernelModule = true;
-    Probe seen;
-    EXPECT_TRUE(mentions(detail::hintsFor(seen, host), "10_nvidia.json"));
-    seen.vendors.push_back({"10_nvidia.json", "libEGL_nvidia.so.0", "cannot open shared object file"});
-    EXPECT_TRUE(mentions(detail::hintsFor(seen, host), "libEGL_nvidia.so.0 does not open"));
-    seen.vendors.back().problem.clear();
-    EXPECT_TRUE(mentions(detail::hintsFor(seen, host), "MIG"));
-}
-
-TEST(ProbeHints, ClosedRenderNodeIsTold) {
-    detail::HostFacts host;
-    host.closedDrmFiles = {"/dev/dri/renderD128"};
-    EXPECT_TRUE(mentions(detail::hintsFor({}, host), "/dev/dri/renderD128"));
-}
-
-TEST(ProbeHints, MissingSoftwareRendererIsTold) {
-    Probe seen;
-    EXPECT_TRUE(mentions(detail::hintsFor(seen, {}), "libgl1-mesa-dri"));
-    seen.devices.push_back(device("software"));
-    EXPECT_FALSE(mentions(detail::hintsFor(seen, {}), "libgl1-mesa-dri"));
-    seen.devices.back() = device("software", "cannot be initialised");
-    EXPECT_TRUE(mentions(detail::hintsFor(seen, {}), "libgl1-mesa-dri"));
-}
-
-TEST(ProbeHints, HostWithEverythingGetsNone) {
-    Probe seen;
-    seen.devices = {device("gpu:0"), device("software")};
-    EXPECT_TRUE(detail::hintsFor(seen, {}).empty());
 }
 
 }  // namespace

@@ -29,15 +29,25 @@ class Server:
         self.end()
 
     def end(self, kill=False):
-        """Returns its exit code; what it said is in `said`."""
+        """Ends it. Returns its exit code; what it said is in `said`."""
         if self._process.returncode is None:
             (self._process.kill if kill else self._process.terminate)()
             self.said = self._process.communicate(timeout=30)[0]
         return self._process.returncode
 
+    def wait(self):
+        """Until it has ended by itself; returns its exit code."""
+        if self._process.returncode is None:
+            self.said = self._process.communicate(timeout=60)[0]
+        return self._process.returncode
+
     @property
     def pid(self):
         return self._process.pid
+
+    @property
+    def port(self):
+        return int(self._address.rsplit(":")[1])
 
     @property
     def stream(self):

@@ -68,7 +68,7 @@ export class Viewer {
       dialled: (dial) => this.page.panel.setDial(dial),
       diagnosed: (diagnostics) => this.page.panel.diagnose(diagnostics),
       recorded: (recording, before) => this.page.recorded(recording, before),
-      happened: (event) => this.page.toasts.show("Server", event.text, "plain"),
+      happened: ({ text }) => this.page.toasts.show("Server", text, "plain"),
       broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
     this.admission = new Admission(new TokenStore(url, () => sessionStorage), {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 // The kernels of shaders/, compiled as C++.
 namespace spherule::compute::cpu {
@@ -16,8 +15,8 @@ struct Binding {
 };
 
 struct Entry {
-    std::string_view name;  // file
-    std::uint32_t slots;    // one past the last buffer that it declares
+    const char* name;     // file
+    std::uint32_t slots;  // one past the last buffer that it declares
     bool wantsParameters;
     std::uint32_t (*count)(const Binding&);  // invocations
     // Invocations begin .. end - 1. Any number of threads, each with a range of its own.

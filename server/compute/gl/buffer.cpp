@@ -30,6 +30,8 @@ Result<std::unique_ptr<Buffer>> GlBuffer::create(const std::shared_ptr<Context>&
     const GLuint zero = 0;
     glClearNamedBufferData(buffer->id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     if (const GLenum error = takeError(); error != GL_NO_ERROR) {
+        if (const char* const cause = context->resetCause())
+            return fail(ErrorKind::DeviceLost, context->renderer(), fmt::format("the device was reset: {}", cause));
         return fail(ErrorKind::Refused, std::string(label),
                     fmt::format("the device has no room for {:.1f} MiB ({}); use fewer spheres or a device with more "
                                 "memory",

@@ -110,6 +110,26 @@ bool Context::makeCurrent() {
     return true;
 }
 
+const char* Context::resetCause() {
+    if (resetCause_ != nullptr) return resetCause_;  // the driver may say it only once
+    use();
+    // Anything else than these is no answer: without robust access some drivers return leftovers.
+    switch (glGetGraphicsResetStatus()) {
+        case GL_GUILTY_CONTEXT_RESET:
+            resetCause_ = "a kernel of this program hung or crashed it";
+            break;
+        case GL_INNOCENT_CONTEXT_RESET:
+            resetCause_ = "another program hung or crashed it";
+            break;
+        case GL_UNKNOWN_CONTEXT_RESET:
+            resetCause_ = "the driver does not say why";
+            break;
+        default:
+            break;
+    }
+    return resetCause_;
+}
+
 bool Context::software() const {
     constexpr std::array<std::string_view, 4> names{"llvmpipe", "softpipe", "swrast", "SwiftShader"};
     return std::any_of(names.begin(), names.end(),

@@ -37,6 +37,9 @@ class Context {
     [[nodiscard]] const std::string& version() const { return version_; }
     [[nodiscard]] const EglDisplay& display() const { return *display_; }
 
+    // Why the device was reset, which this context does not survive; null while it has not been. Asks the driver.
+    const char* resetCause();
+
     // True for the names of renderers that run on the CPU.
     [[nodiscard]] bool software() const;
 
@@ -52,6 +55,7 @@ class Context {
     bool robust_;
     std::string renderer_, vendor_, version_;
     State state_;
+    const char* resetCause_ = nullptr;
 };
 
 }  // namespace spherule::compute::gl

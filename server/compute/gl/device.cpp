@@ -9,6 +9,7 @@
 #include "compute/gl/buffer.h"
 #include "compute/gl/kernel.h"
 #include "compute/gl/limits.h"
+#include "core/pulse.h"
 
 namespace spherule::compute::gl {
 namespace {
@@ -47,6 +48,7 @@ void dispatch(std::uint32_t count, std::uint32_t groupSize) {
 
 GlDevice::GlDevice(const Opened& opened)
     : context_(opened.context),
+      fences_(context_),
       downloads_(context_),
       readBacks_(std::make_shared<ReadBackPlaces>(context_)),
       timers_(context_) {
@@ -70,16 +72,19 @@ Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, s
                                 static_cast<double>(bytes) / mebi, info_.renderer,
                                 static_cast<double>(info_.maxBufferBytes) / mebi));
     }
+    pulse::beat("making room on the device");
     return GlBuffer::create(context_, label, bytes);
 }
 
 Result<std::unique_ptr<Kernel>> GlDevice::createKernel(const SourceSet& sources, std::string_view file,
                                                        std::span<const Define> defines) {
+    pulse::beat("compiling a kernel");
     return GlKernel::create(context_, sources, file, defines);
 }
 
 void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
     checkRange("upload", buffer, offset, bytes.size());
+    pulse::beat("copying to the device");
     context_->use();
     context_->state().beforeCopy();
     glNamedBufferSubData(glBuffer(buffer).id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
@@ -99,7 +104,7 @@ void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std:
         }
         glCopyNamedBufferSubData(glBuffer(buffer).id(), downloads_.id(), static_cast<GLintptr>(offset), 0,
                                  static_cast<GLsizeiptr>(part));
-        glFinish();
+        fences_.wait();
         std::memcpy(bytes.data(), downloads_.data(), part);
         offset += part;
         bytes = bytes.subspan(part);
@@ -115,6 +120,7 @@ void GlDevice::fill(Buffer& buffer, std::uint32_t value) {
 void GlDevice::launch(const Launch& launch) {
     if (launch.kernel == nullptr) programError("a launch without a kernel");
     const auto& kernel = static_cast<const GlKernel&>(*launch.kernel);
+    pulse::beat("launching a kernel");
     context_->use();
     auto& state = context_->state();
     bindBuffers(state, kernel, launch);
@@ -130,6 +136,7 @@ void GlDevice::launch(const Launch& launch) {
         dispatch(launch.count, kernel.groupSize());
     }
     state.afterLaunch();
+    fences_.launched();
 }
 
 std::unique_ptr<ReadBack> GlDevice::startReadBack(const Buffer& buffer, std::size_t bytes) {
@@ -155,27 +162,13 @@ std::vector<double> GlDevice::takeTimes() {
 
 void GlDevice::finish() {
     context_->use();
-    glFinish();
+    fences_.wait();
 }
 
 Result<void> GlDevice::status() {
-    context_->use();
-    const char* cause = nullptr;
-    // Anything else than these is no answer: without robust access some drivers return leftovers.
-    switch (glGetGraphicsResetStatus()) {
-        case GL_GUILTY_CONTEXT_RESET:
-            cause = "a kernel of this program hung or crashed it";
-            break;
-        case GL_INNOCENT_CONTEXT_RESET:
-            cause = "another program hung or crashed it";
-            break;
-        case GL_UNKNOWN_CONTEXT_RESET:
-            cause = "the driver does not say why";
-            break;
-        default:
-            return {};
-    }
-    return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}; start it again", cause));
+    const char* const cause = context_->resetCause();
+    if (cause == nullptr) return {};
+    return fail(ErrorKind::DeviceLost, info_.renderer, fmt::format("the device was reset: {}", cause));
 }
 
 }  // namespace spherule::compute::gl

@@ -6,6 +6,7 @@
 
 #include "compute/device.h"
 #include "compute/gl/context.h"
+#include "compute/gl/fences.h"
 #include "compute/gl/open_context.h"
 #include "compute/gl/read_back.h"
 #include "compute/gl/staging.h"
@@ -37,6 +38,7 @@ class GlDevice final : public Device {
   private:
     std::shared_ptr<Context> context_;
     DeviceInfo info_;
+    Fences fences_;
     Staging downloads_;
     std::shared_ptr<ReadBackPlaces> readBacks_;
     Timers timers_;

@@ -31,7 +31,8 @@ class GlReadBack final : public ReadBack {
             // Unflushed, the copy might never start.
             const GLbitfield flush = std::exchange(flushed_, true) ? 0 : GL_SYNC_FLUSH_COMMANDS_BIT;
             const GLenum state = glClientWaitSync(fence_, flush, 0);
-            arrived_ = state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+            arrived_ = (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) &&
+                       places_->context_->resetCause() == nullptr;  // a lost context copies nothing, and signals
         }
         if (!arrived_) return std::nullopt;
         return std::span(place_.staging.data(), bytes_);

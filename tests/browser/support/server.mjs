@@ -49,6 +49,12 @@ async function start(words, folder, settings) {
     ctl(...words) {
       return spherule("ctl", url.replace("http:", "ws:") + "ws", ...words);
     },
+    /** Its exit code, once it has ended by itself. */
+    async ended() {
+      const code = await ended;
+      running.delete(server);
+      return code;
+    },
     /** Ends it as the kernel does that needs memory: it can do nothing more. */
     async kill() {
       running.delete(server);

@@ -1,3 +1,4 @@
+import { Event_Kind } from "../gen/spherule/v1/control_pb";
 import type { Control, Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkChange, LinkState, State } from "../connection/messages";
@@ -10,6 +11,7 @@ import { States } from "./states";
 import type { Pace } from "./timeline";
 import { Traffic } from "./traffic";
 
+const farewells = [Event_Kind.DRAINING, Event_Kind.DEVICE_LOST];
 const soon = 1000; // ms after its facts that the first state of a scene should have come
 
 export interface SessionEvents {
@@ -31,6 +33,7 @@ export class Session {
   refusal = ""; // why the server turned the page away; empty: it did not, or that is over
   retryAt = 0; // ms, as sharedNow() says
   silentSince: number | undefined; // ms: the connection is open, but the server does not answer
+  farewell = ""; // why the server has ended, until one answers again
   welcome: Welcome | undefined;
   facts: Facts | undefined;
   settings: Settings | undefined;
@@ -75,6 +78,7 @@ export class Session {
         this.silentSince = message.since;
         break;
       case "welcome":
+        this.farewell = "";
         this.welcome = message.welcome;
         this.refusal = "";
         this.timeline = undefined; // it may be another server
@@ -135,7 +139,8 @@ export class Session {
         this.events.diagnosed(message.diagnostics);
         break;
       case "event":
-        this.events.happened(message.event);
+        if (farewells.includes(message.event.kind)) this.farewell = message.event.text;
+        else this.events.happened(message.event);
         break;
       case "broken":
         this.events.broken(message.reason);

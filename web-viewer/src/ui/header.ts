@@ -8,6 +8,7 @@ import { h, setText } from "./dom";
 export class Header {
   private readonly scene = h("h1", { "data-testid": "scene-name" }, "Spherule");
   private readonly description = h("p", { "data-testid": "scene-description" });
+  private readonly farewell = h("p", { class: "farewell", "data-testid": "farewell", role: "status" });
   private readonly dot = h("i");
   private readonly words = h("span", { "data-testid": "connection" });
   private readonly role = h("span", { class: "role", "data-testid": "role", hidden: true }, "watching");
@@ -21,7 +22,7 @@ export class Header {
   ) {
     this.link = h("button", { class: "link", type: "button", "data-testid": "retry", click: retry }, this.dot, this.words);
     const brand = h("div", { class: "brand" }, h("span", { class: "mark" }), "Spherule", this.link, this.role);
-    this.element = h("header", {}, brand, this.refusal, this.scene, this.description);
+    this.element = h("header", {}, brand, this.refusal, this.scene, this.farewell, this.description);
   }
 
   update(now: number, standing: Standing, contextLost: boolean): void {
@@ -34,6 +35,9 @@ export class Header {
     this.role.title = hindranceOf(standing);
     setText(this.refusal, session.refusal && `The server says: ${session.refusal}`);
     this.refusal.hidden = !session.refusal;
+    setText(this.farewell, session.farewell);
+    this.farewell.hidden = session.farewell === "";
+    this.description.hidden = session.farewell !== "";
     if (!session.facts) return;
     setText(this.scene, session.facts.name);
     setText(this.description, session.facts.description);

@@ -1,0 +1,44 @@
+#include "compute/gl/fences.h"
+
+#include <utility>
+
+#include "core/pulse.h"
+
+namespace spherule::compute::gl {
+namespace {
+
+// Few enough that they end within seconds on a slow device, many enough that fences cost nothing.
+constexpr unsigned launchesPerFence = 64;
+constexpr GLuint64 look = 1'000'000'000;  // ns; then the context may be lost, which not every driver tells a fence
+
+}  // namespace
+
+Fences::Fences(std::shared_ptr<Context> context) : context_(std::move(context)) {}
+
+Fences::~Fences() {
+    context_->use();
+    for (GLsync fence : fences_) glDeleteSync(fence);
+}
+
+void Fences::launched() {
+    if (++launches_ >= launchesPerFence) add();
+}
+
+void Fences::wait() {
+    add();
+    while (!fences_.empty()) {
+        pulse::beat("waiting for the device");
+        while (glClientWaitSync(fences_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, look) == GL_TIMEOUT_EXPIRED &&
+               !context_->resetCause()) {
+        }
+        glDeleteSync(fences_.front());
+        fences_.pop_front();
+    }
+}
+
+void Fences::add() {
+    launches_ = 0;
+    fences_.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+}
+
+}  // namespace spherule::compute::gl

@@ -1,0 +1,72 @@
+"""What goes wrong on purpose: a driver that fails (faulty_driver.c), a thread that stands still."""
+import ctypes
+import json
+import os
+import time
+
+SEIZE, INTERRUPT, DETACH = 0x4206, 0x4207, 17  # of ptrace
+ALL_CHILDREN = 0x40000000  # __WALL of waitpid: threads, too
+
+
+class FaultyDriver:
+    """Mesa's renderer, until `strike()`; `environment` is for the program that is to have it."""
+
+    def __init__(self, folder, library, fault):
+        self._when = os.path.join(folder, "strike")
+        vendor = os.path.join(folder, "faulty.json")
+        with open(vendor, "w", encoding="utf-8") as file:
+            json.dump({"file_format_version": "1.0.0", "ICD": {"library_path": library}}, file)
+        self.environment = {**os.environ, "__EGL_VENDOR_LIBRARY_FILENAMES": vendor, "SPHERULE_FAULT": fault,
+                            "SPHERULE_FAULT_WHEN": self._when}
+
+    def strike(self):
+        with open(self._when, "w", encoding="utf-8"):
+            pass
+
+
+class HeldThread:
+    """One thread of a process that we started, standing still as long as the with statement lasts."""
+
+    def __init__(self, pid, name):
+        self._id = min(int(task) for task in os.listdir(f"/proc/{pid}/task")
+                       if _read(f"/proc/{pid}/task/{task}/comm").strip() == name)
+        self._held = False
+
+    def __enter__(self):
+        _ptrace(SEIZE, self._id)
+        _ptrace(INTERRUPT, self._id)
+        os.waitpid(self._id, ALL_CHILDREN)
+        self._held = True
+        return self
+
+    def release(self):
+        if self._held:
+            self._held = False
+            try:
+                _ptrace(DETACH, self._id)
+            except ProcessLookupError:  # its process has ended, and waits for us to see that
+                os.waitpid(self._id, ALL_CHILDREN)
+
+    def wait_for_the_end(self, patience):
+        """Of its process; the thread is not released."""
+        end = time.monotonic() + patience
+        while os.waitpid(self._id, ALL_CHILDREN | os.WNOHANG)[0] == 0:
+            if time.monotonic() > end:
+                raise AssertionError(f"the process has not ended within {patience} s")
+            time.sleep(0.02)
+        self._held = False
+
+    def __exit__(self, *_):
+        self.release()
+
+
+def _read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def _ptrace(request, thread):
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.ptrace(request, thread, None, None) != 0:
+        error = ctypes.get_errno()
+        raise OSError(error, os.strerror(error))

@@ -1,0 +1,111 @@
+// An EGL vendor library for tests: Mesa's, but that it fails in the way that SPHERULE_FAULT names, from when the file
+// that SPHERULE_FAULT_WHEN names is there:
+//   reset    the device is reset, and says so once; to take anything down then never ends
+//   hang     the device computes no more; nor does anything end that waits for it
+//   memory   there is no room for buffers of 1 MiB or more
+// Libglvnd loads it by a vendor file (tests/faults/faults.py writes it).
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MIB = 1 << 20, GUILTY_CONTEXT_RESET = 0x8253, TIMEOUT_EXPIRED = 0x911B, OUT_OF_MEMORY = 0x0505 };
+
+typedef void (*Function)(void);
+typedef Function (*GetProcAddress)(const char*);
+
+// The beginning of libglvnd's __EGLapiImports, which it keeps as it is (glvnd/libeglabi.h).
+typedef struct {
+    Function others[3];
+    GetProcAddress getProcAddress;
+} Imports;
+typedef unsigned (*Main)(unsigned version, const void* exports, void* vendor, Imports* imports);
+
+static GetProcAddress mesa;
+
+static int failsBy(const char* fault) {
+    const char* const wanted = getenv("SPHERULE_FAULT");
+    const char* const when = getenv("SPHERULE_FAULT_WHEN");
+    return wanted != NULL && when != NULL && strcmp(wanted, fault) == 0 && access(when, F_OK) == 0;
+}
+
+static void hang(void) {
+    for (;;) pause();
+}
+
+static unsigned resetStatus(void) {
+    static int said;
+    return failsBy("reset") && !said++ ? GUILTY_CONTEXT_RESET : 0;
+}
+
+static unsigned clientWaitSync(void* fence, unsigned flags, unsigned long long nanoseconds) {
+    if (failsBy("hang")) {
+        usleep((unsigned)(nanoseconds / 1000));
+        return TIMEOUT_EXPIRED;
+    }
+    return ((unsigned (*)(void*, unsigned, unsigned long long))mesa("glClientWaitSync"))(fence, flags, nanoseconds);
+}
+
+static void finish(void) {
+    if (failsBy("hang")) hang();
+    mesa("glFinish")();
+}
+
+static void deleteBuffers(int count, const unsigned* names) {
+    if (failsBy("hang") || failsBy("reset")) hang();
+    ((void (*)(int, const unsigned*))mesa("glDeleteBuffers"))(count, names);
+}
+
+static void deleteProgram(unsigned name) {
+    if (failsBy("hang") || failsBy("reset")) hang();
+    ((void (*)(unsigned))mesa("glDeleteProgram"))(name);
+}
+
+static int refused;
+
+static void namedBufferStorage(unsigned name, long size, const void* data, unsigned flags) {
+    if (failsBy("memory") && size >= MIB) {
+        refused = 1;
+        return;
+    }
+    ((void (*)(unsigned, long, const void*, unsigned))mesa("glNamedBufferStorage"))(name, size, data, flags);
+}
+
+static unsigned getError(void) {
+    if (refused) {
+        refused = 0;
+        return OUT_OF_MEMORY;
+    }
+    return ((unsigned (*)(void))mesa("glGetError"))();
+}
+
+static const struct {
+    const char* name;
+    Function function;
+} ours[] = {
+    {"glGetGraphicsResetStatus", (Function)resetStatus}, {"glClientWaitSync", (Function)clientWaitSync},
+    {"glFinish", (Function)finish},                      {"glDeleteBuffers", (Function)deleteBuffers},
+    {"glDeleteProgram", (Function)deleteProgram},        {"glNamedBufferStorage", (Function)namedBufferStorage},
+    {"glGetError", (Function)getError},
+};
+
+static Function getProcAddress(const char* name) {
+    for (unsigned k = 0; k < sizeof ours / sizeof ours[0]; ++k)
+        if (strcmp(name, ours[k].name) == 0) return ours[k].function;
+    return mesa(name);
+}
+
+// What libglvnd calls.
+unsigned __egl_Main(unsigned version, const void* exports, void* vendor, Imports* imports);
+unsigned __egl_Main(unsigned version, const void* exports, void* vendor, Imports* imports) {
+    void* const library = dlopen("libEGL_mesa.so.0", RTLD_NOW | RTLD_LOCAL);
+    const Main main = library == NULL ? NULL : (Main)dlsym(library, "__egl_Main");
+    if (main == NULL || !main(version, exports, vendor, imports)) {
+        fprintf(stderr, "the faulty driver needs Mesa's: %s\n", dlerror());
+        return 0;
+    }
+    mesa = imports->getProcAddress;
+    imports->getProcAddress = getProcAddress;
+    return 1;
+}

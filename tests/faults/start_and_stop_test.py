@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""How the server starts and ends, as its clients and its supervisor see it: start_and_stop_test.py BINARY."""
+import http.client
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from contextlib import contextmanager
+
+from faults import HeldThread
+from serving import Server
+from viewer import Viewer
+
+BINARY = sys.argv.pop()
+SLOW = {"bounds": {"min": [0, 0, 0], "max": [100, 100, 100]},  # takes seconds to be made
+        "groups": [{"radius": {"constant": 0.1}, "fill": {"count": 2_000_000, "min": [0, 0, 0], "max": [100, 100, 100]}}]}
+
+
+class Connection:
+    """HTTP that stays connected, as what asks for health may."""
+
+    def __init__(self, port):
+        self._connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
+
+    def get(self, path):
+        self._connection.request("GET", path)
+        answer = self._connection.getresponse()
+        return answer.status, answer.read().decode()
+
+
+def taken_port():
+    """A socket that listens, and its port."""
+    taken = socket.create_server(("127.0.0.1", 0))
+    return taken, taken.getsockname()[1]
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def at(self, name):
+        return os.path.join(self.folder, name)
+
+    def slow_scene(self):
+        with open(self.at("slow.json"), "w", encoding="utf-8") as file:
+            json.dump(SLOW, file)
+        return self.at("slow.json")
+
+    def refused(self, listen, code, pattern):
+        begun = time.monotonic()
+        done = subprocess.run([BINARY, "serve", self.slow_scene(), "--device", "cpu", "--listen", listen],
+                              capture_output=True, text=True, timeout=60, check=False)
+        self.assertLess(time.monotonic() - begun, 1.5, "it made the scene first")
+        self.assertEqual(done.returncode, code)
+        self.assertRegex(done.stderr, pattern)
+        self.assertEqual(done.stdout, "")
+
+
+class Start(Program):
+    def test_a_port_that_is_taken_is_noticed_before_the_scene_is_made(self):
+        taken, port = taken_port()
+        with taken:
+            self.refused(f"127.0.0.1:{port}", 4, rf"^spherule: 127.0.0.1:{port}: cannot be listened on: Address already in use; "
+                                                 r"end what listens there, or choose another port \(0: any free one\)\n$")
+
+    def test_so_is_an_address_that_is_not_ours(self):
+        self.refused("192.0.2.1:8080", 4, r"192.0.2.1:8080: cannot be listened on: Cannot assign requested address; choose an "
+                                          r"address of this machine \(0.0.0.0: all of them\)\n$")
+        self.refused("no.such.host.invalid:8080", 2, "no.such.host.invalid:8080: cannot be listened on: Host not found")
+
+    @contextmanager
+    def starting(self):
+        """A server that still makes its scene; its port."""
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        with subprocess.Popen([BINARY, "serve", self.slow_scene(), "--device", "cpu", "--listen", f"127.0.0.1:{port}"],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+            try:
+                end = time.monotonic() + 30
+                while time.monotonic() < end:
+                    with socket.socket() as probe:
+                        if probe.connect_ex(("127.0.0.1", port)) == 0:
+                            break
+                    time.sleep(0.01)
+                yield server, port
+            finally:
+                server.kill()
+
+    def test_while_the_scene_is_made_it_is_alive_but_not_ready(self):
+        with self.starting() as (server, port):
+            connection = Connection(port)
+            self.assertEqual(connection.get("/healthz"), (200, "alive\n"))
+            status, ready = connection.get("/readyz")
+            self.assertEqual((status, json.loads(ready)["state"]), (503, "starting"))
+            self.assertEqual(connection.get("/")[0], 200)
+            self.assertEqual(Viewer(port).status, 503)
+            end = time.monotonic() + 120
+            while connection.get("/readyz")[0] != 200 and time.monotonic() < end:
+                time.sleep(0.1)
+            self.assertEqual(Viewer(port).status, 101)
+            server.terminate()
+            self.assertEqual(server.wait(timeout=30), 0)
+
+    def test_it_can_be_stopped_meanwhile(self):
+        with self.starting() as (server, _):
+            begun = time.monotonic()
+            server.terminate()
+            self.assertEqual(server.wait(timeout=30), 0)
+            self.assertLess(time.monotonic() - begun, 1)
+
+
+class Stop(Program):
+    def serve(self, *options):
+        server = Server(BINARY, "serve", "box-4k", "--device", "cpu", *options)
+        server.__enter__()
+        self.addCleanup(server.end, kill=True)
+        return server
+
+    def test_it_is_unready_then_closed_then_tells_then_ends_its_step_and_its_recording_then_closes_with_1012(self):
+        recording = self.at("run.sph")
+        server = self.serve("--record", recording)
+        viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 20)
+        health = Connection(server.port)
+        self.assertEqual(health.get("/readyz")[0], 200)
+        with HeldThread(server.pid, "simulation"):  # a step that takes long
+            os.kill(server.pid, signal.SIGTERM)
+            viewer.wait(lambda one: one.of("event"))
+            status, ready = health.get("/readyz")
+            self.assertEqual((status, json.loads(ready)["state"]), (503, "draining"))
+            self.assertEqual(health.get("/healthz")[0], 200)
+            with self.assertRaises(ConnectionRefusedError):
+                Connection(server.port).get("/readyz")
+            time.sleep(1)
+            self.assertIsNone(viewer.closed, "the step has not ended")
+        self.assertEqual(viewer.ended(), (1012, "the server is stopping"))
+        self.assertEqual([event["kind"] for event in viewer.of("event")], ["DRAINING"])
+        self.assertEqual(viewer.of("event")[0]["text"], "The server is stopping.")
+        self.assertEqual(server.wait(), 0)
+        self.assertRegex(server.said, "recorded [0-9.]+ s in ")
+        done = subprocess.run([BINARY, "export", recording, "--format", "csv", "--out", self.at("run.csv")],
+                              capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("is exported up to", done.stderr)
+
+    def test_a_viewer_that_does_not_read_delays_it_by_10_s_at_most(self):
+        server = self.serve()
+        viewer = Viewer(server.port).wait(lambda one: one.of("frame"))
+        viewer.stall()
+        time.sleep(2)  # until nothing more fits on its way
+        begun = time.monotonic()
+        self.assertEqual(server.end(), 0)
+        self.assertLess(time.monotonic() - begun, 13)
+
+    def test_a_second_signal_ends_it_at_once(self):
+        for more in [], ["unshare", "--pid", "--fork", "--kill-child", "--mount-proc"]:  # also as the first of a container
+            with self.subTest(more=more), tempfile.TemporaryDirectory() as folder:
+                self.second_signal(more, folder)
+
+    def second_signal(self, more, folder):
+        said = open(os.path.join(folder, "said"), "w+", encoding="utf-8")
+        with said, subprocess.Popen([*more, BINARY, "serve", "cradle", "--device", "cpu:1", "--listen", "127.0.0.1:0"],
+                                    stdout=said, stderr=subprocess.STDOUT) as parent:
+            self.addCleanup(parent.kill)
+            end = time.monotonic() + 30
+            while not (found := re.search(r"http://127\.0\.0\.1:(\d+)", open(said.name, encoding="utf-8").read())):
+                self.assertLess(time.monotonic(), end)
+                time.sleep(0.02)
+            pid = parent.pid
+            if more:
+                with open(f"/proc/{pid}/task/{pid}/children", encoding="utf-8") as children:
+                    pid = int(children.read().split()[0])
+            viewer = Viewer(int(found.group(1)))
+            viewer.wait(lambda one: one.of("frame"))
+            viewer.stall()
+            begun = time.monotonic()
+            with HeldThread(pid, "simulation") if not more else _nothing():
+                os.kill(pid, signal.SIGTERM)
+                time.sleep(0.5)
+                self.assertIsNone(parent.poll())
+                os.kill(pid, signal.SIGTERM)
+                while _alive(pid) and time.monotonic() < begun + 5:
+                    time.sleep(0.02)
+            self.assertEqual(parent.wait(timeout=5), 143)
+            self.assertLess(time.monotonic() - begun, 2)
+
+
+@contextmanager
+def _nothing():
+    yield
+
+
+def _alive(pid):
+    try:
+        with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+if __name__ == "__main__":
+    unittest.main()

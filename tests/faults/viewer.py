@@ -1,0 +1,88 @@
+"""A viewer that shares no code with the page or the server: a WebSocket (RFC 6455) of JSON messages."""
+import base64
+import json
+import os
+import socket
+import struct
+import threading
+import time
+
+
+class Viewer:
+    """Reads on a thread of its own what the server sends, until that closes."""
+
+    def __init__(self, port, rate=30):
+        self.messages = []
+        self._stalled = False
+        self.closed = None  # (code, reason), or (None, "") where the connection just ended
+        self._socket = socket.create_connection(("127.0.0.1", port), timeout=30)
+        key = base64.b64encode(os.urandom(16)).decode()
+        self._socket.sendall((f"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                              f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n"
+                              "Sec-WebSocket-Protocol: spherule.v1\r\n\r\n").encode())
+        self._file = self._socket.makefile("rb")
+        self.status = int(self._file.readline().split()[1])
+        while self._file.readline().strip():
+            pass
+        if self.status != 101:
+            self._socket.close()
+            return
+        self._send(0x1, json.dumps({"hello": {"client": "test", "view": {"rate": rate}}}).encode())
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def _send(self, opcode, payload):
+        mask = os.urandom(4)
+        head = bytes([0x80 | opcode])
+        head += bytes([0x80 | len(payload)]) if len(payload) < 126 else struct.pack(">BH", 0x80 | 126, len(payload))
+        self._socket.sendall(head + mask + bytes(byte ^ mask[k % 4] for k, byte in enumerate(payload)))
+
+    def _read(self):
+        try:
+            while self.closed is None and not self._stalled:
+                self._take(*self._frame())
+        except (OSError, ValueError, struct.error, IndexError):
+            self.closed = self.closed or (None, "")
+        if not self._stalled:
+            self._file.close()
+            self._socket.close()
+
+    def _frame(self):
+        head = self._file.read(2)
+        length = head[1] & 0x7F
+        if length == 126:
+            length = struct.unpack(">H", self._file.read(2))[0]
+        elif length == 127:
+            length = struct.unpack(">Q", self._file.read(8))[0]
+        return head[0] & 0xF, self._file.read(length)
+
+    def _take(self, opcode, payload):
+        if opcode == 0x8:
+            self._send(0x8, payload[:2])
+            self.closed = (struct.unpack(">H", payload[:2])[0], payload[2:].decode())
+        elif opcode == 0x9:
+            self._send(0xA, payload)
+        elif opcode == 0x1:
+            self.messages.append((time.monotonic(), json.loads(payload)))
+
+    def stall(self):
+        """Reads no more, and stays connected."""
+        self._stalled = True
+        self._thread.join()
+
+    def of(self, kind):
+        return [message[kind] for _, message in list(self.messages) if kind in message]
+
+    def wait(self, condition, patience=90):
+        """Until `condition(self)`; fails with what has come."""
+        end = time.monotonic() + patience
+        while not condition(self):
+            if time.monotonic() > end:
+                kinds = [list(message)[0] for _, message in self.messages[-20:]]
+                raise AssertionError(f"waited in vain; closed: {self.closed}; last messages: {kinds}; {self.of('event')}")
+            time.sleep(0.02)
+        return self
+
+    def ended(self, patience=30):
+        self.wait(lambda viewer: viewer.closed is not None, patience)
+        return self.closed
