@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every SPHERULE_... that the files of deploy/ and docs/operations.md name is an option of `spherule serve`:
+"""Every SPHERULE_... that the files of deploy/ and docs/operations.md name is a setting of `spherule serve`:
 settings_test.py BINARY"""
 import re
 import subprocess
@@ -9,21 +9,22 @@ import unittest
 from facts import ROOT
 
 BINARY = sys.argv.pop()
+# Tokens are read from the environment alone. The last is of the build: -D SPHERULE_TESTS.
+BESIDES = {"SPHERULE_VIEWER_TOKEN", "SPHERULE_CONTROLLER_TOKEN", "SPHERULE_TESTS"}
 
 
 class Settings(unittest.TestCase):
     def test_each_is_an_option_of_serve(self):
-        said = subprocess.run([BINARY, "serve", "--help"], capture_output=True, text=True, check=True).stdout
-        options = set(re.findall(r"--[a-z-]+", said))
+        helps = [subprocess.run([BINARY, *words, "--help"], capture_output=True, text=True, check=True).stdout
+                 for words in ((), ("serve",))]
+        settings = {name for text in helps for name in re.findall(r"Env:(SPHERULE_[A-Z_]+)", text)}
         files = [path for path in (ROOT / "deploy").rglob("*") if path.is_file() and "secrets" not in path.parts]
         named = {}
         for path in (*files, ROOT / "docs/operations.md"):
-            for name in re.findall(r"SPHERULE_([A-Z_]+)", path.read_text(encoding="utf-8")):
-                named.setdefault("--" + name.lower().replace("_", "-"), path.name)
-        self.assertIn("--listen", named)
-        # Of the build: -D SPHERULE_TESTS.
-        unknown = {option: where for option, where in named.items() if option not in options | {"--tests"}}
-        self.assertEqual(unknown, {})
+            for name in re.findall(r"SPHERULE_[A-Z_]+", path.read_text(encoding="utf-8")):
+                named.setdefault(name, path.name)
+        self.assertIn("SPHERULE_LISTEN", named)
+        self.assertEqual({name: where for name, where in named.items() if name not in settings | BESIDES}, {})
 
 
 if __name__ == "__main__":

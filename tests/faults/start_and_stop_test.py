@@ -54,9 +54,9 @@ class Program(unittest.TestCase):
             json.dump(SLOW, file)
         return self.at("slow.json")
 
-    def refused(self, listen, code, pattern):
+    def refused(self, listen, code, pattern, *options):
         begun = time.monotonic()
-        done = subprocess.run([BINARY, "serve", self.slow_scene(), "--device", "cpu", "--listen", listen],
+        done = subprocess.run([BINARY, "serve", self.slow_scene(), "--device", "cpu", "--listen", listen, *options],
                               capture_output=True, text=True, timeout=60, check=False)
         self.assertLess(time.monotonic() - begun, 1.5, "it made the scene first")
         self.assertEqual(done.returncode, code)
@@ -73,7 +73,7 @@ class Start(Program):
 
     def test_so_is_an_address_that_is_not_ours(self):
         self.refused("192.0.2.1:8080", 4, r"192.0.2.1:8080: cannot be listened on: Cannot assign requested address; choose an "
-                                          r"address of this machine \(0.0.0.0: all of them\)\n$")
+                                          r"address of this machine \(0.0.0.0: all of them\)\n$", "--open")
         self.refused("no.such.host.invalid:8080", 2, "no.such.host.invalid:8080: cannot be listened on: Host not found")
 
     @contextmanager
