@@ -20,7 +20,7 @@ before(async () => {
   file = path.join(folder, "cradle.sph");
   await spherule("run", "cradle", "--for", `${lasts}s`, "--record", file, "--device", "cpu");
   browser = await launch();
-  page = await open(browser, (await play(file, "--paused")).url, { size: [1280, 900] });
+  page = await open(browser, (await play(file, { options: ["--paused"] })).url, { size: [1280, 900] });
 });
 after(async () => {
   await browser?.close();
@@ -207,7 +207,7 @@ test("a recording that was cut off says so, and nothing covers anything else", a
   const cut = path.join(folder, "cut.sph");
   const whole = await readFile(file);
   await writeFile(cut, whole.subarray(0, Math.round(0.6 * whole.length)));
-  const other = await open(browser, (await play(cut, "--paused")).url, { size: [1280, 900] });
+  const other = await open(browser, (await play(cut, { options: ["--paused"] })).url, { size: [1280, 900] });
   const { end, flaw } = await other.evaluate(() => spherule.timeline);
   assert.ok(end > 0 && end < lasts && flaw);
   await other.waitForSelector(control("timeline-flaw"));

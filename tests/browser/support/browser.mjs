@@ -4,10 +4,10 @@ import { serverSays } from "./raw.mjs";
 
 export const patience = 90_000; // ms; software rendering on a busy machine takes its time
 
-export async function launch() {
+export async function launch(...more) {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--disable-background-networking"],
+    args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--disable-background-networking", ...more],
   });
 }
 
