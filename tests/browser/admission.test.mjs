@@ -7,6 +7,7 @@ import { after, before, test } from "node:test";
 import { control, launch, open, shows, visit, when } from "./support/browser.mjs";
 import { enter, give, join, prompt, says, tokens } from "./support/entrance.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
+import { proxyTo } from "./support/proxy.mjs";
 import { play, serve, spherule, stopAll } from "./support/server.mjs";
 
 let server; // that asks for tokens
@@ -266,4 +267,19 @@ test("a server that is full is asked again until there is room", async () => {
   await says(page, "connection", /^connected$/);
   await page.close();
   await small.stop();
+});
+
+test("a server that turns the page away is quoted, and asked again", async () => {
+  const proxy = await proxyTo(server.port);
+  const page = await enter(browser, proxy, tokens.viewer);
+  proxy.stutter(true);
+  proxy.reset();
+  proxy.restore();
+  await says(page, "refusal", /^The server says: hello was said before$/);
+  await says(page, "connection", /^offline, trying again/);
+  proxy.stutter(false);
+  await page.waitForSelector(control("refusal"), { state: "hidden" });
+  await says(page, "connection", /^connected$/);
+  await page.close();
+  proxy.close();
 });

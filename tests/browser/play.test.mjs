@@ -222,7 +222,7 @@ test("the record button records what a server simulates, in a file that can be r
   assert.equal(await live.isVisible(slider), false);
   await live.click(control("record"));
   await when(live, () => spherule.recording.active && spherule.recording.duration > 0.5 && spherule.recording.bytes > 0);
-  assert.equal(await live.getAttribute(control("record"), "aria-pressed"), "true");
+  await live.waitForSelector(`${control("record")}[aria-pressed="true"]`);
   await when(live, () => /^0:\d\d · [\d.]+ [kM]B$/.test(document.querySelector('[data-testid="record-words"]').textContent));
   for (const { width, faults } of await collisionsByWidth(live, 5)) assert.deepEqual(faults, [], `${width} px`);
   await live.click(control("record"));
