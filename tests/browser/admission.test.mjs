@@ -1,50 +1,35 @@
-// Who is let in, and who may steer: the page against a gate that plays the server's part in that.
+// Who is let in, and who may steer.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { control, launch, open, shows, visit, when } from "./support/browser.mjs";
-import { closeGates, gateTo } from "./support/gate.mjs";
+import { enter, give, join, prompt, says, tokens } from "./support/entrance.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
+import { proxyTo } from "./support/proxy.mjs";
 import { play, serve, spherule, stopAll } from "./support/server.mjs";
 
-const tokens = { viewer: "to-look-at", controller: "to-steer" };
-const prompt = `${control("token-prompt")}[open]`;
-
-let server;
+let server; // that asks for tokens
 let browser;
 before(async () => {
-  server = await serve("billiards");
+  server = await serve("billiards", { tokens });
   browser = await launch();
 });
 after(async () => {
   await browser?.close();
-  await closeGates();
   await stopAll();
 });
-
-/** Types the token and presses Enter. */
-async function give(page, token) {
-  await page.waitForSelector(prompt);
-  await page.fill(control("token-field"), token);
-  await page.press(control("token-field"), "Enter");
-}
-
-/** A page that has been let in with the token. */
-async function enter(gate, token, options) {
-  const page = await visit(browser, gate.url, options);
-  await give(page, token);
-  await shows(page);
-  return page;
-}
 
 const text = (page, id) => page.textContent(control(id));
 const stands = (page, kind) => when(page, (wanted) => spherule.standing === wanted, kind);
 const toasts = (page) => page.locator(control("toast")).allTextContents();
 
-async function says(page, id, pattern) {
-  await when(page, ([name, source]) => new RegExp(source).test(document.querySelector(`[data-testid="${name}"]`)?.textContent), [id, pattern.source]);
+/** Stops the server and starts it with these tokens in the same place; returns it. */
+async function startAnew(page, server, tokens) {
+  await server.stop();
+  await when(page, () => spherule.connection === "waiting");
+  return serve("billiards", { port: server.port, tokens });
 }
 
 /** Where in the page, its address or its stores the words are found. */
@@ -58,22 +43,22 @@ function traces(page, words) {
 }
 
 test("a server that asks for no token is never asked about one", async () => {
-  const gate = await gateTo(server);
-  const page = await open(browser, gate.url);
+  const everybodys = await serve("billiards");
+  const page = await open(browser, everybodys.url);
   for (const id of ["token-prompt", "role", "control", "forget-token", "refusal"]) assert.equal(await page.isVisible(control(id)), false, id);
   assert.equal(await page.evaluate(() => spherule.standing), "everybody");
   await page.click(control("pause"));
   await when(page, () => spherule.results.at(-1)?.outcome === "applied");
   assert.deepEqual(page.faults, []);
   await page.close();
-  await gate.close();
+  await everybodys.stop();
 });
 
 test("a token is asked for, a wrong one is said to be wrong, the right one opens", async () => {
-  const gate = await gateTo(server, tokens);
-  const page = await visit(browser, gate.url);
+  let own = await serve("billiards", { tokens });
+  const page = await visit(browser, own.url);
   await page.waitForSelector(prompt);
-  assert.match(await text(page, "token-prompt"), new RegExp(new URL(gate.url).host));
+  assert.match(await text(page, "token-prompt"), new RegExp(new URL(own.url).host));
   await says(page, "connection", /^a token is needed$/);
   assert.equal(await text(page, "token-wrong"), "");
   assert.equal(await page.evaluate(() => document.activeElement.dataset.testid), "token-field");
@@ -97,21 +82,20 @@ test("a token is asked for, a wrong one is said to be wrong, the right one opens
   assert.deepEqual(await traces(page, tokens.controller), ["session"]);
 
   for (let round = 0; round < 2; round++) {
-    const { session, frames } = await page.evaluate(() => ({ session: spherule.session, frames: spherule.frames }));
-    gate.drop();
-    await when(page, (then) => spherule.session > then.session && spherule.frames > then.frames, { session, frames });
+    own = await startAnew(page, own, tokens);
+    const frames = await page.evaluate(() => spherule.frames);
+    await when(page, (then) => spherule.connection === "open" && spherule.frames > then, frames);
   }
   await page.reload();
   await shows(page);
   assert.equal(await page.isVisible(prompt), false);
-  assert.deepEqual(page.faults, []);
+  assert.equal(await own.metric('spherule_rejected_total{cause="no_token"}'), 0);
   await page.close();
-  await gate.close();
+  await own.stop();
 });
 
 test("a dialog that was closed is opened again from the header", async () => {
-  const gate = await gateTo(server, tokens);
-  const page = await visit(browser, gate.url);
+  const page = await visit(browser, server.url);
   await page.waitForSelector(prompt);
   await page.keyboard.type("half");
   await page.keyboard.press("Escape");
@@ -124,45 +108,42 @@ test("a dialog that was closed is opened again from the header", async () => {
   await give(page, tokens.viewer);
   await shows(page);
   await page.close();
-  await gate.close();
 });
 
 test("a remembered token that is refused is forgotten, and so is one that shall be", async () => {
-  const gate = await gateTo(server, { ...tokens });
-  const page = await enter(gate, tokens.controller);
-  gate.tokens.controller = "another";
-  gate.drop();
+  const another = "another-token-of-a-test";
+  const first = await serve("billiards", { tokens });
+  const page = await enter(browser, first, tokens.controller);
+  const second = await startAnew(page, first, { ...tokens, controller: another });
   await page.waitForSelector(prompt);
   assert.equal(await text(page, "token-wrong"), "This token is not known here.");
   assert.deepEqual(await traces(page, tokens.controller), []);
-  await give(page, "another");
+  await give(page, another);
   await says(page, "connection", /^connected$/);
 
   await page.click(control("forget-token"));
   await page.waitForSelector(prompt);
   assert.equal(await text(page, "token-wrong"), "");
-  assert.deepEqual(await traces(page, "another"), []);
+  assert.deepEqual(await traces(page, another), []);
   await page.reload();
   await page.waitForSelector(prompt);
   await page.close();
-  await gate.close();
+  await second.stop();
 });
 
 test("a token in the address is taken out, told, and not used", async () => {
-  const gate = await gateTo(server, tokens);
-  const page = await visit(browser, `${gate.url}?token=${tokens.controller}&theme=dark`);
+  const page = await visit(browser, `${server.url}?token=${tokens.controller}&theme=dark`);
   await page.waitForSelector(prompt);
   assert.deepEqual(await traces(page, tokens.controller), []);
   assert.match(page.url(), /theme=dark/);
   assert.match((await toasts(page)).join(), /Tokens do not belong in addresses/);
   assert.match(await text(page, "token-wrong"), /in the address was not used/);
   await page.close();
-  await gate.close();
 });
 
 test("a viewer watches: what commands is out of use and says why, the rest works", async () => {
-  const gate = await gateTo(server, tokens);
-  const page = await enter(gate, tokens.viewer, { size: [1280, 900] });
+  const commands = await server.metric("spherule_commands_total");
+  const page = await enter(browser, server, tokens.viewer, { size: [1280, 900] });
   await says(page, "role", /^watching$/);
   assert.equal(await page.isVisible(control("role")), true);
   assert.equal(await page.isVisible(control("control")), false);
@@ -180,10 +161,9 @@ test("a viewer watches: what commands is out of use and says why, the rest works
   const eye = await page.evaluate(() => spherule.camera.eye);
   await page.keyboard.press("ArrowLeft");
   await when(page, (then) => spherule.camera.eye[0] !== then[0], eye);
-  assert.deepEqual(gate.passed, []);
+  assert.equal(await server.metric("spherule_commands_total"), commands);
   assert.deepEqual(page.faults, []);
   await page.close();
-  await gate.close();
 });
 
 test("a viewer of a recording cannot move its handle", async () => {
@@ -191,15 +171,13 @@ test("a viewer of a recording cannot move its handle", async () => {
   try {
     const file = path.join(folder, "short.spr");
     await spherule("run", "billiards", "--for", "1", "--device", "cpu", "--record", file);
-    const player = await play(file);
-    const gate = await gateTo(player, tokens);
-    const page = await enter(gate, tokens.viewer);
+    const player = await play(file, { tokens });
+    const page = await enter(browser, player, tokens.viewer);
     await page.waitForSelector(control("timeline"));
     assert.equal(await page.isDisabled(control("timeline")), true);
     assert.match(await page.getAttribute(control("timeline"), "title"), /not steer/);
     assert.equal(await page.isDisabled(control("speed")), true);
     await page.close();
-    await gate.close();
     await player.stop();
   } finally {
     rmSync(folder, { recursive: true });
@@ -207,9 +185,8 @@ test("a viewer of a recording cannot move its handle", async () => {
 });
 
 test("the controls go from one page to another, asked for, kept, withdrawn, handed over and released", async () => {
-  const gate = await gateTo(server, tokens);
-  const one = await enter(gate, tokens.controller);
-  const two = await enter(gate, tokens.controller);
+  const one = await enter(browser, server, tokens.controller);
+  const two = await enter(browser, server, tokens.controller);
   const number = (page) => page.evaluate(() => spherule.session);
   const [first, second] = [await number(one), await number(two)];
   assert.equal(await one.isVisible(control("control")), false, "nobody has them, nothing is shown");
@@ -255,16 +232,14 @@ test("the controls go from one page to another, asked for, kept, withdrawn, hand
   await stands(two, "free");
   assert.deepEqual([...one.faults, ...two.faults], []);
   await two.close();
-  await gate.close();
 });
 
 test("names are shown as text, those alike told apart, and nothing covers anything however many ask", async () => {
-  const gate = await gateTo(server, tokens);
-  const page = await enter(gate, tokens.controller, { size: [1280, 800] });
+  const page = await enter(browser, server, tokens.controller, { size: [1280, 800] });
   await page.click(control("pause"));
   await stands(page, "mine");
   const others = [];
-  for (const name of ["<img src=x onerror=alert(1)>", "twin", "twin", `long ${"name ".repeat(40)}`, "\u202efifth"]) others.push(await gate.join(name));
+  for (const name of ["<img src=x onerror=alert(1)>", "twin", "twin", `long ${"name ".repeat(40)}`, "\u202efifth"]) others.push(await join(server, name));
   await says(page, "control", /and 2 more/);
   const words = await text(page, "control");
   assert.match(words, /<img src=x onerror=alert\(1\)> asks/);
@@ -277,57 +252,34 @@ test("names are shown as text, those alike told apart, and nothing covers anythi
   await says(page, "control", /^You have the controls\s*Release$/);
   assert.deepEqual(page.faults, []);
   await page.close();
-  await gate.close();
+});
+
+test("a server that is full is asked again until there is room", async () => {
+  const small = await serve("billiards", { tokens, options: ["--max-sessions", "1"] });
+  const first = await enter(browser, small, tokens.viewer);
+  const page = await visit(browser, small.url);
+  await says(page, "connection", /^offline, trying again in \d+ s$/);
+  await when(page, () => document.querySelector('[data-testid="retry"]').title === "no answer; click to try now");
+  assert.ok((await small.metric('spherule_rejected_total{cause="sessions"}')) > 0);
+  await first.close();
+  await give(page, tokens.viewer);
+  await shows(page);
+  await says(page, "connection", /^connected$/);
+  await page.close();
+  await small.stop();
 });
 
 test("a server that turns the page away is quoted, and asked again", async () => {
-  const gate = await gateTo(server, tokens);
-  gate.refusal = { code: 1013, reason: "this server is full" };
-  const page = await visit(browser, gate.url);
-  await says(page, "refusal", /^The server says: this server is full$/);
+  const proxy = await proxyTo(server.port);
+  const page = await enter(browser, proxy, tokens.viewer);
+  proxy.stutter(true);
+  proxy.reset();
+  proxy.restore();
+  await says(page, "refusal", /^The server says: hello was said before$/);
   await says(page, "connection", /^offline, trying again/);
-  gate.refusal = { code: 1008, reason: "too many from this address" };
-  await says(page, "refusal", /too many from this address/);
-  gate.refusal = undefined;
-  await give(page, tokens.viewer);
-  await shows(page);
+  proxy.stutter(false);
   await page.waitForSelector(control("refusal"), { state: "hidden" });
+  await says(page, "connection", /^connected$/);
   await page.close();
-  await gate.close();
-});
-
-test("the page keeps to its security policy, whatever is done on it", async () => {
-  const gate = await gateTo(server, tokens);
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
-  const page = await context.newPage();
-  const faults = [];
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
-  await page.exposeFunction("violated", (what) => faults.push(what));
-  await page.addInitScript(() => {
-    document.addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI, sourceFile, lineNumber }) =>
-      window.violated(`${violatedDirective} ${blockedURI} ${sourceFile}:${lineNumber}`),
-    );
-  });
-  const response = await page.goto(gate.url);
-  assert.match(response.headers()["content-security-policy"], /^default-src 'none'/);
-  await give(page, "wrong");
-  await says(page, "token-wrong", /not known/);
-  await give(page, tokens.controller);
-  await shows(page);
-  for (const key of ["1", "2", "3", "4", "5", "Space", ".", "?", "Escape", "c", "c", "l", "d"]) await page.keyboard.press(key);
-  await page.selectOption(control("theme"), "Dark");
-  await page.selectOption(control("gravity-preset"), "Moon");
-  await page.selectOption(control("auto"), { index: 1 });
-  await page.click(control("reset"));
-  await when(page, () => spherule.results.some(({ what }) => what === "Reset"));
-  const asker = await gate.join("asker");
-  await says(page, "control", /asker asks/);
-  asker.close();
-  await page.mouse.click(500, 400);
-  const session = await page.evaluate(() => spherule.session);
-  gate.drop();
-  await when(page, (then) => spherule.session > then, session);
-  assert.deepEqual(faults, []);
-  await context.close();
-  await gate.close();
+  proxy.close();
 });

@@ -20,7 +20,7 @@ before(async () => {
   file = path.join(folder, "cradle.sph");
   await spherule("run", "cradle", "--for", `${lasts}s`, "--record", file, "--device", "cpu");
   browser = await launch();
-  page = await open(browser, (await play(file, "--paused")).url, { size: [1280, 900] });
+  page = await open(browser, (await play(file, { options: ["--paused"] })).url, { size: [1280, 900] });
 });
 after(async () => {
   await browser?.close();
@@ -207,7 +207,7 @@ test("a recording that was cut off says so, and nothing covers anything else", a
   const cut = path.join(folder, "cut.sph");
   const whole = await readFile(file);
   await writeFile(cut, whole.subarray(0, Math.round(0.6 * whole.length)));
-  const other = await open(browser, (await play(cut, "--paused")).url, { size: [1280, 900] });
+  const other = await open(browser, (await play(cut, { options: ["--paused"] })).url, { size: [1280, 900] });
   const { end, flaw } = await other.evaluate(() => spherule.timeline);
   assert.ok(end > 0 && end < lasts && flaw);
   await other.waitForSelector(control("timeline-flaw"));
@@ -222,7 +222,7 @@ test("the record button records what a server simulates, in a file that can be r
   assert.equal(await live.isVisible(slider), false);
   await live.click(control("record"));
   await when(live, () => spherule.recording.active && spherule.recording.duration > 0.5 && spherule.recording.bytes > 0);
-  assert.equal(await live.getAttribute(control("record"), "aria-pressed"), "true");
+  await live.waitForSelector(`${control("record")}[aria-pressed="true"]`);
   await when(live, () => /^0:\d\d · [\d.]+ [kM]B$/.test(document.querySelector('[data-testid="record-words"]').textContent));
   for (const { width, faults } of await collisionsByWidth(live, 5)) assert.deepEqual(faults, [], `${width} px`);
   await live.click(control("record"));

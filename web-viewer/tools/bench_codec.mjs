@@ -2,7 +2,7 @@
 // `spherule_codec_bench --frames FOLDER` writes them.
 import { existsSync, readFileSync } from "node:fs";
 import path from "node:path";
-import { loadDecoder } from "./module.mjs";
+import { loadDecoder } from "./decoder.mjs";
 
 const folder = process.argv[2];
 if (!folder) throw new Error("which folder?");

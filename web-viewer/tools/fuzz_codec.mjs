@@ -6,7 +6,7 @@
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { parseArgs } from "node:util";
-import { loadDecoder } from "./module.mjs";
+import { loadDecoder } from "./decoder.mjs";
 import { draw, seedRandom } from "./fuzz/random.mjs";
 import { frameAt } from "./fuzz/frames.mjs";
 import { mutate } from "./fuzz/mutate.mjs";

@@ -6,6 +6,7 @@ export async function proxyTo(target) {
   const pairs = new Set();
   let swallowing = false;
   let refusing = false;
+  let stuttering = false;
   const server = net.createServer((from) => {
     if (refusing) {
       from.resetAndDestroy();
@@ -13,7 +14,13 @@ export async function proxyTo(target) {
     }
     const pair = { from, to: net.connect(target, "127.0.0.1"), cut: swallowing };
     pairs.add(pair);
-    const pass = (into) => (bytes) => void (pair.cut || into.write(bytes));
+    let asked = false; // for the page, or for the stream
+    const pass = (into) => (bytes) => {
+      if (pair.cut) return;
+      into.write(bytes);
+      if (stuttering && asked && into === pair.to) into.write(bytes);
+      asked = true;
+    };
     // Who is cut off does not hear that the other has left.
     const end = (other) => () => void (pair.cut || other.destroy());
     for (const [one, other] of [
@@ -42,6 +49,10 @@ export async function proxyTo(target) {
     cut() {
       swallowing = true;
       for (const pair of pairs) pair.cut = true;
+    },
+    /** Whatever a page says after its first request comes twice, or no longer does. */
+    stutter(on) {
+      stuttering = on;
     },
     /** New connections work again. What was cut stays so: bytes are missing in it. */
     restore() {

@@ -13,31 +13,40 @@ export async function stopAll() {
 
 /** Runs the program to its end; returns what it printed, or throws with what it complained about. */
 export function spherule(...words) {
+  return run(words, {});
+}
+
+function run(words, more) {
   return new Promise((resolve, reject) => {
-    execFile(binary, words, (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
+    execFile(binary, words, { env: { ...process.env, ...more } }, (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
   });
 }
 
-/** Serves the scene; `port` 0 takes a free one. `folder`: where it runs. `settings`: environment variables. */
-export function serve(scene, { port = 0, device = "cpu", folder, settings } = {}) {
-  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], folder, settings);
+/** Serves the scene; `port` 0 takes a free one. `more`: as for start(). */
+export function serve(scene, { port = 0, device = "cpu", ...more } = {}) {
+  return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], more);
 }
 
-/** Plays the recording. */
-export function play(file, ...options) {
-  return start(["play", file, "--listen", "127.0.0.1:0", ...options]);
+/** Plays the recording. `more`: as for start(). */
+export function play(file, more = {}) {
+  return start(["play", file, "--listen", "127.0.0.1:0"], more);
 }
 
-async function start(words, folder, settings) {
-  const env = { ...process.env, ...settings };
-  const child = spawn(binary, words, { cwd: folder, env, stdio: ["ignore", "pipe", "pipe"] });
+/**
+ * `folder`: where it runs. `options`: more of the command line. `tokens`: { viewer, controller }; without, everybody steers.
+ * `settings`: more environment variables.
+ */
+async function start(words, { folder, options = [], tokens = {}, settings = {} }) {
+  const { viewer = "", controller = "" } = tokens;
+  const env = { ...process.env, SPHERULE_VIEWER_TOKEN: viewer, SPHERULE_CONTROLLER_TOKEN: controller, ...settings };
+  const child = spawn(binary, [...words, ...options], { cwd: folder, env, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   const ended = new Promise((resolve) => child.once("exit", resolve));
   const url = await new Promise((resolve, reject) => {
     child.stdout.on("data", (data) => {
       said += data;
-      const address = /open (http:\S+)/.exec(said)?.[1];
+      const address = /open (https?:\S+)/.exec(said)?.[1];
       if (address) resolve(address);
     });
     void ended.then((code) => reject(new Error(`the server ended with ${code}:\n${said}`)));
@@ -47,7 +56,7 @@ async function start(words, folder, settings) {
     port: Number(new URL(url).port),
     /** Gives a command as a shell would; returns what ctl printed, or throws when it was refused. */
     ctl(...words) {
-      return spherule("ctl", url.replace("http:", "ws:") + "ws", ...words);
+      return run(["ctl", `${url.replace("http", "ws")}ws`, ...words], { SPHERULE_TOKEN: controller });
     },
     /** Its exit code, once it has ended by itself. */
     async ended() {
@@ -66,7 +75,8 @@ async function start(words, folder, settings) {
     thaw: () => child.kill("SIGCONT"),
     /** The value of a metric, as `name` or `name{label="value"}`; undefined: there is none. */
     async metric(name) {
-      const text = await (await fetch(`${url}metrics`)).text();
+      const headers = { Authorization: `Bearer ${controller || viewer}` };
+      const text = await (await fetch(`${url}metrics`, { headers })).text();
       const line = text.split("\n").find((one) => one.startsWith(`${name} `));
       return line && Number(line.slice(name.length));
     },
