@@ -19,6 +19,11 @@ struct CtlOptions {
     unsigned timeoutSeconds = 30;
 };
 
+bool isLocal(const std::string& url) {
+    const auto parts = net::parseUrl(url);
+    return parts && (parts->host == "localhost" || parts->host == "::1" || parts->host.starts_with("127."));
+}
+
 int ctl(const CtlOptions& options) {
     const auto command = net::commandFrom(options.words);
     if (!command) return report(command.error());
@@ -27,6 +32,8 @@ int ctl(const CtlOptions& options) {
     auto token = tokenOf("--token-file", options.tokenFile, "SPHERULE_TOKEN");
     if (!token) return report(token.error());
     target.token = std::move(*token);
+    if (!target.token.empty() && target.url.starts_with("ws://") && !isLocal(target.url))
+        fmt::print(stderr, "the token goes to {} in the clear: use wss:// where others may listen\n", target.url);
     auto authorities = contentOf("--ca", options.authoritiesFile);
     if (!authorities) return report(authorities.error());
     target.authorities = std::move(*authorities);

@@ -1,8 +1,12 @@
 #include "app/options.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <climits>
+#include <string>
 
 #include "app/duration.h"
 #include "app/exit_codes.h"
@@ -71,9 +75,22 @@ void addWatchdog(CLI::App& command, double& seconds) {
         ->default_str("60s");
 }
 
+namespace {
+
+// To stderr, if somebody takes it within a second: a pipe that nobody reads must not keep the program from its end.
+void complain(std::string text) {
+    text.resize(std::min<std::size_t>(text.size(), PIPE_BUF));  // so much is taken at once, or not at all
+    pollfd place{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+    if (poll(&place, 1, 1000) <= 0) return;
+    const auto written = write(STDERR_FILENO, text.data(), text.size());
+    static_cast<void>(written);  // where it cannot be said, there is nobody to tell that
+}
+
+}  // namespace
+
 int report(const Error& error) {
     const char* const advice = error.kind == ErrorKind::DeviceLost ? "; start it again" : "";
-    fmt::print(stderr, "spherule: {}{}\n", error.text(), advice);
+    complain(fmt::format("spherule: {}{}\n", error.text(), advice));
     return exitCodeOf(error.kind);
 }
 

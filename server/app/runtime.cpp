@@ -9,6 +9,7 @@
 #include "app/facts.h"
 #include "app/options.h"
 #include "app/utf8.h"
+#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -114,6 +115,7 @@ bool Runtime::drain() {
     const bool ended = changed_.wait_for(lock, stepPatience, [this] { return ended_; });
     const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
     lock.unlock();
+    const pulse::Unwatched leaving;  // nothing computes any more, and viewers have their time
     refuseWaiting();
     server_->drain();
     return ended && !lost;

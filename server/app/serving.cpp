@@ -85,8 +85,10 @@ int serveUntilStopped(const OpenShow& open, const ServingOptions& serving, const
     // Whether it is to stop. A fault of the show ends the wait, too.
     const auto stopsWithin = [&](long patience) {
         const int signal = signals.wait(patience);
-        if (signal == SIGHUP) reload(**runtime, serving);
-        return signal > 0 && signal != SIGHUP;
+        // Without anything to read anew, it is the terminal that has gone.
+        if (signal != SIGHUP || !hasFiles(serving)) return signal > 0;
+        reload(**runtime, serving);
+        return false;
     };
     bool stopped = false;
     while (!stopped && !(*runtime)->opened() && !(*runtime)->failure()) stopped = stopsWithin(10);

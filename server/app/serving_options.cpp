@@ -62,6 +62,10 @@ void ServingOptions::addTo(CLI::App& command) {
         ->group(limits);
 }
 
+bool hasFiles(const ServingOptions& options) {
+    return !options.viewerTokenFile.empty() || !options.controllerTokenFile.empty() || !options.certificateFile.empty();
+}
+
 Result<net::Secrets> secretsOf(const ServingOptions& options) {
     auto viewer = tokenOf("--viewer-token-file", options.viewerTokenFile, "SPHERULE_VIEWER_TOKEN");
     if (!viewer) return tl::unexpected(viewer.error());

@@ -23,6 +23,8 @@ struct ServingOptions {
 // --listen, with its default.
 void addListen(CLI::App& command, std::string& listen);
 
+// Whether there are secrets that may change while it runs.
+bool hasFiles(const ServingOptions& options);
 // With address and secrets.
 Result<net::Options> netOptionsOf(const ServingOptions& options);
 // Of the files, as they are now, or of SPHERULE_VIEWER_TOKEN and SPHERULE_CONTROLLER_TOKEN: on the command line, other

@@ -40,7 +40,8 @@ class FileAfterEnvironment final : public CLI::ConfigTOML {
 std::string valueText(const std::string& value) {
     double number = 0;
     if (value == "true" || value == "false" || CLI::detail::lexical_cast(value, number)) return value;
-    return '"' + value + '"';
+    const char quote = value.find('"') == std::string::npos ? '"' : '\'';
+    return quote + value + quote;
 }
 
 // As it was given, or by default; empty where there is neither.

@@ -52,8 +52,6 @@ void Watchdog::watch(const std::stop_token& stop, const Hung& hung) {
 }
 
 void endNow(int exitCode) {
-    std::fflush(stdout);
-    std::fflush(stderr);
     (void)logIsWritten();
     _exit(exitCode);
 }

@@ -15,6 +15,7 @@ enum class CloseCause : std::uint8_t {
     Left,         // the client closed, with or without a close frame
     NoHello,      // 1008: no hello first, none in time, or a second one
     NoToken,      // 4401: none, or one that is not known
+    Full,         // 1013: as many sessions are open as may be
     Undecodable,  // 1007
     TooBig,       // 1009
     Protocol,     // 1002: not WebSocket
@@ -24,8 +25,9 @@ enum class CloseCause : std::uint8_t {
     Drained,      // 1012: the server stopped
 };
 
-constexpr std::array<std::string_view, 10> closeCauseNames = {
-    "left", "no_hello", "no_token", "undecodable", "too_big", "protocol", "overflow", "stalled", "silent", "drained"};
+constexpr std::array<std::string_view, 11> closeCauseNames = {"left",        "no_hello", "no_token", "full",
+                                                              "undecodable", "too_big",  "protocol", "overflow",
+                                                              "stalled",     "silent",   "drained"};
 
 // For metrics. Written by the io thread, read by any.
 struct Counters {

@@ -21,10 +21,6 @@ std::string figures(const v1::Statistics& statistics) {
     return status.ok() ? text : status.ToString();
 }
 
-}  // namespace
-
-namespace {
-
 // What a server has to say before, as far as that decides whether a command is one's to give.
 struct Standing {
     std::uint64_t session = 0;

@@ -47,7 +47,8 @@ std::string_view fieldOf(const http::request<http::string_body>& request, http::
 std::string_view bearerOf(const http::request<http::string_body>& request) {
     constexpr std::string_view scheme = "Bearer ";
     const std::string_view value = fieldOf(request, http::field::authorization);
-    return value.starts_with(scheme) ? value.substr(scheme.size()) : std::string_view();
+    const bool given = beast::iequals(beast::string_view(value.data(), std::min(value.size(), scheme.size())), scheme);
+    return given ? value.substr(scheme.size()) : std::string_view();
 }
 
 void describe(http::fields& answer) {
@@ -156,11 +157,6 @@ void HttpConnection::onUpgrade(const Request& request) {
     }
     if (!context_.handlers.ready()) {
         return refuse(request, Rejection::NotReady, 503, "the scene is not ready yet: see /readyz, and try again soon");
-    }
-    if (const auto cause = visit_->openSession()) {
-        return refuse(request, *cause, 503,
-                      *cause == Rejection::Sessions ? "as many sessions are open as may be: try again later"
-                                                    : "as many sessions of this address are open as may be");
     }
     std::make_shared<Session>(std::move(stream_), std::move(visit_), peer_, context_)->run(request);
 }

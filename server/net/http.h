@@ -47,7 +47,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     std::unique_ptr<Visitors::Visit> visit_;
     std::string peer_;  // address
     boost::asio::steady_timer delay_;
-    boost::beast::flat_buffer incoming_;
+    // What Beast's parser keeps back, such as an extension of a chunk that has no end, is bounded by nothing else.
+    boost::beast::flat_buffer incoming_{std::size_t{64} * 1024};
     std::optional<Parser> parser_;
     std::array<char, 4096> discarded_{};
 };

@@ -45,9 +45,11 @@ Result<void> Listener::open() {
         tcp::resolver(io_).resolve(options.host, std::to_string(options.port), tcp::resolver::passive, error);
     if (error) return fail(ErrorKind::Input, address, "cannot be listened on: " + error.message());
     const tcp::endpoint endpoint = found.begin()->endpoint();
-    if (!options.open && !guarded(options.secrets) && !endpoint.address().is_loopback())
+    const bool proxied = !options.places.hosts.empty() || !options.places.origins.empty();
+    if (!options.open && !guarded(options.secrets) && (proxied || !endpoint.address().is_loopback()))
         return fail(ErrorKind::Input, address,
-                    "others reach this address: say who may come in (--controller-token-file FILE, --viewer-token-file "
+                    "others reach it, by this address or by the names that it is given: say who may come in "
+                    "(--controller-token-file FILE, --viewer-token-file "
                     "FILE), or that everybody may view and command (--open)");
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
@@ -80,7 +82,7 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (error) {
         // Mostly out of file descriptors: try again when some session may have ended, rather than spin or give up.
-        spdlog::warn("a connection could not be accepted: {}", error.message());
+        context_.refusals.add(Rejection::Accept, error.message());
         retryTimer_.expires_after(retryAfter);
         retryTimer_.async_wait([self = shared_from_this()](error_code cancelled) {
             if (!cancelled) self->accept();

@@ -10,6 +10,7 @@ namespace spherule::net {
 enum class Rejection : std::uint8_t {
     // Connections, closed without an answer.
     Connections,     // as many are open as may be
+    Accept,          // by the system: mostly, no descriptor was left
     ConnectionRate,  // of this address, too many in a second
     Tls,             // no TLS, or none that is good enough
     // Requests.
@@ -36,27 +37,17 @@ enum class Rejection : std::uint8_t {
     ControlsHeld,  // by somebody else
 };
 
-constexpr std::array<std::string_view, 22> rejectionNames = {"connections",
-                                                             "connection_rate",
-                                                             "tls",
-                                                             "slow_request",
-                                                             "malformed",
-                                                             "long_header",
-                                                             "long_body",
-                                                             "bad_request",
-                                                             "host",
-                                                             "no_token",
-                                                             "wrong_token",
-                                                             "origin",
-                                                             "subprotocol",
-                                                             "handshake",
-                                                             "not_ready",
-                                                             "sessions",
-                                                             "sessions_per_address",
-                                                             "unknown_command",
-                                                             "command_rate",
-                                                             "command_queue",
-                                                             "viewers_command",
+constexpr std::array<std::string_view, 23> rejectionNames = {"connections",     "accept",
+                                                             "connection_rate", "tls",
+                                                             "slow_request",    "malformed",
+                                                             "long_header",     "long_body",
+                                                             "bad_request",     "host",
+                                                             "no_token",        "wrong_token",
+                                                             "origin",          "subprotocol",
+                                                             "handshake",       "not_ready",
+                                                             "sessions",        "sessions_per_address",
+                                                             "unknown_command", "command_rate",
+                                                             "command_queue",   "viewers_command",
                                                              "controls_held"};
 
 constexpr std::string_view nameOf(Rejection cause) {

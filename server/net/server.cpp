@@ -92,7 +92,9 @@ class RunningServer final : public Server {
     [[nodiscard]] Result<Keys> make(const Secrets& secrets) const {
         if (guarded(secrets) != guarded(context_.options.secrets))
             return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
-        Keys keys{.admission = std::make_shared<Admission>(context_.options.places, secrets, scheme_), .tls = nullptr};
+        Places places = context_.options.places;
+        places.hosts.push_back(context_.options.host);  // by which people were told to come
+        Keys keys{.admission = std::make_shared<Admission>(std::move(places), secrets, scheme_), .tls = nullptr};
         if (secrets.certificate.empty() == (scheme_ == "http")) {
             if (secrets.certificate.empty()) return keys;
             auto tls = serverTls(secrets);

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t defaultRate = 30;
 constexpr auto tokenWanted = static_cast<close_code>(4401);
+constexpr double viewsPerSecond = 10;
 constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is given back after the message
 
 }  // namespace
@@ -33,7 +34,8 @@ Session::Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const
                 Liveness::Clock::now()),
       outbox_(context.options.controlQueue),
       pace_(Pace::Clock::now()),
-      commands_(context.options.commandsPerSecond, TokenBucket::Clock::now()) {}
+      commands_(context.options.commandsPerSecond, TokenBucket::Clock::now()),
+      views_(viewsPerSecond, TokenBucket::Clock::now()) {}
 
 void Session::run(const Request& upgrade) {
     id_ = context_.hub.add(shared_from_this());
@@ -75,6 +77,7 @@ void Session::read() {
 }
 
 void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
+    if (finished_) return;  // what had come before the end may be read after it
     if (error) return finish(causeOf(error));
     if (!closing_) {
         const Encoding encoding = stream_.got_text() ? Encoding::Text : Encoding::Binary;
@@ -119,6 +122,13 @@ void Session::onHello(const v1::Hello& hello) {
     liveness_.helloCame();
     const auto role = context_.admission->roleOf(hello.token());
     if (!role) return turnAway(!hello.token().empty());
+    if (const auto cause = visit_->openSession()) {
+        context_.refusals.add(*cause, who());
+        return close(close_code::try_again_later,
+                     *cause == Rejection::Sessions ? "as many sessions are open as may be"
+                                                   : "as many sessions of this address are open as may be",
+                     CloseCause::Full);
+    }
     admit(hello, *role);
 }
 
@@ -150,7 +160,12 @@ void Session::turnAway(bool guessed) {
     });
 }
 
+// What comes too often waits, and only the last of it counts: each change begins a chain anew.
 void Session::onView(const v1::View& view) {
+    if (!views_.take(TokenBucket::Clock::now())) {
+        wish_ = view;
+        return;
+    }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
     const frame::Channel wish{known ? view.tier() : v1::NORMAL,
                               frame::rateFor(view.has_rate() ? view.rate() : defaultRate)};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -96,6 +97,8 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     frame::SharedMessage writing_;
     Encoding encoding_ = Encoding::Binary;
     TokenBucket commands_;
+    TokenBucket views_;
+    std::optional<v1::View> wish_;  // that came too soon after others
     v1::Role role_ = v1::ROLE_UNSPECIFIED;
     SessionId id_ = 0;
     std::string client_ = "a client";

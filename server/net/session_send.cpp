@@ -121,7 +121,8 @@ void Session::watch() {
 }
 
 void Session::onWatch(ErrorCode error) {
-    if (error || finished_) return;
+    if (error || finished_ || turnedAway_) return;
+    if (const auto wish = std::exchange(wish_, std::nullopt)) onView(*wish);
     if (const auto reason = pace_.passed(Clock::now())) follow(*reason);
     askKeyframe();
     pump();

@@ -8,7 +8,7 @@ namespace spherule::net {
 namespace {
 
 // Beside sessions: those that load the page, ask for metrics, or are about to become sessions.
-constexpr std::size_t moreConnections = 64;
+constexpr std::size_t moreConnections = 256;
 constexpr std::size_t moreConnectionsPerAddress = 32;
 constexpr std::size_t fewPlaces = 64;
 
@@ -24,8 +24,9 @@ Address placeOf(const Address& address) {
     return boost::asio::ip::address_v6(bytes);
 }
 
-bool reached(std::size_t limit, std::size_t more, std::size_t count) {
-    return limit > 0 && count >= limit + more;
+// Without a limit of sessions, there is none of what may become one.
+bool reached(std::size_t limit, std::size_t most, std::size_t count) {
+    return limit > 0 && count >= most;
 }
 
 }  // namespace
@@ -47,8 +48,10 @@ Visitors::Visit::~Visit() {
 
 std::optional<Rejection> Visitors::Visit::openSession() {
     Place& place = visitors_->places_.at(place_);
-    if (reached(visitors_->limits_.sessions, 0, visitors_->sessions_)) return Rejection::Sessions;
-    if (reached(visitors_->limits_.sessionsPerAddress, 0, place.sessions)) return Rejection::SessionsPerAddress;
+    const VisitorLimits& limits = visitors_->limits_;
+    if (reached(limits.sessions, limits.sessions, visitors_->sessions_)) return Rejection::Sessions;
+    if (reached(limits.sessionsPerAddress, limits.sessionsPerAddress, place.sessions))
+        return Rejection::SessionsPerAddress;
     session_ = true;
     ++place.sessions;
     ++visitors_->sessions_;
@@ -61,8 +64,8 @@ std::optional<Rejection> Visitors::refuses(const Address& address, Clock::time_p
         places_.try_emplace(placeOf(address), Place{.rate = TokenBucket(limits_.connectionsPerSecond, now)});
     Place& place = found->second;
     if (!place.rate.take(now)) return Rejection::ConnectionRate;
-    if (reached(limits_.sessions, moreConnections, connections_) ||
-        reached(limits_.sessionsPerAddress, moreConnectionsPerAddress, place.connections))
+    if (reached(limits_.sessions, moreConnections, connections_ - sessions_) ||
+        reached(limits_.sessionsPerAddress, moreConnectionsPerAddress, place.connections - place.sessions))
         return Rejection::Connections;
     return std::nullopt;
 }

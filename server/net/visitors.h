@@ -21,7 +21,8 @@ struct VisitorLimits {
 };
 
 // Who is connected, by address: an IPv4 address, or the 64 bits of an IPv6 address that name a network. Beside
-// sessions, there may be some connections more, for pages and handshakes. On the io thread.
+// sessions, there may be some connections more, for pages, handshakes and those of whom it is not known yet whether
+// they may come in. On the io thread.
 class Visitors : public std::enable_shared_from_this<Visitors> {
   public:
     using Clock = TokenBucket::Clock;

@@ -74,7 +74,7 @@ test("a name of somebody else that leads to the server opens nothing", async () 
     assert.equal(await server.metric("spherule_sessions_accepted_total"), 0);
     await server.stop();
 
-    const named = await serve("billiards", { port: before.port, options: ["--host", "evil.example"] });
+    const named = await serve("billiards", { port: before.port, options: ["--open", "--host", "evil.example"] });
     const shown = await open(misled, url);
     assert.deepEqual(await reach(shown, url), { stream: "commanded", metrics: 200, guess: 200, ready: 200, blind: 200 });
     assert.equal(await rejected(named, "host"), 0);

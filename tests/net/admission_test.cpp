@@ -270,12 +270,15 @@ TEST(Doors, LetSoManyInAndNoMore) {
     const auto first = join(owner, 0);
     {
         const auto second = join(owner, 0);
-        const auto third = Client::connect(owner.url(), patience);
-        ASSERT_FALSE(third);
-        EXPECT_NE(third.error().text().find("HTTP 503"), std::string::npos) << third.error().text();
+        const auto third = connect(owner);
+        ASSERT_TRUE(third->send(helloOf(0)));
+        const auto end = readToEnd(*third);
+        EXPECT_EQ(end.code, 1013);
+        EXPECT_EQ(end.reason, "as many sessions are open as may be");
     }
     EXPECT_EQ(owner.counters().rejectedFor(Rejection::Sessions), 1U);
-    EXPECT_TRUE(eventually([&] { return Client::connect(owner.url(), patience).has_value(); }));
+    EXPECT_TRUE(eventually([&] { return owner.counters().sessions == 1; }));
+    join(owner, 0);
 }
 
 TEST(Doors, AskThoseWhoComeTooOftenToWait) {
@@ -291,6 +294,21 @@ TEST(Doors, AskThoseWhoComeTooOftenToWait) {
     EXPECT_GE(answered, 5);
     EXPECT_LT(answered, 12);
     EXPECT_EQ(owner.counters().rejectedFor(Rejection::ConnectionRate), 12U - static_cast<unsigned>(answered));
+}
+
+TEST(Doors, AreNotOpenedByTheNameOfAProxy) {
+    Options options = quickOptions();
+    options.places.origins = {"https://spherule.example.org"};
+    EXPECT_FALSE(startServer(options, {}));
+}
+
+TEST(Doors, KeepBackALittleOfWhatHasNoEnd) {
+    Owner owner;
+    for (const std::string& endless : {"5;" + std::string(1'000'000, 'a'), "0\r\nX: " + std::string(1'000'000, 'a')}) {
+        const RawSocket socket(owner.server().port());
+        socket.send("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n" + endless);
+        EXPECT_EQ(socket.readAll().substr(0, 12), "HTTP/1.1 431");
+    }
 }
 
 TEST(Doors, CloseOnRequestsThatNeverEnd) {

@@ -89,7 +89,7 @@ class Tokens(Files):
                           server.said)
 
     def test_what_cannot_be_meant_is_refused_with_what_to_do(self):
-        self.assertIn("others reach this address", self.refused("--listen", "0.0.0.0:0"))
+        self.assertIn("others reach it", self.refused("--listen", "0.0.0.0:0"))
         self.assertIn("give 16 to 256", self.refused(SPHERULE_VIEWER_TOKEN="short"))
         self.assertIn("is empty", self.refused("--viewer-token-file", self.file("e", "")))
         self.assertIn("give one of the two", self.refused("--open", SPHERULE_VIEWER_TOKEN=VIEWERS))
@@ -200,7 +200,7 @@ class Settings(Files):
         self.assertEqual(call("serve", "--config", "/nowhere.toml").returncode, 2)
 
     def test_lists_are_given_with_commas_in_the_environment(self):
-        with self.serve(SPHERULE_HOST="a.example,b.example") as server:
+        with self.serve("--open", SPHERULE_HOST="a.example,b.example") as server:
             for host, status in (("b.example", 200), ("c.example", 421)):
                 self.assertEqual(server.status("/healthz", Host=host), status)
 
