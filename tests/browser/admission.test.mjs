@@ -271,15 +271,18 @@ test("a server that is full is asked again until there is room", async () => {
 
 test("a server that turns the page away is quoted, and asked again", async () => {
   const proxy = await proxyTo(server.port);
-  const page = await enter(browser, proxy, tokens.viewer);
-  proxy.stutter(true);
-  proxy.reset();
-  proxy.restore();
-  await says(page, "refusal", /^The server says: hello was said before$/);
-  await says(page, "connection", /^offline, trying again/);
-  proxy.stutter(false);
-  await page.waitForSelector(control("refusal"), { state: "hidden" });
-  await says(page, "connection", /^connected$/);
-  await page.close();
-  proxy.close();
+  try {
+    const page = await enter(browser, proxy, tokens.viewer);
+    proxy.stutter(true);
+    proxy.reset();
+    proxy.restore();
+    await says(page, "refusal", /^The server says: hello was said before$/);
+    await says(page, "connection", /^offline, trying again/);
+    proxy.stutter(false);
+    await page.waitForSelector(control("refusal"), { state: "hidden" });
+    await says(page, "connection", /^connected$/);
+    await page.close();
+  } finally {
+    proxy.close();
+  }
 });

@@ -1,5 +1,5 @@
-// What others can do to a server through the browser of somebody whom it trusts: nothing. Each test also meets a server that
-// allows what is tried, so that what fails does not fail for want of trying.
+// What others can do to a server through the browser of somebody whom it trusts: nothing. Each test also tries the same where it
+// is allowed, so that nothing fails for want of trying.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

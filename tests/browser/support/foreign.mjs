@@ -5,6 +5,7 @@ import http from "node:http";
 export async function foreignSite() {
   const server = http.createServer((_, response) => response.writeHead(200, { "Content-Type": "text/html" }).end("<!doctype html><title>Foreign</title>"));
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  server.unref(); // a failed test may leave it behind
   const { port } = server.address();
   return {
     url: `http://127.0.0.1:${port}/`,
