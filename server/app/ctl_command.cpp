@@ -5,6 +5,7 @@
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/secret_files.h"
+#include "net/client.h"
 #include "net/ctl.h"
 
 namespace spherule::app {
