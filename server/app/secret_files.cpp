@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 
 #include "net/admission.h"
 
@@ -17,7 +16,9 @@ constexpr std::size_t longestFile = std::size_t{1} << 20U;
 Result<std::string> contentOf(const std::string& option, const std::string& path) {
     if (path.empty()) return std::string();
     std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::string text(longestFile + 1, '\0');  // never more: it may be a device that has no end
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
     if (!file.good() && !file.eof()) return fail(ErrorKind::Input, option, path + " cannot be read");
     if (text.empty()) return fail(ErrorKind::Input, option, path + " is empty, or cannot be read");
     if (text.size() > longestFile) return fail(ErrorKind::Input, option, path + " is longer than 1 MiB");

@@ -30,12 +30,6 @@ std::string_view nameOf(std::string_view host) {
     return host.substr(0, host.find(':'));
 }
 
-bool isAddress(std::string_view name) {
-    boost::system::error_code error;
-    boost::asio::ip::make_address(std::string(name), error);
-    return !error;
-}
-
 bool isPort(std::string_view text) {
     return !text.empty() && text.size() <= 5 &&
            std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -45,6 +39,16 @@ bool isName(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '.' || c == '_';
     });
+}
+
+// make_address() ends at a zero byte and takes any text for a zone.
+bool isAddress(std::string_view name) {
+    const auto zone = name.find('%');
+    if (zone != std::string_view::npos && !isName(name.substr(zone + 1))) return false;
+    if (name.find('\0') != std::string_view::npos) return false;
+    boost::system::error_code error;
+    boost::asio::ip::make_address(std::string(name), error);
+    return !error;
 }
 
 bool isHostAndPort(std::string_view host) {

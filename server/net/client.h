@@ -13,16 +13,6 @@
 
 namespace spherule::net {
 
-struct Url {
-    bool secure = false;
-    std::string host;
-    std::string port;
-    std::string path;
-};
-
-// Of ws://host[:port][/path], or wss:// for TLS; port 80, or 443, and path /ws where they are missing.
-Result<Url> parseUrl(const std::string& url);
-
 // How the connection ended: the server's close frame, or code 1006 when there was none.
 struct CloseFrame {
     std::uint16_t code = 0;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "net/client.h"
+#include "net/url.h"
 
 namespace spherule::net {
 

@@ -73,7 +73,7 @@ bool Pace::stepUp(Clock::time_point now) {
 
 std::optional<std::string> Pace::lost(Clock::time_point now) {
     losses_.push_back(now);
-    while (now - losses_.front() > together) losses_.pop_front();
+    while (losses_.size() > severalLosses || now - losses_.front() > together) losses_.pop_front();
     quietSince_ = now;
     if (losses_.size() < severalLosses || !stepDown(now)) return std::nullopt;
     return fmt::format("{} frames in {} s were more than the connection or the client takes", severalLosses,

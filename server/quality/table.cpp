@@ -36,12 +36,20 @@ const Json& member(const Json& object, const std::string& where, const char* nam
     return *found;
 }
 
+// A list may be deeper than the stack: nlohmann/json reads it without recursion, but writes it with.
+std::string shown(const Json& value) {
+    if (value.is_structured()) return value.is_array() ? "a list" : "an object";
+    return scene::shown(value.dump());
+}
+
 double number(const Json& object, const std::string& where, const char* name, double least) {
     const Json& value = member(object, where, name);
     const bool good = value.is_number() && std::isfinite(value.get<double>()) && value.get<double>() >= least;
     if (!good)
-        throw Wrong{scene::at(where, name),
-                    fmt::format("is {}, must be a number of at least {}", scene::shown(value.dump()), least)};
+        throw Wrong{scene::at(where, name), fmt::format("is {}, must be a number of at least {}", shown(value), least)};
+    constexpr double most = 1e12;  // what is reckoned with them stays finite
+    if (value.get<double>() > most)
+        throw Wrong{scene::at(where, name), fmt::format("is {}, must be at most {}", shown(value), most)};
     return value.get<double>();
 }
 

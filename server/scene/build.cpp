@@ -11,6 +11,7 @@
 #include "scene/materials.h"
 #include "scene/occupancy.h"
 #include "scene/quality.h"
+#include "scene/radii.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
 
@@ -23,8 +24,20 @@ double smallestRadiusOf(const std::vector<Sphere>& spheres) {
     return static_cast<double>(std::min_element(spheres.begin(), spheres.end(), byRadius)->radius);
 }
 
+// That it draws, where it does so; what is wrong with it is said later.
+double largestRadiusOf(const v1::Group& group) {
+    Check check;
+    return group.has_radius() ? std::max(smallestRadius, readRadii(check, group.radius(), "").max) : smallestRadius;
+}
+
 void readGroups(Check& check, const v1::Scene& message, const std::optional<std::filesystem::path>& directory,
                 const Overrides& overrides, Scene& scene) {
+    if (static_cast<std::uint32_t>(message.groups_size()) > maxGroups)
+        return check.refuse("groups",
+                            fmt::format("has {} entries, must have at most {}", message.groups_size(), maxGroups));
+    double largest = smallestRadius;
+    for (const v1::Group& group : message.groups()) largest = std::max(largest, largestRadiusOf(group));
+    Occupancy occupancy(largest);
     for (std::size_t i = 0; i < static_cast<std::size_t>(message.groups_size()) && check.ok(); ++i) {
         const v1::Group& group = message.groups(static_cast<int>(i));
         const auto first = static_cast<std::uint32_t>(scene.spheres.size());
@@ -34,6 +47,7 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
                                                  .seed = overrides.seed,
                                                  .directory = directory,
                                                  .taken = scene.spheres,
+                                                 .occupancy = occupancy,
                                                  .room = maxSpheres - first});
         scene.groups.push_back({group.name(), first, static_cast<std::uint32_t>(spheres.size()), group.colour()});
         if (first == 0) {
@@ -87,17 +101,16 @@ Result<Scene> build(const v1::Scene& message, const Overrides& overrides) {
 namespace {
 
 // Refuses the first of `added` that overlaps one of `taken`.
-void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector<Sphere>& taken) {
-    double largest = 0;
-    for (const std::vector<Sphere>* spheres : {&added, &taken})
-        for (const Sphere& sphere : *spheres) largest = std::max(largest, static_cast<double>(sphere.radius));
-    Occupancy occupied(taken.size(), largest);
+void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector<Sphere>& taken, Occupancy& occupied) {
+    constexpr std::uint64_t mostWork = 4'000'000'000;  // some ten seconds
     for (const Sphere& sphere : taken) occupied.add(sphere.position, static_cast<double>(sphere.radius));
     for (std::size_t k = 0; k < added.size() && check.ok(); ++k) {
         const glm::dvec3& p = added[k].position;
         if (!occupied.isFree(p, static_cast<double>(added[k].radius)))
             check.refuse("group", fmt::format("sphere {} at {:g} {:g} {:g} overlaps one that is there already", k, p.x,
                                               p.y, p.z));
+        if (occupied.work() > mostWork)
+            check.refuse("group", "is too much to compare with all that is there already; add it in parts");
     }
 }
 
@@ -106,9 +119,14 @@ void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector
 Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene) {
     Check check;
     const std::size_t room = maxSpheres - std::min<std::size_t>(maxSpheres, scene.spheres.size());
-    std::vector<Sphere> spheres =
-        readGroup(check, group, scene, {.field = "group", .taken = scene.spheres, .room = room});
-    if (check.ok()) checkFree(check, spheres, scene.spheres);
+    if (scene.groups.size() >= maxGroups)
+        return fail(ErrorKind::Input, "group", fmt::format("is one too many, a scene has at most {}", maxGroups));
+    double largest = largestRadiusOf(group);
+    for (const Sphere& sphere : scene.spheres) largest = std::max(largest, static_cast<double>(sphere.radius));
+    Occupancy occupancy(largest);
+    std::vector<Sphere> spheres = readGroup(
+        check, group, scene, {.field = "group", .taken = scene.spheres, .occupancy = occupancy, .room = room});
+    if (check.ok() && !group.has_fill()) checkFree(check, spheres, scene.spheres, occupancy);
     if (check.ok() && !spheres.empty()) checkResolution(check, scene.bounds, smallestRadiusOf(spheres), "group.radius");
     if (!check.ok()) return check.error();
     return spheres;

@@ -18,7 +18,7 @@ namespace {
 // what 0.3 needs keeps an impossible wish from taking forever.
 constexpr std::uint64_t workPerSphere = 2'000;
 constexpr std::uint64_t workAtLeast = 10'000'000;
-constexpr std::uint64_t workAtMost = 4'000'000'000;  // some tens of seconds
+constexpr std::uint64_t workAtMost = 4'000'000'000;  // some tens of seconds, for all groups of a scene
 constexpr double jammed = 0.38;
 
 // Large ones first: they find no place later. Equal radii keep their order.
@@ -40,14 +40,14 @@ glm::dvec3 drawPlace(Random& random, const Box& region, double radius) {
 
 bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector<Obstacle>& obstacles,
               Occupancy& occupancy, Random& random, std::size_t& placed) {
-    const std::uint64_t budget = occupancy.work() + std::clamp(workPerSphere * spheres.size(), workAtLeast, workAtMost);
-    std::uint64_t work = 0;
+    const std::uint64_t budget =
+        std::min(occupancy.work() + std::max(workPerSphere * spheres.size(), workAtLeast), workAtMost);
     for (const std::uint32_t i : byFallingRadius(spheres)) {
         pulse::beat("placing spheres");
         const auto radius = static_cast<double>(spheres[i].radius);
         do {
-            work += 1 + obstacles.size();
-            if (work + occupancy.work() > budget) return false;
+            occupancy.addWork(1 + obstacles.size());
+            if (occupancy.work() > budget) return false;
             spheres[i].position = drawPlace(random, region, radius);
         } while (obstacleAt(obstacles, spheres[i].position, radius) || !occupancy.isFree(spheres[i].position, radius));
         occupancy.add(spheres[i].position, radius);
@@ -59,7 +59,7 @@ bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector
 }  // namespace
 
 std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
-                             std::span<const Sphere> taken, SourceInput input) {
+                             Occupancy& taken, SourceInput input) {
     const Radii radii = requiredRadii(check, input);
     const Box region = check.box(fill.min(), fill.max(), input.field);
     const std::string countField = at(input.field, "count");
@@ -86,12 +86,8 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
         sphere.spin = input.spin;
         sphere.radius = radii.draw(input.random);
     }
-    double largest = radii.max;
-    for (const Sphere& sphere : taken) largest = std::max(largest, static_cast<double>(sphere.radius));
-    Occupancy occupancy(spheres.size() + taken.size(), largest);
-    for (const Sphere& sphere : taken) occupancy.add(sphere.position, static_cast<double>(sphere.radius));
     std::size_t placed = 0;
-    if (!placeAll(spheres, region, obstacles, occupancy, input.random, placed)) {
+    if (!placeAll(spheres, region, obstacles, taken, input.random, placed)) {
         check.refuse(countField,
                      fmt::format("asks for {} spheres, but no free place was found after {}; lower the count "
                                  "or make the region larger",

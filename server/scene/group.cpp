@@ -43,7 +43,9 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
         case v1::Group::kLattice:
             return fromLattice(check, message.lattice(), std::move(input));
         case v1::Group::kFill:
-            return fromFill(check, message.fill(), scene.obstacles, context.taken, std::move(input));
+            for (std::size_t k = context.occupancy.size(); k < context.taken.size(); ++k)
+                context.occupancy.add(context.taken[k].position, static_cast<double>(context.taken[k].radius));
+            return fromFill(check, message.fill(), scene.obstacles, context.occupancy, std::move(input));
         case v1::Group::kCsv:
             if (context.directory) return fromCsv(check, message.csv(), *context.directory, std::move(input));
             check.refuse(input.field, fmt::format("names the file {}, but only a scene file may name files; give the "
@@ -97,6 +99,9 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     const std::uint8_t material =
         materialNamed(check, message.material(), scene.materials, at(context.field, "material"));
     check.colour(message.colour(), at(context.field, "colour"));
+    if (message.name().size() > longestGroupName)
+        check.refuse(at(context.field, "name"),
+                     fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestGroupName));
     if (!check.ok()) return {};
 
     std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/check.h"
+#include "scene/occupancy.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
@@ -18,7 +19,8 @@ struct GroupContext {
     std::uint64_t stream = 0;                          // of random numbers; groups with one seed differ in it
     std::optional<std::uint64_t> seed{};               // in place of the group's own
     std::optional<std::filesystem::path> directory{};  // of the scene file; none: files may not be named
-    std::span<const Sphere> taken{};                   // a fill keeps clear of these
+    std::span<const Sphere> taken{};                   // a fill keeps clear of these;
+    Occupancy& occupancy;                              // it may hold the first of them, and holds all after a fill
     std::size_t room = 0;                              // spheres that the scene may still take
 };
 

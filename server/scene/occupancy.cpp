@@ -4,9 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spherule::scene {
 
@@ -22,28 +22,33 @@ bool overlap(const glm::dvec3& a, double radiusA, const glm::dvec3& b, double ra
 
 }  // namespace
 
-Occupancy::Occupancy(std::size_t expected, double largest)
-    : slots_(std::bit_ceil(std::max<std::size_t>(expected, 64))), largest_(largest) {}
-
 // Cells that follow each other in x have slots that do so too: a row of them is one place in memory.
-std::size_t Occupancy::slotOf(const glm::dvec3& cell) const {
-    const auto integer = [](double value) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)); };
+std::size_t Occupancy::slotOf(const Level& level, const glm::dvec3& cell) {
+    // A sphere that has left the world may be anywhere.
+    const auto integer = [](double value) {
+        return static_cast<std::uint64_t>(std::abs(value) < 0x1p62 ? static_cast<std::int64_t>(value) : 0);
+    };
     std::uint64_t hash = integer(cell.y) * 0x9e3779b97f4a7c15U;
     hash = (hash ^ (hash >> 32U) ^ integer(cell.z)) * 0xbf58476d1ce4e5b9U;
-    return static_cast<std::size_t>(((hash ^ (hash >> 32U)) + integer(cell.x)) & (slots_ - 1));
+    return static_cast<std::size_t>(((hash ^ (hash >> 32U)) + integer(cell.x)) & (level.heads.size() - 1));
 }
 
 void Occupancy::add(const glm::dvec3& centre, double radius) {
-    // Class k holds the radii above largest / 2^(k+1), up to largest / 2^k.
-    const int sizeClass = std::ilogb(largest_ / radius);
+    constexpr std::size_t fewest = 64;
+    // Class k holds the radii above typical / 2^(k+1), up to typical / 2^k.
+    const int sizeClass = std::ilogb(typical_ / radius);
     Level& level = levels_[sizeClass];
-    if (level.heads.empty()) {
-        level.cell = std::ldexp(2 * largest_, -sizeClass);
-        level.heads.assign(slots_, none);
-    }
-    std::uint32_t& head = level.heads[slotOf(glm::floor(centre / level.cell))];
-    level.items.push_back({centre, radius, head});
-    head = static_cast<std::uint32_t>(level.items.size() - 1);
+    level.cell = std::ldexp(2 * typical_, -sizeClass);
+    level.items.push_back({centre, radius, none});
+    ++size_;
+    if (level.items.size() <= level.heads.size()) return link(level, level.items.size() - 1);
+    level.heads.assign(std::max(fewest, 2 * level.heads.size()), none);
+    for (std::size_t k = 0; k < level.items.size(); ++k) link(level, k);
+}
+
+void Occupancy::link(Level& level, std::size_t item) {
+    std::uint32_t& head = level.heads[slotOf(level, glm::floor(level.items[item].centre / level.cell))];
+    level.items[item].next = std::exchange(head, static_cast<std::uint32_t>(item));
 }
 
 bool Occupancy::isFreeIn(const Level& level, const glm::dvec3& centre, double radius) {
@@ -61,7 +66,7 @@ bool Occupancy::isFreeIn(const Level& level, const glm::dvec3& centre, double ra
         for (cell.y = low.y; cell.y <= high.y; ++cell.y) {
             for (cell.x = low.x; cell.x <= high.x; ++cell.x) {
                 ++work_;
-                for (auto i = level.heads[slotOf(cell)]; i != none; i = level.items[i].next, ++work_) {
+                for (auto i = level.heads[slotOf(level, cell)]; i != none; i = level.items[i].next, ++work_) {
                     if (overlap(level.items[i].centre, level.items[i].radius, centre, radius)) return false;
                 }
             }

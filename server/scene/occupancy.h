@@ -12,16 +12,18 @@ namespace spherule::scene {
 // that large among many small ones costs no more than equal ones.
 class Occupancy {
   public:
-    // `expected` spheres, none larger than `largest` (m), are quick; more or larger ones are slower, not wrong.
-    Occupancy(std::size_t expected, double largest);
+    // Quickest where the largest radius is `typical` (m).
+    explicit Occupancy(double typical) : typical_(typical) {}
 
     void add(const glm::dvec3& centre, double radius);
+    [[nodiscard]] std::size_t size() const { return size_; }
 
     // No sphere overlaps this one. Touching is free.
     [[nodiscard]] bool isFree(const glm::dvec3& centre, double radius);
 
-    // Cells and spheres looked at so far: what the questions have cost.
+    // Cells and spheres looked at so far: what the questions have cost. Who asks may add what it cost to ask.
     [[nodiscard]] std::uint64_t work() const { return work_; }
+    void addWork(std::uint64_t work) { work_ += work; }
 
   private:
     struct Item {
@@ -31,16 +33,17 @@ class Occupancy {
     };
     struct Level {
         double cell = 0;                   // m, as wide as the largest sphere of the class
-        std::vector<std::uint32_t> heads;  // chains by hash of the cell
+        std::vector<std::uint32_t> heads;  // chains by hash of the cell, at least one for each item
         std::vector<Item> items;
     };
 
-    [[nodiscard]] std::size_t slotOf(const glm::dvec3& cell) const;
+    [[nodiscard]] static std::size_t slotOf(const Level& level, const glm::dvec3& cell);
+    static void link(Level& level, std::size_t item);
     [[nodiscard]] bool isFreeIn(const Level& level, const glm::dvec3& centre, double radius);
 
     std::map<int, Level> levels_;
-    std::size_t slots_;
-    double largest_;
+    double typical_;
+    std::size_t size_ = 0;
     std::uint64_t work_ = 0;
 };
 

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "scene/check.h"
+#include "scene/occupancy.h"
 #include "scene/radii.h"
 #include "scene/random.h"
 #include "spherule/v1/scene.pb.h"
@@ -39,8 +39,9 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
 std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
                             SourceInput input);
 
-// Clear of `obstacles` and of `taken`. Gives up, and refuses, when free places become too hard to find.
+// Clear of `obstacles` and of `taken`, to which they are added. Gives up, and refuses, when free places become too hard
+// to find.
 std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
-                             std::span<const Sphere> taken, SourceInput input);
+                             Occupancy& taken, SourceInput input);
 
 }  // namespace spherule::scene

@@ -17,6 +17,7 @@
 
 #include "crowd.h"
 #include "net/client.h"
+#include "net/url.h"
 #include "report.h"
 
 // Many viewers of one server, some of them bad, in one process: what they are sent is checked, and how old it is.

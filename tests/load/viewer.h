@@ -16,6 +16,7 @@
 
 #include "chain_check.h"
 #include "net/client.h"
+#include "net/url.h"
 #include "tally.h"
 
 namespace spherule::load {

@@ -5,6 +5,7 @@
 
 #include "net/client.h"
 #include "net/ctl.h"
+#include "net/url.h"
 
 namespace spherule::net {
 namespace {

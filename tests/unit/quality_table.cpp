@@ -76,6 +76,13 @@ TEST(QualityTable, ThatIsWrongSaysWhereAndHowToMendIt) {
     EXPECT_EQ(
         refusalOf(with("\"spheres\": 101", "\"spheres\": 0")),
         "t.json: models.balanced[1].curves.bed overlap.spheres: is \"0\", must be a number of at least 1" + advice);
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    EXPECT_EQ(
+        refusalOf(with("\"error\": 0.001", "\"error\": " + deep)),
+        "t.json: models.balanced[0].curves.bed overlap.error: is a list, must be a number of at least 0" + advice);
+    EXPECT_EQ(
+        refusalOf(with("\"cost\": 0.4", "\"cost\": 1e200")),
+        "t.json: models.balanced[0].curves.bed overlap.cost: is \"1e+200\", must be at most 1000000000000" + advice);
     EXPECT_EQ(refusalOf(with("1e-6", "1e999")), "t.json: holds a number that is too large" + advice);
 }
 

@@ -77,6 +77,17 @@ TEST(SceneFill, RefusesAtOnceWhatTheVolumeCannotHold) {
               std::string::npos);
 }
 
+TEST(SceneFill, KeepsClearOfEveryEarlierGroup) {
+    std::string groups =
+        R"({"lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.4}, "radius": {"constant": 0.1}})";
+    for (int k = 0; k < 300; ++k)
+        groups += R"(,{"fill": {"min": [0,0,0], "max": [1,1,1], "count": 1}, "radius": {"constant": )" +
+                  std::string(k % 2 == 0 ? "0.03" : "0.01") + "}}";
+    const Scene scene = sceneWith(R"("groups": [)" + groups + "]");
+    EXPECT_EQ(scene.spheres.size(), 327U);
+    EXPECT_EQ(overlapsIn(scene), 0U);
+}
+
 TEST(SceneFill, GivesUpWhenThereIsNoRoom) {
     const std::string text = refusalOf(fill(R"("count": 720)", R"({"constant": 0.05})"));
     EXPECT_EQ(text.substr(0, 78), "groups[0].fill.count: asks for 720 spheres, but no free place was found after ")
@@ -96,7 +107,7 @@ TEST(SceneFill, RefusesWhatCannotBe) {
 
 TEST(SceneFill, OccupancyAgreesWithAllPairs) {
     Random random(3);
-    Occupancy occupancy(10, 0.15);  // far too few and too small: slower, with the same answers
+    Occupancy occupancy(0.15);  // smaller than the largest: slower, with the same answers
     std::vector<std::pair<glm::dvec3, double>> taken;
     int free = 0;
     for (int i = 0; i < 3000; ++i) {

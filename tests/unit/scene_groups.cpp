@@ -118,6 +118,23 @@ TEST(SceneGroups, TogetherAreLimitedInNumber) {
               "15999999");
 }
 
+TEST(SceneGroups, AreLimitedInNumberAndName) {
+    std::string groups = R"({"list": {}, "name": ")" + std::string(longestGroupName, 'n') + R"("})";
+    EXPECT_EQ(refusalOf(R"("groups": [)" + groups + "]"), "accepted");
+    for (std::uint32_t k = 0; k < maxGroups; ++k) groups += R"(,{"list":{}})";
+    EXPECT_EQ(refusalOf(R"("groups": [)" + groups + "]"), "groups: has 10001 entries, must have at most 10000");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "name": ")" + std::string(longestGroupName + 1, 'n') + "\"")),
+              "groups[0].name: is 201 bytes long, must be at most 200");
+
+    Scene full = sceneWith("");
+    full.groups.resize(maxGroups);
+    const auto spawned = buildGroup(
+        parsed(object(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.1}]})"))).groups(0),
+        full);
+    ASSERT_FALSE(spawned);
+    EXPECT_EQ(spawned.error().text(), "group: is one too many, a scene has at most 10000");
+}
+
 TEST(SceneGroups, AnInlineSceneMayNotNameFiles) {
     EXPECT_EQ(
         refusalOf(group(R"("csv": {"file": "/etc/passwd"})")),
