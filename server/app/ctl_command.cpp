@@ -5,8 +5,8 @@
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/secret_files.h"
-#include "net/client.h"
 #include "net/ctl.h"
+#include "net/url.h"
 
 namespace spherule::app {
 
