@@ -54,6 +54,7 @@ TEST(Visitors, ThatAreGoneAreForgotten) {
 TEST(Visitors, HaveALimitOfConnectionsThatAreNoSessions) {
     const auto visitors =
         std::make_shared<Visitors>(VisitorLimits{.sessions = 10, .sessionsPerAddress = 0, .connectionsPerSecond = 0});
+    EXPECT_FALSE(visitors->refuses(make_address("10.0.0.2"), {}));
     const auto session = visitors->admit(make_address("10.0.0.2"));
     EXPECT_FALSE(session->openSession());
     std::vector<std::unique_ptr<Visitors::Visit>> inside;
