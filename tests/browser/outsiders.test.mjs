@@ -46,7 +46,9 @@ for (const [words, given] of [
     assert.equal(await server.metric("spherule_commands_total"), 0);
     await server.stop();
 
-    const kind = await serve("billiards", { tokens: given, options: ["--origin", site.origin] });
+    // Who names another site says also who may come in.
+    const options = ["--origin", site.origin, ...(given ? [] : ["--open"])];
+    const kind = await serve("billiards", { tokens: given, options });
     assert.deepEqual(await reach(foreign, kind.url), { ...refused, stream: given ? "closed with 4401" : "commanded" });
     assert.equal(await rejected(kind, "origin"), 0);
     await kind.stop();
