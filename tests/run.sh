@@ -102,8 +102,9 @@ fuzzed() {
 if [[ -n $fuzz ]]; then
     needed packages ./deploy/install_packages.sh build run egl software test fuzz
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
-    needed build cmake --build --preset fuzz -j "$jobs" --target fuzz_scene fuzz_message fuzz_codec fuzz_recording
-    for target in scene message codec recording; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
+    targets=(scene csv table text message connection codec recording)
+    needed build cmake --build --preset fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
+    for target in "${targets[@]}"; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
     summary
     exit
 fi

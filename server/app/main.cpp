@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <google/protobuf/stubs/logging.h>
 #include <CLI/CLI.hpp>
 
 #include <csignal>
@@ -66,6 +67,8 @@ int main(int argc, char** argv) {
     // A file that may not grow any more, or a pipe that nobody reads, is an error of the write, not the end.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    // It would write a line to stderr for each bad message, from the thread that serves; they are refused and counted.
+    google::protobuf::SetLogHandler(nullptr);
     try {
         return spherule::app::runCommand(argc, argv);
     } catch (const std::bad_alloc&) {

@@ -74,6 +74,16 @@ void refuseSphere(Check& check, const v1::Group& message, const std::string& sou
     }
 }
 
+// Each sphere meets each obstacle, here once and then in every substep.
+void checkWork(Check& check, const Scene& scene, const std::string& source, std::size_t spheres) {
+    const std::size_t pairs = spheres * scene.obstacles.size();
+    if (pairs <= maxObstaclePairs) return;
+    check.refuse(source,
+                 fmt::format("makes {} spheres in all, {} pairs with the {} obstacles, but a scene holds at most "
+                             "{}; use fewer of one or the other",
+                             spheres, pairs, scene.obstacles.size(), maxObstaclePairs));
+}
+
 void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, const std::string& source,
                  const std::vector<Sphere>& spheres) {
     for (std::size_t i = 0; i < spheres.size(); ++i) {
@@ -106,6 +116,7 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
 
     std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));
     for (Sphere& sphere : spheres) sphere.material = material;
+    if (check.ok()) checkWork(check, scene, source, context.taken.size() + spheres.size());
     if (check.ok()) checkPlaces(check, message, scene, source, spheres);
     return spheres;
 }

@@ -118,6 +118,17 @@ TEST(SceneGroups, TogetherAreLimitedInNumber) {
               "15999999");
 }
 
+TEST(SceneGroups, MayNotMeetTooManyObstacles) {
+    std::string obstacles = R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})";
+    for (std::uint32_t k = 1; k < maxObstacles; ++k)
+        obstacles += R"(, {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})";
+    EXPECT_EQ(refusalOf(R"("obstacles": [)" + obstacles + "], " +
+                        group(R"("radius": {"constant": 0.002}, "lattice": {"min": [0, 0, 0], "max": [1, 1, 1],
+                                 "spacing": 0.005, "count": 1000001})")),
+              "groups[0].lattice: makes 1000001 spheres in all, 1000001000 pairs with the 1000 obstacles, but a scene "
+              "holds at most 1000000000; use fewer of one or the other");
+}
+
 TEST(SceneGroups, AreLimitedInNumberAndName) {
     std::string groups = R"({"list": {}, "name": ")" + std::string(longestGroupName, 'n') + R"("})";
     EXPECT_EQ(refusalOf(R"("groups": [)" + groups + "]"), "accepted");

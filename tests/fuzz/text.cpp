@@ -1,0 +1,43 @@
+// Short texts that clients and addresses bring: names of hosts and origins, tokens, URLs, quantities, and what is
+// logged.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "core/quantity.h"
+#include "net/admission.h"
+#include "net/text.h"
+#include "net/url.h"
+
+namespace {
+
+using namespace spherule;
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+void comeIn(const std::string& text) {
+    static const net::Admission gate({.hosts = {"spherule.example.org"}, .origins = {"https://example.org:8443"}},
+                                     {.viewerToken = "0123456789abcdef", .controllerToken = "fedcba9876543210"},
+                                     "http");
+    // Whoever is let in by name goes by one of those that were given, or by an address.
+    if (gate.isHost(text)) require(net::checkHost(text).has_value());
+    if (gate.isOrigin(text, "localhost:8080")) require(net::checkOrigin(text).has_value());
+    require(gate.roleOf(text).has_value() == (text == "0123456789abcdef" || text == "fedcba9876543210"));
+    if (net::checkToken(text, "")) require(text.size() >= 16);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text(reinterpret_cast<const char*>(data), size);
+    comeIn(text);
+    if (const auto url = net::parseUrl(text)) require(!url->host.empty() && !url->port.empty() && !url->path.empty());
+    (void)quantityOf(text);
+    require(net::closeReason(text).size() <= 123);
+    require(std::ranges::all_of(net::printable(text), [](char c) { return c >= ' ' && c <= '~'; }));
+    return 0;
+}
