@@ -25,11 +25,13 @@ Result<void> Writer::add(Kind kind, double time, std::string_view message) {
         return fail(ErrorKind::Refused, file_.path(), "cannot record time that goes back");
     if (message.size() > mostPayload)
         return fail(ErrorKind::Refused, file_.path(), "cannot hold a frame of more than 1 GiB: record fewer spheres");
+    const bool plays = index_.frames > 0;
     index_.add(kind, time, file_.size());
     time_ = time;
     if (auto done = file_.write(recordBytes(kind, time, message)); !done) return done;
     const auto now = std::chrono::steady_clock::now();
-    if (now - flushed_ < flushEvery) return {};
+    const bool firstFrame = !plays && index_.frames > 0;
+    if (!firstFrame && now - flushed_ < flushEvery) return {};
     flushed_ = now;
     return file_.flush();
 }

@@ -11,8 +11,8 @@
 
 namespace spherule::store {
 
-// Writes a recording: what is in it can be read at any moment up to about a second before, whatever happens then. Used
-// by one thread. After an error nothing more is to be written.
+// Writes a recording: from its first frame on, what is in it can be read at any moment up to about a second before,
+// whatever happens then. Used by one thread. After an error nothing more is to be written.
 class Writer {
   public:
     // Refuses a file that is there, unless it may be replaced.

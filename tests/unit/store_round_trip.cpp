@@ -40,6 +40,19 @@ TEST_F(RoundTrip, EveryFrameComesBackInIdOrderInMetres) {
     EXPECT_FALSE(*recording->next());
 }
 
+TEST_F(RoundTrip, AFilePlaysFromItsFirstFrameOnWhileItIsWritten) {
+    const Film film = store::film(folder_ / "whole.sph", 1);
+    auto writer = Writer::create(path_, false);
+    ASSERT_TRUE(writer);
+    for (const std::string& record : film.records) {
+        const std::size_t bytes = record.size() - recordHeadBytes - checksumBytes;
+        ASSERT_TRUE(writer->add(static_cast<Kind>(record[4]), 0, record.substr(recordHeadBytes, bytes)));
+    }
+    auto recording = Recording::open(path_);
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(recording->frames(), 1U);
+}
+
 TEST_F(RoundTrip, SeekGoesToTheFrameThatIsNotAfterTheTime) {
     const Film film = store::film(path_, 23);
     auto recording = Recording::open(path_);
