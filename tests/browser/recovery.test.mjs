@@ -51,7 +51,7 @@ test("after resets of its connection the page goes on where the server is", asyn
     for (let round = 0; round < 3; round++) {
       proxy.reset();
       await says(page, /^offline/);
-      assert.equal(await page.evaluate(() => spherule.connection), "waiting");
+      await when(page, () => spherule.connection === "waiting");
       proxy.restore();
       await expectRight(page, server);
     }
