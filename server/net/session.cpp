@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <boost/asio/bind_cancellation_slot.hpp>
+
 #include "core/log.h"
 #include "net/text.h"
 
@@ -73,7 +75,7 @@ void Session::onAccepted(ErrorCode error) {
 }
 
 void Session::read() {
-    stream_.async_read(incoming_, bind(&Session::onRead));
+    stream_.async_read(incoming_, boost::asio::bind_cancellation_slot(endOfRead_.slot(), bind(&Session::onRead)));
 }
 
 void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
@@ -95,7 +97,7 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
     }
     incoming_.clear();
     if (incoming_.capacity() > keptBuffer) incoming_.shrink_to_fit();
-    if (!turnedAway_) read();
+    if (!turnedAway_ && !closing_) read();  // the peer's goodbye is read by what closes
 }
 
 void Session::onMessage(v1::ClientMessage message) {
@@ -156,7 +158,6 @@ void Session::turnAway(bool guessed) {
         self->turnedAway_ = false;
         self->close(tokenWanted, "this token is not known here", CloseCause::NoToken);
         self->watch();
-        self->read();  // the peer's goodbye
     });
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <boost/asio/cancellation_signal.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/message.hpp>
@@ -88,6 +89,8 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     std::unique_ptr<Visitors::Visit> visit_;
     std::string peer_;  // address
     boost::asio::steady_timer watchTimer_;
+    boost::asio::cancellation_signal endOfRead_;
+    boost::asio::cancellation_signal endOfClose_;
     boost::beast::flat_buffer incoming_;
     Liveness liveness_;
     LatestSlot<frame::Link> offered_;

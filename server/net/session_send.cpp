@@ -1,6 +1,7 @@
 // The sending half of a session: its lanes, its clock, its end.
 #include <utility>
 
+#include <boost/asio/bind_cancellation_slot.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
@@ -158,14 +159,20 @@ void Session::close(close_code code, const std::string& reason, CloseCause cause
     liveness_.closeBegan(Clock::now());
     if (!stream_.is_open()) return finish(cause);
     stream_.async_close({code, closeReason(reason)},
-                        [self = shared_from_this()](ErrorCode) { self->finish(self->cause_); });
+                        asio::bind_cancellation_slot(endOfClose_.slot(), [self = shared_from_this()](ErrorCode) {
+                            self->finish(self->cause_);
+                        }));
 }
 
 // For a peer that does not take what is sent: a close frame would wait behind it, and so would the kernel's copy.
+// Beast's read and close wait for each other for ever when the peer breaks the protocol as it is told goodbye, and no
+// end of the socket ends them.
 void Session::abort(CloseCause cause) {
     if (finished_) return;
     ErrorCode ignored;
     beast::get_lowest_layer(stream_).socket().set_option(asio::socket_base::linger(true, 0), ignored);
+    endOfRead_.emit(asio::cancellation_type::terminal);
+    endOfClose_.emit(asio::cancellation_type::terminal);
     finish(closing_ ? cause_ : cause);
 }
 

@@ -62,10 +62,8 @@ std::string hello() {
     return framed(0x82, message.SerializeAsString());
 }
 
-std::string sentBy(std::uint8_t how, std::string_view rest) {
-    if ((how & 2U) == 0) return std::string(rest);
-    std::string sent(upgrade);
-    if ((how & 4U) != 0) sent += hello();
+std::string framesOf(std::uint8_t how, std::string_view rest) {
+    std::string sent = (how & 4U) != 0 ? hello() : "";
     while (rest.size() >= 3) {
         const auto number = [&](std::size_t at) { return static_cast<std::uint8_t>(rest[at]); };
         const std::size_t length = std::min<std::size_t>(number(1) + 256U * number(2), rest.size() - 3);
@@ -143,10 +141,12 @@ class Served {
 // The other end.
 class Client {
   public:
-    Client(int socket, std::string sent) : socket_(socket), left_(std::move(sent)) {}
+    explicit Client(int socket) : socket_(socket) {}
     ~Client() { close(socket_); }
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;
+
+    void say(std::string_view more) { left_ += more; }
 
     // What the sockets take and have. False when that was nothing.
     bool work() {
@@ -173,16 +173,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0) return 0;
     std::array<int, 2> ends{};
     require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) == 0);
-    Client client(ends[0], sentBy(data[0], {reinterpret_cast<const char*>(data + 1), size - 1}));
+    Client client(ends[0]);
     Served served(ends[1]);
     if ((data[0] & 1U) != 0) served.wantTokens();
-    const bool hasty = (data[0] & 8U) != 0;
-    bool clientWorked = true;
-    bool servedWorked = true;
-    while (clientWorked || servedWorked) {
-        clientWorked = client.work();
-        servedWorked = !hasty && served.work();
+    const auto workOn = [&](bool servedToo) {
+        for (bool worked = true; worked;) {
+            worked = client.work();
+            if (servedToo && served.work()) worked = true;
+        }
+    };
+    const std::string_view rest(reinterpret_cast<const char*>(data + 1), size - 1);
+    const bool upgrades = (data[0] & 2U) != 0;
+    if (upgrades) {
+        client.say(upgrade);
+        workOn(true);  // what comes before the answer would belong to no frame
     }
+    client.say(upgrades ? framesOf(data[0], rest) : rest);
+    workOn((data[0] & 8U) == 0);
     client.leave();
     for (int waits = 0; !served.ended();) {
         const bool read = client.work();

@@ -1,0 +1,103 @@
+// Nothing that a server does for a client outlives it. A connection of its own, over a pair of sockets: where an
+// operation has not ended, the io_context still has work.
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/strand.hpp>
+
+#include "net/http.h"
+
+namespace spherule::net {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace std::string_literals;
+namespace asio = boost::asio;
+
+constexpr std::string_view upgrade =
+    "GET /ws HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+    "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Protocol: spherule.v1\r\n\r\n";
+
+class Ends : public testing::Test {
+  protected:
+    Ends() {
+        if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends_.data()) != 0)
+            throw std::runtime_error("no pair of sockets");
+        const auto address = asio::ip::make_address("127.0.0.1");
+        if (context_.visitors->refuses(address, Visitors::Clock::now())) throw std::runtime_error("refused");
+        asio::ip::tcp::socket socket(asio::make_strand(io_), asio::ip::tcp::v4(), ends_[1]);
+        std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), nullptr),
+                                         context_.visitors->admit(address), "127.0.0.1", context_)
+            ->run();
+    }
+    ~Ends() override { close(ends_[0]); }
+
+    void send(std::string_view bytes) {
+        ASSERT_EQ(::send(ends_[0], bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
+    }
+    // Serves until the server has said it.
+    void await(std::string_view what) {
+        while (said_.find(what) == std::string::npos && io_.run_one_for(10s) > 0) {
+            std::array<char, 4096> bytes{};
+            const ssize_t length = ::recv(ends_[0], bytes.data(), bytes.size(), 0);
+            if (length > 0) said_.append(bytes.data(), static_cast<std::size_t>(length));
+        }
+        ASSERT_NE(said_.find(what), std::string::npos);
+    }
+    void openStream() {
+        send(upgrade);
+        await("\r\n\r\n");
+    }
+    // Until nothing more comes by itself, or 10 s have passed.
+    void expectEnd() {
+        io_.run_for(10s);
+        EXPECT_TRUE(io_.stopped()) << "an operation waits for ever";
+        EXPECT_EQ(context_.counters.sessions, 0U);
+    }
+
+    static Options quick() {
+        Options options;
+        options.helloTimeout = 100ms;
+        options.progressTimeout = 300ms;
+        return options;
+    }
+
+    asio::io_context io_{1};
+    Context context_{
+        .options = quick(), .handlers = {}, .admission = std::make_shared<Admission>(Places{}, Secrets{}, "http")};
+    std::array<int, 2> ends_{};
+    std::string said_;
+};
+
+TEST_F(Ends, WhenThePeerBreaksTheProtocolInTheSameBreathAsItIsToldGoodbye) {
+    openStream();
+    send("\x82\x83\0\0\0\0\xff\xff\xff\xf0\x80\0\0\0\0"s);
+    expectEnd();
+}
+
+TEST_F(Ends, WhenThePeerBreaksTheProtocolWithTheRestOfAMessageThatIsUnderWay) {
+    openStream();
+    send("\x81\x8a\0\0\0\0a"s);
+    await("no hello came in time");
+    send("\xc3\xc3\xc3\xc3\xc3\xc3\xc3\xc3\xc3");  // no UTF-8
+    expectEnd();
+}
+
+TEST_F(Ends, WhenThePeerNeitherReadsNorLeaves) {
+    openStream();
+    expectEnd();
+}
+
+}  // namespace
+}  // namespace spherule::net
