@@ -68,7 +68,7 @@ class Ends : public testing::Test {
 
     static Options quick() {
         Options options;
-        options.helloTimeout = 100ms;
+        options.helloTimeout = 500ms;
         options.progressTimeout = 300ms;
         return options;
     }
