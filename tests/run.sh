@@ -100,7 +100,7 @@ fuzzed() {
 }
 
 if [[ -n $fuzz ]]; then
-    needed packages ./deploy/install_packages.sh build run egl software test fuzz
+    needed packages ./deploy/install_packages.sh build run egl software test clang
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
     targets=(scene csv table text message connection codec recording)
     needed build cmake --build --preset fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
@@ -108,13 +108,14 @@ if [[ -n $fuzz ]]; then
     summary
     exit
 fi
-needed packages ./deploy/install_packages.sh build run egl software test
 if [[ -n $sanitize ]]; then
+    needed packages ./deploy/install_packages.sh build run egl software test clang
     phase asan sanitized asan
     phase tsan sanitized tsan
     summary
     exit
 fi
+needed packages ./deploy/install_packages.sh build run egl software test
 needed ase ./tests/unpack_ase.sh build/ase
 needed nginx ./tests/deploy/unpack_nginx.sh build/nginx
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
