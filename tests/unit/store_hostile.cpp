@@ -1,7 +1,6 @@
 // Files that nobody should write. Each is sound as far as its checksums go.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -125,7 +124,7 @@ TEST_F(Hostile, IndexesAreNotTrusted) {
     beyond.entries[2].offset = std::numeric_limits<std::uint64_t>::max();
     EXPECT_EQ(refusal(beyond), "");
     Index endless = good;
-    endless.end = NAN;
+    endless.end = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(refusal(endless), "");
     Index astray = good;
     astray.entries[2].offset += 1;
