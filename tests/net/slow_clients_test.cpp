@@ -8,7 +8,7 @@
 namespace spherule::net {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SANITIZED
 constexpr bool memoryIsMeasurable = false;  // the sanitizers keep what is freed
 #else
 constexpr bool memoryIsMeasurable = true;
