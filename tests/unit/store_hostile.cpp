@@ -1,6 +1,7 @@
 // Files that nobody should write. Each is sound as far as its checksums go.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
