@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -73,9 +74,9 @@ class Ends : public testing::Test {
         return options;
     }
 
-    asio::io_context io_{1};
     Context context_{
         .options = quick(), .handlers = {}, .admission = std::make_shared<Admission>(Places{}, Secrets{}, "http")};
+    asio::io_context io_{1};  // what waits in it for ever knows the context
     std::array<int, 2> ends_{};
     std::string said_;
 };
