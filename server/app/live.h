@@ -14,6 +14,7 @@ namespace spherule::app {
 // What the simulation thread last said of itself, for health pages and metrics. Any thread.
 struct LiveReport {
     std::string state = "starting";  // starting, running, paused; draining or failed for good
+    std::string slow;                // why it may take a while to see what was asked for; empty: it does not
     compute::DeviceInfo device;
     std::vector<std::string> scenes;  // that can be loaded by name
     std::string scene;

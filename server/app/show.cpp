@@ -16,4 +16,13 @@ v1::CommandResult resultOf(const v1::Command& command, const Result<v1::Applied>
     return result;
 }
 
+std::string changeOf(const v1::Command& command) {
+    if (command.has_load()) {
+        const v1::LoadScene& load = command.load();
+        return "load " + utf8(load.has_scene() ? load.scene().name() : load.name());
+    }
+    if (command.has_step()) return "step";
+    return command.has_reset() ? "reset" : command.has_spawn() ? "spawn" : "set";
+}
+
 }  // namespace spherule::app

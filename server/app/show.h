@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "app/live.h"
@@ -32,6 +33,10 @@ struct Outlets {
 
 // The answer to a command.
 v1::CommandResult resultOf(const v1::Command& command, const Result<v1::Applied>& applied);
+
+// The change that a command asks for, in words: "load box-50k", "reset",
+// "spawn", "set", "step".
+std::string changeOf(const v1::Command& command);
 
 // What a show has to do with: what is asked of it, what it says of itself, where its results go.
 struct Stage {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <new>
+#include <string>
 #include <utility>
 
 #include "app/facts.h"
@@ -16,11 +17,27 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then waits this long for a state
-constexpr int commandsPerStep = 32;
+constexpr int commandsPerTurn = 32;
+// A step is done as a whole where that takes no longer; commands come between the substeps of longer ones.
+constexpr auto wholeStep = 100ms;
+constexpr auto sliceOfStep = 20ms;
+constexpr auto sliceOfChange = 5ms;  // at least; as much time as stepping takes, where both are to be done
+constexpr auto longestHold = 500ms;  // of a command that waits for a change under way to end
+constexpr std::size_t mostStepCommands = 64;
 
 // Whether the world, or how it goes on, may be another after it.
 bool changesWorld(const v1::Command& command) {
     return command.has_set() || command.has_load() || command.has_reset() || command.has_spawn() || command.has_push();
+}
+
+// Needs the world as it is, and so waits while that is being changed.
+bool waitsForChange(const v1::Command& command) {
+    return command.has_set() || command.has_spawn() || command.has_push();
+}
+
+// Ends the steps that were asked for.
+bool endsSteps(const v1::Command& command) {
+    return command.has_pause() || command.has_resume() || command.has_load() || command.has_reset();
 }
 
 }  // namespace
@@ -49,24 +66,33 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
 }
 
 Result<void> SimLoop::simulate(const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
+    Result<void> done;
+    while (done && !stop.stop_requested()) {
         pulse::beat("serving viewers");
-        for (int k = 0; k < commandsPerStep; ++k) {
-            auto request = requests_.tryPop();
-            if (!request) break;
-            serve(*request);
-        }
-        const auto now = Pacer::Clock::now();
-        if (world_.running() && world_.pacer().untilDue(now) == Pacer::Clock::duration{}) {
-            if (auto done = step(); !done) return done;
-        } else if (auto request = requests_.popFor(patience(now))) {
-            serve(*request);
-        }
+        serveWaiting();
+        const bool worked = goOn(done);
+        if (!done) break;
+        tellOfChange();
         produce(Pacer::Clock::now());
-        if (auto done = report(); !done) return done;
+        done = report();
         tellOfTape();
+        if (worked) continue;
+        if (auto request = requests_.popFor(patience(Pacer::Clock::now()))) serve(std::move(*request));
     }
-    return {};
+    constexpr const char* reason = "the server is stopping";
+    if (change_) refuseChange(reason);
+    refuseSteps(reason);
+    return done;
+}
+
+// A part of the step under way and of the change under way; false when there is neither.
+bool SimLoop::goOn(Result<void>& done) {
+    const auto start = Pacer::Clock::now();
+    const bool due = world_.running() && world_.pacer().untilDue(start) == Pacer::Clock::duration{};
+    if (due) done = stepFor(start);
+    if (!done || !world_.changing()) return due;
+    advanceChange(std::max<Pacer::Clock::duration>(sliceOfChange, Pacer::Clock::now() - start));
+    return true;
 }
 
 Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
@@ -76,36 +102,122 @@ Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
     return wait;
 }
 
-void SimLoop::serve(const Request& request) {
-    Result<v1::Applied> applied;
+void SimLoop::serveWaiting() {
+    for (; !held_.empty() && !world_.changing(); held_.pop_front()) serve(std::move(held_.front().request));
+    for (int k = 0; k < commandsPerTurn; ++k) {
+        auto request = requests_.tryPop();
+        if (!request) break;
+        serve(std::move(*request));
+    }
+    const auto now = Pacer::Clock::now();
+    for (; !held_.empty() && now - held_.front().since > longestHold; held_.pop_front())
+        refuse(held_.front().request, changeInWords() + ": wait until that is done, or cancel it");
+}
+
+void SimLoop::serve(Request request) {
+    const v1::Command& command = request.command;
+    if (world_.changing() && waitsForChange(command)) {
+        held_.push_back({std::move(request), Pacer::Clock::now()});
+        return;
+    }
+    std::optional<Result<v1::Applied>> applied;
     try {
-        applied = apply(request.command);
+        applied = apply(command);
     } catch (const std::bad_alloc&) {
         applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
     }
-    if (applied && changesWorld(request.command)) {
+    if (!applied) {
+        if (change_) refuseChange(fmt::format("session {} has asked for {}", request.session, changeOf(command)));
+        change_ = Asked{std::move(request), Pacer::Clock::now()};
+    } else if (command.has_step() && *applied) {
+        announce();
+        const std::uint32_t count = command.step().count();
+        steps_.push_back({.asked = {std::move(request), Pacer::Clock::now()}, .left = count});
+    } else {
+        finish(request, *applied);
+    }
+}
+
+void SimLoop::finish(const Request& request, const Result<v1::Applied>& applied) {
+    const v1::Command& command = request.command;
+    if (applied && changesWorld(command)) {
         tuner_.forget();
         observer_.disturbed();
         nextReport_ = {};  // what energy there is at the start is soon gone
     }
-    if (!request.command.has_query() && applied) announce();
-    outlets_.reply(request.session, resultOf(request.command, applied));
+    if (applied && (command.has_load() || command.has_reset())) stepMs_ = 0;
+    if (applied && endsSteps(command)) refuseSteps("came before all its steps were done");
+    if (!command.has_query() && applied) announce();
+    outlets_.reply(request.session, resultOf(command, applied));
 }
 
-Result<v1::Applied> SimLoop::apply(const v1::Command& command) {
+// Nothing: a change is under way, and has its result later.
+std::optional<Result<v1::Applied>> SimLoop::apply(const v1::Command& command) {
     Result<void> done;
-    if (command.has_start_recording())
+    if (command.has_start_recording()) {
         done = tape_.start();
-    else if (command.has_stop_recording())
+    } else if (command.has_stop_recording()) {
         done = tape_.stop();
-    else if (command.has_seek())
+    } else if (command.has_seek()) {
         done = fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that");
-    else
+    } else if (command.has_cancel()) {
+        done = cancel();
+    } else if (command.has_step() && steps_.size() >= mostStepCommands) {
+        done = fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()));
+    } else {
         return world_.apply(command);
+    }
     if (!done) return tl::unexpected(done.error());
     v1::Applied applied;
     applied.set_step(world_.simulation().steps());
     return applied;
+}
+
+Result<void> SimLoop::cancel() {
+    if (change_) {
+        world_.cancelChange();
+        refuseChange("cancelled");
+    } else if (!steps_.empty()) {
+        world_.pause();
+        refuseSteps("cancelled");
+    } else {
+        return fail(ErrorKind::Refused, "", "nothing is under way that could be cancelled");
+    }
+    return {};
+}
+
+void SimLoop::refuse(const Request& request, const std::string& reason) {
+    outlets_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason)));
+}
+
+// The change that was under way, and what waited for its end.
+void SimLoop::refuseChange(const std::string& reason) {
+    refuse(change_->request, reason);
+    change_.reset();
+    for (; !held_.empty(); held_.pop_front()) refuse(held_.front().request, reason);
+}
+
+void SimLoop::refuseSteps(std::string_view reason) {
+    for (const Steps& steps : steps_) {
+        const std::uint32_t asked = steps.asked.request.command.step().count();
+        refuse(steps.asked.request, fmt::format("{} of {} steps were done: {}", asked - steps.left, asked, reason));
+    }
+    steps_.clear();
+}
+
+// A part of the change under way.
+void SimLoop::advanceChange(Pacer::Clock::duration slice) {
+    std::optional<Result<v1::Applied>> applied;
+    try {
+        applied = world_.advanceChange(slice);
+    } catch (const std::bad_alloc&) {
+        world_.cancelChange();
+        applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
+    }
+    if (!applied) return;
+    const Request request = std::move(change_->request);
+    change_.reset();
+    finish(request, *applied);
 }
 
 // After anything that a command may have changed.
@@ -124,17 +236,32 @@ void SimLoop::announce() {
     ++version_;
 }
 
-Result<void> SimLoop::step() {
-    const auto start = Pacer::Clock::now();
-    if (auto done = world_.step(); !done) return done;
+// The step under way, or the next one, as far as it goes before commands must be looked at.
+Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
+    const auto slice = world_.simulation().midStep() ? sliceOfStep : wholeStep;
+    const auto ended = world_.advance(now + slice);
     const auto end = Pacer::Clock::now();
-    const double wallMs = std::chrono::duration<double, std::milli>(end - start).count();
+    stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
+    if (!ended) return tl::unexpected(ended.error());
+    if (!*ended) return {};
+    const double wallMs = std::exchange(stepMs_, 0);
     world_.pacer().stepped(end);
     observer_.stepped(wallMs);
     ++version_;
     for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
     stopAtNonFinite();
+    countStep();
     return tune(wallMs);
+}
+
+// For whoever asked for it.
+void SimLoop::countStep() {
+    if (steps_.empty() || --steps_.front().left > 0) return;
+    v1::Applied applied;
+    applied.set_step(world_.simulation().steps());
+    const Request& request = steps_.front().asked.request;
+    outlets_.reply(request.session, resultOf(request.command, applied));
+    steps_.pop_front();
 }
 
 Result<void> SimLoop::tune(double wallMs) {
@@ -152,6 +279,7 @@ void SimLoop::stopAtNonFinite() {
     say(v1::Event::NON_FINITE,
         fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
                     world_.simulation().divergence()));
+    refuseSteps("a sphere left the numbers");
     world_.simulation().restore();
     observer_.disturbed();
     announce();

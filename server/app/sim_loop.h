@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <stop_token>
+#include <string>
+#include <string_view>
 
 #include "app/chains.h"
 #include "app/observer.h"
@@ -24,13 +28,26 @@ class SimLoop : public Show {
     Result<void> run(const std::stop_token& stop) override;
 
   private:
+    // Until stopped, or the device is lost.
     Result<void> simulate(const std::stop_token& stop);
-    void serve(const Request& request);
-    Result<v1::Applied> apply(const v1::Command& command);
+    void serveWaiting();
+    void serve(Request request);
+    std::optional<Result<v1::Applied>> apply(const v1::Command& command);
+    void finish(const Request& request, const Result<v1::Applied>& applied);
+    void refuse(const Request& request, const std::string& reason);
+    void refuseChange(const std::string& reason);
+    void refuseSteps(std::string_view reason);
+    Result<void> cancel();
+    bool goOn(Result<void>& done);
+    Result<void> stepFor(Pacer::Clock::time_point now);
+    void advanceChange(Pacer::Clock::duration slice);
+    void tellOfChange();
+    [[nodiscard]] std::string changeInWords() const;
+    [[nodiscard]] std::string slowness() const;
     void announce();
     void keep(v1::ServerMessage message);
     void everybody(v1::ServerMessage message);
-    Result<void> step();
+    void countStep();
     Result<void> tune(double wallMs);
     void say(v1::Event::Kind kind, const std::string& text);
     void stopAtNonFinite();
@@ -61,6 +78,21 @@ class SimLoop : public Show {
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
     bool watched_ = false;
+
+    struct Asked {
+        Request request;
+        Pacer::Clock::time_point since;
+    };
+    struct Steps {
+        Asked asked;
+        std::uint32_t left = 0;
+    };
+    std::optional<Asked> change_;  // whose change is under way
+    std::deque<Asked> held_;       // commands that wait for it to end
+    std::deque<Steps> steps_;      // commands whose steps are not all done, in order
+    double stepMs_ = 0;            // wall time of the step under way
+    bool toldOfChange_ = false;
+    Pacer::Clock::time_point nextTold_{};
 };
 
 }  // namespace spherule::app

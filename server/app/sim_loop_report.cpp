@@ -14,6 +14,9 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto reportEvery = 1s;
+constexpr auto toldAfter = 250ms;  // of a change that is under way
+constexpr auto toldEvery = 200ms;
+constexpr double slowStepMs = 1000;
 constexpr auto interest = 150s;  // in figures, after somebody asked for metrics
 
 }  // namespace
@@ -53,6 +56,48 @@ void SimLoop::tellOfTape() {
     v1::ServerMessage message;
     *message.mutable_recording() = *news;
     keep(std::move(message));
+}
+
+// "load box-50k is under way (placing spheres, 34 %)".
+std::string SimLoop::changeInWords() const {
+    const Progress::Seen seen = world_.changeProgress();
+    return fmt::format("{} is under way ({}, {:.0f} %)", changeOf(change_->request.command), seen.doing,
+                       100 * seen.share);
+}
+
+// Of what is over soon nobody is told.
+void SimLoop::tellOfChange() {
+    const auto now = Pacer::Clock::now();
+    const Asked* const asked = change_ ? &*change_ : !steps_.empty() ? &steps_.front().asked : nullptr;
+    v1::ServerMessage message;
+    v1::Change& change = *message.mutable_change();
+    if (asked != nullptr) {
+        if (now - asked->since < toldAfter || now < nextTold_) return;
+        nextTold_ = now + toldEvery;
+        change.set_what(changeOf(asked->request.command));
+        change.set_session(asked->request.session);
+        if (change_) {
+            const Progress::Seen seen = world_.changeProgress();
+            change.set_doing(seen.doing);
+            change.set_share(seen.share);
+        } else {
+            const std::uint32_t count = asked->request.command.step().count();
+            change.set_doing("stepping");
+            change.set_share(static_cast<double>(count - steps_.front().left) / count);
+        }
+    } else if (!toldOfChange_) {
+        return;
+    }
+    toldOfChange_ = asked != nullptr;
+    outlets_.keep(frame::share(std::move(message)));
+}
+
+// Why commands or states may be late, for who asks after the server's health; empty: they are not.
+std::string SimLoop::slowness() const {
+    if (change_) return changeInWords();
+    if (stepMs_ < slowStepMs) return "";
+    return fmt::format("the step under way has taken {:.1f} s so far, {:.1f} % of it is done", 1e-3 * stepMs_,
+                       100 * world_.simulation().shareOfStep());
 }
 
 void SimLoop::sendDial() {
@@ -105,7 +150,9 @@ Result<void> SimLoop::report() {
     nextReport_ = now + reportEvery;
     if (auto alive = world_.device().status(); !alive) return alive;
     const auto times = world_.simulation().passSeconds();
-    if (watched_ || live_.askedWithin(interest)) {
+    if (world_.simulation().midStep()) {
+        // Figures are those of whole steps.
+    } else if (watched_ || live_.askedWithin(interest)) {
         look(times);
     } else {
         seen_.reset();
@@ -113,6 +160,7 @@ Result<void> SimLoop::report() {
     }
     live_.update([&](LiveReport& report) {
         report.becomes(world_.paused() ? "paused" : "running");
+        report.slow = slowness();
         report.scene = world_.simulation().scene().name;
         report.spheres = world_.simulation().count();
         report.steps = world_.simulation().steps();

@@ -35,12 +35,14 @@ net::HttpAnswer file(std::string_view path) {
 }
 
 // Half of what the watchdog waits for, so that it can be seen before it is over.
-net::HttpAnswer health(const Watchdog& watchdog) {
+// What is slow progresses, and is alive.
+net::HttpAnswer health(const Watchdog& watchdog, const std::string& slow) {
     const auto silence = watchdog.silence();
-    if (2 * silence <= watchdog.limit()) return {200, "text/plain; charset=utf-8", "alive\n"};
+    if (2 * silence <= watchdog.limit())
+        return {200, "text/plain; charset=utf-8", slow.empty() ? "alive\n" : "alive, but slow: " + slow + "\n"};
     return {503, "text/plain; charset=utf-8",
-            fmt::format("nothing has progressed for {:.1f} s; after {:g} s the watchdog ends it\n", silence.count(),
-                        watchdog.limit().count())};
+            fmt::format("stuck: nothing has progressed for {:.1f} s; after {:g} s the watchdog ends it\n",
+                        silence.count(), watchdog.limit().count())};
 }
 
 net::HttpAnswer readiness(const LiveReport& live) {
@@ -59,7 +61,7 @@ net::HttpAnswer readiness(const LiveReport& live) {
 }  // namespace
 
 net::HttpAnswer Site::get(const std::string& path, const net::Counters& counters) {
-    if (path == "/healthz") return health(watchdog_);
+    if (path == "/healthz") return health(watchdog_, live_.read().slow);
     if (path == "/readyz") return readiness(live_.read());
     if (path == "/metrics") {
         live_.asked();

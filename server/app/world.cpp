@@ -8,28 +8,39 @@
 
 namespace spherule::app {
 
-namespace {}  // namespace
+namespace {
+
+// Of a scene, on a thread without the device.
+sim::Preparation::Build builderOf(std::function<Result<scene::Scene>(Progress&)> make) {
+    return [make = std::move(make)](Progress& progress) -> Result<sim::Built> {
+        auto scene = make(progress);
+        if (!scene) return tl::unexpected(scene.error());
+        sim::State state = sim::stateOf(*scene);
+        return sim::Built{std::move(*scene), std::move(state)};
+    };
+}
+
+}  // namespace
 
 Result<std::unique_ptr<World>> World::open(const std::string& deviceChoice, const std::string& scene,
                                            const scene::Overrides& overrides) {
     auto device = compute::openDevice(deviceChoice);
     if (!device) return tl::unexpected(device.error());
-    auto loaded = scene::load(scene, (*device)->info().kind, overrides);
-    if (!loaded) return tl::unexpected(loaded.error());
     std::unique_ptr<World> world(new World(std::move(*device), overrides));
-    if (auto done = world->adopt(std::move(*loaded)); !done) return tl::unexpected(done.error());
+    const std::string kind = world->device_->info().kind;
+    auto preparation = std::make_unique<sim::Preparation>(
+        *world->device_, builderOf([=](Progress& progress) { return scene::load(scene, kind, overrides, &progress); }));
+    if (auto done = preparation->finish(); !done) return tl::unexpected(done.error());
+    world->adopt(std::move(preparation));
     return world;
 }
 
-Result<void> World::adopt(scene::Scene scene) {
-    auto made = sim::Simulation::create(*device_, std::move(scene));
-    if (!made) return tl::unexpected(made.error());
-    simulation_ = std::move(*made);
+void World::adopt(std::unique_ptr<sim::Preparation> preparation) {
+    simulation_ = sim::Simulation::from(std::move(preparation));
     pacer_.setStep(simulation_->scene().step);
-    pacer_.resume(Pacer::Clock::now());
+    pacer_.resume(Clock::now());
     pendingSteps_ = 0;
     refreshFacts();
-    return {};
 }
 
 void World::refreshFacts() {
@@ -45,18 +56,22 @@ v1::ServerMessage World::settings() const {
     return settingsMessage(simulation_->scene(), pacer_.speed(), paused_);
 }
 
-Result<void> World::step() {
-    if (pendingSteps_ > 0) --pendingSteps_;
-    return simulation_->step();
+Result<bool> World::advance(Clock::time_point until) {
+    for (;;) {
+        const auto ended = simulation_->advance();
+        if (!ended) return ended;
+        if (*ended && pendingSteps_ > 0) --pendingSteps_;
+        if (*ended || Clock::now() >= until) return ended;
+    }
 }
 
-Result<v1::Applied> World::applied() const {
+v1::Applied World::applied() const {
     v1::Applied applied;
     applied.set_step(simulation_->steps());
     return applied;
 }
 
-Result<v1::Applied> World::apply(const v1::Command& command) {
+std::optional<Result<v1::Applied>> World::apply(const v1::Command& command) {
     switch (command.kind_case()) {
         case v1::Command::kPause:
             pause();
@@ -64,49 +79,86 @@ Result<v1::Applied> World::apply(const v1::Command& command) {
         case v1::Command::kResume:
             paused_ = false;
             pendingSteps_ = 0;
-            pacer_.resume(Pacer::Clock::now());
+            pacer_.resume(Clock::now());
             return applied();
         case v1::Command::kStep:
             return stepBy(command.step().count());
         case v1::Command::kLoad:
             return load(command.load());
         default:
-            break;
+            return simulate(command);
     }
+}
+
+std::optional<Result<v1::Applied>> World::simulate(const v1::Command& command) {
     const bool paced = command.has_set() && command.set().has_speed();
     if (paced)
         if (auto right = checkSpeed(command.set().speed()); !right) return tl::unexpected(right.error());
-    auto done = simulation_->apply(command);
-    if (!done) return done;
+    auto outcome = simulation_->begin(command);
+    if (!outcome) return tl::unexpected(outcome.error());
     if (paced) pacer_.setSpeed(command.set().speed());
-    if (command.has_reset()) pendingSteps_ = 0;
+    if (!outcome->preparation) return std::move(outcome->applied);
+    change_ = std::move(outcome->preparation);
+    changeKind_ = command.kind_case();
+    return std::nullopt;
+}
+
+std::optional<Result<v1::Applied>> World::advanceChange(Clock::duration slice) {
+    const auto end = Clock::now() + slice;
+    for (;;) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+        const auto done = change_->advance(std::max(left, std::chrono::milliseconds(0)));
+        if (!done) {
+            change_.reset();
+            return tl::unexpected(done.error());
+        }
+        if (*done) return finishChange();
+        if (Clock::now() >= end) return std::nullopt;
+    }
+}
+
+v1::Applied World::finishChange() {
+    if (changeKind_ == v1::Command::kLoad) {
+        adopt(std::move(change_));
+        return applied();
+    }
+    v1::Applied done = simulation_->adopt(std::move(change_));
+    pacer_.resume(Clock::now());
+    if (changeKind_ == v1::Command::kReset) pendingSteps_ = 0;
     if (simulation_->generation() != generation_) refreshFacts();
     return done;
 }
 
+// Adds to those that are still to be done.
 Result<v1::Applied> World::stepBy(std::uint32_t count) {
     if (auto right = checkStepCount(count); !right) return tl::unexpected(right.error());
     paused_ = true;
-    pendingSteps_ = count;
-    pacer_.resume(Pacer::Clock::now());
+    pendingSteps_ += count;
+    pacer_.resume(Clock::now());
     return applied();
 }
 
 // By name only scenes that come with the program: a client does not reach the server's files.
-Result<v1::Applied> World::load(const v1::LoadScene& load) {
-    Result<scene::Scene> loaded = fail(ErrorKind::Refused, "load", "needs a name or a scene");
+std::optional<Result<v1::Applied>> World::load(const v1::LoadScene& load) {
+    std::function<Result<scene::Scene>(Progress&)> make;
     if (load.source_case() == v1::LoadScene::kScene) {
-        loaded = scene::build(load.scene(), overrides_);
+        make = [scene = load.scene(), overrides = overrides_](Progress& progress) {
+            return scene::build(scene, overrides, &progress);
+        };
     } else if (load.source_case() == v1::LoadScene::kName) {
         const auto names = scene::names();
         if (std::ranges::find(names, load.name()) == names.end())
             return fail(ErrorKind::Refused, "load.name",
                         fmt::format("is \"{}\"; known are {}", load.name(), fmt::join(names, ", ")));
-        loaded = scene::load(load.name(), device_->info().kind, overrides_);
+        make = [name = load.name(), kind = device_->info().kind, overrides = overrides_](Progress& progress) {
+            return scene::load(name, kind, overrides, &progress);
+        };
+    } else {
+        return fail(ErrorKind::Refused, "load", "needs a name or a scene");
     }
-    if (!loaded) return tl::unexpected(loaded.error());
-    if (auto done = adopt(std::move(*loaded)); !done) return tl::unexpected(done.error());
-    return applied();
+    change_ = std::make_unique<sim::Preparation>(*device_, builderOf(std::move(make)));
+    changeKind_ = v1::Command::kLoad;
+    return std::nullopt;
 }
 
 }  // namespace spherule::app

@@ -14,6 +14,7 @@ enum class ErrorKind {
     Refused,     // understood, but not possible now
     DeviceLost,  // the compute device is gone
     Diverged,    // a simulation has left the numbers
+    Cancelled,   // somebody asked for it to end
 };
 
 struct Error {

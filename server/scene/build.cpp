@@ -70,8 +70,8 @@ Sleep readSleep(Check& check, const v1::Sleep& message, bool noSleep) {
 }  // namespace
 
 Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
-                      const Overrides& overrides) {
-    Check check;
+                      const Overrides& overrides, Progress* progress) {
+    Check check(progress);
     Scene scene;
     scene.name = message.name();
     scene.description = message.description();
@@ -94,8 +94,8 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     return scene;
 }
 
-Result<Scene> build(const v1::Scene& message, const Overrides& overrides) {
-    return buildIn(std::nullopt, message, overrides);
+Result<Scene> build(const v1::Scene& message, const Overrides& overrides, Progress* progress) {
+    return buildIn(std::nullopt, message, overrides, progress);
 }
 
 namespace {
@@ -103,8 +103,8 @@ namespace {
 // Refuses the first of `added` that overlaps one of `taken`.
 void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector<Sphere>& taken, Occupancy& occupied) {
     constexpr std::uint64_t mostWork = 4'000'000'000;  // some ten seconds
-    for (const Sphere& sphere : taken) occupied.add(sphere.position, static_cast<double>(sphere.radius));
-    for (std::size_t k = 0; k < added.size() && check.ok(); ++k) {
+    if (!addTaken(check, taken, occupied)) return;
+    for (std::size_t k = 0; k < added.size() && check.goesOn("comparing places", k, added.size()); ++k) {
         const glm::dvec3& p = added[k].position;
         if (!occupied.isFree(p, static_cast<double>(added[k].radius)))
             check.refuse("group", fmt::format("sphere {} at {:g} {:g} {:g} overlaps one that is there already", k, p.x,
@@ -116,8 +116,8 @@ void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector
 
 }  // namespace
 
-Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene) {
-    Check check;
+Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene, Progress* progress) {
+    Check check(progress);
     const std::size_t room = maxSpheres - std::min<std::size_t>(maxSpheres, scene.spheres.size());
     if (scene.groups.size() >= maxGroups)
         return fail(ErrorKind::Input, "group", fmt::format("is one too many, a scene has at most {}", maxGroups));

@@ -15,6 +15,13 @@ void Check::refuse(std::string field, std::string reason) {
     error_ = {ErrorKind::Input, std::move(field), std::move(reason)};
 }
 
+bool Check::goesOn(const char* doing, std::size_t done, std::size_t of) {
+    if (progress_ == nullptr) return ok();
+    progress_->at(doing, of > 0 ? static_cast<double>(done) / static_cast<double>(of) : 0);
+    if (ok() && progress_->cancelled()) error_ = {ErrorKind::Cancelled, "", "was cancelled"};
+    return ok();
+}
+
 double Check::finite(double value, std::string_view field) {
     if (std::isfinite(value)) return value;
     refuse(std::string(field), fmt::format("is {}, must be a finite number", value));

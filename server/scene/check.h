@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include <google/protobuf/repeated_field.h>
 #include <glm/vec3.hpp>
 
+#include "core/progress.h"
 #include "core/result.h"
 #include "scene/scene.h"
 
@@ -21,7 +23,14 @@ constexpr double largestComponent = 1e9;
 // A refused value comes back as a harmless one, so that reading may go on to the next ok().
 class Check {
   public:
+    // `progress`, where somebody waits for what is read, must outlive it.
+    explicit Check(Progress* progress = nullptr) : progress_(progress) {}
+
     void refuse(std::string field, std::string reason);
+
+    // Says how far long work has come: `done` of `of` parts. False once something was refused, or the work is to end:
+    // Cancelled.
+    bool goesOn(const char* doing, std::size_t done, std::size_t of);
 
     double finite(double value, std::string_view field);
     double positive(double value, std::string_view field);
@@ -41,6 +50,7 @@ class Check {
     [[nodiscard]] tl::unexpected<Error> error() const { return tl::unexpected<Error>(error_); }
 
   private:
+    Progress* progress_;
     Error error_;
 };
 

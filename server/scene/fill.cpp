@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/pulse.h"
 #include "scene/occupancy.h"
 #include "scene/source.h"
 #include "scene/surroundings.h"
@@ -38,16 +37,15 @@ glm::dvec3 drawPlace(Random& random, const Box& region, double radius) {
     return place;
 }
 
-bool placeAll(std::vector<Sphere>& spheres, const Box& region, const std::vector<Obstacle>& obstacles,
+bool placeAll(Check& check, std::vector<Sphere>& spheres, const Box& region, const std::vector<Obstacle>& obstacles,
               Occupancy& occupancy, Random& random, std::size_t& placed) {
     const std::uint64_t budget =
         std::min(occupancy.work() + std::max(workPerSphere * spheres.size(), workAtLeast), workAtMost);
     for (const std::uint32_t i : byFallingRadius(spheres)) {
-        pulse::beat("placing spheres");
         const auto radius = static_cast<double>(spheres[i].radius);
         do {
             occupancy.addWork(1 + obstacles.size());
-            if (occupancy.work() > budget) return false;
+            if (occupancy.work() > budget || !check.goesOn("placing spheres", placed, spheres.size())) return false;
             spheres[i].position = drawPlace(random, region, radius);
         } while (obstacleAt(obstacles, spheres[i].position, radius) || !occupancy.isFree(spheres[i].position, radius));
         occupancy.add(spheres[i].position, radius);
@@ -87,7 +85,7 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
         sphere.radius = radii.draw(input.random);
     }
     std::size_t placed = 0;
-    if (!placeAll(spheres, region, obstacles, taken, input.random, placed)) {
+    if (!placeAll(check, spheres, region, obstacles, taken, input.random, placed)) {
         check.refuse(countField,
                      fmt::format("asks for {} spheres, but no free place was found after {}; lower the count "
                                  "or make the region larger",

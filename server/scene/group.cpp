@@ -43,8 +43,7 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
         case v1::Group::kLattice:
             return fromLattice(check, message.lattice(), std::move(input));
         case v1::Group::kFill:
-            for (std::size_t k = context.occupancy.size(); k < context.taken.size(); ++k)
-                context.occupancy.add(context.taken[k].position, static_cast<double>(context.taken[k].radius));
+            if (!addTaken(check, context.taken, context.occupancy)) return {};
             return fromFill(check, message.fill(), scene.obstacles, context.occupancy, std::move(input));
         case v1::Group::kCsv:
             if (context.directory) return fromCsv(check, message.csv(), *context.directory, std::move(input));
@@ -84,9 +83,12 @@ void checkWork(Check& check, const Scene& scene, const std::string& source, std:
                              spheres, pairs, scene.obstacles.size(), maxObstaclePairs));
 }
 
+constexpr std::size_t betweenMarks = 1024;  // spheres
+
 void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, const std::string& source,
                  const std::vector<Sphere>& spheres) {
     for (std::size_t i = 0; i < spheres.size(); ++i) {
+        if (i % betweenMarks == 0 && !check.goesOn("checking places", i, spheres.size())) return;
         const auto radius = static_cast<double>(spheres[i].radius);
         std::optional<std::string> reason = whyOutside(scene.bounds, spheres[i].position, radius);
         if (const auto hit = obstacleAt(scene.obstacles, spheres[i].position, radius); !reason && hit) {
@@ -97,6 +99,14 @@ void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, con
 }
 
 }  // namespace
+
+bool addTaken(Check& check, std::span<const Sphere> taken, Occupancy& occupancy) {
+    for (std::size_t k = occupancy.size(); k < taken.size(); ++k) {
+        if (k % betweenMarks == 0 && !check.goesOn("sorting the spheres that are there", k, taken.size())) return false;
+        occupancy.add(taken[k].position, static_cast<double>(taken[k].radius));
+    }
+    return check.ok();
+}
 
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context) {
     const std::string source = at(context.field, sourceName(message));

@@ -57,6 +57,7 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
     spheres.reserve(total);
     for (double z = 0; spheres.size() < total; ++z) {
         for (double y = 0; y < places.count.y && spheres.size() < total; ++y) {
+            if (!check.goesOn("placing spheres", spheres.size(), total)) return {};
             for (double x = 0; x < places.count.x && spheres.size() < total; ++x) {
                 Sphere sphere{.position = places.first + spacing * glm::dvec3(x, y, z),
                               .velocity = input.velocity,

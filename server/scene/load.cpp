@@ -32,11 +32,12 @@ Result<std::string> readFile(const std::filesystem::path& path) {
 }
 
 Result<Scene> buildText(const std::string& text, const std::string& source, const std::string& name,
-                        const std::optional<std::filesystem::path>& directory, const Overrides& overrides) {
+                        const std::optional<std::filesystem::path>& directory, const Overrides& overrides,
+                        Progress* progress) {
     auto message = parseJson(text, source);
     if (!message) return tl::unexpected(message.error());
     if (message->name().empty()) message->set_name(name);
-    return buildIn(directory, *message, overrides).map_error([&](Error error) {
+    return buildIn(directory, *message, overrides, progress).map_error([&](Error error) {
         error.where = fmt::format("{}: {}", source, error.where);
         return error;
     });
@@ -44,16 +45,17 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
 
 }  // namespace
 
-Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides) {
+Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides,
+                   Progress* progress) {
     if (isPath(source)) {
         const pulse::Unwatched reading;
         const std::filesystem::path path(source);
         const auto text = readFile(path);
         if (!text) return tl::unexpected(text.error());
-        return buildText(*text, source, path.stem().string(), path.parent_path(), overrides);
+        return buildText(*text, source, path.stem().string(), path.parent_path(), overrides, progress);
     }
     if (const auto text = embeddedScene(source, deviceKind)) {
-        return buildText(std::string(*text), source, source, std::nullopt, overrides);
+        return buildText(std::string(*text), source, source, std::nullopt, overrides, progress);
     }
     return fail(ErrorKind::Input, shown(source),
                 fmt::format("is not the name of a scene; there are {}. A file is named with its ending, .json",

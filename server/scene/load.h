@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/result.h"
 #include "scene/scene.h"
 #include "spherule/v1/scene.pb.h"
@@ -14,8 +15,8 @@ namespace spherule::scene {
 
 constexpr std::uint32_t maxSpheres = 16'000'000;
 constexpr std::uint32_t maxObstacles = 1000;
-constexpr std::uint64_t maxObstaclePairs = 1'000'000'000;  // every sphere meets each obstacle
-constexpr std::uint32_t maxGroups = 10'000;  // each is told to every viewer, again with each that is added
+constexpr std::uint64_t maxObstaclePairs = 100'000'000;  // every sphere meets each obstacle, in each substep
+constexpr std::uint32_t maxGroups = 10'000;              // each is told to every viewer, again with each that is added
 constexpr std::size_t longestGroupName = 200;
 constexpr std::uint32_t maxSubsteps = 1'000'000;
 
@@ -30,14 +31,16 @@ struct Overrides {
 
 // `source` is a path to a JSON file, or the name of a scene that comes with the program. `deviceKind` ("gpu", "cpu",
 // "software") decides how many spheres the default scene `box` has.
-Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {});
+// `progress`, here and below, is told how far it has come, and may end it: Cancelled.
+Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {},
+                   Progress* progress = nullptr);
 
 // An inline scene, as a client sends it: may not name files. Errors carry the field path.
-Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {});
+Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {}, Progress* progress = nullptr);
 
 // Spheres for a Spawn command, to be added to `scene`: inside its bounds, clear of its obstacles and of the spheres it
 // has (where they are now; a fill finds places between them). Error paths start with "group".
-Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene);
+Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene, Progress* progress = nullptr);
 
 // Three finite numbers, or the error for `field`.
 Result<glm::dvec3> vectorOf(const google::protobuf::RepeatedField<double>& values, std::string_view field);

@@ -101,8 +101,10 @@ Result<void> fitSubsteps(Scene& scene) {
         quality.substeps = static_cast<std::uint32_t>(wanted);
         return {};
     }
-    if (quality.substeps < 1 || quality.substeps > maxSubsteps)
-        return fail(ErrorKind::Input, field, fmt::format("is {}, must be 1 to {}", quality.substeps, maxSubsteps));
+    if (const std::uint32_t most = mostSubsteps(scene); quality.substeps < 1 || quality.substeps > most)
+        return fail(ErrorKind::Input, field,
+                    fmt::format("is {}, must be 1 to {} for the {} spheres of this scene", quality.substeps, most,
+                                scene.spheres.size()));
     const std::uint32_t fewest = fewestSubsteps(scene, quality.model);
     if (quality.substeps >= fewest) return {};
     if (quality.goal) {
@@ -114,6 +116,44 @@ Result<void> fitSubsteps(Scene& scene) {
                             : fmt::format("springs so soft would give way by {:.0f} % of a radius", 100 * softest);
     return fail(ErrorKind::Input, field,
                 fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest));
+}
+
+std::uint32_t mostSubsteps(const Scene& scene) {
+    // Of one step: some ten seconds on one processor.
+    constexpr double mostSphereSubsteps = 2e8;
+    // The launches of a substep take as long as so many spheres.
+    constexpr double launches = 1e4;
+    constexpr double timesOwn = 8;  // what the dial offers
+    const double own = defaultSubsteps(unpinned(scene, scene.quality.model));
+    const double bySize = mostSphereSubsteps / (static_cast<double>(scene.spheres.size()) + launches);
+    return static_cast<std::uint32_t>(std::clamp<double>(std::max(timesOwn * own, bySize), 1, maxSubsteps));
+}
+
+std::uint32_t mostRaised(const Scene& scene) {
+    constexpr double timesAsked = 256;
+    const double most = std::min<double>(timesAsked * scene.quality.substeps, mostSubsteps(scene));
+    return std::max(scene.quality.substeps, static_cast<std::uint32_t>(most));
+}
+
+double mostSpeed(const Scene& scene, double radius) {
+    return farMotion * radius * mostRaised(scene) / scene.step;
+}
+
+Result<void> checkSpeeds(const Scene& scene) {
+    const double radiiPerSecond = mostSpeed(scene, 1);
+    for (std::size_t id = 0; id < scene.spheres.size(); ++id) {
+        const Sphere& sphere = scene.spheres[id];
+        const double speed = glm::length(glm::dvec3(sphere.velocity));
+        const double most = radiiPerSecond * static_cast<double>(sphere.radius);
+        if (speed <= most) continue;
+        const auto group = std::ranges::find_if(
+            scene.groups, [&](const Group& one) { return id >= one.first && id - one.first < one.count; });
+        return fail(ErrorKind::Input, at("groups", static_cast<std::size_t>(group - scene.groups.begin())),
+                    fmt::format("has a sphere of radius {:g} m with {:g} m/s, the fastest that this scene can compute "
+                                "is {:g} m/s; make it slower or larger, or shorten the step",
+                                static_cast<double>(sphere.radius), speed, most));
+    }
+    return {};
 }
 
 std::uint32_t fewestSubsteps(const Scene& scene, Model model) {
@@ -168,6 +208,8 @@ void readQuality(Check& check, const v1::Quality& message, const Overrides& over
     quality.pinned = overrides.substeps || message.has_substeps();
     quality.substeps = overrides.substeps.value_or(message.substeps());
     if (const auto fits = fitSubsteps(scene); !fits) check.refuse(fits.error().where, fits.error().message);
+    if (!check.ok()) return;
+    if (const auto fits = checkSpeeds(scene); !fits) check.refuse(fits.error().where, fits.error().message);
 }
 
 }  // namespace spherule::scene

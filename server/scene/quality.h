@@ -26,6 +26,21 @@ Result<std::uint32_t> substepsFor(const Scene& scene, Model model);
 // That the model can do with at all.
 std::uint32_t fewestSubsteps(const Scene& scene, Model model);
 
+// The most that a step of the scene can have, with its model: more would keep everything else waiting for too long.
+std::uint32_t mostSubsteps(const Scene& scene);
+
+// The most that it is given while something is very fast.
+std::uint32_t mostRaised(const Scene& scene);
+
+// In a substep a sphere should move less than this share of its radius, or it may pass through what it should hit.
+constexpr double farMotion = 0.5;
+
+// The fastest that a sphere of this radius (m) can be in the scene (m/s), with more substeps while it is so fast.
+double mostSpeed(const Scene& scene, double radius);
+
+// Refuses spheres that begin faster than that.
+Result<void> checkSpeeds(const Scene& scene);
+
 // Within which the model is of use for the scene, as far as was measured.
 struct SubstepRange {
     std::uint32_t fewest = 1;

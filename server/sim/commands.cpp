@@ -90,99 +90,132 @@ Result<void> setGoal(scene::Scene& scene, const v1::Set& set) {
 }  // namespace
 
 Result<v1::Applied> Simulation::apply(const v1::Command& command) {
-    v1::Applied applied;
-    Result<void> done;
+    auto outcome = begin(command);
+    if (!outcome) return tl::unexpected(outcome.error());
+    if (!outcome->preparation) return std::move(outcome->applied);
+    if (auto done = outcome->preparation->finish(); !done) return tl::unexpected(done.error());
+    return adopt(std::move(outcome->preparation));
+}
+
+Result<Simulation::Outcome> Simulation::begin(const v1::Command& command) {
+    Result<Outcome> outcome;
     switch (command.kind_case()) {
         case v1::Command::kSet:
-            done = set(command.set());
+            outcome = set(command.set());
             break;
         case v1::Command::kSpawn:
-            done = spawn(command.spawn());
+            outcome = spawn(command.spawn());
             break;
         case v1::Command::kPush: {
             auto hit = push(command.push());
             if (!hit) return tl::unexpected(hit.error());
-            applied.set_sphere(*hit);
+            outcome->applied.set_sphere(*hit);
             break;
         }
         case v1::Command::kReset:
-            done = reset();
+            outcome = prepare(Anew::World, Built{initial_, stateOf(initial_)});
             break;
         case v1::Command::kQuery:
-            *applied.mutable_statistics() = message(statistics());
+            *outcome->applied.mutable_statistics() = message(statistics());
             break;
         default:
             return fail(ErrorKind::Refused, "", "this command is not one for a simulation");
     }
-    if (!done) return tl::unexpected(done.error());
-    applied.set_step(steps_);
-    return applied;
+    if (outcome) outcome->applied.set_step(steps_);
+    return outcome;
 }
 
-Result<void> Simulation::set(const v1::Set& set) {
+Result<Simulation::Outcome> Simulation::set(const v1::Set& set) {
     const bool disturbs = !set.gravity().empty() || set.has_restitution() || set.has_friction() || set.has_model();
     if (!disturbs && !set.has_substeps() && !set.has_auto_()) return {};
     scene::Scene changed = scene_;
     for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
-        if (auto done = part(changed, set); !done) return done;
+        if (auto done = part(changed, set); !done) return tl::unexpected(done.error());
     return change(std::move(changed), disturbs);
 }
 
+// The same features at any number of substeps: nothing is to be prepared.
 Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
     scene::Scene changed = scene_;
     changed.quality.pinned = true;
     changed.quality.substeps = substeps;
-    return change(std::move(changed), false);
+    auto outcome = change(std::move(changed), false);
+    if (!outcome) return tl::unexpected(outcome.error());
+    return {};
 }
 
-Result<void> Simulation::change(scene::Scene changed, bool disturbs) {
+Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
     // Gravity and the model have a say in how short a substep must be.
     if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     scene::Features features = scene::featuresOf(changed);
     features.levels = plan().features.levels;  // a matter of the spheres alone
     if (features == plan().features) {
         scene_ = std::move(changed);
-        substeps_ = scene_.quality.substeps;
-        uploadConstants();
+        mostSubsteps_ = scene::mostRaised(scene_);
+        writeConstants(*pipeline_, scene_);
+        useSubsteps(scene_.quality.substeps);
         // A change of substeps alone disturbs nobody's sleep.
         if (disturbs) pipeline_->wakeAll();
-    } else {
-        auto state = liveState();
-        if (!state) return tl::unexpected(state.error());
-        if (auto done = adopt(std::move(changed), std::move(*state)); !done) return done;
+        return {};
     }
-    return {};
+    auto state = liveState();
+    if (!state) return tl::unexpected(state.error());
+    return prepare(Anew::Nothing, Built{std::move(changed), std::move(*state)});
 }
 
-Result<void> Simulation::spawn(const v1::Spawn& spawn) {
-    auto live = liveState();
-    if (!live) return tl::unexpected(live.error());
-    State& state = *live;
-    scene::Scene grown = scene_;
-    const glm::dvec3 centre = grown.bounds.centre();
+namespace {
+
+// The scene as it is, with the group's spheres, and all spheres' states: those of the old ones are `state`.
+Result<Built> grownBy(const v1::Group& group, scene::Scene scene, State state, Progress& progress) {
+    const glm::dvec3 centre = scene.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 now = glm::dvec3(state.position[id]);
         // One that has left the numbers, or the world, counts where it began.
-        if (glm::dot(now, now) < farthest * farthest) grown.spheres[id].position = now + centre;
+        if (glm::dot(now, now) < farthest * farthest) scene.spheres[id].position = now + centre;
     }
-
-    auto added = scene::buildGroup(spawn.group(), grown);
+    auto added = scene::buildGroup(group, scene, &progress);
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
-    grown.groups.push_back(
-        {spawn.group().name(), state.count(), static_cast<std::uint32_t>(added->size()), spawn.group().colour()});
-    scene::Scene addition = scene_;
-    addition.spheres = *added;
-    const State fresh = stateOf(addition);
+    scene.groups.push_back({group.name(), state.count(), static_cast<std::uint32_t>(added->size()), group.colour()});
+    const State fresh = stateOf(scene, *added);
     state.position.insert(state.position.end(), fresh.position.begin(), fresh.position.end());
     state.velocity.insert(state.velocity.end(), fresh.velocity.begin(), fresh.velocity.end());
     state.spin.insert(state.spin.end(), fresh.spin.begin(), fresh.spin.end());
-    grown.spheres.insert(grown.spheres.end(), added->begin(), added->end());
-    if (auto fits = scene::fitSubsteps(grown); !fits) return refusal(fits.error());
-    if (auto done = adopt(std::move(grown), std::move(state)); !done) return done;
-    impacts_ = {};
-    ++generation_;
-    return {};
+    scene.spheres.insert(scene.spheres.end(), added->begin(), added->end());
+    if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());
+    if (auto fits = scene::checkSpeeds(scene); !fits) return tl::unexpected(fits.error());
+    return Built{std::move(scene), std::move(state)};
+}
+
+}  // namespace
+
+Result<Simulation::Outcome> Simulation::spawn(const v1::Spawn& spawn) {
+    auto live = liveState();
+    if (!live) return tl::unexpected(live.error());
+    return prepare(Anew::Spheres,
+                   [group = spawn.group(), scene = scene_, state = std::move(*live)](Progress& progress) mutable {
+                       return grownBy(group, std::move(scene), std::move(state), progress);
+                   });
+}
+
+// Refuses an impulse that would make the sphere faster than the scene can compute.
+Result<void> Simulation::checkPush(std::uint32_t id, const glm::dvec3& impulse) {
+    const glm::dvec4 now(pipeline_->velocityOf(id));
+    const glm::dvec3 velocity(now);
+    const glm::dvec3 change = impulse * std::abs(now.w);
+    const double most = scene::mostSpeed(scene_, static_cast<double>(scene_.spheres[id].radius));
+    // One that is faster already may still be slowed down.
+    if (const double speed = glm::length(velocity + change); speed <= std::max(most, glm::length(velocity))) return {};
+    // The share of the impulse that makes it as fast as it can be.
+    const double b = glm::dot(velocity, change);
+    const double square = glm::dot(change, change);
+    const double room = std::max(most * most - glm::dot(velocity, velocity), 0.0);
+    const double share = room / (b + std::sqrt(b * b + square * room));
+    return fail(ErrorKind::Refused, "impulse",
+                fmt::format("is {:g} N s, which gives sphere {} {:g} m/s; the scene can compute {:g} m/s at most: give "
+                            "it at most {:g} N s",
+                            glm::length(impulse), id, glm::length(velocity + change), most,
+                            std::max(share, 0.0) * glm::length(impulse)));
 }
 
 Result<std::uint32_t> Simulation::push(const v1::Push& push) {
@@ -204,6 +237,7 @@ Result<std::uint32_t> Simulation::push(const v1::Push& push) {
     }
     if (id >= count())
         return fail(ErrorKind::Refused, "sphere", fmt::format("is {}, the scene has {} spheres", id, count()));
+    if (auto bearable = checkPush(id, *impulse); !bearable) return tl::unexpected(bearable.error());
     pipeline_->kick(id, glm::vec3(*impulse));
     const double speed = glm::length(glm::dvec3(pipeline_->velocityOf(id)));
     if (const double moved = speed * scene_.step / substeps_ / static_cast<double>(scene_.spheres[id].radius);
@@ -215,7 +249,7 @@ Result<std::uint32_t> Simulation::push(const v1::Push& push) {
 v1::Statistics Simulation::message(const Statistics& s) const {
     v1::Statistics message;
     message.set_step(steps_);
-    message.set_sim_time(time_);
+    message.set_sim_time(time());
     message.set_spheres(count());
     message.set_kinetic_energy(s.kineticEnergy);
     message.set_rotational_energy(s.rotationalEnergy);

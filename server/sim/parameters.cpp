@@ -63,8 +63,7 @@ layout::Law lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, do
 
 }  // namespace
 
-layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii,
-                                 std::uint32_t substeps) {
+layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii, double substep) {
     layout::Parameters p{};
     const glm::dvec3 centre = scene.bounds.centre();
     p.gravity = glm::vec4(glm::vec3(scene.gravity), 0);
@@ -72,7 +71,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.wallMax = glm::vec4(glm::vec3(scene.bounds.max - centre), 0);
     setGrid(p, plan.grid);
 
-    const double h = scene.step / substeps;
+    const double h = substep;
     p.substep = static_cast<float>(h);
     p.perSubstep = static_cast<float>(1 / h);
     p.radius = static_cast<float>(radii.largest);
@@ -126,6 +125,11 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
     }
     planes.insert(planes.end(), boxes.begin(), boxes.end());
     return planes;
+}
+
+void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
+    if (pipeline.plan().has(Array::Obstacles)) pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
+    if (pipeline.plan().has(Array::Laws)) pipeline.write<layout::Law>(Array::Laws, lawsFor(scene));
 }
 
 }  // namespace spherule::sim

@@ -60,11 +60,30 @@ State inIdOrder(const SlotState& slots) {
     return state;
 }
 
-Result<std::unique_ptr<Pipeline>> Pipeline::create(compute::Device& device, Plan plan) {
-    std::unique_ptr<Pipeline> pipeline(new Pipeline(device, std::move(plan)));
-    if (auto done = pipeline->allocate(); !done) return tl::unexpected(done.error());
-    if (auto done = pipeline->compile(); !done) return tl::unexpected(done.error());
-    return pipeline;
+Pipeline::Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {
+    for (const auto* launches : {&plan_.substep, &plan_.statistics})
+        for (const LaunchSpec& launch : *launches)
+            if (std::ranges::find(kernelFiles_, launch.kernel) == kernelFiles_.end())
+                kernelFiles_.push_back(launch.kernel);
+}
+
+Result<bool> Pipeline::makeNext() {
+    Result<void> done;
+    if (!absent_)
+        done = makeSmallArrays();
+    else if (arraysMade_ < plan_.arrays.size())
+        done = makeArray(plan_.arrays[arraysMade_]);
+    else if (kernels_.size() < kernelFiles_.size())
+        done = makeKernel(kernelFiles_[kernels_.size()]);
+    else
+        return false;
+    if (!done) return tl::unexpected(done.error());
+    return true;
+}
+
+double Pipeline::shareMade() const {
+    const std::size_t all = plan_.arrays.size() + kernelFiles_.size();
+    return all > 0 ? static_cast<double>(arraysMade_ + kernels_.size()) / static_cast<double>(all) : 1;
 }
 
 void Pipeline::adopt(Array array, std::unique_ptr<compute::Buffer> made) {
@@ -73,39 +92,37 @@ void Pipeline::adopt(Array array, std::unique_ptr<compute::Buffer> made) {
     slots_[index] = owned_[index].get();
 }
 
-Result<void> Pipeline::allocate() {
-    auto absent = device_.createBuffer("absent", 64);
-    if (!absent) return tl::unexpected(absent.error());
-    absent_ = std::move(*absent);
-    slots_.fill(absent_.get());
-    for (const ArraySpec& spec : plan_.arrays) {
-        auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, wordsOf(spec.array));
-        if (!made) return tl::unexpected(withNeed(made.error(), plan_));
-        adopt(spec.array, std::move(*made));
-    }
+Result<void> Pipeline::makeSmallArrays() {
     auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters), layout::parameterWords);
     if (!parameters) return tl::unexpected(parameters.error());
+    auto absent = device_.createBuffer("absent", 64);
+    if (!absent) return tl::unexpected(absent.error());
     parameters_ = std::move(*parameters);
-    if (plan_.has(Array::FullLaunches)) {
-        std::vector<glm::uvec4> rows;
-        for (const std::uint32_t invocations : plan_.fullLaunches) rows.push_back(groupsFor(invocations));
-        write<glm::uvec4>(Array::FullLaunches, rows);
-    }
+    absent_ = std::move(*absent);
+    slots_.fill(absent_.get());
     return {};
 }
 
-Result<void> Pipeline::compile() {
-    const std::vector<compute::Define> defines = definesFor(plan_.features);
-    for (const auto* launches : {&plan_.substep, &plan_.statistics}) {
-        for (const LaunchSpec& launch : *launches) {
-            if (std::ranges::any_of(kernels_, [&](const auto& known) { return known.first == launch.kernel; }))
-                continue;
-            auto kernel = device_.createKernel(shaders(), launch.kernel, defines);
-            // Not the user's scene but the device is at fault.
-            if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
-            kernels_.emplace_back(launch.kernel, std::move(*kernel));
-        }
-    }
+Result<void> Pipeline::makeArray(const ArraySpec& spec) {
+    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, wordsOf(spec.array));
+    if (!made) return tl::unexpected(withNeed(made.error(), plan_));
+    adopt(spec.array, std::move(*made));
+    ++arraysMade_;
+    if (spec.array == Array::FullLaunches) fillLaunches();
+    return {};
+}
+
+void Pipeline::fillLaunches() {
+    std::vector<glm::uvec4> rows;
+    for (const std::uint32_t invocations : plan_.fullLaunches) rows.push_back(groupsFor(invocations));
+    write<glm::uvec4>(Array::FullLaunches, rows);
+}
+
+Result<void> Pipeline::makeKernel(std::string_view file) {
+    auto kernel = device_.createKernel(shaders(), file, definesFor(plan_.features));
+    // Not the user's scene but the device is at fault.
+    if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
+    kernels_.emplace_back(file, std::move(*kernel));
     return {};
 }
 

@@ -26,7 +26,12 @@ State inIdOrder(const SlotState& slots);
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
-    static Result<std::unique_ptr<Pipeline>> create(compute::Device& device, Plan plan);
+    // Without arrays and kernels: makeNext() makes them.
+    Pipeline(compute::Device& device, Plan plan);
+
+    // Makes one more array or kernel. False once all are there.
+    Result<bool> makeNext();
+    [[nodiscard]] double shareMade() const;  // of arrays and kernels, 0 to 1
 
     void setParameters(const layout::Parameters& parameters);
     // In id order, as are the materials of the spheres; the lists are rebuilt in the next substep.
@@ -66,16 +71,18 @@ class Pipeline {
     [[nodiscard]] compute::Buffer& buffer(Array array) { return *slots_[static_cast<std::size_t>(array)]; }
 
   private:
-    Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {}
-
-    Result<void> allocate();
-    Result<void> compile();
+    Result<void> makeSmallArrays();
+    Result<void> makeArray(const ArraySpec& spec);
+    Result<void> makeKernel(std::string_view file);
+    void fillLaunches();
     std::uint32_t slotOf(std::uint32_t id);
     void adopt(Array array, std::unique_ptr<compute::Buffer> made);
     void run(const std::vector<LaunchSpec>& launches, bool observed = false);
 
     compute::Device& device_;
     Plan plan_;
+    std::vector<std::string_view> kernelFiles_;  // that the plan launches
+    std::size_t arraysMade_ = 0;                 // of plan_.arrays
     bool listsPending_ = false;
     bool impactsPending_ = false;
     std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scene/stiffness.h"
+#include "sim/preparation.h"
 #include "sim/simulation.h"
 
 namespace spherule::sim {
@@ -41,20 +43,35 @@ double deepestBearable(const scene::Scene& scene) {
     return scene::contactTimeOf(scene).overlap;
 }
 
-Result<Relaxed> relax(compute::Device& device, const scene::Scene& scene, const State& state, double most) {
-    auto made = Simulation::create(device, withoutForces(scene));
-    if (!made) return tl::unexpected(made.error());
-    Simulation& world = **made;
-    Relaxed relaxed{.state = state};
-    world.put(atRest(state));
-    do {
-        for (std::uint32_t k = 0; k < sweepsPerLook; ++k)
-            if (auto done = world.step(); !done) return tl::unexpected(done.error());
-        relaxed.sweeps += sweepsPerLook;
-        relaxed.overlap = world.statistics().deepest();
-    } while (relaxed.overlap > most && relaxed.sweeps < mostSweeps);
-    relaxed.state.position = world.snapshot().position;
-    return relaxed;
+Relaxation::Relaxation(compute::Device& device, const scene::Scene& scene, const State& state, double most)
+    : most_(most), preparation_(std::make_unique<Preparation>(device, Built{withoutForces(scene), atRest(state)})) {}
+
+Relaxation::~Relaxation() = default;
+
+Result<bool> Relaxation::advance() {
+    if (preparation_) {
+        const auto done = preparation_->advance();
+        if (!done) return tl::unexpected(done.error());
+        if (*done) world_ = Simulation::from(std::exchange(preparation_, nullptr));
+        return false;
+    }
+    if (sweeps_ == 0 || sweeps_ % sweepsPerLook != 0 || looked_) {
+        looked_ = false;
+        if (auto done = world_->step(); !done) return tl::unexpected(done.error());
+        ++sweeps_;
+        return false;
+    }
+    looked_ = true;
+    overlap_ = world_->statistics().deepest();
+    return !(overlap_ > most_) || sweeps_ >= mostSweeps;
+}
+
+double Relaxation::share() const {
+    return static_cast<double>(sweeps_) / mostSweeps;
+}
+
+std::vector<glm::vec4> Relaxation::takePositions() {
+    return world_->snapshot().position;
 }
 
 }  // namespace spherule::sim

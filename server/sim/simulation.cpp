@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,7 +12,7 @@
 #include "scene/load.h"
 #include "scene/quality.h"
 #include "sim/parameters.h"
-#include "sim/relax.h"
+#include "sim/preparation.h"
 
 namespace spherule::sim {
 
@@ -19,6 +20,8 @@ namespace {
 
 // Room for pairs ends here: as many as spheres in a heap can have only if they are deep in each other.
 constexpr std::uint64_t mostPairsPerSphere = 128;
+
+static_assert(scene::farMotion == static_cast<double>(FAR_MOTION));
 
 constexpr double keepEvery = 1;  // s simulated
 
@@ -35,19 +38,24 @@ double farthestMotion(const State& state, double h) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::create(compute::Device& device, scene::Scene scene) {
-    std::unique_ptr<Simulation> simulation(new Simulation(device, std::move(scene)));
-    if (auto done = simulation->reset(); !done) return tl::unexpected(done.error());
+    State state = stateOf(scene);
+    auto preparation = std::make_unique<Preparation>(device, Built{std::move(scene), std::move(state)});
+    if (auto done = preparation->finish(); !done) return tl::unexpected(done.error());
+    return from(std::move(preparation));
+}
+
+std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> preparation) {
+    std::unique_ptr<Simulation> simulation(new Simulation(preparation->device_));
+    simulation->initial_ = preparation->built_.scene;
+    simulation->take(*preparation);
     return simulation;
 }
 
-Result<void> Simulation::adopt(scene::Scene scene, State state) {
-    const Radii radii = radiiOf(scene);
-    auto made = Pipeline::create(device_, planFor(scene, scene::featuresOf(scene), state.count(), radii));
-    if (!made) return tl::unexpected(made.error());
-    scene_ = std::move(scene);
-    radii_ = radii;
-    pipeline_ = std::move(*made);
-    for (glm::vec4& velocity : state.velocity) velocity.w = std::abs(velocity.w);
+// Of a preparation that is done: nothing can fail any more.
+void Simulation::take(Preparation& preparation) {
+    scene_ = std::move(preparation.built_.scene);
+    radii_ = preparation.radii_;
+    pipeline_ = std::move(preparation.pipeline_);
     counters_ = {};
     sampled_ = false;
     forgot_ = false;
@@ -55,49 +63,70 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     patience_ = 0;
     lowered_ = false;
     full_ = false;
-    substeps_ = scene_.quality.substeps;
-    put(state);
-    uploadConstants();
-    if (auto done = takeApart(state); !done) return done;
-    fitToMotion(farthestMotion(state, scene_.step / substeps_));
+    if (const auto& parted = preparation.parted_)
+        notices_.push_back(fmt::format(
+            "at step {}, spheres were in each other by up to {:.2g} radii, from where {} would make them fly apart: "
+            "moved apart beforehand, to {:.2g}, in {} sweeps",
+            steps_, parted->before, scene::nameOf(scene_.quality.model), parted->after, parted->sweeps));
+    mostSubsteps_ = scene::mostRaised(scene_);
+    useSubsteps(scene_.quality.substeps);
+    fitToMotion(farthestMotion(preparation.built_.state, scene_.step / substeps_));
     keep();
-    return {};
 }
 
-// Spheres that begin deep in each other would fly apart.
-Result<void> Simulation::takeApart(State& state) {
-    const double tolerated = deepestBearable(scene_);
-    if (!std::isfinite(tolerated)) return {};
-    const double deepest = statistics().deepest();
-    if (!(deepest > tolerated)) return {};
-    spdlog::info("spheres are in each other by up to {:.2g} radii; pushing them apart first", deepest);
-    auto relaxed = relax(device_, scene_, state, tolerated);
-    if (!relaxed) return tl::unexpected(relaxed.error());
-    notices_.push_back(fmt::format(
-        "at step {}, spheres were in each other by up to {:.2g} radii, from where {} would make them fly apart: moved "
-        "apart beforehand, to {:.2g}, in {} sweeps",
-        steps_, deepest, scene::nameOf(scene_.quality.model), relaxed->overlap, relaxed->sweeps));
-    state = std::move(relaxed->state);
-    put(state);
-    return {};
+Simulation::Outcome Simulation::prepare(Anew anew, Preparation::Build build) {
+    anew_ = anew;
+    return {.preparation = std::make_unique<Preparation>(device_, std::move(build))};
+}
+
+Simulation::Outcome Simulation::prepare(Anew anew, Built built) {
+    anew_ = anew;
+    return {.preparation = std::make_unique<Preparation>(device_, std::move(built))};
+}
+
+v1::Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
+    if (anew_ == Anew::World) {
+        steps_ = 0;
+        begun_ = 0;
+        left_ = 0;
+    }
+    take(*preparation);
+    if (anew_ != Anew::Nothing) {
+        impacts_ = {};
+        ++generation_;
+    }
+    v1::Applied applied;
+    applied.set_step(steps_);
+    return applied;
 }
 
 void Simulation::put(const State& state) {
-    std::vector<std::uint8_t> materials;
-    materials.reserve(state.count());
-    for (const scene::Sphere& sphere : scene_.spheres) materials.push_back(sphere.material);
-    pipeline_->upload(state, materials);
+    pipeline_->upload(state, materialsOf(scene_));
 }
 
+// Of the substeps that are left of the step under way, or else of those to come.
 void Simulation::uploadParameters() {
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, substeps_));
+    const double substep = left_ > 0 ? (1 - begun_) * scene_.step / chosen_ : scene_.step / substeps_;
+    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, substep));
 }
 
-// What the kernels read of the scene besides the spheres' state.
-void Simulation::uploadConstants() {
-    if (plan().has(Array::Obstacles)) pipeline_->write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene_));
-    if (plan().has(Array::Laws)) pipeline_->write<layout::Law>(Array::Laws, lawsFor(scene_));
+// In a step that is under way, as many as are as long, or a little shorter, for the rest of it.
+void Simulation::useSubsteps(std::uint32_t substeps) {
+    constexpr double rounding = 1e-9;
+    begun_ = shareOfStep();
+    substeps_ = substeps;
+    if (left_ > 0)
+        chosen_ = left_ = static_cast<std::uint32_t>(std::max(1.0, std::ceil((1 - begun_) * substeps - rounding)));
     uploadParameters();
+}
+
+double Simulation::shareOfStep() const {
+    if (left_ == 0) return 0;
+    return begun_ + (1 - begun_) * static_cast<double>(chosen_ - left_) / chosen_;
+}
+
+double Simulation::time() const {
+    return (static_cast<double>(steps_) + shareOfStep()) * scene_.step;
 }
 
 Result<State> Simulation::liveState() {
@@ -106,23 +135,26 @@ Result<State> Simulation::liveState() {
     return state;
 }
 
-Result<void> Simulation::reset() {
-    if (auto done = adopt(initial_, stateOf(initial_)); !done) return done;
-    steps_ = 0;
-    time_ = 0;
-    goodStep_ = 0;
-    goodTime_ = 0;
-    impacts_ = {};
-    ++generation_;
-    return {};
+Result<void> Simulation::step() {
+    for (;;) {
+        const auto ended = advance();
+        if (!ended) return tl::unexpected(ended.error());
+        if (*ended) return {};
+    }
 }
 
-Result<void> Simulation::step() {
-    const bool observed = observing_ && steps_ % observedEvery == 0;
-    for (std::uint32_t k = 0; k < substeps_; ++k) pipeline_->substep(observed);
+Result<bool> Simulation::advance() {
+    if (left_ == 0) {
+        chosen_ = left_ = substeps_;
+        observed_ = observing_ && steps_ % observedEvery == 0;
+    }
+    pipeline_->substep(observed_);
+    if (--left_ > 0) return false;
     ++steps_;
-    time_ += scene_.step;
-    return guard();
+    // The next step is a whole one again.
+    if (std::exchange(begun_, 0) > 0) uploadParameters();
+    if (auto done = guard(); !done) return tl::unexpected(done.error());
+    return true;
 }
 
 Statistics Simulation::statistics() {
@@ -160,7 +192,6 @@ Result<void> Simulation::guard() {
 void Simulation::keep() {
     good_ = pipeline_->download();
     goodStep_ = steps_;
-    goodTime_ = time_;
 }
 
 std::string Simulation::divergence() const {
@@ -177,7 +208,8 @@ std::string Simulation::divergence() const {
 void Simulation::restore() {
     put(inIdOrder(good_));
     steps_ = goodStep_;
-    time_ = goodTime_;
+    begun_ = 0;
+    left_ = 0;
     counters_ = {};
 }
 
@@ -185,10 +217,9 @@ void Simulation::restore() {
 // does any more: with more patience each time that this was too early.
 void Simulation::fitToMotion(double radiiPerSubstep) {
     constexpr double easier = 0.8;
-    constexpr double mostTimes = 256;
     constexpr std::uint32_t mostPatience = 256;  // steps
     const std::uint32_t asked = scene_.quality.substeps;
-    const double most = std::max(1.0 * substeps_, std::min<double>(mostTimes * asked, scene::maxSubsteps));
+    const double most = std::max(substeps_, mostSubsteps_);
     std::uint32_t wanted = substeps_;
     bool enough = true;
     ++calm_;
@@ -212,8 +243,7 @@ void Simulation::fitToMotion(double radiiPerSubstep) {
             steps_, radiiPerSubstep, wanted, asked, enough ? "" : "; even so it may pass through what it should hit"));
     else if (wanted == asked)
         notices_.push_back(fmt::format("at step {}, back to {} substeps per step", steps_, asked));
-    substeps_ = wanted;
-    uploadParameters();
+    useSubsteps(wanted);
 }
 
 // On failure the simulation goes on without lists where it must, and nothing is tried again for this scene.

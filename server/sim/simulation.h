@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"
+#include "sim/preparation.h"
 #include "sim/state.h"
 #include "sim/statistics.h"
 #include "sim/tier.h"
@@ -23,11 +24,27 @@ namespace spherule::sim {
 class Simulation {
   public:
     static Result<std::unique_ptr<Simulation>> create(compute::Device& device, scene::Scene scene);
+    // Of a preparation that is done.
+    static std::unique_ptr<Simulation> from(std::unique_ptr<Preparation> preparation);
 
-    // One step of scene().step seconds, in substeps().
+    // One substep. True when it ends a step of scene().step seconds.
+    Result<bool> advance();
+    // To the end of the step.
     Result<void> step();
+    // Between two substeps of one step.
+    [[nodiscard]] bool midStep() const { return left_ > 0; }
+    [[nodiscard]] double shareOfStep() const;  // of the step under way, that is done
 
+    // What becomes of a command: it is done, or it needs the preparation, which adopt() takes once that is done. Until
+    // then nothing has changed, and nothing but that may change the simulation.
+    struct Outcome {
+        v1::Applied applied{};
+        std::unique_ptr<Preparation> preparation{};  // null: the command is done
+    };
     // set, spawn, push, reset and query; Refused, with nothing changed, for what cannot be done.
+    Result<Outcome> begin(const v1::Command& command);
+    v1::Applied adopt(std::unique_ptr<Preparation> preparation);
+    // Both, and what lies between.
     Result<v1::Applied> apply(const v1::Command& command);
 
     [[nodiscard]] Statistics statistics();
@@ -78,17 +95,20 @@ class Simulation {
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return plan().spheres; }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
-    [[nodiscard]] double time() const { return time_; }                     // s simulated
+    [[nodiscard]] double time() const;                                      // s simulated
     [[nodiscard]] std::uint32_t generation() const { return generation_; }  // changes when spheres or obstacles do
 
   private:
-    Simulation(compute::Device& device, scene::Scene scene) : device_(device), initial_(std::move(scene)) {}
+    explicit Simulation(compute::Device& device) : device_(device) {}
 
-    // Makes arrays and kernels anew for `scene` in `state`; everybody wakes. Nothing changes on failure.
-    Result<void> adopt(scene::Scene scene, State state);
-    Result<void> takeApart(State& state);
-    void uploadConstants();
+    // What adopting a preparation begins anew, beside arrays and kernels. In each, everybody wakes.
+    enum class Anew : std::uint8_t { Nothing, Spheres, World };
+
+    void take(Preparation& preparation);
+    Outcome prepare(Anew anew, Preparation::Build build);
+    Outcome prepare(Anew anew, Built built);
     Result<State> liveState();  // DeviceLost, rather than what a lost device gives
+    void useSubsteps(std::uint32_t substeps);
     Result<void> guard();
     void readCounters();
     void makeRoom();
@@ -96,11 +116,11 @@ class Simulation {
     void fitToMotion(double radiiPerSubstep);
     void keep();
 
-    Result<void> set(const v1::Set& set);
-    Result<void> change(scene::Scene changed, bool disturbs);
-    Result<void> spawn(const v1::Spawn& spawn);
+    Result<Outcome> set(const v1::Set& set);
+    Result<Outcome> change(scene::Scene changed, bool disturbs);
+    Result<Outcome> spawn(const v1::Spawn& spawn);
     Result<std::uint32_t> push(const v1::Push& push);
-    Result<void> reset();
+    Result<void> checkPush(std::uint32_t id, const glm::dvec3& impulse);
 
     compute::Device& device_;
     scene::Scene initial_;
@@ -114,15 +134,20 @@ class Simulation {
     bool full_ = false;     // there is no room for more pairs
     bool sampled_ = false;  // it has been said that not all pairs are listed
     std::uint32_t substeps_ = 1;
-    std::uint32_t calm_ = 0;      // steps since something moved too far
-    std::uint32_t patience_ = 0;  // steps of calm before substeps are lowered
-    bool lowered_ = false;        // since then
+    std::uint32_t mostSubsteps_ = 1;  // while something is very fast
+    std::uint32_t calm_ = 0;          // steps since something moved too far
+    std::uint32_t patience_ = 0;      // steps of calm before substeps are lowered
+    bool lowered_ = false;            // since then
     std::vector<std::string> notices_;
     SlotState good_;  // the last one that was found finite
     std::uint64_t goodStep_ = 0;
-    double goodTime_ = 0;
     std::uint64_t steps_ = 0;
-    double time_ = 0;
+    // The step under way: so much of it was done when its substeps were last chosen; then how many, how many are left.
+    double begun_ = 0;
+    std::uint32_t chosen_ = 0;
+    std::uint32_t left_ = 0;
+    bool observed_ = false;
+    Anew anew_ = Anew::Nothing;  // of the preparation under way
     std::uint32_t generation_ = 0;
 };
 

@@ -9,11 +9,16 @@
 namespace spherule::sim {
 
 State stateOf(const scene::Scene& scene) {
+    return stateOf(scene, scene.spheres);
+}
+
+State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres) {
     State state;
-    state.position.reserve(scene.spheres.size());
-    state.velocity.reserve(scene.spheres.size());
+    state.position.reserve(spheres.size());
+    state.velocity.reserve(spheres.size());
+    state.spin.reserve(spheres.size());
     const glm::dvec3 centre = scene.bounds.centre();
-    for (const scene::Sphere& sphere : scene.spheres) {
+    for (const scene::Sphere& sphere : spheres) {
         const auto r = static_cast<double>(sphere.radius);
         const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * scene.materials[sphere.material].density;
         state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
@@ -21,6 +26,13 @@ State stateOf(const scene::Scene& scene) {
         state.spin.emplace_back(sphere.spin, 0.0F);
     }
     return state;
+}
+
+std::vector<std::uint8_t> materialsOf(const scene::Scene& scene) {
+    std::vector<std::uint8_t> materials;
+    materials.reserve(scene.spheres.size());
+    for (const scene::Sphere& sphere : scene.spheres) materials.push_back(sphere.material);
+    return materials;
 }
 
 glm::dvec3 positionOf(const State& state, std::uint32_t id) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -20,6 +21,10 @@ struct State {
 };
 
 State stateOf(const scene::Scene& scene);
+// Of these spheres, of the scene's materials, in its bounds.
+State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres);
+// By id.
+std::vector<std::uint8_t> materialsOf(const scene::Scene& scene);
 
 // Figures of a state, in double and SI units; places relative to the bounds' centre.
 glm::dvec3 positionOf(const State& state, std::uint32_t id);

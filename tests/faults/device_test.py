@@ -112,7 +112,7 @@ class Hangs(Faults):
             finally:
                 connection.close()
             time.sleep(0.05)
-        self.assertRegex(unhealthy or "", r"^nothing has progressed for [123]\.\d s; after 3 s the watchdog ends it\n$")
+        self.assertRegex(unhealthy or "", r"^stuck: nothing has progressed for [123]\.\d s; after 3 s the watchdog ends it\n$")
         self.told(viewer, self.cause)
         wait()
         self.assertEqual(server.wait(), 75)

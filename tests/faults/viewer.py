@@ -34,7 +34,12 @@ class Viewer:
     def _send(self, opcode, payload):
         mask = os.urandom(4)
         head = bytes([0x80 | opcode])
-        head += bytes([0x80 | len(payload)]) if len(payload) < 126 else struct.pack(">BH", 0x80 | 126, len(payload))
+        if len(payload) < 126:
+            head += bytes([0x80 | len(payload)])
+        elif len(payload) < 1 << 16:
+            head += struct.pack(">BH", 0x80 | 126, len(payload))
+        else:
+            head += struct.pack(">BQ", 0x80 | 127, len(payload))
         self._socket.sendall(head + mask + bytes(byte ^ mask[k % 4] for k, byte in enumerate(payload)))
 
     def _read(self):

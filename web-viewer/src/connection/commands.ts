@@ -1,6 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import {
+  CancelSchema,
   LoadSceneSchema,
   PauseSchema,
   PushSchema,
@@ -55,6 +56,10 @@ export class Commands {
 
   reset(what = "Reset"): Promise<Outcome> {
     return this.give(what, { case: "reset", value: create(ResetSchema) });
+  }
+
+  cancel(): Promise<Outcome> {
+    return this.give("Cancel", { case: "cancel", value: create(CancelSchema) }, true);
   }
 
   seek(time: number): Promise<Outcome> {

@@ -33,6 +33,8 @@ export function forPage(kind: Kind): FromWorker | undefined {
       return { kind: "timeline", timeline: kind.value };
     case "recording":
       return { kind: "recording", recording: kind.value };
+    case "change":
+      return { kind: "change", change: kind.value };
     case "control":
       return { kind: "control", control: kind.value };
     default:

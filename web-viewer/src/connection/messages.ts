@@ -1,4 +1,5 @@
 import type {
+  Change,
   ClientMessage,
   Command,
   CommandResult,
@@ -73,6 +74,7 @@ export type FromWorker =
   | { kind: "timeline"; timeline: Timeline }
   | { kind: "recording"; recording: Recording }
   | { kind: "control"; control: Control }
+  | { kind: "change"; change: Change }
   | { kind: "lost"; count: number } // frames that could not be decoded since the page was loaded
   | { kind: "broken"; reason: string }; // a message that could not be read
 

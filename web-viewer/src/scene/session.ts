@@ -1,5 +1,5 @@
 import { Event_Kind } from "../gen/spherule/v1/control_pb";
-import type { Control, Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Change, Control, Diagnostics, Dial, Event, Recording, Settings, Stream, Timeline, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import type { FromWorker, LinkChange, LinkState, State } from "../connection/messages";
 import { sharedNow } from "../clock";
@@ -44,6 +44,7 @@ export class Session {
   timeline: Timeline | undefined; // what there is to play; undefined: the server simulates
   control: Control | undefined; // who has the controls; undefined: everybody steers, or it is not known yet
   recording: Recording | undefined; // what the server has recorded; undefined: it keeps none
+  change: Change | undefined; // a command that takes long and is under way
   lastArrival = 0; // ms, of a frame of this epoch
   private begun = 0; // ms: when its facts came
   frames = 0; // taken since the page was loaded
@@ -69,7 +70,7 @@ export class Session {
         this.retryAt = sharedNow() + (message.retryIn ?? 0);
         this.silentSince = undefined;
         if (message.state === "waiting") this.refusal = message.refused ? this.linkReason : "";
-        if (message.state !== "open") this.stream = this.control = undefined;
+        if (message.state !== "open") this.stream = this.control = this.change = undefined;
         this.lateness.reset();
         this.fresh ||= message.state === "open";
         this.events.linked(message);
@@ -123,6 +124,9 @@ export class Session {
       }
       case "control":
         this.control = message.control;
+        break;
+      case "change":
+        this.change = message.change.what ? message.change : undefined;
         break;
       case "stream":
         this.stream = message.stream;

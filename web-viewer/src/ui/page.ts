@@ -8,6 +8,7 @@ import type { Recording } from "../gen/spherule/v1/control_pb";
 import type { ThemeName } from "../renderer/theme";
 import type { Session } from "../scene/session";
 import type { Shown } from "../scene/states";
+import { ChangeLine } from "./change_line";
 import { h } from "./dom";
 import { Header } from "./header";
 import { Help } from "./help";
@@ -45,6 +46,7 @@ export class Page {
   readonly prompt: Prompt;
   readonly steering: Steering;
   private readonly header: Header;
+  private readonly change: ChangeLine;
   private readonly record: RecordButton;
   private readonly transport: Transport;
   private readonly legend: Legend;
@@ -102,11 +104,12 @@ export class Page {
     this.keys = () => (this.prompt.open ? [] : keysFor(keyActions, this.playing));
     listenForKeys(() => this.keys());
     this.record = new RecordButton(commands);
+    this.change = new ChangeLine(() => void commands.cancel());
     this.transport = new Transport(this.record.element, { ...act, home: () => actions.camera.reset() });
     this.playback = new Playback(session, commands, () => choices.mode === "speed" || this.inspector.selected !== undefined);
     const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, steering.element, this.playback.element, this.transport.element));
+    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, this.change.element, steering.element, this.playback.element, this.transport.element));
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
     place.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
     new ResizeObserver(() => this.measureDeck()).observe(this.deck);
@@ -121,6 +124,7 @@ export class Page {
     this.setPlaying(this.session.timeline !== undefined);
     this.steering.update();
     const { why } = this.steering;
+    this.change.update(this.session.change, why);
     this.transport.update(this.session.paused, why);
     this.playback.update(now, shown, why);
     this.record.offer(this.playing ? undefined : this.session.recording, why);

@@ -1,0 +1,140 @@
+#include "sim/preparation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "core/log.h"
+#include "core/pulse.h"
+#include "scene/features.h"
+#include "sim/parameters.h"
+#include "sim/statistics.h"
+
+namespace spherule::sim {
+
+Preparation::Preparation(compute::Device& device, Built built)
+    : device_(device), stage_(Stage::Planning), built_(std::move(built)) {}
+
+Preparation::Preparation(compute::Device& device, Build build) : device_(device) {
+    std::packaged_task<Result<Built>()> task([this, build = std::move(build)]() -> Result<Built> {
+        try {
+            return build(progress_);
+        } catch (const std::bad_alloc&) {
+            return fail(ErrorKind::Refused, "", "there is not enough memory for this");
+        }
+    });
+    building_ = task.get_future();
+    builder_ = std::jthread(std::move(task));
+}
+
+Preparation::~Preparation() {
+    progress_.cancel();
+}
+
+Result<bool> Preparation::advance(std::chrono::milliseconds patience) {
+    if (auto done = doStage(patience); !done) return tl::unexpected(done.error());
+    return stage_ == Stage::Done;
+}
+
+Result<void> Preparation::finish() {
+    constexpr std::chrono::milliseconds patience(10);
+    for (;;) {
+        const auto done = advance(patience);
+        if (!done) return tl::unexpected(done.error());
+        if (*done) return {};
+    }
+}
+
+Result<void> Preparation::doStage(std::chrono::milliseconds patience) {
+    switch (stage_) {
+        case Stage::Building:
+            return awaitBuilt(patience);
+        case Stage::Planning:
+            makePlan();
+            return {};
+        case Stage::Making:
+            return makeNext();
+        case Stage::Uploading:
+            upload();
+            return {};
+        case Stage::Looking:
+            return look();
+        case Stage::Parting:
+            return part();
+        case Stage::Done:
+            return {};
+    }
+    return {};
+}
+
+// The thread that waits shows signs of life for the one that works, as long as that progresses.
+Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
+    if (building_.wait_for(patience) != std::future_status::ready) {
+        const Progress::Seen seen = progress_.seen();
+        if (seen.marks != std::exchange(marks_, seen.marks)) pulse::beat(seen.doing);
+        return {};
+    }
+    auto built = building_.get();
+    if (!built) return tl::unexpected(built.error());
+    built_ = std::move(*built);
+    stage_ = Stage::Planning;
+    return {};
+}
+
+void Preparation::makePlan() {
+    progress_.at("planning", 0);
+    radii_ = radiiOf(built_.scene);
+    pipeline_ = std::make_unique<Pipeline>(
+        device_, planFor(built_.scene, scene::featuresOf(built_.scene), built_.state.count(), radii_));
+    stage_ = Stage::Making;
+}
+
+Result<void> Preparation::makeNext() {
+    progress_.at("making arrays and kernels", pipeline_->shareMade());
+    const auto more = pipeline_->makeNext();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) stage_ = Stage::Uploading;
+    return {};
+}
+
+void Preparation::upload() {
+    progress_.at("uploading", 0);
+    for (glm::vec4& velocity : built_.state.velocity) velocity.w = std::abs(velocity.w);
+    pipeline_->upload(built_.state, materialsOf(built_.scene));
+    writeConstants(*pipeline_, built_.scene);
+    pipeline_->setParameters(
+        parametersFor(built_.scene, pipeline_->plan(), radii_, built_.scene.step / built_.scene.quality.substeps));
+    tolerated_ = deepestBearable(built_.scene);
+    stage_ = std::isfinite(tolerated_) ? Stage::Looking : Stage::Done;
+}
+
+// Spheres that begin deep in each other would fly apart.
+Result<void> Preparation::look() {
+    progress_.at("looking for overlaps", 0);
+    const double deepest = measure(*pipeline_, built_.scene).deepest();
+    stage_ = Stage::Done;
+    if (!(deepest > tolerated_)) return {};
+    spdlog::info("spheres are in each other by up to {:.2g} radii; pushing them apart first", deepest);
+    parted_ = Parted{.before = deepest};
+    relaxation_ = std::make_unique<Relaxation>(device_, built_.scene, built_.state, tolerated_);
+    stage_ = Stage::Parting;
+    return {};
+}
+
+Result<void> Preparation::part() {
+    progress_.at("pushing spheres apart", relaxation_->share());
+    const auto done = relaxation_->advance();
+    if (!done) return tl::unexpected(done.error());
+    if (!*done) return {};
+    parted_->after = relaxation_->overlap();
+    parted_->sweeps = relaxation_->sweeps();
+    built_.state.position = relaxation_->takePositions();
+    relaxation_.reset();
+    pipeline_->upload(built_.state, materialsOf(built_.scene));
+    stage_ = Stage::Done;
+    return {};
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,185 @@
+#include "app/sim_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <google/protobuf/util/json_util.h>
+
+namespace spherule::app {
+namespace {
+
+// A loop on its own, without a network: what sessions give it, and what they are answered, in order.
+class Desk {
+  public:
+    explicit Desk(const std::string& scene = "two-spheres")
+        : loop_(std::move(*World::open("cpu:1", scene, {})), {requests_, live_, outlets()}, *quality::ownTable(), {}) {}
+
+    // Numbers commands in the order in which they are given.
+    std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
+        v1::Command command;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &command).ok()) << json;
+        command.set_id(++given_);
+        EXPECT_TRUE(requests_.push({session, std::move(command)}));
+        return given_;
+    }
+
+    // Until `enough` says so, which is asked after each answer and each message to all.
+    void run(std::function<bool()> enough) {
+        enough_ = std::move(enough);
+        EXPECT_TRUE(loop_.run(stop_.get_token()));
+    }
+    // Until all that was given is answered.
+    void run() {
+        run([this] { return answers.size() >= given_; });
+    }
+
+    [[nodiscard]] const v1::CommandResult& answer(std::uint64_t id) const {
+        for (const v1::CommandResult& result : answers)
+            if (result.id() == id) return result;
+        ADD_FAILURE() << "command " << id << " has no answer";
+        return v1::CommandResult::default_instance();
+    }
+    [[nodiscard]] std::string refusal(std::uint64_t id) const { return answer(id).refused().reason(); }
+    // Its place among the answers.
+    [[nodiscard]] std::size_t placeOf(std::uint64_t id) const {
+        for (std::size_t k = 0; k < answers.size(); ++k)
+            if (answers[k].id() == id) return k;
+        return answers.size();
+    }
+
+    std::vector<v1::CommandResult> answers;
+    std::vector<v1::Change> changes;  // that everybody was told of
+
+  private:
+    void look() {
+        if (enough_ && enough_()) stop_.request_stop();
+    }
+    Outlets outlets() {
+        return {.keep =
+                    [this](const frame::SharedMessage& message) {
+                        if (message->content().has_change()) changes.push_back(message->content().change());
+                        look();
+                    },
+                .everybody = [](const frame::SharedMessage&) {},
+                .order = [](const frame::SharedMessage&) {},
+                .frame = [](const frame::Link&) {},
+                .reply =
+                    [this](std::uint64_t, v1::CommandResult result) {
+                        answers.push_back(std::move(result));
+                        look();
+                    },
+                .viewers = [] { return 0U; },
+                .demands = [] { return std::vector<frame::Demand>(); }};
+    }
+
+    BoundedQueue<Request> requests_{256};
+    Live live_;
+    std::stop_source stop_;
+    std::function<bool()> enough_;
+    std::uint64_t given_ = 0;
+    SimLoop loop_;
+};
+
+// 1,000 spheres in one point: hundreds of sweeps push them apart.
+constexpr const char* crowd = R"({"load":{"scene":{"name":"crowd","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
+    "groups":[{"radius":{"constant":0.05},"lattice":{"min":[-0.1,-0.1,-0.1],"max":[0.1,0.1,0.1],"spacing":1e-6,
+                                                     "count":1000}}]}}})";
+// Random places without overlaps are hard to find there: looking for them takes many seconds.
+constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
+    "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
+
+TEST(SimLoop, AStepIsAnsweredOnceItsStepsAreDone) {
+    Desk desk;
+    const auto first = desk.give(R"({"step":{"count":30}})");
+    const auto second = desk.give(R"({"step":{"count":4}})");
+    const auto query = desk.give(R"({"pause":{}})", 2);
+    desk.run();
+    // The pause ends both: it came before they were done.
+    EXPECT_NE(desk.refusal(first).find("of 30 steps"), std::string::npos) << desk.refusal(first);
+    EXPECT_EQ(desk.refusal(second).rfind("0 of 4 steps", 0), 0U) << desk.refusal(second);
+    EXPECT_TRUE(desk.answer(query).has_applied());
+
+    Desk other;
+    const auto many = other.give(R"({"step":{"count":30}})");
+    const auto few = other.give(R"({"step":{"count":4}})", 2);
+    other.run();
+    EXPECT_EQ(other.answer(many).applied().step(), 30U);
+    EXPECT_EQ(other.answer(few).applied().step(), 34U);
+}
+
+TEST(SimLoop, PauseAndCancelAreAnsweredWhileASceneIsMade) {
+    for (const char* scene : {crowd, packed}) {
+        Desk desk;
+        const auto load = desk.give(scene);
+        const auto pause = desk.give(R"({"pause":{}})", 2);
+        const auto resume = desk.give(R"({"resume":{}})", 2);
+        const auto cancel = desk.give(R"({"cancel":{}})", 2);
+        const auto again = desk.give(R"({"cancel":{}})", 2);
+        desk.run();
+        EXPECT_TRUE(desk.answer(pause).has_applied());
+        EXPECT_TRUE(desk.answer(resume).has_applied());
+        EXPECT_TRUE(desk.answer(cancel).has_applied());
+        EXPECT_EQ(desk.refusal(load), "cancelled");
+        EXPECT_NE(desk.refusal(again).find("nothing is under way"), std::string::npos);
+        EXPECT_LT(desk.placeOf(pause), desk.placeOf(load));
+    }
+}
+
+TEST(SimLoop, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
+    Desk desk;
+    const auto first = desk.give(packed);
+    const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);
+    const auto second = desk.give(crowd, 2);
+    const auto wrong = desk.give(R"({"load":{"name":"nothing"}})");
+    const auto third = desk.give(R"({"load":{"name":"cradle"}})");
+    desk.run();
+    EXPECT_NE(desk.refusal(first).find("session 2 has asked for load crowd"), std::string::npos);
+    EXPECT_NE(desk.refusal(waits).find("session 2 has asked for load crowd"), std::string::npos);
+    EXPECT_NE(desk.refusal(second).find("session 1 has asked for load cradle"), std::string::npos);
+    EXPECT_NE(desk.refusal(wrong).find("known are"), std::string::npos);
+    EXPECT_TRUE(desk.answer(third).has_applied());
+}
+
+TEST(SimLoop, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
+    Desk desk;
+    const auto load = desk.give(packed);
+    const auto set = desk.give(R"({"set":{"gravity":[0,0,1]}})", 2);
+    const auto push = desk.give(R"({"push":{"sphere":0,"impulse":[0,0,0.1]}})", 2);
+    desk.run([&] { return desk.answers.size() == 2; });
+    for (const auto id : {set, push}) {
+        EXPECT_NE(desk.refusal(id).find("load packed is under way (placing spheres"), std::string::npos)
+            << desk.refusal(id);
+        EXPECT_NE(desk.refusal(id).find("cancel"), std::string::npos);
+    }
+    // At its end the loop refuses what is under way.
+    EXPECT_EQ(desk.refusal(load), "the server is stopping");
+
+    Desk quick;
+    const auto friction = quick.give(R"({"set":{"friction":0.3}})");  // needs other arrays and kernels
+    const auto gravity = quick.give(R"({"set":{"gravity":[0,0,1]}})", 2);
+    quick.run();
+    EXPECT_TRUE(quick.answer(friction).has_applied());
+    EXPECT_TRUE(quick.answer(gravity).has_applied());
+    EXPECT_LT(quick.placeOf(friction), quick.placeOf(gravity));
+}
+
+TEST(SimLoop, EverybodyIsToldHowFarALongChangeHasCome) {
+    Desk desk;
+    desk.give(packed, 7);
+    desk.run([&] { return desk.changes.size() >= 3; });
+    ASSERT_GE(desk.changes.size(), 3U);
+    for (const v1::Change& change : desk.changes) {
+        EXPECT_EQ(change.what(), "load packed");
+        EXPECT_EQ(change.doing(), "placing spheres");
+        EXPECT_EQ(change.session(), 7U);
+        EXPECT_GT(change.share(), 0);
+        EXPECT_LT(change.share(), 1);
+    }
+}
+
+}  // namespace
+}  // namespace spherule::app
