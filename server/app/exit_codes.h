@@ -25,6 +25,7 @@ constexpr int exitCodeOf(ErrorKind kind) {
         case ErrorKind::NoDevice:
             return exitNoDevice;
         case ErrorKind::Refused:
+        case ErrorKind::Cancelled:
             return exitRefused;
         case ErrorKind::DeviceLost:
             return exitDeviceLost;

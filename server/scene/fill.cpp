@@ -19,11 +19,15 @@ constexpr std::uint64_t workPerSphere = 2'000;
 constexpr std::uint64_t workAtLeast = 10'000'000;
 constexpr std::uint64_t workAtMost = 4'000'000'000;  // some tens of seconds, for all groups of a scene
 constexpr double jammed = 0.38;
+constexpr std::size_t betweenMarks = 1024;  // spheres
 
 // Large ones first: they find no place later. Equal radii keep their order.
 std::vector<std::uint32_t> byFallingRadius(const std::vector<Sphere>& spheres) {
     std::vector<std::uint32_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0U);
+    const auto smaller = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
+    const auto [least, most] = std::ranges::minmax_element(spheres, smaller);
+    if (least->radius == most->radius) return order;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return spheres[a].radius > spheres[b].radius; });
     return order;
@@ -78,11 +82,12 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
         return {};
     }
 
-    std::vector<Sphere> spheres(fill.count());
-    for (Sphere& sphere : spheres) {
-        sphere.velocity = input.velocity;
-        sphere.spin = input.spin;
-        sphere.radius = radii.draw(input.random);
+    std::vector<Sphere> spheres;
+    spheres.reserve(fill.count());
+    while (spheres.size() < fill.count()) {
+        if (spheres.size() % betweenMarks == 0 && !check.goesOn("drawing radii", spheres.size(), fill.count()))
+            return {};
+        spheres.push_back({.velocity = input.velocity, .radius = radii.draw(input.random), .spin = input.spin});
     }
     std::size_t placed = 0;
     if (!placeAll(check, spheres, region, obstacles, taken, input.random, placed)) {

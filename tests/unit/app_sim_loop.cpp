@@ -16,7 +16,8 @@ namespace {
 class Desk {
   public:
     explicit Desk(const std::string& scene = "two-spheres")
-        : loop_(std::move(*World::open("cpu:1", scene, {})), {requests_, live_, outlets()}, *quality::ownTable(), {}) {}
+        : loop_(std::move(*World::open("cpu:1", scene, {})), {requests_, live_, outlets()}, quality::ownTable(),
+                TapeOptions()) {}
 
     // Numbers commands in the order in which they are given.
     std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
