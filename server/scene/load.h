@@ -15,7 +15,7 @@ namespace spherule::scene {
 
 constexpr std::uint32_t maxSpheres = 16'000'000;
 constexpr std::uint32_t maxObstacles = 1000;
-constexpr std::uint64_t maxObstaclePairs = 100'000'000;  // every sphere meets each obstacle, in each substep
+constexpr std::uint64_t maxObstaclePairs = 30'000'000;  // every sphere meets each obstacle, in each substep
 constexpr std::uint32_t maxGroups = 10'000;              // each is told to every viewer, again with each that is added
 constexpr std::size_t longestGroupName = 200;
 constexpr std::uint32_t maxSubsteps = 1'000'000;
