@@ -20,6 +20,16 @@ DRIVER = sys.argv.pop()
 BINARY = sys.argv.pop()
 
 
+def setUpModule():
+    """Mesa compiles a kernel when it is first launched. On a busy machine that takes longer than the watchdogs here wait, so
+    all are compiled before, in a cache that the programs of these tests share."""
+    cache = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(cache.cleanup)
+    os.environ["MESA_SHADER_CACHE_DIR"] = cache.name
+    subprocess.run([BINARY, "run", "box-4k", "--device", "software", "--for", "0.1s", "--record",
+                    os.path.join(cache.name, "run.sph")], check=True, timeout=120, stdout=subprocess.DEVNULL)
+
+
 class Faults(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
