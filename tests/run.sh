@@ -93,10 +93,11 @@ run_tests() {
 
 # shares LOG: of the time of all tests together, from ctest's sums: "unit = 12.34 sec*proc (5 tests)".
 shares() {
-    echo "== share of the tests' time, which run $jobs at a time"
+    echo "== labels: seconds of their tests together ($jobs run at a time), share, number of tests"
     awk '/ sec\*proc \([0-9]+ tests?\)$/ { seconds[$1] = $3; tests[$1] = substr($5, 2); sum += $3 }
-         END { for (label in seconds) printf "%9.1f s %3.0f %%  %s (%d tests)\n", seconds[label], 100 * seconds[label] / (sum ? sum : 1), label, tests[label] }' "$1" |
-        sort -rn
+         END { for (label in seconds)
+                   printf "%9.1f s %3.0f %%  %s, %d\n", seconds[label], sum ? 100 * seconds[label] / sum : 0, label, tests[label] }' \
+        "$1" | sort -rn
 }
 
 run_tidy() {

@@ -1,5 +1,5 @@
-// What docs/protocol.md tells somebody who writes a client: its examples run as they stand, its ranges are those of the server, and
-// `load` keeps what it says.
+// What docs/protocol.md tells somebody who writes a client: its examples run as they stand, its ranges are those of the server,
+// and `load` keeps what it says.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -14,7 +14,8 @@ import { loadDecoder } from "../../web-viewer/tools/decoder.mjs";
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const { WebSocket } = createRequire(path.join(root, "tests/browser/package.json"))("ws"); // Node has one of its own from 22 on
 const documentText = readFileSync(path.join(root, "docs/protocol.md"), "utf8");
-const examples = [...documentText.split("\n## Examples")[1].matchAll(/^```(\w+)\n([^]*?)^```/gm)].map(([, kind, text]) => ({ kind, text }));
+const blocks = documentText.split("\n## Examples")[1].matchAll(/^```(\w+)\n([^]*?)^```/gm);
+const examples = [...blocks].map(([, kind, text]) => ({ kind, text }));
 
 let folder;
 let server;
@@ -130,9 +131,8 @@ test("positions come out of a frame as is shown", async () => {
   ];
   const spheres = places.map((position) => ({ position }));
   await applied({ pause: {} });
-  await applied({
-    load: { scene: { bounds: { min: [-1, -1, 0], max: [1, 1, 2] }, groups: [{ radius: { constant: 0.05 }, list: { spheres } }] } },
-  });
+  const groups = [{ radius: { constant: 0.05 }, list: { spheres } }];
+  await applied({ load: { scene: { bounds: { min: [-1, -1, 0], max: [1, 1, 2] }, groups } } });
   const viewer = await connect({ rate: 30, tier: "FINE" });
   await until(() => viewer.heard.frame);
   viewer.socket.close();
@@ -216,9 +216,9 @@ test("load keeps what the document says, and nothing else", async () => {
   assert.equal((await applied({ load: { name: "bounce" } })).step ?? "0", "0");
   await until(() => client.heard.scene.epoch > epoch);
   assert.equal(client.heard.scene.name, "bounce");
-  const { speed, paused, gravity, restitution, friction, model, substeps } = client.heard.settings;
-  assert.deepEqual({ speed, paused }, { speed: 2, paused: true });
-  assert.deepEqual({ gravity, restitution, friction: friction ?? 0, model }, { gravity: [0, 0, -9.81], restitution: 0.8, friction: 0, model: "BALANCED" });
+  const { speed, paused, gravity, restitution, friction = 0, model, substeps } = client.heard.settings;
+  assert.deepEqual([speed, paused], [2, true]);
+  assert.deepEqual([gravity, restitution, friction, model], [[0, 0, -9.81], 0.8, 0, "BALANCED"]);
   assert.notEqual(substeps, 3);
   const { statistics } = await applied({ query: {} });
   assert.deepEqual([statistics.step ?? "0", statistics.simTime ?? 0, statistics.spheres], ["0", 0, 1]);
