@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Everything that must pass: installs what is missing, builds, checks the formatting and runs the tests.
 #
-#   ./tests/run.sh                  all tests
-#   ./tests/run.sh --all            all tests, and deploy/verify_image.sh, which needs root
+#   ./tests/run.sh                  the tests, which need no rights: any user, any container
+#   ./tests/run.sh --long           the same, and those that take long (label "long")
+#   ./tests/run.sh --all            the same, those that need root (label "all"), and deploy/verify_image.sh
 #   ./tests/run.sh --label unit     only those with this label; may be given several times
 #   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
 #   ./tests/run.sh --sanitize       what runs without OpenGL under ASan and UBSan, and under TSan, in place of the tests
 #   ./tests/run.sh --fuzz SECONDS   each fuzz target for so long, from its seeds, in place of the tests
 #
-# The last line sums it up. Exits 1 when anything failed.
+# Behind the tests it says which label took how much of their time; the last line sums it up. Exits 1 when anything failed.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,18 +17,20 @@ build=build/release
 jobs=$(nproc)
 
 all=
+long=
 labels=()
 tidy=
 sanitize=
 fuzz=
 while [[ $# -gt 0 ]]; do
     case $1 in
-        --all) all=1; shift ;;
+        --all) all=1; long=1; shift ;;
+        --long) long=1; shift ;;
         --label) labels+=("${2:?--label needs a name}"); shift 2 ;;
         --tidy) tidy=1; shift ;;
         --sanitize) sanitize=1; shift ;;
         --fuzz) fuzz=${2:?--fuzz needs seconds}; shift 2 ;;
-        -h | --help) sed -n '2,11s/^# \?//p' "$0"; exit 0 ;;
+        -h | --help) sed -n '2,13s/^# \?//p' "$0"; exit 0 ;;
         *) echo "unknown option $1; see $0 --help" >&2; exit 2 ;;
     esac
 done
@@ -35,8 +38,8 @@ if [[ -n $tidy$sanitize$fuzz && ${#labels[@]} -gt 0 ]]; then
     echo "--label chooses among the tests; --tidy, --sanitize and --fuzz run others" >&2
     exit 2
 fi
-if [[ -n $all && -n $tidy$sanitize$fuzz${labels[*]-} ]]; then
-    echo "--all is all tests; --label, --tidy, --sanitize and --fuzz choose" >&2
+if [[ -n $all$long && -n $tidy$sanitize$fuzz${labels[*]-} ]]; then
+    echo "--all and --long run all other tests, too; --label, --tidy, --sanitize and --fuzz choose" >&2
     exit 2
 fi
 
@@ -72,10 +75,29 @@ check_format() {
         xargs -0 clang-format --dry-run -Werror
 }
 
+# Tests reach this machine only, so no proxy is asked.
 run_tests() {
-    local chosen=()
-    [[ ${#labels[@]} -eq 0 ]] || chosen=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
-    ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error "${chosen[@]}"
+    local chosen=() left_out=() log=$build/tests.log code=0
+    [[ -n $long ]] || left_out+=(long)
+    [[ -n $all ]] || left_out+=(all)
+    if [[ ${#labels[@]} -gt 0 ]]; then
+        chosen=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
+    elif [[ ${#left_out[@]} -gt 0 ]]; then
+        chosen=(-LE "^($(IFS='|'; echo "${left_out[*]}"))\$")
+    fi
+    env -u http_proxy -u https_proxy -u all_proxy -u HTTP_PROXY -u HTTPS_PROXY -u ALL_PROXY \
+        ctest --test-dir "$build" -j "$jobs" --output-on-failure --no-tests=error "${chosen[@]}" | tee "$log" || code=1
+    shares "$log"
+    return $code
+}
+
+# shares LOG: of the time of all tests together, from ctest's sums: "unit = 12.34 sec*proc (5 tests)".
+shares() {
+    echo "== labels: seconds of their tests together ($jobs run at a time), share, number of tests"
+    awk '/ sec\*proc \([0-9]+ tests?\)$/ { seconds[$1] = $3; tests[$1] = substr($5, 2); sum += $3 }
+         END { for (label in seconds)
+                   printf "%9.1f s %3.0f %%  %s, %d\n", seconds[label], sum ? 100 * seconds[label] / sum : 0, label, tests[label] }' \
+        "$1" | sort -rn
 }
 
 run_tidy() {
@@ -115,7 +137,7 @@ if [[ -n $sanitize ]]; then
     summary
     exit
 fi
-needed packages ./deploy/install_packages.sh build run egl software test
+needed packages ./deploy/install_packages.sh build run egl software test ${tidy:+tidy}
 needed ase ./tests/unpack_ase.sh build/ase
 needed nginx ./tests/deploy/unpack_nginx.sh build/nginx
 needed configure cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON

@@ -14,10 +14,20 @@ import unittest
 
 from faults import FaultyDriver, HeldThread
 from serving import Server
-from viewer import Viewer
+from viewer import Viewer, answers
 
 DRIVER = sys.argv.pop()
 BINARY = sys.argv.pop()
+
+
+def setUpModule():
+    """Mesa compiles a kernel when it is first launched. On a busy machine that takes longer than the watchdogs here wait, so
+    all are compiled before, in a cache that the programs of these tests share."""
+    cache = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(cache.cleanup)
+    os.environ["MESA_SHADER_CACHE_DIR"] = cache.name
+    subprocess.run([BINARY, "run", "box-4k", "--device", "software", "--for", "0.1s", "--record",
+                    os.path.join(cache.name, "run.sph")], check=True, timeout=120, stdout=subprocess.DEVNULL)
 
 
 class Faults(unittest.TestCase):
@@ -130,12 +140,13 @@ class Hangs(Faults):
     def test_so_is_a_thread_that_stands_still_on_the_cpu(self):
         server = self.serve("--watchdog", "3s", device="cpu:1")
         viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 3)
-        with HeldThread(server.pid, "simulation") as held:
+        with HeldThread(server.pid, "simulation", lambda: answers(server.port)) as held:
             self.unhealthy_then_ended(server, viewer, lambda: held.wait_for_the_end(15))
 
     def test_a_program_that_was_stopped_as_a_whole_goes_on(self):
         server = self.serve("--watchdog", "4s", device="cpu:1")
-        with HeldThread(server.pid, "simulation"):  # it is in the middle of something, and not the first to wake
+        # It is in the middle of something, and not the first to wake.
+        with HeldThread(server.pid, "simulation", lambda: answers(server.port)):
             time.sleep(1)
             os.kill(server.pid, signal.SIGSTOP)
             time.sleep(5)

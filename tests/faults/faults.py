@@ -25,19 +25,35 @@ class FaultyDriver:
 
 
 class HeldThread:
-    """One thread of a process that we started, standing still as long as the with statement lasts."""
+    """One thread of a process that we started, standing still as long as the with statement lasts.
 
-    def __init__(self, pid, name):
+    `others_run` returns whether the rest of the process works meanwhile; it does not where the thread was stopped while it
+    held a lock, and another moment is tried."""
+
+    def __init__(self, pid, name, others_run):
+        self._others_run = others_run
         self._id = min(int(task) for task in os.listdir(f"/proc/{pid}/task")
                        if _read(f"/proc/{pid}/task/{task}/comm").strip() == name)
         self._held = False
 
     def __enter__(self):
+        for _ in range(20):
+            self._hold()
+            try:
+                if self._others_run():
+                    return self
+            except BaseException:
+                self.release()
+                raise
+            self.release()
+            time.sleep(0.01)
+        raise AssertionError("the process does not work without this thread")
+
+    def _hold(self):
         _ptrace(SEIZE, self._id)
         _ptrace(INTERRUPT, self._id)
         os.waitpid(self._id, ALL_CHILDREN)
         self._held = True
-        return self
 
     def release(self):
         if self._held:

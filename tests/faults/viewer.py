@@ -8,14 +8,24 @@ import threading
 import time
 
 
+def answers(port):
+    """Whether the server tells a new viewer within a second how things are."""
+    try:
+        Viewer(port, rate=0, patience=1).wait(lambda one: one.of("settings"), 1)
+    except (AssertionError, TimeoutError):
+        return False
+    return True
+
+
 class Viewer:
     """Reads on a thread of its own what the server sends, until that closes."""
 
-    def __init__(self, port, rate=30):
+    def __init__(self, port, rate=30, patience=30):
+        """`patience`: s without a byte, after which it counts as closed."""
         self.messages = []
         self._stalled = False
         self.closed = None  # (code, reason), or (None, "") where the connection just ended
-        self._socket = socket.create_connection(("127.0.0.1", port), timeout=30)
+        self._socket = socket.create_connection(("127.0.0.1", port), timeout=patience)
         key = base64.b64encode(os.urandom(16)).decode()
         self._socket.sendall((f"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                               f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n"

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -46,7 +48,8 @@ TEST(CommandWords, BecomeCommands) {
 }
 
 TEST(CommandWords, LoadAFileAsAnInlineScene) {
-    const auto path = std::filesystem::temp_directory_path() / "spherule_command_words_test.json";
+    const auto path =
+        std::filesystem::temp_directory_path() / ("spherule-command-words-" + std::to_string(getpid()) + ".json");
     std::ofstream(path) << R"({"name":"from a file"})";
     EXPECT_EQ(parsed({"load", path.string()}), "load { scene { name: \"from a file\" } }");
     std::ofstream(path) << R"({"nam":"from a file"})";

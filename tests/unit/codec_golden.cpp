@@ -2,6 +2,7 @@
 // the decoder still reads them. With SPHERULE_WRITE_GOLDEN=1 they are written instead.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -31,8 +32,19 @@ void write(const std::string& name, std::span<const std::byte> bytes) {
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
+const bool writing = std::getenv("SPHERULE_WRITE_GOLDEN") != nullptr;
+
+// The frame is as it was, and the decoder takes it.
+void compare(const std::string& name, const Bytes& made, frame::codec::Decoder& decoder) {
+    if (writing) write(name, made);
+    const Bytes golden = read(name);
+    EXPECT_TRUE(made == golden) << name;
+    const auto head = decoder.apply(golden);
+    ASSERT_TRUE(head) << name << ": " << head.error().text();
+    EXPECT_TRUE(head->hash);
+}
+
 TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
-    const bool writing = std::getenv("SPHERULE_WRITE_GOLDEN") != nullptr;
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres, 2);
     frame::codec::Decoder decoder(spheres);
@@ -41,18 +53,37 @@ TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
         const Bytes made = k == 0   ? encoder.begin(positionsAt(motion.next()))
                            : k == 5 ? encoder.join()
                                     : encoder.next(positionsAt(motion.next()));
-        const std::string name = "frame-" + std::to_string(k) + ".spb";
-        if (writing) write(name, made);
-        const Bytes golden = read(name);
-        EXPECT_TRUE(made == golden) << name;
-        const auto head = decoder.apply(golden);
-        ASSERT_TRUE(head) << name << ": " << head.error().text();
-        EXPECT_TRUE(head->hash);
+        compare("frame-" + std::to_string(k) + ".spb", made, decoder);
     }
     if (writing) write("positions.i32", std::as_bytes(decoder.newest()));
     const Bytes positions = read("positions.i32");
     ASSERT_EQ(positions.size(), spheres * sizeof(glm::ivec3));
     EXPECT_EQ(std::memcmp(positions.data(), decoder.newest().data(), positions.size()), 0);
+}
+
+// Of docs/codec.md. Two chunks, of which the second has two groups, of which the second has one block, of one sphere.
+// Blocks lie apart and move as wholes, one of 16 at a time, so that the files are small.
+std::vector<glm::ivec3> crowd(int frame) {
+    std::vector<glm::ivec3> cells;
+    for (int k = 0; k < 16384 + 2048 + 1; ++k) {
+        const int block = k / 64;
+        const int moved = (frame + block % 16) / 16;
+        cells.emplace_back(100 * block + k % 2 * (1 << block % 13), moved * (5 + block % 7) - block,
+                           7 - k % 3 * (moved % 2));
+    }
+    return cells;
+}
+
+TEST(CodecGolden, FramesOfSeveralChunksAreMadeAndReadAsEver) {
+    const auto count = static_cast<std::uint32_t>(crowd(0).size());
+    Encoder encoder("cpu:1", count);
+    frame::codec::Decoder decoder(count);
+    for (int k = 0; k < 4; ++k) {
+        const Positions positions = positionsAt(crowd(6 * k));
+        compare("chunks-" + std::to_string(k) + ".spb", k == 0 ? encoder.begin(positions) : encoder.next(positions),
+                decoder);
+        EXPECT_TRUE(std::ranges::equal(decoder.newest(), crowd(6 * k)));
+    }
 }
 
 }  // namespace
