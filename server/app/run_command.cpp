@@ -86,10 +86,10 @@ Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Int
     const auto record = [recorder](v1::Event::Kind kind, const std::string& text) {
         return recorder != nullptr ? recorder->say(kind, text) : Result<void>();
     };
-    bool last = false;
-    for (std::uint64_t k = 1; !last; ++k) {
+    std::uint64_t k = 0;
+    for (bool last = false; !last;) {
         if (auto done = simulation.step(); !done) return done;
-        last = k == steps || interrupt.asked();
+        last = ++k == steps || interrupt.asked();
         for (const std::string& notice : simulation.takeNotices()) {
             spdlog::warn("{}", notice);
             if (auto done = record(v1::Event::WARNING, notice); !done) return done;
@@ -111,7 +111,7 @@ Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Int
         if (k % stride == 0 || last)
             if (auto done = every(); !done) return done;
     }
-    if (interrupt.asked())
+    if (k < steps)
         spdlog::warn("ended early by {}, at step {}, {:g} s simulated", interrupt.name(), simulation.steps(),
                      simulation.time());
     return {};
@@ -175,7 +175,7 @@ Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulati
     if (!options.dump.empty()) {
         auto dump = Dump::create(options.dump, options.record.replace);
         if (!dump) return tl::unexpected(dump.error());
-        outputs.dump = std::move(*dump);
+        outputs.dump.emplace(std::move(*dump));
     }
     if (!options.record.path.empty()) {
         auto recorder = Recorder::create(options.record, device, simulation);

@@ -205,9 +205,14 @@ class Interrupted(unittest.TestCase):
         os.mkfifo(self.dump)  # nobody reads on, so that it cannot finish
         reader = os.open(self.dump, os.O_RDWR | os.O_NONBLOCK)
         self.addCleanup(os.close, reader)
+
+        def is_full(wait=0.3):
+            before = fcntl.ioctl(reader, termios.FIONREAD, b"1234")
+            time.sleep(wait)
+            return before == fcntl.ioctl(reader, termios.FIONREAD, b"1234") != bytes(4)
         for first, second in (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT):
             running = self.start("--every", "0.02s", "--dump", self.dump, "--force")
-            self.wait_for(lambda: fcntl.ioctl(reader, termios.FIONREAD, b"1234") != bytes(4))
+            self.wait_for(is_full)
             running.send_signal(first)
             time.sleep(0.2)
             self.assertIsNone(running.poll())
@@ -220,13 +225,11 @@ class Interrupted(unittest.TestCase):
                     break
 
     def test_a_signal_that_was_ignored_stays_so(self):
-        running = self.start("--dump", self.dump, "--every", "1s")
-        running.kill()
         running = subprocess.Popen(["sh", "-c", 'trap "" HUP; exec "$@"', "sh", BINARY, "run", "two-spheres", "--for", "1e9s",
-                                    "--device", DEVICE, "--dump", self.dump + "2"], stdout=subprocess.DEVNULL,
+                                    "--device", DEVICE, "--dump", self.dump], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
         self.addCleanup(lambda: (running.kill(), running.wait()))
-        self.wait_for(lambda: os.path.exists(self.dump + "2"))
+        self.wait_for(lambda: os.path.exists(self.dump) and os.path.getsize(self.dump) > 0)
         running.send_signal(signal.SIGHUP)
         time.sleep(0.2)
         self.assertIsNone(running.poll())
@@ -237,10 +240,10 @@ class Usage(unittest.TestCase):
         done = subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=60, check=False,
                               env=dict(os.environ, **(variables or {})))
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertEqual(done.stdout, "")
-        self.assertTrue(done.stderr.startswith("spherule: "), done.stderr)
-        return done.stderr.removeprefix("spherule: ").rstrip("\n")
+        said = done.stderr.splitlines()[-1]
+        self.assertTrue(said.startswith("spherule: "), done.stderr)
+        return said.removeprefix("spherule: ")
 
     def test_what_is_unknown_is_named_with_what_is_like_it(self):
         self.assertEqual(self.refusal("rum"), '"rum" is no command (did you mean run?); there are serve, run, play, export, '
