@@ -2,18 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <iterator>
 
 #include "core/pulse.h"
 
 namespace spherule::app {
 
-Result<Dump> Dump::create(const std::string& path) {
-    Dump dump(path);
-    dump.file_ << "time,id,x,y,z,vx,vy,vz,radius\n";
-    if (!dump.file_) return fail(ErrorKind::Input, path, std::string("cannot be written: ") + std::strerror(errno));
+Result<Dump> Dump::create(const std::string& path, bool replace) {
+    auto file = store::OutputFile::create(path, replace);
+    if (!file) return tl::unexpected(file.error());
+    Dump dump(std::move(*file));
+    if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius\n"); !done) return tl::unexpected(done.error());
     return dump;
 }
 
@@ -28,9 +27,10 @@ Result<void> Dump::write(sim::Simulation& simulation) {
         fmt::format_to(std::back_inserter(text), "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
                        simulation.time(), id, x.x, x.y, x.z, v.x, v.y, v.z, state.position[id].w);
     }
-    file_ << text << std::flush;
-    if (!file_) return fail(ErrorKind::Input, path_, std::string("cannot be written: ") + std::strerror(errno));
-    return {};
+    if (auto done = file_.write(text); !done) return done;
+    auto done = file_.flush();
+    if (done) file_.keep();
+    return done;
 }
 
 }  // namespace spherule::app

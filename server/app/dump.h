@@ -1,24 +1,26 @@
 #pragma once
 
-#include <fstream>
 #include <string>
 
 #include "core/result.h"
 #include "sim/simulation.h"
+#include "store/output_file.h"
 
 namespace spherule::app {
 
-// States as text: time,id,x,y,z,vx,vy,vz,radius in SI units, world coordinates.
+// States as text: time,id,x,y,z,vx,vy,vz,radius in SI units, world coordinates. Each is there once write() has
+// returned; without any, there is no file.
 class Dump {
   public:
-    static Result<Dump> create(const std::string& path);
+    // As OutputFile::create.
+    static Result<Dump> create(const std::string& path, bool replace);
     Result<void> write(sim::Simulation& simulation);
+    Result<void> finish() { return file_.close(); }
 
   private:
-    explicit Dump(std::string path) : path_(std::move(path)), file_(path_) {}
+    explicit Dump(store::OutputFile file) : file_(std::move(file)) {}
 
-    std::string path_;
-    std::ofstream file_;
+    store::OutputFile file_;
 };
 
 }  // namespace spherule::app

@@ -11,12 +11,12 @@ constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
 constexpr int exitDiverged = 5;
 constexpr int exitDeviceLost = 75;  // worth another start
-constexpr int exitBySignal = 128;   // plus its number: the second that asked the program to stop
+constexpr int exitBySignal = 128;   // plus its number: of a signal that ended the program before its work was done
 
 constexpr const char* exitCodesText =
     "Exit codes: 0 done, 1 a fault of the program, 2 usage, scene or file, 3 no device, 4 refused (memory, disk, "
     "port), "
-    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 130 or 143 a second signal.";
+    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 129, 130 or 143 ended by a signal before it was done.";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {

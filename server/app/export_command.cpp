@@ -7,6 +7,7 @@
 
 #include "app/duration.h"
 #include "app/exit_codes.h"
+#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "core/log.h"
@@ -52,13 +53,16 @@ Result<Range> rangeOf(const ExportOptions& options) {
 }
 
 store::MadeExporter exporterFor(const ExportOptions& options) {
+    if (options.format == "vtk" && options.out == "-")
+        return fail(ErrorKind::Input, "--out",
+                    "cannot be standard output: vtk is many files; give a name, or --format xyz");
     if (options.format == "xyz") return store::xyzExporter(options.out, options.replace);
     if (options.format == "csv") return store::csvExporter(options.out, options.replace);
     return store::vtkExporter(options.out, options.replace);
 }
 
-// To the first frame that is not before `from`; false where there is none.
-Result<bool> enter(store::Recording& recording, double from) {
+// To the first frame that is not before `from`; false where there is none, or the export is to stop.
+Result<bool> enter(store::Recording& recording, double from, const Interrupt& interrupt) {
     if (auto done = recording.seek(from); !done) {
         // Behind what is damaged the next keyframe is the first that there is.
         spdlog::warn("{}", done.error().text());
@@ -67,6 +71,7 @@ Result<bool> enter(store::Recording& recording, double from) {
     while (recording.time() < from - sameTime) {
         auto more = recording.next();
         if (!more || !*more) return more;
+        if (interrupt.asked()) return false;
     }
     return true;
 }
@@ -76,14 +81,16 @@ struct Written {
     double error = 0;  // m, of positions on each axis, at most
 };
 
-// With `every`, the first frame at or after each multiple of it, counted from the first one.
-Result<Written> write(store::Recording& recording, const Range& range, store::Exporter& exporter) {
+// With `every`, the first frame at or after each multiple of it, counted from the first one. Interrupted, it stops
+// before the end, and does not finish.
+Result<Written> write(store::Recording& recording, const Range& range, store::Exporter& exporter,
+                      const Interrupt& interrupt) {
     Written written;
     ProgressLine progress;
-    auto more = enter(recording, std::max(range.from, recording.begin()));
+    auto more = enter(recording, std::max(range.from, recording.begin()), interrupt);
     const double first = recording.time();
     double due = 0;
-    for (; more && *more; more = recording.next()) {
+    for (; more && *more && !interrupt.asked(); more = recording.next()) {
         const double time = recording.time();
         if (time > range.to + sameTime) break;
         if (range.every > 0) {
@@ -100,6 +107,7 @@ Result<Written> write(store::Recording& recording, const Range& range, store::Ex
                                std::min(range.to, recording.end()));
         });
     }
+    if (interrupt.asked()) return written;
     if (!more) {
         // What came before is sound, and finished; the damage decides the exit code.
         if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
@@ -111,7 +119,7 @@ Result<Written> write(store::Recording& recording, const Range& range, store::Ex
     return written;
 }
 
-Result<void> exportRecording(const ExportOptions& options) {
+Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt) {
     const auto range = rangeOf(options);
     if (!range) return tl::unexpected(range.error());
     auto recording = store::Recording::open(options.file);
@@ -125,10 +133,16 @@ Result<void> exportRecording(const ExportOptions& options) {
     std::error_code missing;  // of what is not there yet
     if (std::filesystem::equivalent(options.file, options.out, missing))
         return fail(ErrorKind::Input, options.out, "is the recording itself; choose another name");
+    interrupt.finishFirst();
     auto exporter = exporterFor(options);
     if (!exporter) return tl::unexpected(exporter.error());
-    const auto written = write(*recording, *range, **exporter);
+    const auto written = write(*recording, *range, **exporter, interrupt);
     if (!written) return tl::unexpected(written.error());
+    if (interrupt.asked()) {
+        spdlog::warn("ended by {} after {} frames: {} was not written", interrupt.name(), written->frames,
+                     (*exporter)->path());
+        return {};
+    }
     spdlog::info("exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis",
                  written->frames, (*exporter)->path(), written->error);
     return {};
@@ -144,8 +158,9 @@ void addExport(CLI::App& app, int& exitCode) {
         ->required()
         ->check(CLI::IsMember({"xyz", "vtk", "csv"}));
     command
-        ->add_option("--out", options->out,
-                     "the file to write; for vtk the .pvd, with a folder of the same name beside it")
+        ->add_option(
+            "--out", options->out,
+            "the file to write, - for standard output; for vtk the .pvd, with a folder of the same name beside it")
         ->required();
     command->add_option("--every", options->every, "so far apart, such as 0.1s; absent: every frame");
     command->add_option("--from", options->from, "from this simulated time on, such as 1.5s");
@@ -153,8 +168,12 @@ void addExport(CLI::App& app, int& exitCode) {
     command->add_flag("--force", options->replace, "replace what is there");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
-        const auto done = exportRecording(*options);
-        exitCode = done ? exitDone : report(done.error());
+        Interrupt interrupt;
+        const auto done = exportRecording(*options, interrupt);
+        if (!done)
+            exitCode = report(done.error());
+        else
+            exitCode = interrupt.asked() ? exitBySignal + interrupt.signal() : exitDone;
     });
 }
 

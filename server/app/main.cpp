@@ -5,13 +5,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <new>
 #include <string>
 
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/settings.h"
+#include "app/usage.h"
 #include "core/log.h"
 
 namespace spherule::app {
@@ -26,9 +26,11 @@ int runCommand(int argc, char** argv) {
     bool verbose = false;
     app.add_flag("-v,--verbose", verbose, "log more");
     LogFormat format = LogFormat::Text;
-    const std::map<std::string, LogFormat> formats = {{"text", LogFormat::Text}, {"json", LogFormat::Json}};
-    app.add_option("--log-format", format, "text or json, one object a line [text]")
-        ->transform(CLI::CheckedTransformer(formats).description(""))
+    app.add_option_function<std::string>(
+           "--log-format",
+           [&format](const std::string& name) { format = name == "json" ? LogFormat::Json : LogFormat::Text; },
+           "text or json, one object a line [text]")
+        ->check(CLI::IsMember({"text", "json"}))
         ->envname("SPHERULE_LOG_FORMAT");
     bool printConfig = false;
     app.add_flag("--print-config", printConfig, "print the settings of the command instead, as --config takes them")
@@ -36,6 +38,7 @@ int runCommand(int argc, char** argv) {
     addConfig(app);
     app.parse_complete_callback([&] {
         startLog(verbose, format);
+        rememberUsage(app);
         if (!printConfig) return;
         fmt::print("{}", settingsText(app));
         throw CLI::Success();
@@ -53,8 +56,11 @@ int runCommand(int argc, char** argv) {
     addMeasure(app, exitCode);
     try {
         app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exitDone : exitInput;
+        complain(usageText(app, error));
+        return exitInput;
     }
     return exitCode;
 }

@@ -24,6 +24,7 @@ std::string commandOf(const MeasureOptions& options) {
 }
 
 Result<void> run(const MeasureOptions& options) {
+    if (options.out == "-") return fail(ErrorKind::Input, "--out", "cannot be standard output: it is a folder");
     if (auto writable = measure::checkFolder(options.out); !writable) return writable;
     auto device = compute::openDevice(options.device);
     if (!device) return tl::unexpected(device.error());

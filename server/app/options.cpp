@@ -10,6 +10,7 @@
 
 #include "app/duration.h"
 #include "app/exit_codes.h"
+#include "app/usage.h"
 #include "core/quantity.h"
 #include "scene/goal.h"
 #include "scene/quality.h"
@@ -75,10 +76,8 @@ void addWatchdog(CLI::App& command, double& seconds) {
         ->default_str("60s");
 }
 
-namespace {
-
-// To stderr, if somebody takes it within a second: a pipe that nobody reads must not keep the program from its end.
-void complain(std::string text) {
+void complain(const std::string& what) {
+    std::string text = fmt::format("spherule: {}\n", what);
     text.resize(std::min<std::size_t>(text.size(), PIPE_BUF));  // so much is taken at once, or not at all
     pollfd place{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (poll(&place, 1, 1000) <= 0) return;
@@ -86,11 +85,9 @@ void complain(std::string text) {
     static_cast<void>(written);  // where it cannot be said, there is nobody to tell that
 }
 
-}  // namespace
-
 int report(const Error& error) {
     const char* const advice = error.kind == ErrorKind::DeviceLost ? "; start it again" : "";
-    complain(fmt::format("spherule: {}{}\n", error.text(), advice));
+    complain(usageText(error) + advice);
     return exitCodeOf(error.kind);
 }
 

@@ -37,6 +37,9 @@ void addQuality(CLI::App& command, scene::Overrides& overrides);
 // --watchdog: s without progress, after which a command ends with exitDeviceLost; 0: never.
 void addWatchdog(CLI::App& command, double& seconds);
 
+// One line to stderr, if somebody takes it within a second: a pipe that nobody reads must not keep the program from its
+// end.
+void complain(const std::string& what);
 // Prints the error to stderr and gives its exit code.
 int report(const Error& error);
 

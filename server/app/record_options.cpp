@@ -18,9 +18,7 @@ void addCommon(CLI::App& command, RecordOptions& options, CLI::Option* needed) {
 }
 
 CLI::Option* addFile(CLI::App& command, RecordOptions& options) {
-    CLI::Option* const file = command.add_option("--record", options.path, "record in this file");
-    command.add_flag("--force", options.replace, "replace the recording if it is there")->needs(file);
-    return file;
+    return command.add_option("--record", options.path, "record in this file");
 }
 
 }  // namespace
@@ -28,6 +26,7 @@ CLI::Option* addFile(CLI::App& command, RecordOptions& options) {
 void addRecord(CLI::App& command, RecordOptions& options) {
     CLI::Option* const file = addFile(command, options);
     addCommon(command, options, file);
+    command.add_flag("--force", options.replace, "replace the files of --record and --dump if they are there");
     command.add_option("--record-rate", options.rate, "frames per simulated second, at most one a step")
         ->capture_default_str()
         ->check(CLI::Range(0.001, 1e6))
@@ -35,8 +34,9 @@ void addRecord(CLI::App& command, RecordOptions& options) {
 }
 
 void addTape(CLI::App& command, TapeOptions& options) {
-    addFile(command, options);
+    CLI::Option* const file = addFile(command, options);
     addCommon(command, options, nullptr);
+    command.add_flag("--force", options.replace, "replace the recording if it is there")->needs(file);
     command.add_option("--record-rate", options.rate, "frames per second of recordings: 5, 10, 20, 30 or 60")
         ->capture_default_str()
         ->check(CLI::IsMember({5.0, 10.0, 20.0, 30.0, 60.0}));

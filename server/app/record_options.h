@@ -14,7 +14,7 @@ struct RecordOptions {
     std::string path;  // empty: nothing is recorded from the beginning on
     v1::Tier tier = v1::FINE;
     double rate = 30;      // frames per second
-    bool replace = false;  // a file that is there
+    bool replace = false;  // a file that is there; in `run`, that of --dump, too
 };
 
 // What is recorded while viewers watch.

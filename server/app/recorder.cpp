@@ -23,9 +23,18 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
                                                    sim::Simulation& simulation) {
     if (simulation.count() == 0)
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
+    auto tools = sim::TierTools::create(device, simulation.count(), simulation.tierSource().slotOf != nullptr);
+    if (!tools) return tl::unexpected(tools.error());
+    const double quantum = frame::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
+    auto tier = sim::Tier::create(**tools, {.quantum = quantum});
+    if (!tier) return tl::unexpected(tier.error());
+    // The file comes last: where the device has no room, one that is to be replaced stays.
     auto writer = store::Writer::create(options.path, options.replace);
     if (!writer) return tl::unexpected(writer.error());
     std::unique_ptr<Recorder> recorder(new Recorder(options, device, simulation, std::move(*writer)));
+    recorder->tools_ = std::move(*tools);
+    recorder->tier_ = std::move(*tier);
+    recorder->quantum_ = quantum;
     if (auto done = recorder->begin(); !done) return tl::unexpected(done.error());
     return recorder;
 }
@@ -38,14 +47,6 @@ Result<void> Recorder::begin() {
     welcome.mutable_welcome()->clear_reason();
     if (auto done = add(store::Kind::Other, welcome); !done) return done;
     if (auto done = add(store::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
-
-    auto tools = sim::TierTools::create(device_, simulation_.count(), simulation_.tierSource().slotOf != nullptr);
-    if (!tools) return tl::unexpected(tools.error());
-    tools_ = std::move(*tools);
-    quantum_ = frame::quantumOf(options_.tier, sim::radiiOf(simulation_.scene()).smallest);
-    auto tier = sim::Tier::create(*tools_, {.quantum = quantum_});
-    if (!tier) return tl::unexpected(tier.error());
-    tier_ = std::move(*tier);
 
     const std::vector<std::uint32_t> ids = sim::mortonOrder(simulation_.snapshot().position);
     tools_->setOrder(ids);

@@ -2,12 +2,15 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "app/dump.h"
 #include "app/duration.h"
 #include "app/exit_codes.h"
+#include "app/interrupt.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/recorder.h"
@@ -73,17 +76,20 @@ class Watch {
     Clock::time_point began_;
 };
 
-// Runs `steps`, and calls `every` after each `stride` of them and at the end. `recorder`: may be null.
-Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, std::uint64_t steps, std::uint64_t stride,
-                      const std::function<Result<void>()>& every) {
+// Runs `steps`, or fewer when a signal asks for that, and calls `every` after each `stride` of them and at the end.
+// `recorder`: may be null.
+Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Interrupt& interrupt, std::uint64_t steps,
+                      std::uint64_t stride, const std::function<Result<void>()>& every) {
     ProgressLine progress;
     const auto began = Clock::now();
     Tuner tuner;
     const auto record = [recorder](v1::Event::Kind kind, const std::string& text) {
         return recorder != nullptr ? recorder->say(kind, text) : Result<void>();
     };
-    for (std::uint64_t k = 1; k <= steps; ++k) {
+    std::uint64_t k = 0;
+    for (bool last = false; !last;) {
         if (auto done = simulation.step(); !done) return done;
+        last = ++k == steps || interrupt.asked();
         for (const std::string& notice : simulation.takeNotices()) {
             spdlog::warn("{}", notice);
             if (auto done = record(v1::Event::WARNING, notice); !done) return done;
@@ -97,14 +103,17 @@ Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, std::uint
         if (simulation.counters().nonFinite)
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
         if (recorder != nullptr)
-            if (auto done = recorder->stepped(k == steps); !done) return done;
+            if (auto done = recorder->stepped(last); !done) return done;
         progress.show([&] {
             return fmt::format("{} of {} steps, {:.2f} s simulated, {:.2f} times real time ", k, steps,
                                simulation.time(), simulation.time() / secondsSince(began));
         });
-        if (k % stride == 0 || k == steps)
+        if (k % stride == 0 || last)
             if (auto done = every(); !done) return done;
     }
+    if (k < steps)
+        spdlog::warn("ended early by {}, at step {}, {:g} s simulated", interrupt.name(), simulation.steps(),
+                     simulation.time());
     return {};
 }
 
@@ -119,14 +128,28 @@ void print(const RunOptions& options, const compute::DeviceInfo& info, sim::Simu
     std::fflush(stdout);
 }
 
-Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device,
-                      Recorder* recorder, double duration, double every) {
+// How long, and how often there is something to say, in s simulated.
+struct Times {
+    double duration = 0;
+    double every = 0;  // 0: only at the end
+};
+
+// Where states go, beside the report.
+struct Outputs {
+    std::optional<Dump> dump;
+    std::unique_ptr<Recorder> recorder;
+};
+
+Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, Outputs& outputs,
+                      const Interrupt& interrupt, Times times) {
     const double step = simulation.scene().step;
-    const auto steps = static_cast<std::uint64_t>(std::llround(duration / step));
+    const double every = times.every;
+    const auto steps = static_cast<std::uint64_t>(std::llround(times.duration / step));
     const auto stride = every > 0 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(every / step)))
                                   : std::max<std::uint64_t>(1, steps);
     Watch watch(simulation, device);
-    if (options.dump.empty()) {
+    Recorder* const recorder = outputs.recorder.get();
+    if (!outputs.dump) {
         if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
         quality::OverlapWatch overlap;
         const auto report = [&]() -> Result<void> {
@@ -136,34 +159,68 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
             watch.start();
             return {};
         };
-        return steps == 0 ? report() : runSteps(simulation, recorder, steps, stride, report);
+        return steps == 0 ? report() : runSteps(simulation, recorder, interrupt, steps, stride, report);
     }
-    auto dump = Dump::create(options.dump);
-    if (!dump) return tl::unexpected(dump.error());
-    if (auto done = dump->write(simulation); !done) return done;
-    if (auto done = runSteps(simulation, recorder, steps, stride, [&] { return dump->write(simulation); }); !done)
-        return done;
+    Dump& dump = *outputs.dump;
+    const auto write = [&] { return dump.write(simulation); };
+    if (auto done = write(); !done) return done;
+    if (steps > 0)
+        if (auto done = runSteps(simulation, recorder, interrupt, steps, stride, write); !done) return done;
     print(options, device.info(), simulation, watch.take());
     return {};
 }
 
-// The same, recorded. What there is of the recording is finished also when the run failed.
-Result<void> record(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, double duration,
-                    double every) {
-    if (options.record.path.empty()) return simulate(options, simulation, device, nullptr, duration, every);
-    auto recorder = Recorder::create(options.record, device, simulation);
-    if (!recorder) return tl::unexpected(recorder.error());
-    auto done = simulate(options, simulation, device, recorder->get(), duration, every);
-    auto finished = (*recorder)->finish();
-    if (!done) return done;
-    if (!finished) return finished;
-    const store::Writer& writer = (*recorder)->writer();
-    spdlog::info("recorded {} frames in {}, {:.1f} MB", writer.frames(), options.record.path,
-                 1e-6 * static_cast<double>(writer.bytes()));
+Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulation, compute::Device& device) {
+    Outputs outputs;
+    if (!options.dump.empty()) {
+        auto dump = Dump::create(options.dump, options.record.replace);
+        if (!dump) return tl::unexpected(dump.error());
+        outputs.dump.emplace(std::move(*dump));
+    }
+    if (!options.record.path.empty()) {
+        auto recorder = Recorder::create(options.record, device, simulation);
+        if (!recorder) return tl::unexpected(recorder.error());
+        outputs.recorder = std::move(*recorder);
+    }
+    return outputs;
+}
+
+// With all files that go with it. What there is of them is finished also when the run failed.
+Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation, compute::Device& device,
+                          Interrupt& interrupt, Times times) {
+    interrupt.finishFirst();
+    auto outputs = openOutputs(options, simulation, device);
+    if (!outputs) return tl::unexpected(outputs.error());
+    auto done = simulate(options, simulation, device, *outputs, interrupt, times);
+    if (outputs->recorder) {
+        auto finished = outputs->recorder->finish();
+        if (done) done = finished;
+    }
+    if (outputs->dump && done) done = outputs->dump->finish();
+    if (done && outputs->recorder) {
+        const store::Writer& writer = outputs->recorder->writer();
+        spdlog::info("recorded {} frames in {}, {:.1f} MB", writer.frames(), options.record.path,
+                     1e-6 * static_cast<double>(writer.bytes()));
+    }
+    return done;
+}
+
+Result<void> checkFiles(const RunOptions& options) {
+    const bool dumps = !options.dump.empty();
+    const bool records = !options.record.path.empty();
+    if (options.record.replace && !dumps && !records)
+        return fail(ErrorKind::Input, "--force", "has nothing to replace; give --record or --dump");
+    if (dumps && options.dump == options.record.path)
+        return fail(ErrorKind::Input, "--dump", "is the file of --record; give each its own");
+    constexpr const char* taken = "cannot be standard output, where the report goes; give it a file";
+    if (options.dump == "-") return fail(ErrorKind::Input, "--dump", taken);
+    if (options.record.path == "-") return fail(ErrorKind::Input, "--record", taken);
     return {};
 }
 
 Result<void> run(const RunOptions& options) {
+    Interrupt interrupt;
+    if (auto done = checkFiles(options); !done) return done;
     const auto duration = secondsOf(options.duration, "--for");
     if (!duration) return tl::unexpected(duration.error());
     const auto every = options.every.empty() ? Result<double>(0.0) : secondsOf(options.every, "--every");
@@ -186,7 +243,7 @@ Result<void> run(const RunOptions& options) {
                     fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
     auto simulation = sim::Simulation::create(**device, std::move(*loaded));
     if (!simulation) return tl::unexpected(simulation.error());
-    return record(options, **simulation, **device, *duration, *every);
+    return simulateInto(options, **simulation, **device, interrupt, {.duration = *duration, .every = *every});
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "app/secret_files.h"
 
 #include <cstdlib>
-#include <fstream>
 
+#include "core/input_file.h"
 #include "net/admission.h"
 
 namespace spherule::app {
@@ -15,13 +15,9 @@ constexpr std::size_t longestFile = std::size_t{1} << 20U;
 
 Result<std::string> contentOf(const std::string& option, const std::string& path) {
     if (path.empty()) return std::string();
-    std::ifstream file(path, std::ios::binary);
-    std::string text(longestFile + 1, '\0');  // never more: it may be a device that has no end
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    if (!file.good() && !file.eof()) return fail(ErrorKind::Input, option, path + " cannot be read");
-    if (text.empty()) return fail(ErrorKind::Input, option, path + " is empty, or cannot be read");
-    if (text.size() > longestFile) return fail(ErrorKind::Input, option, path + " is longer than 1 MiB");
+    auto text = readFile(path, longestFile);
+    if (!text) return fail(ErrorKind::Input, option, text.error().text());
+    if (text->empty()) return fail(ErrorKind::Input, option, path + ": is empty");
     return text;
 }
 

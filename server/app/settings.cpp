@@ -8,9 +8,13 @@
 #include <memory>
 #include <vector>
 
+#include "core/input_file.h"
+
 namespace spherule::app {
 
 namespace {
+
+constexpr std::uint64_t longestFile = 1U << 20U;  // bytes
 
 std::string variableFor(const std::string& option) {
     std::string name = "SPHERULE_" + option;
@@ -64,7 +68,14 @@ void addSettings(CLI::App& command) {
 }
 
 void addConfig(CLI::App& app) {
-    app.set_config("--config", "", "a file of settings, such as --print-config writes")->envname("SPHERULE_CONFIG");
+    // CLI11 reads the environment too late for this one, so that the variable is its default.
+    const char* const given = std::getenv("SPHERULE_CONFIG");
+    app.set_config("--config", given == nullptr ? "" : given,
+                   "a file of settings, such as --print-config writes; or SPHERULE_CONFIG")
+        ->check([](const std::string& path) {
+            const auto text = path.empty() ? "" : readFile(path, longestFile);
+            return text ? "" : text.error().text();
+        });
     app.config_formatter(std::make_shared<FileAfterEnvironment>());
     app.allow_config_extras(false);
 }

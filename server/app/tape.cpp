@@ -1,6 +1,7 @@
 #include "app/tape.h"
 
 #include "app/utf8.h"
+#include "core/log.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -59,7 +60,8 @@ Result<std::uint64_t> Tape::roomInFolder() const {
     if (options_.folder.empty())
         return fail(ErrorKind::Refused, "", "this server keeps no recordings: start it with --recordings FOLDER");
     std::error_code error;
-    fs::create_directories(options_.folder, error);
+    if (fs::create_directories(options_.folder, error))
+        spdlog::warn("the folder of recordings, {}, was not there: it has been made", options_.folder);
     if (error)
         return fail(ErrorKind::Refused, "",
                     fmt::format("the folder {} cannot be made: {}", options_.folder, error.message()));

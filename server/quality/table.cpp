@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
+#include "core/input_file.h"
 #include "embedded/qualityTable.h"
 #include "scene/check.h"
 #include "scene/quality.h"
@@ -20,6 +18,8 @@ namespace spherule::quality {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::uint64_t longestFile = 4U << 20U;  // bytes
 
 constexpr std::string_view advice = "; `spherule measure --suite accuracy --out FOLDER` writes FOLDER/measure.json";
 
@@ -117,13 +117,9 @@ Result<Table> parseTable(const std::string& text, std::string_view file) {
 }
 
 Result<Table> loadTable(const std::string& path) {
-    std::error_code error;
-    const bool exists = std::filesystem::exists(path, error);
-    std::ifstream file(path, std::ios::binary);
-    if (!std::filesystem::is_regular_file(path, error) || !file)
-        return fail(ErrorKind::Input, path,
-                    fmt::format("{}{}", exists ? "cannot be read as a file" : "there is no such file", advice));
-    return parseTable({std::istreambuf_iterator<char>(file), {}}, path);
+    const auto text = readFile(path, longestFile);
+    if (!text) return fail(ErrorKind::Input, path, fmt::format("{}{}", text.error().message, advice));
+    return parseTable(*text, path);
 }
 
 Table ownTable() {

@@ -3,9 +3,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <optional>
 #include <system_error>
 
+#include "core/input_file.h"
 #include "scene/source.h"
 
 namespace spherule::scene {
@@ -13,6 +14,8 @@ namespace spherule::scene {
 namespace {
 
 using Row = std::array<double, 7>;
+
+constexpr std::size_t longestLine = 4096;  // bytes
 
 struct Columns {
     bool velocity = false;
@@ -43,47 +46,51 @@ class CsvReader {
         : check_(check), field_(std::move(field)), path_(std::move(path)) {}
 
     bool open() {
-        std::error_code error;
-        if (std::filesystem::is_regular_file(path_, error)) file_.open(path_);
-        if (file_.is_open()) return true;
-        check_.refuse(field_, fmt::format("is {}, which is not a readable file", shown(path_.string())));
-        return false;
+        auto file = InputFile::open(path_.string());
+        if (file)
+            lines_.emplace(std::move(*file));
+        else
+            check_.refuse(field_, file.error().text());
+        return file.has_value();
     }
 
+    // False at the end of the file, and, refused, for a line that cannot be read.
     bool nextLine() {
-        if (!std::getline(file_, text_)) return false;
-        ++line_;
-        if (text_.ends_with('\r')) text_.pop_back();
-        return true;
+        const auto more = lines_->next(longestLine);
+        if (!more) check_.refuse(field_, fmt::format("{}:{}: {}", path_.string(), line(), more.error().message));
+        return more.value_or(false);
     }
 
-    [[nodiscard]] const std::string& text() const { return text_; }
+    [[nodiscard]] const std::string& text() const { return lines_->line(); }
 
     void refuse(std::size_t column, std::string_view reason) {
-        check_.refuse(field_, fmt::format("{}:{}:{}: {}", path_.string(), line_, column, reason));
+        check_.refuse(field_, fmt::format("{}:{}:{}: {}", path_.string(), line(), column, reason));
     }
 
     // The numbers of the line, one for each name.
     std::optional<Row> row(const std::vector<std::string_view>& names) {
         Row result{};
+        const std::string& text = lines_->line();
         std::size_t start = 0;
         for (std::size_t i = 0; i < names.size(); ++i) {
-            const std::size_t comma = std::min(text_.find(',', start), text_.size());
-            if ((comma == text_.size()) != (i + 1 == names.size())) {
+            const std::size_t comma = std::min(text.find(',', start), text.size());
+            if ((comma == text.size()) != (i + 1 == names.size())) {
                 refuse(comma + 1, fmt::format("the line must have {} numbers, as the header has names", names.size()));
                 return std::nullopt;
             }
-            if (!number(start, comma, names[i], result[i])) return std::nullopt;
+            if (!number(text, start, comma, names[i], result[i])) return std::nullopt;
             start = comma + 1;
         }
         return result;
     }
 
   private:
-    bool number(std::size_t start, std::size_t end, std::string_view name, double& value) {
-        while (start < end && text_[start] == ' ') ++start;
-        while (end > start && text_[end - 1] == ' ') --end;
-        const std::string_view digits = std::string_view(text_).substr(start, end - start);
+    [[nodiscard]] std::size_t line() const { return lines_->number(); }
+
+    bool number(std::string_view text, std::size_t start, std::size_t end, std::string_view name, double& value) {
+        while (start < end && text[start] == ' ') ++start;
+        while (end > start && text[end - 1] == ' ') --end;
+        const std::string_view digits = text.substr(start, end - start);
         const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         Check limits;
         if (error != std::errc() || rest != digits.data() + digits.size()) {
@@ -100,9 +107,7 @@ class CsvReader {
     Check& check_;
     std::string field_;
     std::filesystem::path path_;
-    std::ifstream file_;
-    std::string text_;
-    std::size_t line_ = 0;
+    std::optional<LineReader> lines_;
 };
 
 }  // namespace
@@ -113,7 +118,7 @@ std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesys
     CsvReader reader(check, field, directory / csv.file());
     if (!reader.open()) return {};
     const auto columns = reader.nextLine() ? columnsOf(reader.text()) : std::nullopt;
-    if (!columns) {
+    if (!columns) {  // nothing more is said of a line that could not be read
         reader.refuse(1, fmt::format("the header is {}, must be x,y,z[,vx,vy,vz][,radius]", shown(reader.text())));
         return {};
     }

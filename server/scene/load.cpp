@@ -2,10 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "core/input_file.h"
 #include "core/pulse.h"
 #include "scene/build.h"
 #include "scene/catalog.h"
@@ -20,16 +20,8 @@ bool isPath(std::string_view source) {
     return source.find('/') != std::string_view::npos || source.ends_with(".json");
 }
 
-Result<std::string> readFile(const std::filesystem::path& path) {
-    std::error_code error;
-    const bool exists = std::filesystem::exists(path, error);
-    if (!exists) return fail(ErrorKind::Input, path.string(), "there is no such file");
-    std::ifstream file(path, std::ios::binary);
-    if (!std::filesystem::is_regular_file(path, error) || !file) {
-        return fail(ErrorKind::Input, path.string(), "cannot be read as a file");
-    }
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
+constexpr std::uint64_t longestFile = 32U << 20U;  // bytes of JSON
+constexpr std::ptrdiff_t mostObjects = 2'000'000;  // each takes some 130 bytes when parsed, be it empty
 
 Result<Scene> buildText(const std::string& text, const std::string& source, const std::string& name,
                         const std::optional<std::filesystem::path>& directory, const Overrides& overrides,
@@ -50,8 +42,14 @@ Result<Scene> load(const std::string& source, std::string_view deviceKind, const
     if (isPath(source)) {
         const pulse::Unwatched reading;
         const std::filesystem::path path(source);
-        const auto text = readFile(path);
+        auto text = readFile(source, longestFile);
         if (!text) return tl::unexpected(text.error());
+        dropByteOrderMark(*text);
+        if (const auto objects = std::count(text->begin(), text->end(), '{'); objects > mostObjects)
+            return fail(ErrorKind::Input, source,
+                        fmt::format("has {} objects, at most {} are allowed; give so many spheres as CSV, lattice or "
+                                    "fill",
+                                    objects, mostObjects));
         return buildText(*text, source, path.stem().string(), path.parent_path(), overrides, progress);
     }
     if (const auto text = embeddedScene(source, deviceKind)) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -12,6 +13,9 @@ namespace {
 // Bytes that may wait for the disk: frames, then what frames need.
 constexpr std::size_t mostWaiting = 64U << 20U;
 constexpr std::size_t mostNeeded = 256U << 20U;
+
+using namespace std::chrono_literals;
+constexpr auto looksEvery = 1s;  // whether the file is still there, while nothing comes
 
 constexpr bool frameNeeds(Kind kind) {
     return kind == Kind::Scene || kind == Kind::Order || kind == Kind::Settings;
@@ -69,7 +73,11 @@ void BackgroundWriter::write() {
     Result<void> done;
     try {
         std::vector<Item> items;
-        while (done && take(items)) done = put(items);
+        while (done) {
+            const auto more = take(items);
+            if (more && !*more) break;
+            done = more ? put(items) : tl::unexpected(more.error());
+        }
     } catch (const std::exception& error) {
         done = fail(ErrorKind::Refused, "", error.what());
     }
@@ -77,9 +85,13 @@ void BackgroundWriter::write() {
 }
 
 // False when there is nothing more to come.
-bool BackgroundWriter::take(std::vector<Item>& items) {
+Result<bool> BackgroundWriter::take(std::vector<Item>& items) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !waiting_.empty() || finishing_; });
+    while (!changed_.wait_for(lock, looksEvery, [this] { return !waiting_.empty() || finishing_; })) {
+        lock.unlock();
+        if (auto there = writer_.stillThere(); !there) return tl::unexpected(there.error());
+        lock.lock();
+    }
     items.assign(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(waiting_.end()));
     waiting_.clear();
     waitingBytes_ = 0;

@@ -49,7 +49,7 @@ class BackgroundWriter {
 
     BackgroundWriter(Writer writer, std::uint64_t mostBytes);
     void write();
-    bool take(std::vector<Item>& items);
+    Result<bool> take(std::vector<Item>& items);
     Result<void> put(const std::vector<Item>& items);
     void end(const Result<void>& done);
 

@@ -71,7 +71,8 @@ class Xyz : public TextExporter {
 
 template <class Format>
 MadeExporter make(const std::string& path, bool replace) {
-    auto file = OutputFile::create(path, replace);
+    auto file =
+        path == "-" ? OutputFile::standardOutput() : OutputFile::create(path, replace, OutputFile::Appears::WhenClosed);
     if (!file) return tl::unexpected(file.error());
     return std::make_unique<Format>(std::move(*file));
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iterator>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -72,50 +73,111 @@ std::string escaped(const std::string& text) {
     return safe;
 }
 
+namespace fs = std::filesystem;
+
+// A folder beside another, which gets its name or its files in the end. Removed with what is in it, unless it was
+// moved.
+class FolderBeside {
+  public:
+    static Result<FolderBeside> create(fs::path target, bool replace) {
+        constexpr int mostNames = 100;
+        std::error_code error;
+        for (int k = 1; k <= mostNames; ++k) {
+            fs::path place = target;
+            place += k == 1 ? ".part" : fmt::format(".part{}", k);
+            if (fs::create_directory(place, error)) return FolderBeside(std::move(place), std::move(target), replace);
+            if (error) break;
+        }
+        return fail(ErrorKind::Input, target.string(), "cannot be made as a folder: " + error.message());
+    }
+    FolderBeside(FolderBeside&& other) noexcept
+        : place_(std::exchange(other.place_, {})), target_(std::move(other.target_)), replace_(other.replace_) {}
+    FolderBeside(const FolderBeside&) = delete;
+    FolderBeside& operator=(const FolderBeside&) = delete;
+    FolderBeside& operator=(FolderBeside&&) = delete;
+    ~FolderBeside() {
+        std::error_code ignored;
+        if (!place_.empty()) fs::remove_all(place_, ignored);
+    }
+
+    // Where a file of it is written. Refused where the target has one of that name.
+    Result<std::string> fileOf(const std::string& name) const {
+        std::error_code ignored;
+        if (!replace_ && fs::exists(target_ / name, ignored))
+            return fail(ErrorKind::Input, (target_ / name).string(),
+                        "is there already; give --force to replace it, or another name");
+        return (place_ / name).string();
+    }
+    Result<void> move() {
+        std::error_code error;
+        if (!fs::exists(target_, error)) {
+            fs::rename(place_, target_, error);
+            if (!error) place_.clear();
+        } else {
+            for (fs::directory_iterator file(place_, error), end; !error && file != end; file.increment(error))
+                fs::rename(file->path(), target_ / file->path().filename(), error);
+        }
+        if (error) return fail(ErrorKind::Refused, target_.string(), "cannot be written: " + error.message());
+        return {};
+    }
+    [[nodiscard]] std::string name() const { return target_.filename().string(); }
+
+  private:
+    FolderBeside(fs::path place, fs::path target, bool replace)
+        : place_(std::move(place)), target_(std::move(target)), replace_(replace) {}
+
+    fs::path place_, target_;
+    bool replace_;
+};
+
 class Vtk : public Exporter {
   public:
-    Vtk(OutputFile list, std::filesystem::path folder, bool replace)
-        : list_(std::move(list)), folder_(std::move(folder)), replace_(replace) {}
+    Vtk(OutputFile list, FolderBeside folder) : list_(std::move(list)), folder_(std::move(folder)) {}
 
     Result<void> add(const Moment& moment) override {
         const std::string name = fmt::format("{:06}.vtp", frames_++);
-        auto file = OutputFile::create((folder_ / name).string(), replace_);
+        const auto path = folder_.fileOf(name);
+        if (!path) return tl::unexpected(path.error());
+        auto file = OutputFile::create(*path, false);
         if (!file) return tl::unexpected(file.error());
         if (auto done = file->write(polyData(moment)); !done) return done;
         if (auto done = file->flush(); !done) return done;
+        file->keep();
         return list_.write(fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}/{}\"/>\n", moment.time,
-                                       escaped(folder_.filename().string()), name));
+                                       escaped(folder_.name()), name));
     }
     Result<void> finish() override {
         if (auto done = list_.write("</Collection>\n</VTKFile>\n"); !done) return done;
+        if (auto done = folder_.move(); !done) return done;
         return list_.close();
     }
     [[nodiscard]] std::string path() const override { return list_.path(); }
 
   private:
     OutputFile list_;
-    std::filesystem::path folder_;
-    bool replace_;
+    FolderBeside folder_;
     std::uint64_t frames_ = 0;
 };
 
 }  // namespace
 
 MadeExporter vtkExporter(const std::string& path, bool replace) {
-    std::filesystem::path folder(path);
+    fs::path folder(path);
     if (folder.extension() == ".pvd") folder.replace_extension();
-    std::filesystem::path list = folder;
+    fs::path list = folder;
     list += ".pvd";
-    auto file = OutputFile::create(list.string(), replace);
+    auto file = OutputFile::create(list.string(), replace, OutputFile::Appears::WhenClosed);
     if (!file) return tl::unexpected(file.error());
     std::error_code error;
-    std::filesystem::create_directory(folder, error);
-    if (error) return fail(ErrorKind::Input, folder.string(), "cannot be made as a folder: " + error.message());
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        return fail(ErrorKind::Input, folder.string(), "is there already, and is no folder; choose another name");
+    auto beside = FolderBeside::create(std::move(folder), replace);
+    if (!beside) return tl::unexpected(beside.error());
     if (auto done = file->write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
                                 "byte_order=\"LittleEndian\">\n<Collection>\n");
         !done)
         return tl::unexpected(done.error());
-    return std::make_unique<Vtk>(std::move(*file), std::move(folder), replace);
+    return std::make_unique<Vtk>(std::move(*file), std::move(*beside));
 }
 
 }  // namespace spherule::store

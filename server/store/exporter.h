@@ -8,8 +8,8 @@
 
 namespace spherule::store {
 
-// Writes moments of a recording in a format that other tools read. Used by one thread. What goes wrong is as OutputFile
-// says.
+// Writes moments of a recording in a format that other tools read. Nothing is there under the names of its files before
+// finish(), and nothing is left of one that is destroyed before. Used by one thread. What goes wrong is as OutputFile says.
 class Exporter {
   public:
     virtual ~Exporter() = default;
@@ -22,9 +22,9 @@ class Exporter {
 
 using MadeExporter = Result<std::unique_ptr<Exporter>>;
 
-// Extended XYZ, all moments in one file: what OVITO and ASE read.
+// Extended XYZ, all moments in one file: what OVITO and ASE read. `path` "-" is standard output.
 MadeExporter xyzExporter(const std::string& path, bool replace);
-// CSV, all moments in one file: time,id,x,y,z,radius in SI units.
+// CSV, all moments in one file: time,id,x,y,z,radius in SI units. `path` "-" is standard output.
 MadeExporter csvExporter(const std::string& path, bool replace);
 // VTK: `path` (.pvd is added where it is missing) lists the files of the moments, PolyData (.vtp) in a folder beside
 // it.

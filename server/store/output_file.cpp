@@ -1,10 +1,13 @@
 #include "store/output_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,27 +37,98 @@ const char* adviceFor(int error) {
     }
 }
 
+// The first that is free of path.part, path.part2, ...; -1 and errno where none can be made.
+int openBeside(const std::string& path, std::string& place) {
+    constexpr int mostNames = 100;
+    int descriptor = -1;
+    for (int k = 1; k <= mostNames; ++k) {
+        place = k == 1 ? path + ".part" : fmt::format("{}.part{}", path, k);
+        descriptor = open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0 || errno != EEXIST) break;
+    }
+    return descriptor;
+}
+
+tl::unexpected<Error> isThere(const std::string& path) {
+    return fail(ErrorKind::Input, path, "is there already; give --force to replace it, or another name");
+}
+
+tl::unexpected<Error> cannotOpen(const std::string& path, int error) {
+    return fail(ErrorKind::Input, path,
+                fmt::format("cannot be written: {}; {}", std::strerror(error), adviceFor(error)));
+}
+
 }  // namespace
 
-Result<OutputFile> OutputFile::create(const std::string& path, bool replace) {
-    const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | (replace ? O_TRUNC : O_EXCL);
+Result<OutputFile> OutputFile::create(const std::string& path, bool replace, Appears appears) {
+    struct stat about {};
+    const bool exists = lstat(path.c_str(), &about) == 0;
+    if (exists && !replace) return isThere(path);
+    const bool reached = exists && stat(path.c_str(), &about) == 0;  // a link may lead nowhere
+    if (appears == Appears::WhenClosed && (!exists || (reached && S_ISREG(about.st_mode)))) {
+        std::error_code error;
+        // Of a link, what it leads to is replaced.
+        const std::string target = exists ? std::filesystem::canonical(path, error).string() : path;
+        std::string place;
+        const int descriptor = openBeside(target, place);
+        if (descriptor < 0) return cannotOpen(path, errno);
+        OutputFile file(path, descriptor);
+        file.place_ = std::move(place);
+        file.target_ = target;
+        file.replace_ = replace;
+        return file;
+    }
+    // O_NONBLOCK: opening a pipe would wait for somebody who reads it.
+    const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (replace ? 0 : O_EXCL);
     const int descriptor = open(path.c_str(), mode, 0666);
-    if (descriptor >= 0) return OutputFile(path, descriptor);
-    if (errno == EEXIST)
-        return fail(ErrorKind::Input, path, "is there already; give --force to replace it, or another name");
-    return fail(ErrorKind::Input, path,
-                fmt::format("cannot be written: {}; {}", std::strerror(errno), adviceFor(errno)));
+    if (descriptor < 0 && errno == EEXIST) return isThere(path);
+    if (descriptor < 0 && errno == ENXIO)
+        return fail(ErrorKind::Input, path, "cannot be written: it is a pipe or a socket that nobody reads");
+    if (descriptor < 0) return cannotOpen(path, errno);
+    OutputFile file(path, descriptor);
+    if (fstat(descriptor, &about) != 0 || fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK) != 0)
+        return cannotOpen(path, errno);
+    if (S_ISREG(about.st_mode)) file.place_ = path;
+    file.stale_ = exists;
+    return file;
+}
+
+Result<OutputFile> OutputFile::standardOutput() {
+    const int descriptor = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (descriptor < 0) return cannotOpen("standard output", errno);
+    return OutputFile("standard output", descriptor);
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      place_(std::move(other.place_)),
+      target_(std::move(other.target_)),
+      replace_(other.replace_),
+      stale_(other.stale_),
+      kept_(other.kept_),
       buffer_(std::move(other.buffer_)),
       size_(other.size_),
-      written_(other.written_) {}
+      written_(other.written_),
+      failed_(std::move(other.failed_)) {}
 
 OutputFile::~OutputFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ < 0) return;
+    struct stat own {};
+    struct stat named {};
+    const bool removes = !place_.empty() && !kept_ && !stale_ && fstat(descriptor_, &own) == 0 &&
+                         stat(place_.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+    if (removes) unlink(place_.c_str());
+    ::close(descriptor_);
+}
+
+Result<void> OutputFile::stillThere() {
+    if (failed_) return tl::unexpected(*failed_);
+    struct stat about {};
+    if (place_.empty() || fstat(descriptor_, &about) != 0 || about.st_nlink > 0) return {};
+    failed_ =
+        Error{ErrorKind::Refused, path_, "was deleted while it was written, or its folder was; nothing of it is kept"};
+    return tl::unexpected(*failed_);
 }
 
 Result<void> OutputFile::write(std::string_view bytes) {
@@ -70,19 +144,37 @@ Result<void> OutputFile::write(std::string_view bytes) {
 Result<void> OutputFile::flush() {
     auto done = put(buffer_);
     buffer_.clear();
-    return done;
+    return done ? stillThere() : done;
 }
 
 Result<void> OutputFile::close() {
     if (auto done = flush(); !done) return done;
     // What is no file, such as a pipe, knows no disk.
     if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) return cannot(errno);
+    if (auto done = publish(); !done) return done;
+    kept_ = true;
     if (::close(std::exchange(descriptor_, -1)) != 0) return cannot(errno);
+    return {};
+}
+
+// Gives it its name.
+Result<void> OutputFile::publish() {
+    if (target_.empty()) return {};
+    if (!replace_) {
+        if (renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return {};
+        if (errno == EEXIST) return isThere(path_);
+        if (errno != EINVAL && errno != ENOSYS) return cannot(errno);
+        // This file system can only replace.
+        if (access(target_.c_str(), F_OK) == 0) return isThere(path_);
+    }
+    if (std::rename(place_.c_str(), target_.c_str()) != 0) return cannot(errno);
     return {};
 }
 
 Result<void> OutputFile::put(std::string_view bytes) {
     if (failed_) return tl::unexpected(*failed_);
+    if (stale_ && !place_.empty() && ftruncate(descriptor_, 0) != 0) return cannot(errno);
+    stale_ = false;
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
         if (count < 0 && errno == EINTR) continue;
@@ -94,9 +186,10 @@ Result<void> OutputFile::put(std::string_view bytes) {
 }
 
 tl::unexpected<Error> OutputFile::cannot(int error) {
-    failed_ = Error{ErrorKind::Refused, path_,
-                    fmt::format("cannot be written on after {} bytes: {}; {}; what has been written stays as it is",
-                                written_, std::strerror(error), adviceFor(error))};
+    failed_ =
+        Error{ErrorKind::Refused, path_,
+              fmt::format("cannot be written on after {} bytes: {}; {}; {}", written_, std::strerror(error),
+                          adviceFor(error), kept_ ? "what has been written stays as it is" : "nothing of it is kept")};
     return tl::unexpected(*failed_);
 }
 

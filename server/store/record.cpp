@@ -1,11 +1,7 @@
 #include "store/record.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -36,16 +32,12 @@ std::string fileHead() {
 
 Result<RecordFile> RecordFile::open(const std::string& path) {
     const auto no = [&](const std::string& what) { return fail(ErrorKind::Input, path, what); };
-    // A pipe without a writer would be waited for.
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return no(std::string("cannot be read: ") + std::strerror(errno));
-    RecordFile file(path, descriptor, 0);
-    struct stat about {};
-    if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode)) return no("is no file");
-    file.size_ = static_cast<std::uint64_t>(about.st_size);
+    auto opened = InputFile::open(path);
+    if (!opened) return tl::unexpected(opened.error());
+    RecordFile file(std::move(*opened));
     std::string head(fileHeadBytes, '\0');
     if (!file.get(0, head.data(), head.size()))
-        return no(fmt::format("is no recording: it has only {} bytes", file.size_));
+        return no(fmt::format("is no recording: it has only {} bytes", file.size()));
     if (std::memcmp(head.data(), fileMagic.data(), fileMagic.size()) != 0)
         return no("is no recording: it does not begin like one");
     if (const auto version = numberAt<std::uint32_t>(head, fileMagic.size()); version != formatVersion)
@@ -54,28 +46,14 @@ Result<RecordFile> RecordFile::open(const std::string& path) {
     return file;
 }
 
-RecordFile::RecordFile(RecordFile&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
-
-RecordFile::~RecordFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 bool RecordFile::get(std::uint64_t offset, char* bytes, std::size_t count) const {
-    if (offset > size_ || count > size_ - offset) return false;
-    while (count > 0) {
-        const ssize_t got = pread(descriptor_, bytes, count, static_cast<off_t>(offset));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        bytes += got;
-        offset += static_cast<std::uint64_t>(got);
-        count -= static_cast<std::size_t>(got);
-    }
-    return true;
+    if (offset > size() || count > size() - offset) return false;
+    const auto got = file_.read(offset, bytes, count);
+    return got && *got == count;
 }
 
 tl::unexpected<Error> RecordFile::bad(std::uint64_t offset, const std::string& what) const {
-    return fail(ErrorKind::Input, path_, fmt::format("the record at byte {} {}", offset, what));
+    return fail(ErrorKind::Input, path(), fmt::format("the record at byte {} {}", offset, what));
 }
 
 Result<Record> RecordFile::readHead(std::uint64_t offset) const {
@@ -84,7 +62,7 @@ Result<Record> RecordFile::readHead(std::uint64_t offset) const {
     const auto length = numberAt<std::uint32_t>(head, 0);
     const std::uint64_t whole = recordHeadBytes + std::uint64_t{length} + checksumBytes;
     if (length > mostPayload) return bad(offset, "is damaged: it is longer than any");
-    if (whole > size_ - offset) return bad(offset, "is cut off");
+    if (whole > size() - offset) return bad(offset, "is cut off");
     Record record{.kind = static_cast<Kind>(numberAt<std::uint32_t>(head, 4)),
                   .time = numberAt<double>(head, 8),
                   .payload = {},
@@ -109,9 +87,9 @@ Result<Record> RecordFile::read(std::uint64_t offset) const {
 }
 
 std::uint64_t RecordFile::indexOffset() const {
-    if (size_ < fileHeadBytes + trailerBytes) return 0;
+    if (size() < fileHeadBytes + trailerBytes) return 0;
     std::string trailer(trailerBytes, '\0');
-    if (!get(size_ - trailerBytes, trailer.data(), trailer.size())) return 0;
+    if (!get(size() - trailerBytes, trailer.data(), trailer.size())) return 0;
     if (std::memcmp(trailer.data() + sizeof(std::uint64_t), endMagic.data(), endMagic.size()) != 0) return 0;
     return numberAt<std::uint64_t>(trailer, 0);
 }

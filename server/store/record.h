@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/input_file.h"
 #include "core/result.h"
 #include "store/format.h"
 
@@ -28,12 +29,6 @@ class RecordFile {
     // Input for what is no recording, and why.
     static Result<RecordFile> open(const std::string& path);
 
-    RecordFile(RecordFile&& other) noexcept;
-    RecordFile(const RecordFile&) = delete;
-    RecordFile& operator=(const RecordFile&) = delete;
-    RecordFile& operator=(RecordFile&&) = delete;
-    ~RecordFile();
-
     // What begins at this offset; Input where that is no whole and sound record. Takes memory for its payload only
     // where the file is as long as the record says.
     [[nodiscard]] Result<Record> read(std::uint64_t offset) const;
@@ -43,18 +38,15 @@ class RecordFile {
     // Where the index begins by the file's last bytes; 0: they say nothing of it.
     [[nodiscard]] std::uint64_t indexOffset() const;
 
-    [[nodiscard]] std::uint64_t size() const { return size_; }  // bytes, when it was opened
-    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::uint64_t size() const { return file_.size(); }  // bytes, when it was opened
+    [[nodiscard]] const std::string& path() const { return file_.path(); }
 
   private:
-    RecordFile(std::string path, int descriptor, std::uint64_t size)
-        : path_(std::move(path)), descriptor_(descriptor), size_(size) {}
+    explicit RecordFile(InputFile file) : file_(std::move(file)) {}
     bool get(std::uint64_t offset, char* bytes, std::size_t count) const;
     [[nodiscard]] tl::unexpected<Error> bad(std::uint64_t offset, const std::string& what) const;
 
-    std::string path_;
-    int descriptor_;
-    std::uint64_t size_;
+    InputFile file_;
 };
 
 }  // namespace spherule::store

@@ -33,7 +33,9 @@ Result<void> Writer::add(Kind kind, double time, std::string_view message) {
     const bool firstFrame = !plays && index_.frames > 0;
     if (!firstFrame && now - flushed_ < flushEvery) return {};
     flushed_ = now;
-    return file_.flush();
+    auto done = file_.flush();
+    if (done && firstFrame) file_.keep();
+    return done;
 }
 
 std::uint64_t Writer::bytesWith(std::size_t payload) const {
@@ -42,6 +44,7 @@ std::uint64_t Writer::bytesWith(std::size_t payload) const {
 }
 
 Result<void> Writer::finish() {
+    if (index_.frames == 0) return {};
     const std::uint64_t at = file_.size();
     std::string end = recordBytes(Kind::Index, time_, index_.payload());
     append(end, at);

@@ -12,7 +12,8 @@
 namespace spherule::store {
 
 // Writes a recording: from its first frame on, what is in it can be read at any moment up to about a second before,
-// whatever happens then. Used by one thread. After an error nothing more is to be written.
+// whatever happens then. One without frames is removed at the end. Used by one thread. After an error nothing more is
+// to be written.
 class Writer {
   public:
     // Refuses a file that is there, unless it may be replaced.
@@ -22,6 +23,8 @@ class Writer {
     // their scene and order before them.
     Result<void> add(Kind kind, double time, std::string_view message);
 
+    // Refused when the file has been deleted.
+    Result<void> stillThere() { return file_.stillThere(); }
     // Index and trailer, and all of it to the disk.
     Result<void> finish();
 

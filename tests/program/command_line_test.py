@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The program as a user calls it: command_line_test.py BINARY DEVICE, on `software` or `cpu`."""
 import csv
+import fcntl
 import json
 import os
 import re
@@ -8,6 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 import urllib.request
@@ -109,6 +111,25 @@ class Run(unittest.TestCase):
         self.assertEqual(rows[0], "time id x y z vx vy vz radius".split())
         self.assertEqual(len(rows), 1 + 3 * 2)
 
+    def test_a_dump_replaces_nothing_unless_told_and_a_refused_start_leaves_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, recording = os.path.join(folder, "states.csv"), os.path.join(folder, "run.sph")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("precious")
+            run = ("run", "two-spheres", "--for", "0.1s", "--device", DEVICE, "--dump", path, "--record", recording)
+            done = call(*run)
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                             (2, f"spherule: {path}: is there already; give --force to replace it, or another name"))
+            self.assertEqual(os.listdir(folder), ["states.csv"])
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(file.read(), "precious")
+            self.assertEqual(call(*run, "--force").returncode, 0)
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(len(file.readlines()), 1 + 2 * 2)
+            os.rename(path, recording)
+            self.assertEqual(call(*run).returncode, 2)
+            self.assertEqual(os.listdir(folder), ["run.sph"])
+
     def test_exit_codes(self):
         self.assertEqual(call("run", "box-4k").returncode, 2)
         self.assertEqual(call("run", "no-such-scene", "--for", "1s", "--device", DEVICE).returncode, 2)
@@ -126,6 +147,178 @@ class Run(unittest.TestCase):
             done = call("run", path, "--for", "1s", "--device", DEVICE)
         self.assertEqual(done.returncode, 2)
         self.assertIn("wrong.json: groups[0].radius.constant: is -0.1, must be positive", done.stderr)
+
+
+class Interrupted(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.dump = os.path.join(folder.name, "states.csv")
+
+    def start(self, *more):
+        running = subprocess.Popen([BINARY, "run", "two-spheres", "--for", "1e9s", "--device", DEVICE, *more],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (running.kill(), running.wait(), running.stdout.close(), running.stderr.close()))
+        return running
+
+    def wait_for(self, condition):
+        for _ in range(1500):
+            if condition():
+                return
+            time.sleep(0.01)
+        self.fail("it does not come")
+
+    def test_the_first_signal_ends_it_with_a_summary_and_complete_files(self):
+        for sign in signal.SIGINT, signal.SIGTERM:
+            recording = f"{self.dump}-{sign}.sph"
+            running = self.start("--json", "--every", "1s", "--dump", self.dump, "--record", recording, "--force")
+            self.wait_for(lambda path=recording: os.path.exists(path) and os.path.getsize(path) > 1000)
+            running.send_signal(sign)
+            out, said = running.communicate(timeout=20)
+            self.assertEqual(running.returncode, 0, said)
+            report = json.loads(out)
+            self.assertEqual(list(report), KEYS)
+            self.assertIn(f"ended early by {sign.name}, at step {report['steps']}", said)
+            with open(self.dump, encoding="utf-8", newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(len(rows) % 2, 0)
+            self.assertAlmostEqual(float(rows[-1]["time"]), report["simSeconds"], delta=1e-6 * report["simSeconds"])
+            states = recording + ".csv"
+            done = call("export", recording, "--format", "csv", "--out", states)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("exported up to", done.stderr)
+            with open(states, encoding="utf-8") as file:
+                last = list(csv.DictReader(file))[-1]
+            self.assertAlmostEqual(float(last["time"]), report["simSeconds"], delta=1e-6 * report["simSeconds"])
+
+    def test_with_every_each_line_is_whole(self):
+        running = self.start("--json", "--every", "0.5s")
+        lines = [running.stdout.readline(), running.stdout.readline()]
+        running.send_signal(signal.SIGINT)
+        rest, _ = running.communicate(timeout=20)
+        self.assertEqual(running.returncode, 0)
+        reports = [json.loads(line) for line in lines + rest.splitlines()]
+        for before, after in zip(reports, reports[1:]):
+            self.assertAlmostEqual(after["simSeconds"], before["simSeconds"] + after["stretchSeconds"], places=6)
+
+    def test_the_second_signal_ends_it_at_once(self):
+        os.mkfifo(self.dump)  # nobody reads on, so that it cannot finish
+        reader = os.open(self.dump, os.O_RDWR | os.O_NONBLOCK)
+        self.addCleanup(os.close, reader)
+
+        def is_full(wait=0.3):
+            before = fcntl.ioctl(reader, termios.FIONREAD, b"1234")
+            time.sleep(wait)
+            return before == fcntl.ioctl(reader, termios.FIONREAD, b"1234") != bytes(4)
+        for first, second in (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT):
+            running = self.start("--every", "0.02s", "--dump", self.dump, "--force")
+            self.wait_for(is_full)
+            running.send_signal(first)
+            time.sleep(0.2)
+            self.assertIsNone(running.poll())
+            running.send_signal(second)
+            self.assertEqual(running.wait(timeout=20), 128 + second)
+            while True:
+                try:
+                    os.read(reader, 1 << 20)
+                except BlockingIOError:
+                    break
+
+    def test_a_signal_that_was_ignored_stays_so(self):
+        running = subprocess.Popen(["sh", "-c", 'trap "" HUP; exec "$@"', "sh", BINARY, "run", "two-spheres", "--for", "1e9s",
+                                    "--device", DEVICE, "--dump", self.dump], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        self.addCleanup(lambda: (running.kill(), running.wait()))
+        self.wait_for(lambda: os.path.exists(self.dump) and os.path.getsize(self.dump) > 0)
+        running.send_signal(signal.SIGHUP)
+        time.sleep(0.2)
+        self.assertIsNone(running.poll())
+
+
+class Usage(unittest.TestCase):
+    def refusal(self, *arguments, variables=None):
+        done = subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=60, check=False,
+                              env=dict(os.environ, **(variables or {})))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stdout, "")
+        said = done.stderr.splitlines()[-1]
+        self.assertTrue(said.startswith("spherule: "), done.stderr)
+        return said.removeprefix("spherule: ")
+
+    def test_what_is_unknown_is_named_with_what_is_like_it(self):
+        self.assertEqual(self.refusal("rum"), '"rum" is no command (did you mean run?); there are serve, run, play, export, '
+                                              'plan, ctl, health, probe, measure; see `spherule --help`')
+        self.assertNotIn("did you mean", self.refusal("simulate", "bounce"))
+        self.assertEqual(self.refusal("run", "bounce", "--quailty", "fast"),
+                         "--quailty: is no option (did you mean --quality?); see `spherule run --help`")
+        self.assertEqual(self.refusal("run", "bounce", "box", "--for", "1s"),
+                         '"box" is one word too many; see `spherule run --help`')
+
+    def test_errors_of_usage_have_one_form(self):
+        run = ("run", "bounce", "--device", DEVICE)
+        for arguments, said in {
+                (): "A subcommand is required; see `spherule --help`",
+                run: "--for is required; see `spherule run --help`",
+                (*run, "--for", "soon"): '--for: is "soon"; give a time such as 2s, 250ms or 1.5min; see `spherule run --help`',
+                (*run, "--for", "1s", "--substeps", "few"):
+                    '--substeps: is "few", must be a whole number, not negative; see `spherule run --help`',
+                (*run, "--for", "1s", "--quality", "best"):
+                    "--quality: best not in {fast,balanced,accurate}; see `spherule run --help`",
+                (*run, "--for", "1s", "--force"):
+                    "--force: has nothing to replace; give --record or --dump; see `spherule run --help`",
+                (*run, "--for", "1s", "--dump", "-"):
+                    "--dump: cannot be standard output, where the report goes; give it a file; see `spherule run --help`",
+                (*run, "--for", "1s", "--record", "-"):
+                    "--record: cannot be standard output, where the report goes; give it a file; see `spherule run --help`",
+                ("measure", "--out", "-"): "--out: cannot be standard output: it is a folder; see `spherule measure --help`",
+                ("serve", "bounce", "--listen", "here"):
+                    '--listen: is "here"; give host:port, such as 127.0.0.1:8080; see `spherule serve --help`',
+                ("run", "bounce", "--for", "1s", "--device", "abacus"):
+                    '--device: "abacus" is none of auto, gpu, gpu:N (N from 0), cpu, cpu:N (N threads), software; '
+                    'see `spherule run --help`',
+        }.items():
+            self.assertEqual(self.refusal(*arguments), said)
+
+    def test_a_variable_that_cannot_be_read_is_named(self):
+        for (name, value), said in {
+                ("SPHERULE_MAX_SESSIONS", "abc"): 'is "abc", must be a whole number, not negative',
+                ("SPHERULE_OPEN", "perhaps"): 'is "perhaps", must be true or false',
+                ("SPHERULE_QUALITY", "best"): "best not in {fast,balanced,accurate}",
+                ("SPHERULE_WATCHDOG", "soon"): 'is "soon"; give a time such as 2s, 250ms or 1.5min',
+                ("SPHERULE_LISTEN", "here"): 'is "here"; give host:port, such as 127.0.0.1:8080',
+                ("SPHERULE_LOG_FORMAT", "loud"): "loud not in {text,json}",
+                ("SPHERULE_VIEWER_TOKEN_FILE", "/dev/zero"): "/dev/zero: is a device, must be a regular file",
+                ("SPHERULE_CONFIG", "/none"): "/none: there is no such file",
+        }.items():
+            self.assertEqual(self.refusal("serve", "bounce", "--device", DEVICE, variables={name: value}),
+                             f"{name}: {said}; see `spherule serve --help`")
+        self.assertTrue(self.refusal("serve", "--max-sessions", "abc", variables={"SPHERULE_MAX_SESSIONS": "7"})
+                        .startswith("--max-sessions: "))
+
+    def test_only_regular_files_are_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = os.path.join(folder, "pipe.json")
+            os.mkfifo(pipe)
+            for path, what in (pipe, "is a pipe"), ("/dev/zero", "is a device"), (folder, "is a folder"):
+                for arguments in (("run", "{}", "--for", "1s", "--device", DEVICE), ("play", "{}", "--listen", "127.0.0.1:0"),
+                                  ("export", "{}", "--format", "csv", "--out", folder + "/out"),
+                                  ("serve", "--viewer-token-file", "{}"), ("serve", "--controller-token-file", "{}"),
+                                  ("serve", "--tls-certificate", "{}", "--tls-key", "{}"),
+                                  ("serve", "--quality-table", "{}"), ("serve", "--config", "{}"),
+                                  ("ctl", "ws://127.0.0.1:1/ws", "pause", "--token-file", "{}"),
+                                  ("ctl", "ws://127.0.0.1:1/ws", "pause", "--ca", "{}")):
+                    said = self.refusal(*(word.format(path) for word in arguments))
+                    self.assertIn(f"{path}: {what}, must be a regular file", said)
+            self.assertEqual(os.listdir(folder), ["pipe.json"])
+
+    def test_settings_may_be_named_by_a_variable(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "settings.toml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("[serve]\nmax-sessions = 7\n")
+            done = subprocess.run([BINARY, "serve", "--print-config"], capture_output=True, text=True, timeout=60,
+                                  check=False, env=dict(os.environ, SPHERULE_CONFIG=path))
+        self.assertIn("\nmax-sessions=7\n", done.stdout)
 
 
 class Others(unittest.TestCase):

@@ -5,6 +5,8 @@ import csv
 import json
 import os
 import resource
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -176,6 +178,23 @@ class Record(Files):
         self.assertRegex(done.stderr, r"run.sph is exported up to [0-9.]+ s: the record at byte [0-9]+ is cut off")
         self.assertGreater(len(os.listdir(self.at("run"))), 1)
 
+    def test_a_recording_that_is_deleted_while_it_is_written_ends_the_run(self):
+        folder = self.at("films")
+        os.mkdir(folder)
+        recording = os.path.join(folder, "run.sph")
+        with subprocess.Popen([BINARY, "run", "two-spheres", "--for", "1e9s", "--device", "cpu", "--record", recording],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as running:
+            try:
+                while running.poll() is None and not (os.path.exists(recording) and os.path.getsize(recording) > 1000):
+                    time.sleep(0.01)
+                shutil.rmtree(folder)
+                _, said = running.communicate(timeout=20)
+            finally:
+                running.kill()
+        self.assertEqual(running.returncode, 4, said)
+        self.assertEqual(said.splitlines()[-1], f"spherule: {recording}: was deleted while it was written, or its folder "
+                                                "was; nothing of it is kept")
+
     def test_a_run_that_is_killed_leaves_what_it_had_about_a_second_before(self):
         arguments = [BINARY, "run", "box-10k", "--for", "1000s", "--device", "cpu", "--record", self.recording]
         with subprocess.Popen(arguments, stderr=subprocess.DEVNULL) as running:
@@ -212,7 +231,7 @@ class Export(Files):
         export = ["export", self.recording, "--format", "csv", "--out"]
         self.assertEqual(self.refused(*export, out, "--from", "6s"),
                          f"spherule: {self.recording}: has nothing of that time: it goes from 0 s to 5 s")
-        self.assertEqual(self.refused(*export, out, "--from", "2s", "--to", "1s"), "spherule: --to: is before --from")
+        self.assertEqual(self.refused(*export, out, "--from", "2s", "--to", "1s"), "spherule: --to: is before --from; see `spherule export --help`")
         self.assertFalse(os.path.exists(out))
         missing = self.at("no/out.csv")
         self.assertEqual(self.refused(*export, missing),
@@ -225,6 +244,42 @@ class Export(Files):
                          f"spherule: {self.recording}: is the recording itself; choose another name")
         self.assertIn("is no recording", self.refused("export", __file__, "--format", "csv", "--out", out))
         self.assertIn("No space left on device", self.refused(*export, "/dev/full", "--force", code=4))
+
+    def interrupted(self, sign, *arguments):
+        """What it says when it gets the signal after the first of its files is there and before it is done."""
+        for _ in range(50):
+            with subprocess.Popen([BINARY, "export", self.recording, "--force", *arguments], stderr=subprocess.PIPE,
+                                  text=True) as running:
+                while running.poll() is None and not any(".part" in name for name in os.listdir(self.folder)):
+                    time.sleep(0.001)
+                running.send_signal(sign)
+                said = running.stderr.read()
+            if running.returncode != 0:  # else it was too fast
+                return running.returncode, said
+            for name in os.listdir(self.folder):
+                if name.startswith("out"):
+                    path = self.at(name)
+                    shutil.rmtree(path) if os.path.isdir(path) else os.remove(path)
+        self.fail("it cannot be interrupted")
+
+    def test_interrupted_it_leaves_nothing_under_the_name(self):
+        self.run_done("box-4k", "--for", "3s", "--record-rate", "60", "--force")
+        for file_format, sign in ("csv", signal.SIGINT), ("xyz", signal.SIGTERM), ("vtk", signal.SIGINT), ("csv", signal.SIGKILL):
+            code, said = self.interrupted(sign, "--format", file_format, "--out", self.at(f"out.{file_format}"))
+            self.assertEqual(code, -9 if sign == signal.SIGKILL else 128 + sign, said)
+            left = [name for name in os.listdir(self.folder) if name.startswith("out")]
+            self.assertFalse([name for name in left if ".part" not in name])
+            if sign != signal.SIGKILL:
+                self.assertEqual(left, [])
+                self.assertRegex(said, f"ended by {sign.name} after [0-9]+ frames: .* was not written")
+
+    def test_standard_output_gets_the_same_text(self):
+        for file_format in "csv", "xyz":
+            with open(self.export(file_format, f"out.{file_format}"), encoding="utf-8") as file:
+                self.assertEqual(call("export", self.recording, "--format", file_format, "--out", "-").stdout, file.read())
+        said = self.refused("export", self.recording, "--format", "vtk", "--out", "-")
+        self.assertEqual(said, "spherule: --out: cannot be standard output: vtk is many files; give a name, or --format "
+                               "xyz; see `spherule export --help`")
 
     def test_a_damaged_frame_ends_it_and_it_goes_on_behind(self):
         with open(self.recording, "r+b") as file:

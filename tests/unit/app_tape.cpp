@@ -217,6 +217,23 @@ TEST_F(Taping, ARecordingWithoutFramesIsAFailure) {
     ASSERT_TRUE(state);
     EXPECT_FALSE(state->active());
     EXPECT_EQ(state->failure(), "nothing was recorded: no frame has come");
+    EXPECT_TRUE(std::filesystem::is_empty(options_.folder));
+}
+
+TEST_F(Taping, AFolderThatIsDeletedIsAFailure) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    tape_->frame(link(Kind::Keyframe, 0));
+    std::filesystem::remove_all(options_.folder);
+    v1::Recording state;
+    for (int k = 0; k < 2000 && (k == 0 || state.active()); ++k) {
+        if (const auto news = tape_->news(Tape::Clock::now())) state = *news;
+        std::this_thread::sleep_for(5ms);
+    }
+    EXPECT_FALSE(state.active());
+    EXPECT_EQ(state.failure(), "was deleted while it was written, or its folder was; nothing of it is kept");
+    EXPECT_TRUE(tape_->start());  // in a new folder
 }
 
 TEST_F(Taping, IsNotLargerForWhatOthersAskFor) {

@@ -92,6 +92,9 @@ TEST(QualityTable, ThatCannotBeReadSaysSo) {
     EXPECT_EQ(missing.error().text().find("/no/such/table.json: there is no such file; `spherule measure"), 0U)
         << missing.error().text();
     EXPECT_FALSE(loadTable(std::filesystem::temp_directory_path().string()));
+    EXPECT_EQ(loadTable("/dev/zero").error().text().find("/dev/zero: is a device, must be a regular file; `"), 0U);
+    EXPECT_EQ(loadTable("/proc/self/mem").error().text().find("/proc/self/mem: cannot be read: Input/output error; `"),
+              0U);
 }
 
 TEST(Dial, HasTheRungsWithTheSubstepsOfTheScene) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "scene_support.h"
 
@@ -74,7 +75,7 @@ TEST_F(SceneCsv, TellsTheLineOfASphereWithoutAPlace) {
 
 TEST_F(SceneCsv, NeedsAKnownHeader) {
     EXPECT_EQ(refusal("a,b,c\n"), "balls.csv:1:1: the header is \"a,b,c\", must be x,y,z[,vx,vy,vz][,radius]");
-    EXPECT_EQ(refusal(""), "balls.csv:0:1: the header is \"\", must be x,y,z[,vx,vy,vz][,radius]");
+    EXPECT_EQ(refusal(""), "balls.csv:1:1: the header is \"\", must be x,y,z[,vx,vy,vz][,radius]");
 }
 
 TEST_F(SceneCsv, NeedsARadiusFromSomewhere) {
@@ -88,8 +89,42 @@ TEST_F(SceneCsv, MustExist) {
         {"csv": {"file": "none.csv"}}]})"),
                             "software");
     ASSERT_FALSE(scene);
-    EXPECT_NE(scene.error().text().find("none.csv\", which is not a readable file"), std::string::npos)
+    EXPECT_TRUE(scene.error().text().ends_with("none.csv: there is no such file")) << scene.error().text();
+}
+
+TEST_F(SceneCsv, MayBeginWithAByteOrderMark) {
+    const auto scene = loaded("\xef\xbb\xbfx,y,z\n0.2,0.3,0.4\n", radius);
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_EQ(scene->spheres.size(), 1U);
+    EXPECT_EQ(refusal("\xef\xbb\xbfx,y,u\n"),
+              "balls.csv:1:1: the header is \"x,y,u\", must be x,y,z[,vx,vy,vz][,radius]");
+}
+
+TEST_F(SceneCsv, ALineThatIsTooLongIsNotTheEnd) {
+    EXPECT_EQ(refusal("x,y,z\n0.2,0.3,0.4\n" + std::string(100'000, ' ') + "0.5,0.5,0.5\n", radius),
+              "balls.csv:3: the line is longer than 4096 bytes");
+}
+
+TEST_F(SceneCsv, AFileThatFailsToBeReadIsNotTheEnd) {
+    const auto scene = load(folder_.write("scene.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [
+        {"csv": {"file": "/proc/self/mem"}}]})"),
+                            "software");
+    ASSERT_FALSE(scene);
+    EXPECT_TRUE(scene.error().message.ends_with("/proc/self/mem:1: cannot be read: Input/output error"))
         << scene.error().text();
+}
+
+TEST_F(SceneCsv, MustBeARegularFile) {
+    const std::string pipe = folder_.path("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const auto& [file, kind] :
+         {std::pair<std::string, std::string>(pipe, "a pipe"), {"/dev/zero", "a device"}, {"/tmp", "a folder"}}) {
+        const auto scene = load(folder_.write("scene.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [
+            {"csv": {"file": ")" + file + R"("}}]})"),
+                                "software");
+        ASSERT_FALSE(scene);
+        EXPECT_EQ(scene.error().message, file + ": is " + kind + ", must be a regular file");
+    }
 }
 
 }  // namespace

@@ -124,9 +124,9 @@ TEST(SceneGroups, MayNotMeetTooManyObstacles) {
         obstacles += R"(, {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})";
     EXPECT_EQ(refusalOf(R"("obstacles": [)" + obstacles + "], " +
                         group(R"("radius": {"constant": 0.002}, "lattice": {"min": [0, 0, 0], "max": [1, 1, 1],
-                                 "spacing": 0.005, "count": 1000001})")),
-              "groups[0].lattice: makes 1000001 spheres in all, 1000001000 pairs with the 1000 obstacles, but a scene "
-              "holds at most 1000000000; use fewer of one or the other");
+                                 "spacing": 0.005, "count": 30001})")),
+              "groups[0].lattice: makes 30001 spheres in all, 30001000 pairs with the 1000 obstacles, but a scene "
+              "holds at most 30000000; use fewer of one or the other");
 }
 
 TEST(SceneGroups, AreLimitedInNumberAndName) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 
@@ -68,7 +69,36 @@ TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
 TEST(SceneLoad, MissingFilesAreRefused) {
     EXPECT_EQ(load("nowhere/x.json", "gpu").error().text(), "nowhere/x.json: there is no such file");
     EXPECT_EQ(load("./nothing", "gpu").error().text(), "./nothing: there is no such file");
-    EXPECT_EQ(load("/tmp", "gpu").error().text(), "/tmp: cannot be read as a file");
+}
+
+TEST(SceneLoad, OnlyRegularFilesAreRead) {
+    const Folder folder;
+    const std::string pipe = folder.path("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(load(pipe, "gpu").error().text(), pipe + ": is a pipe, must be a regular file");
+    EXPECT_EQ(load("/tmp", "gpu").error().text(), "/tmp: is a folder, must be a regular file");
+    EXPECT_EQ(load("/dev/zero", "gpu").error().text(), "/dev/zero: is a device, must be a regular file");
+    EXPECT_EQ(load("/proc/self/mem", "gpu").error().text(), "/proc/self/mem: cannot be read: Input/output error");
+}
+
+TEST(SceneLoad, FilesThatAreTooLargeAreRefusedBeforeTheyAreRead) {
+    const Folder folder;
+    const std::string path = folder.write("large.json", "{}");
+    std::filesystem::resize_file(path, 2ULL << 30U);  // takes up no room on the disk
+    EXPECT_EQ(load(path, "gpu").error().text(), path + ": has 2147483648 bytes, at most 33554432 are allowed");
+    std::string empty = R"({"groups": [{})";
+    for (int k = 0; k < 2'000'000; ++k) empty += ",{}";
+    EXPECT_EQ(refusalOfFile(folder, empty + "]}"),
+              "falling.json: has 2000002 objects, at most 2000000 are allowed; give so many spheres as CSV, lattice or "
+              "fill");
+}
+
+TEST(SceneLoad, AFileMayBeginWithAByteOrderMark) {
+    const Folder folder;
+    const std::string scene = "\xef\xbb\xbf{\"bounds\": {\"min\": [0,0,0], \"max\": [1,1,1]}";
+    EXPECT_EQ(refusalOfFile(folder, scene + "}"), "accepted");
+    EXPECT_EQ(refusalOfFile(folder, scene + " x}"),
+              "falling.json:1:45: is not JSON: Expected , or } after key:value pair.");
 }
 
 TEST(SceneLoad, AFileWithoutANameIsNamedAfterItself) {

@@ -35,6 +35,8 @@ class Folder {
 
     // The path of a new file.
     [[nodiscard]] std::string write(std::string_view name, std::string_view text) const;
+    // What a path in it is called.
+    [[nodiscard]] std::string path(std::string_view name) const { return (path_ / name).string(); }
 
   private:
     std::filesystem::path path_;

@@ -73,7 +73,7 @@ TEST(BackgroundWriter, WritesAllBeforeItEnds) {
     const Folder folder;
     auto writer = BackgroundWriter::create(folder / "film.sph", false, 0);
     ASSERT_TRUE(writer);
-    for (int k = 0; k < 100; ++k) ASSERT_TRUE((*writer)->add(Kind::Other, k, messageOf(1000)));
+    for (int k = 0; k < 100; ++k) ASSERT_TRUE((*writer)->add(Kind::Delta, k, messageOf(1000)));
     (*writer)->finish();
     const auto progress = ended(**writer);
     EXPECT_EQ(progress.failure, "");

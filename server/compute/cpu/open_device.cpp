@@ -28,7 +28,7 @@ Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std:
         right = parsed.ec == std::errc() && parsed.ptr == end && threads >= 1 && threads <= mostThreads;
     }
     if (!right) {
-        return fail(ErrorKind::Input, "device",
+        return fail(ErrorKind::Input, "--device",
                     fmt::format("\"{}\" is neither cpu nor cpu:N (N threads, 1 to {}), nor the same with cpu-double",
                                 choice, mostThreads));
     }

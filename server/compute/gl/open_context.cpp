@@ -91,7 +91,7 @@ Result<Wish> parseWish(const std::string& choice) {
         const auto parsed = std::from_chars(choice.data() + 4, end, wish.gpu);
         if (parsed.ec == std::errc() && parsed.ptr == end) return wish;
     }
-    return fail(ErrorKind::Input, "device",
+    return fail(ErrorKind::Input, "--device",
                 fmt::format("\"{}\" is none of auto, gpu, gpu:N (N from 0), cpu, cpu:N (N threads), software", choice));
 }
 
