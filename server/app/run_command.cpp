@@ -76,6 +76,17 @@ class Watch {
     Clock::time_point began_;
 };
 
+// A step; or, where it takes long and a signal asks for the end, only a part of it: false.
+Result<bool> stepUnlessAsked(sim::Simulation& simulation, const Interrupt& interrupt) {
+    constexpr double wholeStep = 0.5;  // s: one that takes no longer is done as a whole
+    const auto began = Clock::now();
+    for (;;) {
+        const auto ended = simulation.advance();
+        if (!ended || *ended) return ended;
+        if (interrupt.asked() && secondsSince(began) > wholeStep) return false;
+    }
+}
+
 // Runs `steps`, or fewer when a signal asks for that, and calls `every` after each `stride` of them and at the end.
 // `recorder`: may be null.
 Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Interrupt& interrupt, std::uint64_t steps,
@@ -88,8 +99,10 @@ Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Int
     };
     std::uint64_t k = 0;
     for (bool last = false; !last;) {
-        if (auto done = simulation.step(); !done) return done;
-        last = ++k == steps || interrupt.asked();
+        const auto ended = stepUnlessAsked(simulation, interrupt);
+        if (!ended) return tl::unexpected(ended.error());
+        if (*ended) ++k;
+        last = k == steps || interrupt.asked();
         for (const std::string& notice : simulation.takeNotices()) {
             spdlog::warn("{}", notice);
             if (auto done = record(v1::Event::WARNING, notice); !done) return done;
