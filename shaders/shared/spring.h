@@ -119,6 +119,11 @@ vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, floa
     return impulse;
 }
 
+// The overlap when the speeds are reached: they are known half a substep after the places.
+float overlapWithSpeed(float overlap, float speed) {
+    return max(overlap - speed * (0.5f * params.substep), 0.0f);
+}
+
 // J: what the springs of a contact hold.
 float springEnergy(float overlap, float radius, vec4 law, vec3 path) {
     if (HAS(HERTZ))
