@@ -121,9 +121,10 @@ struct Meetings {
     double surfaces = 0;  // m/s, of a sphere and what stands still
 };
 
-// Seen from a motion that all spheres have in common, as far as the surfaces of the scene allow it: spheres that are
-// thrown back by a wall, or turned aside, may meet at twice the fastest speed that is left. Without surfaces a common
-// motion is of no account, nor is gravity.
+// Seen from a motion that all spheres have in common, as far as the surfaces of the scene allow it. With surfaces,
+// spheres that are thrown back may meet at twice the fastest speed. Without, gravity and a common motion are of no
+// account, and the speed is twice the largest difference of two: a light sphere leaves a heavy one twice as fast as
+// they met.
 Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
@@ -135,7 +136,8 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     for (const Sphere& sphere : scene.spheres)
         speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
     const double fall = stopped ? 2 * glm::length(scene.gravity) * extremes.fall : 0;
-    if (scene.sphereContacts && scene.spheres.size() > 1) fastest.spheres = std::sqrt(4 * speed * speed + fall);
+    if (scene.sphereContacts && scene.spheres.size() > 1)
+        fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall);
     if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall);
     // Where nothing moves or falls, the step says what is slow.
     if (!(std::max(fastest.spheres, fastest.surfaces) > 0)) fastest.spheres = grain * extremes.smallest / scene.step;
