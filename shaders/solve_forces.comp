@@ -1,6 +1,6 @@
 // The model `accurate`: the forces between overlapping soft spheres, added up on both sides while velocities stay as they
 // are. (Were they changed at once, each pair would see the half-way sum of the others' forces, take it for slip, and wind
-// up its spring.) What the surfaces have slipped is remembered with the listed pair. `phase` is the level and the colour of the groups.
+// up its spring.) The stretch of the tangential spring is remembered with the listed pair. `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -16,31 +16,33 @@ BUFFER(2, readonly, uint, label, LabelBlock)
 BUFFER(3, readonly, uint, cellStart, CellBlock)
 BUFFER(4, restrict, uvec4, span, SpanBlock)
 BUFFER(5, readonly, uvec2, pairs, PairBlock)
-BUFFER(6, restrict, vec4, history, HistoryBlock)  // per listed pair: slip of the first against the second, m; w: 1 in touch
+BUFFER(6, restrict, vec4, history, HistoryBlock)  // per listed pair: stretch, of the first against the second, m; w: 1 in touch
 BUFFER(7, readonly, Law, laws, LawBlock)
 
 PRIVATE(vec3, stretch)
 PRIVATE(bool, touches)
-PRIVATE(bool, listed)     // the contact remembers; another slips in every substep as if it had just begun
+PRIVATE(bool, listed)     // the contact remembers; another is stretched in every substep as if it had just begun
 
 #include "shared/laws.h"
 #include "shared/kicks.h"
 #include "shared/spring.h"
 
-void rubSprings(uint a, uint b, vec3 n, float ra, float rb, vec4 spring, vec4 law) {
+// `lever`: distance over the sum of the radii. The centres share the distance to the point of contact in proportion to the radii.
+void rubSprings(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     vec4 sa = velocity[params.spheres + a];
     vec4 sb = velocity[params.spheres + b];
     vec3 difference = vec3(va) - vec3(vb);
-    vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n);
+    vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n) * lever;
     stretch = turnedInto(stretch, n);
-    vec3 impulse = tangentialImpulse(slip, spring.z, spring.w, law.y * spring.x);
-    vec3 twist = cross3(n, impulse) * 2.5f;
+    float mobility = (va.w + vb.w) * (1.0f + 2.5f * lever * lever);
+    vec3 impulse = tangentialImpulse(slip, slip, mobility, spring, law.y);
+    vec3 twist = cross3(n, impulse) * (2.5f * lever);
     vec3 moment = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(ROLLING)) {
         float c = 2.5f * (va.w / (ra * ra) + vb.w / (rb * rb));
-        float most = ra * rb / (ra + rb) * spring.x;
+        float most = ra * rb / (ra + rb) * spring.impulse;
         vec3 turning = vec3(sa) - vec3(sb);
         float about = dot3(turning, n);
         moment = (rollingMoment(turning - n * about, c, law.z * most) + spinningMoment(n, about, c, law.w * most)) * 2.5f;
@@ -69,11 +71,11 @@ void visitPair(uint a, uint b) {
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
     float speed = dot3(vec3(va) - vec3(vb), n);
-    vec4 spring = springImpulse(reach - normal.w, speed, ra * rb / reach, inverse, stiffnessLaw(a, b));
-    vec3 impulse = n * spring.x;
+    Spring spring = springOf(reach - normal.w, speed, speed, ra * rb / reach, inverse, stiffnessLaw(a, b));
+    vec3 impulse = n * spring.impulse;
     addKick(a, impulse * va.w);
     addKick(b, impulse * -vb.w);
-    if (HAS(FRICTION)) rubSprings(a, b, n, ra, rb, spring, contactLaw(a, b));
+    if (HAS(FRICTION)) rubSprings(a, b, n, ra, rb, normal.w / reach, spring, contactLaw(a, b));
 }
 
 #include "shared/group.h"

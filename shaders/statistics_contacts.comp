@@ -9,7 +9,7 @@ BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, readonly, uint, cellStart, CellBlock)
 BUFFER(2, readonly, uvec4, span, SpanBlock)
 BUFFER(3, readonly, uvec2, pairs, PairBlock)
-BUFFER(4, writeonly, vec4, overlaps, OverlapBlock)  // per group: contacts, sum and largest of overlap / r, 0
+BUFFER(4, writeonly, vec4, overlaps, OverlapBlock)  // per group: contacts, sum and largest of overlap / r, J in springs
 
 PRIVATE(float, contacts)
 PRIVATE(float, sum)

@@ -3,17 +3,39 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
+#include "shared/label.h"
 
 BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, readonly, vec4, velocity, VelocityBlock)
 BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
 BUFFER(3, writeonly, SphereStatistics, parts, PartBlock)
+BUFFER(4, readonly, uint, label, LabelBlock)
+BUFFER(5, readonly, Law, laws, LawBlock)
+BUFFER(6, readonly, vec4, wallHistory, WallHistoryBlock)
 
 PRIVATE(vec3, wallPoint)
 PRIVATE(float, deepest)
+PRIVATE(uint, wallSphere)
+PRIVATE(vec3, stretch)
+PRIVATE(float, springs)
+
+#include "shared/wall_laws.h"
+#include "shared/spring.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     deepest = max(deepest, depth);
+    if (!HAS(RESIDUAL)) return;
+    float overlap = depth - dot3(vec3(position[params.spheres + wallSphere]), normal);
+    if (!(overlap > 0.0f)) return;
+    stretch = vec3(0.0f, 0.0f, 0.0f);
+    if (HAS(FRICTION)) {
+        uint first = idOf(label[wallSphere]) * params.wallContacts;
+        for (uint k = first; k < first + params.wallContacts; ++k)
+            if (wallHistory[k].w == float(surface + 1u)) stretch = vec3(wallHistory[k]);
+    }
+    float radius = HAS(RADII) ? position[wallSphere].w : params.radius;
+    float speed = dot3(vec3(velocity[wallSphere]), normal);
+    springs += springEnergy(overlapWithSpeed(overlap, speed), radius, laws[wallLawIndex(wallMaterial)].stiffness, stretch);
 }
 
 #include "shared/walls.h"
@@ -34,6 +56,7 @@ KERNEL(params.statisticBlocks) {
     float squares = 0.0f;
     float fastest = 0.0f;
     float overlap = 0.0f;
+    springs = 0.0f;
     uint sleeping = 0u;
     uint left = 0u;
     uint nonFinite = 0u;
@@ -64,6 +87,7 @@ KERNEL(params.statisticBlocks) {
         if (outside(x)) left += 1u;
         float radius = HAS(RADII) ? position[k].w : params.radius;
         wallPoint = x;
+        wallSphere = k;
         deepest = 0.0f;
         visitWalls(radius);
         overlap = max(overlap, deepest / radius);
@@ -75,8 +99,8 @@ KERNEL(params.statisticBlocks) {
     parts[invocation].speedSquares = squares;
     parts[invocation].speedSquaredMax = fastest;
     parts[invocation].wallOverlapMax = overlap;
+    parts[invocation].wallSprings = springs;
     parts[invocation].sleeping = sleeping;
     parts[invocation].outside = left;
     parts[invocation].nonFinite = nonFinite;
-    parts[invocation].unused = 0u;
 }

@@ -1,5 +1,5 @@
 // Walls and obstacles in the model `accurate`: the force of the same springs, the wall being a sphere of infinite mass and
-// radius. What a sphere has slipped against each wall is remembered by the wall's number.
+// radius. The stretch of the tangential spring at each wall is remembered by the wall's number.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -12,7 +12,7 @@ BUFFER(1, restrict, vec4, velocity, VelocityBlock)
 BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
 BUFFER(3, readonly, uint, label, LabelBlock)
 BUFFER(4, readonly, Law, laws, LawBlock)
-BUFFER(5, restrict, vec4, wallHistory, WallHistoryBlock)  // by id, params.wallContacts each: slip, m; w: surface + 1
+BUFFER(5, restrict, vec4, wallHistory, WallHistoryBlock)  // by id, params.wallContacts each: stretch, m; w: surface + 1
 BUFFER(6, coherent, uint, counters, CounterBlock)
 
 #define NO_PLACE 0xffffffffu
@@ -33,7 +33,7 @@ PRIVATE(uint, seen)       // bits of the remembered walls that it still touches
 #include "shared/kicks.h"
 #include "shared/spring.h"
 
-// Where the slip against this surface is kept: where it was, or a place that nothing uses.
+// Where the stretch at this surface is kept: where it was, or a place that nothing uses.
 uint placeOf(uint surface) {
     uint first = idOf(label[wallSphere]) * params.wallContacts;
     uint empty = NO_PLACE;
@@ -45,21 +45,22 @@ uint placeOf(uint surface) {
     return empty;
 }
 
-void rubSprings(vec3 n, uint surface, vec4 spring, vec4 law) {
+// `fall`: what gravity has added to the velocity since the middle of the last motion. `arm`: from the centre to the wall.
+void rubSprings(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 law) {
     uint place = placeOf(surface);
     bool known = place != NO_PLACE && wallHistory[place].w != 0.0f;
     stretch = known ? turnedInto(vec3(wallHistory[place]), n) : vec3(0.0f, 0.0f, 0.0f);
-    // Over the last substep, in which gravity worked for half of what it has added to the velocity.
-    vec3 mean = moving;
-    if (HAS(GRAVITY)) mean = mean - vec3(params.gravity) * (0.5f * params.substep);
-    vec3 slip = mean - n * dot3(mean, n) - cross3(turning, n) * wallRadius;
-    vec3 impulse = tangentialImpulse(slip, spring.z, spring.w, law.y * spring.x);
+    vec3 slip = moving - n * dot3(moving, n) - cross3(turning, n) * arm;
+    vec3 path = slip;
+    if (HAS(GRAVITY)) path = slip - (fall - n * dot3(fall, n));
+    float lever = arm / wallRadius;
+    vec3 impulse = tangentialImpulse(path, slip, inverseMass * (1.0f + 2.5f * lever * lever), spring, law.y);
     push = push + impulse;
-    torque = torque - cross3(n, impulse) * wallRadius;
+    torque = torque - cross3(n, impulse) * arm;
     if (HAS(ROLLING)) {
         float c = 2.5f * inverseMass / (wallRadius * wallRadius);
         float about = dot3(turning, n);
-        float most = wallRadius * spring.x;
+        float most = wallRadius * spring.impulse;
         torque = torque + rollingMoment(turning - n * about, c, law.z * most) +
                  spinningMoment(n, about, c, law.w * most);
     }
@@ -76,9 +77,12 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     if (!(overlap > 0.0f)) return;
     uint index = wallLawIndex(wallMaterial);
     float speed = dot3(moving, normal);
-    vec4 spring = springImpulse(overlap, speed, wallRadius, inverseMass, laws[index].stiffness);
-    push = push + normal * spring.x;
-    if (HAS(FRICTION)) rubSprings(normal, surface, spring, laws[index].contact);
+    vec3 fall = vec3(0.0f, 0.0f, 0.0f);
+    if (HAS(GRAVITY)) fall = vec3(params.gravity) * (0.5f * params.substep);
+    Spring spring =
+        springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, inverseMass, laws[index].stiffness);
+    push = push + normal * spring.impulse;
+    if (HAS(FRICTION)) rubSprings(normal, surface, fall, wallRadius - overlap, spring, laws[index].contact);
 }
 
 #include "shared/walls.h"

@@ -84,6 +84,7 @@ void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
     constexpr const char* energyHelp = "Mechanical energy, the potential one above the floor of the bounds";
     to.gauge(energy, energyHelp, now.kinetic_energy(), {{"kind", "kinetic"}});
     to.gauge(energy, energyHelp, now.rotational_energy(), {{"kind", "rotational"}});
+    to.gauge(energy, energyHelp, now.elastic_energy(), {{"kind", "elastic"}});
     to.gauge(energy, energyHelp, now.potential_energy(), {{"kind", "potential"}});
     to.gauge("spherule_push_work_joules", "Of the pushes of fast out of walls, against gravity", now.push_work());
     const auto vector = [&to](const char* name, const char* help, const auto& values) {

@@ -68,8 +68,8 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
         if (auto told = energy_.take({.step = simulation.steps(),
                                       .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                       .potential = statistics.potentialEnergy,
-                                      .given = statistics.pushWork,
-                                      .soft = simulation.scene().quality.model == scene::Model::Accurate}))
+                                      .elastic = statistics.elasticEnergy,
+                                      .given = statistics.pushWork}))
             sight.alarms.push_back(std::move(*told));
     if (auto told = overlap_.take(simulation.steps(), statistics.deepest())) sight.alarms.push_back(std::move(*told));
     diagnostics.set_energy_rises(energy_.alarmed());

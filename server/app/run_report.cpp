@@ -48,6 +48,7 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"rebuilds", stretch.rebuilds},
         {"kineticEnergy", s.kineticEnergy},
         {"rotationalEnergy", s.rotationalEnergy},
+        {"elasticEnergy", s.elasticEnergy},
         {"potentialEnergy", s.potentialEnergy},
         {"pushWork", s.pushWork},
         {"momentum", {s.momentum.x, s.momentum.y, s.momentum.z}},

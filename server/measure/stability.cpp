@@ -10,7 +10,7 @@ namespace spherule::measure {
 namespace {
 
 double energyOf(const sim::Statistics& s) {
-    return s.kineticEnergy + s.rotationalEnergy + s.potentialEnergy;
+    return s.kineticEnergy + s.rotationalEnergy + s.elasticEnergy + s.potentialEnergy;
 }
 
 // What is wrong now; empty: nothing.

@@ -16,23 +16,22 @@ constexpr double tolerated = 0.01;  // of the energy there is
 }  // namespace
 
 std::optional<std::string> EnergyWatch::take(const Reading& reading) {
-    const double energy = reading.kinetic + reading.potential - reading.given;
+    const double energy = reading.kinetic + reading.elastic + reading.potential - reading.given;
     if (!std::isfinite(energy)) return std::nullopt;
     // Far below the bounds potential energy is negative, and the sum says little of how much there is.
-    const double scale = reading.kinetic + std::abs(reading.potential);
+    const double scale = reading.kinetic + reading.elastic + std::abs(reading.potential);
     std::optional<std::string> told;
     if (!recent_.empty()) {
         const double highest = *std::ranges::max_element(recent_);
         if (recent_.size() == several) ceiling_ = std::min(ceiling_.value_or(highest), highest);
         const double before = ceiling_.value_or(highest);
-        const bool enough = !reading.soft || recent_.size() == several;
-        if (enough && energy - before > tolerated * scale) {
+        if (energy - before > tolerated * scale) {
             if (!alarmed_)
                 told = fmt::format(
                     "at step {}, mechanical energy has risen by {:.3g} J to {:.3g} J, though nothing gave any: the "
                     "model is "
                     "beyond its range here; use more substeps or another model",
-                    reading.step, energy - before, reading.kinetic + reading.potential);
+                    reading.step, energy - before, reading.kinetic + reading.elastic + reading.potential);
             alarmed_ = true;
             disturbed();
         } else if (alarmed_ && ++quiet_ >= quietReadings) {

@@ -8,17 +8,16 @@
 
 namespace spherule::quality {
 
-// Notices when mechanical energy rises though nothing can have given it. What soft spheres store while they touch is
-// not seen in a reading, so one that is low for a moment proves nothing: a rise is one above the highest of several.
-// Where spheres are hard, one reading is enough until there are several.
+// Notices when mechanical energy rises though nothing can have given it. One reading that is low for a moment proves
+// nothing: a rise is one above the highest of several. Until there are several, one is enough.
 class EnergyWatch {
   public:
     struct Reading {
         std::uint64_t step = 0;
         double kinetic = 0;    // J, of motion and rotation
         double potential = 0;  // J, zero at the lowest place of the scene
+        double elastic = 0;    // J, in the springs of soft spheres
         double given = 0;      // J, of pushes out of walls, which are known to give some
-        bool soft = false;     // contacts hold energy that the others do not show
     };
 
     // What to say of a rise, once until it has been quiet for a while.

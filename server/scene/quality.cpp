@@ -40,6 +40,20 @@ double balancedSubstep(const Scene& scene) {
     return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
 }
 
+// Whether spheres fall through what should hold them.
+Result<void> checkYoung(const Scene& scene) {
+    if (scene.quality.model != Model::Accurate || !followsHertz(scene)) return {};
+    const auto soft = tooSoft(scene);
+    if (!soft) return {};
+    // Rounded up, so that it is enough.
+    const double digit = std::pow(10.0, std::floor(std::log10(soft->smallestYoung)) - 2);
+    return fail(
+        ErrorKind::Input, at(at("materials", soft->material), "young"),
+        fmt::format("is {:.3g} Pa, so soft that spheres give way by more than half a radius under the impacts and "
+                    "the weight of this scene; give at least {:.3g} Pa",
+                    scene.materials[soft->material].young, std::ceil(soft->smallestYoung / digit) * digit));
+}
+
 // As if nobody had asked for substeps.
 Scene unpinned(const Scene& scene, Model model) {
     Scene free = scene;
@@ -91,6 +105,7 @@ Result<void> checkModel(const Scene& scene) {
 Result<void> fitSubsteps(Scene& scene) {
     Quality& quality = scene.quality;
     constexpr const char* field = "quality.substeps";
+    if (auto fits = checkYoung(scene); !fits) return fits;
     if (!quality.pinned) {
         const double wanted = defaultSubsteps(scene);
         if (!(wanted <= maxSubsteps))

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double mostDamping = 15.8;  // parts with a thousandth of the speed; more would need shorter substeps
-constexpr double slowest = 0.1;       // m/s: impacts that are to be expected in any case
 // Substeps in a contact. The dashpots' error, which bears a share of the static force, falls with it: 1.3 % at 50,
 // below a hundredth here.
 constexpr double contactShare = 70;
@@ -38,10 +37,24 @@ double shearModulus(const Material& material) {
     return material.young / (2 * (1 + material.poisson));
 }
 
+std::set<std::uint8_t> materialsOfSpheres(const Scene& scene) {
+    std::set<std::uint8_t> used;
+    for (const Sphere& sphere : scene.spheres) used.insert(sphere.material);
+    return used;
+}
+
+std::set<std::uint8_t> materialsOfSurfaces(const Scene& scene) {
+    std::set<std::uint8_t> used;
+    if (hasWalls(scene)) used.insert(scene.bounds.material);
+    for (const Obstacle& obstacle : scene.obstacles) used.insert(obstacle.material);
+    return used;
+}
+
 struct Extremes {
     double smallest = std::numeric_limits<double>::infinity();  // radius, m
     double largest = 0;
-    double speed = 0;    // m/s
+    glm::dvec3 slowest{std::numeric_limits<double>::infinity()};  // of each component of the velocities, m/s
+    glm::dvec3 fastest{-std::numeric_limits<double>::infinity()};
     double fall = 0;     // m
     double volume = 0;   // m^3
     double densest = 0;  // kg/m^3
@@ -58,7 +71,8 @@ Extremes extremesOf(const Scene& scene) {
         const auto r = static_cast<double>(sphere.radius);
         found.smallest = std::min(found.smallest, r);
         found.largest = std::max(found.largest, r);
-        found.speed = std::max(found.speed, static_cast<double>(glm::length(sphere.velocity)));
+        found.slowest = glm::min(found.slowest, glm::dvec3(sphere.velocity));
+        found.fastest = glm::max(found.fastest, glm::dvec3(sphere.velocity));
         found.fall = std::max(found.fall, glm::dot(sphere.position - scene.bounds.centre(), up) - floor);
         found.volume += 4.0 / 3 * pi * r * r * r;
         const double density = scene.materials[sphere.material].density;
@@ -68,27 +82,94 @@ Extremes extremesOf(const Scene& scene) {
     return found;
 }
 
+bool obstructed(const Scene& scene) {
+    return hasWalls(scene) || !scene.obstacles.empty();
+}
+
+// Whether something that does not move can drag spheres along its surface.
+bool surfacesRub(const Scene& scene) {
+    const std::set<std::uint8_t> used = materialsOfSpheres(scene);
+    return std::ranges::any_of(materialsOfSurfaces(scene), [&](std::uint8_t b) {
+        return std::ranges::any_of(used, [&](std::uint8_t a) { return lawBetween(scene, a, b).friction > 0; });
+    });
+}
+
+// What is left of `motion` along every face and plane: to nothing in the scene does it make a difference.
+glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
+    std::vector<glm::dvec3> across;  // orthonormal
+    const auto block = [&across](glm::dvec3 n) {
+        for (const glm::dvec3& other : across) n -= other * glm::dot(n, other);
+        if (const double length = glm::length(n); length > 1e-6) across.push_back(n / length);
+    };
+    for (unsigned face = 0; face < 6; ++face) {
+        glm::dvec3 n(0);
+        n[static_cast<int>(face / 2)] = 1;
+        if (!scene.bounds.open[face]) block(n);
+    }
+    for (const Obstacle& obstacle : scene.obstacles) {
+        const auto* const plane = std::get_if<Plane>(&obstacle.shape);
+        if (plane == nullptr) return glm::dvec3(0);
+        block(plane->normal);
+    }
+    glm::dvec3 left = motion;
+    for (const glm::dvec3& n : across) left -= n * glm::dot(left, n);
+    return left;
+}
+
+struct Meetings {
+    double spheres = 0;   // m/s, of two spheres head-on
+    double surfaces = 0;  // m/s, of a sphere and what stands still
+};
+
+// Seen from a motion that all spheres have in common, as far as the surfaces of the scene allow it. With surfaces,
+// spheres that are thrown back may meet at twice the fastest speed. Without, gravity and a common motion are of no
+// account, and the speed is twice the largest difference of two: a light sphere leaves a heavy one twice as fast as
+// they met.
+Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
+    constexpr double grain = 1.0 / 30;
+    Meetings fastest;
+    if (scene.spheres.empty()) return fastest;
+    const bool stopped = obstructed(scene);
+    glm::dvec3 common(0);
+    if (!stopped || !surfacesRub(scene)) common = alongSurfaces(scene, 0.5 * (extremes.slowest + extremes.fastest));
+    double speed = 0;
+    for (const Sphere& sphere : scene.spheres)
+        speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
+    const double fall = stopped ? 2 * glm::length(scene.gravity) * extremes.fall : 0;
+    if (scene.sphereContacts && scene.spheres.size() > 1)
+        fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall);
+    if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall);
+    // Where nothing moves or falls, the step says what is slow.
+    if (!(std::max(fastest.spheres, fastest.surfaces) > 0)) fastest.spheres = grain * extremes.smallest / scene.step;
+    return fastest;
+}
+
 double fastestImpact(const Scene& scene, const Extremes& extremes) {
+    const Meetings fastest = meetingsOf(scene, extremes);
+    return std::max(fastest.spheres, fastest.surfaces);
+}
+
+constexpr double solid = 0.6;  // of a pile
+
+// Pa: of all spheres together, spread over the ground; 0 where there is no ground.
+double pressureOfPile(const Scene& scene, const Extremes& extremes) {
     const double g = glm::length(scene.gravity);
-    const double meeting = (scene.sphereContacts && scene.spheres.size() > 1 ? 2 : 1) * extremes.speed;
-    return std::max(slowest, std::sqrt(meeting * meeting + 2 * g * extremes.fall));
+    if (!(g > 0) || !obstructed(scene)) return 0;
+    const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
+    const glm::dvec3 down = glm::abs(scene.gravity) / g;
+    const double across = extent.x * extent.y * extent.z / glm::dot(extent, down);
+    const double height = std::min(extremes.volume / solid / across, glm::dot(extent, down));
+    return solid * extremes.densest * g * height;
 }
 
 // The impact of two equal spheres, or of one on a wall.
 double modulusForOverlap(const Scene& scene) {
     constexpr double atRest = 0.2;
-    constexpr double solid = 0.6;  // of a pile
     const Extremes extremes = extremesOf(scene);
     const double overlap = scene.quality.overlap;
     const double v = fastestImpact(scene, extremes);
     const double impact = 2.0 / 3 * pi * extremes.densest * v * v / (overlap * overlap);
-    const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
-    const double g = glm::length(scene.gravity);
-    const glm::dvec3 down = g > 0 ? glm::abs(scene.gravity) / g : glm::dvec3(0, 0, 1);
-    const double across = extent.x * extent.y * extent.z / glm::dot(extent, down);
-    const double height = std::min(extremes.volume / solid / across, glm::dot(extent, down));
-    const double weight = 4 * solid * extremes.densest * g * height / (atRest * overlap);
-    return std::max(impact, weight);
+    return std::max(impact, 4 * pressureOfPile(scene, extremes) / (atRest * overlap));
 }
 
 double substepsPerContact(const Scene& scene) {
@@ -109,6 +190,19 @@ double modulusForSubstep(const Scene& scene) {
 
 // Tangential stiffness of linear springs, of the normal one: the tangential frequency is then the normal one.
 constexpr double tangentialShare = 2.0 / 7;
+
+double compliance(const Material& material) {
+    return (1 - material.poisson * material.poisson) / material.young;
+}
+
+// Pa: the effective modulus with which a sphere of this density gives way by `share` of its radius, under an impact at
+// `speed` and under `pressure`, or its own weight, at rest. Against one like it, or against a wall.
+double modulusThatBears(double share, double density, double speed, double pressure, double ownWeight, bool wall) {
+    const double impact =
+        15.0 / 16 * 4.0 / 3 * pi * density * speed * speed / (wall ? 1 : std::sqrt(2)) / std::pow(share, 2.5);
+    const double force = std::max(4 * pressure, ownWeight);  // over r^2
+    return std::max(impact, 0.75 * force * (wall ? 1 : std::sqrt(2)) / std::pow(share, 1.5));
+}
 
 }  // namespace
 
@@ -141,13 +235,42 @@ Stiffness stiffnessBetween(const Scene& scene, std::uint8_t a, std::uint8_t b, d
         law.tangential = tangentialShare * law.normal;
         return law;
     }
-    const auto compliance = [](const Material& m) { return (1 - m.poisson * m.poisson) / m.young; };
     const auto shear = [](const Material& m) { return (2 - m.poisson) / shearModulus(m); };
     const Material& first = scene.materials[a];
     const Material& second = scene.materials[b];
     law.normal = 1 / (compliance(first) + compliance(second));
     law.tangential = 1 / (shear(first) + shear(second));
     return law;
+}
+
+std::optional<TooSoft> tooSoft(const Scene& scene) {
+    constexpr double deepest = 0.5;
+    const Extremes extremes = extremesOf(scene);
+    const Meetings fastest = meetingsOf(scene, extremes);
+    const double pressure = pressureOfPile(scene, extremes);
+    const double g = obstructed(scene) ? glm::length(scene.gravity) : 0;
+    std::optional<TooSoft> worst;
+    const auto look = [&](std::uint8_t a, std::uint8_t b, bool wall) {
+        const double density = scene.materials[a].density;
+        const double weight = 4.0 / 3 * pi * density * g * extremes.largest;
+        const double needed =
+            modulusThatBears(deepest, density, wall ? fastest.surfaces : fastest.spheres, pressure, weight, wall);
+        const double modulus = 1 / (compliance(scene.materials[a]) + compliance(scene.materials[b]));
+        if (!(needed > modulus) || (worst && worst->share >= needed / modulus)) return;
+        const std::uint8_t softer = scene.materials[a].young <= scene.materials[b].young ? a : b;
+        const Material& material = scene.materials[softer];
+        // The other stays as it is, where that is enough.
+        const double left = 1 / needed - (a == b ? 0 : compliance(scene.materials[softer == a ? b : a]));
+        double young = material.young * needed / modulus;
+        if (a != b && left > 0) young = (1 - material.poisson * material.poisson) / left;
+        worst = TooSoft{.material = softer, .smallestYoung = young, .share = needed / modulus};
+    };
+    for (const std::uint8_t a : materialsOfSpheres(scene)) {
+        for (const std::uint8_t b : materialsOfSurfaces(scene)) look(a, b, true);
+        if (!scene.sphereContacts || scene.spheres.size() < 2) continue;
+        for (const std::uint8_t b : materialsOfSpheres(scene)) look(a, b, false);
+    }
+    return worst;
 }
 
 ContactTime contactTimeOf(const Scene& scene) {
@@ -157,11 +280,9 @@ ContactTime contactTimeOf(const Scene& scene) {
     time.speed = fastestImpact(scene, extremes);
     time.contact = std::numeric_limits<double>::infinity();
     time.substep = scene.step;
-    std::set<std::uint8_t> used;
-    for (const Sphere& sphere : scene.spheres) used.insert(sphere.material);
+    const std::set<std::uint8_t> used = materialsOfSpheres(scene);
     std::set<std::uint8_t> met = used;
-    met.insert(scene.bounds.material);
-    for (const Obstacle& obstacle : scene.obstacles) met.insert(obstacle.material);
+    met.merge(materialsOfSurfaces(scene));
     for (const std::uint8_t a : used) {
         const Material& material = scene.materials[a];
         const double r = extremes.smallest;

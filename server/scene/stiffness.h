@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "scene/scene.h"
 
 // How stiff the contacts of the model `accurate` are, and how short its substeps must be.
@@ -29,11 +32,24 @@ Stiffness stiffnessBetween(const Scene& scene, std::uint8_t a, std::uint8_t b, d
 double dampingRatio(double restitution);
 
 struct ContactTime {
-    double speed = 0;    // m/s: the fastest impact to expect, from the speeds (head-on) and the fall there may be
+    // m/s: the fastest impact to expect, from how fast spheres move relative to each other, or to walls and obstacles
+    // where there are any, and from the fall there may be. Where nothing moves or falls: a thirtieth of the smallest
+    // radius in a step.
+    double speed = 0;
     double contact = 0;  // s: the shortest contact at that speed, without damping
     double substep = 0;  // s: the longest
     double overlap = 0;  // of the smallest radius, that such an impact reaches
 };
+
+// Young's modulus of a material with which spheres give way by more than half their radius: under the fastest impact,
+// or under the weight that a pile of all spheres puts on them, or their own.
+struct TooSoft {
+    std::uint8_t material = 0;
+    double smallestYoung = 0;  // Pa, that bears it
+    double share = 0;          // how many times too soft the contact is
+};
+// The softest contact of a scene that follows Hertz; none where all bear what they have to.
+std::optional<TooSoft> tooSoft(const Scene& scene);
 
 // Of the scene's smallest spheres: the substep is a seventieth of the shortest contact, and a tenth of the Rayleigh
 // time where there is a Young's modulus.

@@ -253,6 +253,7 @@ v1::Statistics Simulation::message(const Statistics& s) const {
     message.set_spheres(count());
     message.set_kinetic_energy(s.kineticEnergy);
     message.set_rotational_energy(s.rotationalEnergy);
+    message.set_elastic_energy(s.elasticEnergy);
     message.set_potential_energy(s.potentialEnergy);
     message.set_push_work(s.pushWork);
     for (int axis = 0; axis < 3; ++axis) message.add_momentum(s.momentum[axis]);

@@ -29,7 +29,7 @@ constexpr std::string_view parameterWords =
     "uuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuu"
     "rrrrrrrrrrrr"
     "uuuuuuuuuuuu";
-constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrruuuu";
+constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrrruuu";
 static_assert(parameterWords.size() * 4 == sizeof(Parameters));
 static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));
 static_assert(parameterWords.rfind('r') * 4 + 4 == offsetof(Parameters, spheres));

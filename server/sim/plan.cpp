@@ -232,14 +232,21 @@ void planOnDemand(Plan& plan) {
     using enum Array;
     plan.statistics.push_back({Pass::Statistics,
                                "statistics_spheres.comp",
-                               {Position, Velocity, Obstacles, SphereParts},
+                               {Position, Velocity, Obstacles, SphereParts, Label, Laws, WallHistory},
                                blocksOf(plan.spheres, STATISTIC_BLOCK),
                                std::nullopt,
                                0});
-    if (plan.features.contacts)
+    if (!plan.features.contacts) return;
+    plan.statistics.push_back({Pass::Statistics,
+                               "statistics_contacts.comp",
+                               {Position, CellStart, Span, Pairs, Overlaps},
+                               plan.groups(),
+                               std::nullopt,
+                               0});
+    if (plan.features.model == scene::Model::Accurate)
         plan.statistics.push_back({Pass::Statistics,
-                                   "statistics_contacts.comp",
-                                   {Position, CellStart, Span, Pairs, Overlaps},
+                                   "statistics_springs.comp",
+                                   {Position, Velocity, Label, Span, Pairs, History, Laws, Overlaps},
                                    plan.groups(),
                                    std::nullopt,
                                    0});

@@ -22,6 +22,7 @@ void addOverlaps(Statistics& sum, const std::vector<glm::vec4>& groups) {
     for (const glm::vec4& group : groups) {
         sum.contacts += static_cast<std::uint64_t>(group.x);
         overlaps += static_cast<double>(group.y);
+        sum.elasticEnergy += static_cast<double>(group.w);
         sum.overlapMax = std::max(sum.overlapMax, static_cast<double>(group.z));
     }
     if (sum.contacts > 0) sum.overlapMean = overlaps / static_cast<double>(sum.contacts);
@@ -59,6 +60,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
         sum.angularMomentum += glm::dvec3(part.angular);
         sum.rotationalEnergy += static_cast<double>(part.angular.w);
         sum.kineticEnergy += static_cast<double>(part.momentum.w);
+        sum.elasticEnergy += static_cast<double>(part.wallSprings);
         heights += static_cast<double>(part.heightSum);
         squares += static_cast<double>(part.speedSquares);
         fastest = std::max(fastest, static_cast<double>(part.speedSquaredMax));

@@ -29,6 +29,7 @@ struct Impacts {
 struct Statistics {
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
+    double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models, whose spheres are hard
     double potentialEnergy = 0;  // zero at the lowest corner of the bounds
     double pushWork = 0;  // of `fast`'s pushes out of walls against gravity, since the spheres were last put there
     glm::dvec3 momentum{};

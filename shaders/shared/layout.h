@@ -65,10 +65,10 @@ struct SphereStatistics {
     float speedSquares;     // sum of v^2
     float speedSquaredMax;
     float wallOverlapMax;   // depth / r
+    float wallSprings;      // sum of what the springs at walls hold, in the model `accurate`
     uint sleeping;
     uint outside;
     uint nonFinite;
-    uint unused;            // keeps the size a multiple of 16 bytes
 };
 
 // In place of a quiet time: of a sphere that has crept so far that it may carry a sleeper no longer.

@@ -17,7 +17,7 @@ import urllib.request
 DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
 KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds stretchSeconds wallSeconds realTimeFactor
-deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy potentialEnergy pushWork momentum angularMomentum contacts
+deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy elasticEnergy potentialEnergy pushWork momentum angularMomentum contacts
 overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite impacts restitution
 restitutionAsked stateHash""".split()
 

@@ -60,11 +60,11 @@ TEST(EnergyWatch, IsNotFooledByWhatContactsHoldForAMoment) {
     }
 }
 
-TEST(EnergyWatch, OfSoftSpheresReadsSeveralBeforeItTells) {
+TEST(EnergyWatch, CountsWhatTheSpringsOfSoftSpheresHold) {
     EnergyWatch watch;
-    EXPECT_FALSE(watch.take({.kinetic = 60, .soft = true})) << "in the middle of an impact";
-    for (int k = 0; k < 8; ++k) EXPECT_FALSE(watch.take({.kinetic = 100, .soft = true}));
-    EXPECT_TRUE(watch.take({.kinetic = 110, .soft = true}));
+    EXPECT_FALSE(watch.take({.kinetic = 60, .elastic = 40})) << "in the middle of an impact";
+    EXPECT_FALSE(watch.take({.kinetic = 100}));
+    EXPECT_TRUE(watch.take({.kinetic = 100, .elastic = 10}));
 }
 
 TEST(EnergyWatch, StartsAnewAfterACommand) {

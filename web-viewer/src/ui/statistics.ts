@@ -28,6 +28,7 @@ export class StatisticsTables {
     this.impacts = moreImpacts(this.impacts, s);
     const unseen = settings?.model === Model.ACCURATE;
     const { restitution, over } = unseen ? { restitution: "not observed", over: "–" } : impactWords(this.impacts);
+    const energy = s.kineticEnergy + s.rotationalEnergy + s.elasticEnergy + s.potentialEnergy;
     fill(this.quality, "statistics", [
       ["substeps", "Substeps", count(now.substeps), raised],
       ["step-time", "A step takes", now.stepMs > 0 ? `${figure(now.stepMs)} ms` : "–"],
@@ -35,7 +36,7 @@ export class StatisticsTables {
       ["overlap-max", "Overlap, most", percent(s.overlapMax)],
       ["restitution", "Restitution", restitution, undefined, seen],
       ["impacts", "Over impacts", over, undefined, seen],
-      ["energy", "Energy", `${rises ? "rises: " : ""}${figure(s.kineticEnergy + s.rotationalEnergy + s.potentialEnergy)} J`, rises],
+      ["energy", "Energy", `${rises ? "rises: " : ""}${figure(energy)} J`, rises],
       ["speed-max", "Speed, most", `${figure(s.speedMax)} m/s`],
     ]);
     fill(this.rest, "statistics", [
@@ -43,6 +44,7 @@ export class StatisticsTables {
       ["contacts", "Contacts", count(Number(s.contacts))],
       ["kinetic", "Energy of motion", `${figure(s.kineticEnergy)} J`],
       ["rotational", "Energy of rotation", `${figure(s.rotationalEnergy)} J`],
+      ["elastic", "Energy of springs", `${figure(s.elasticEnergy)} J`],
       ["potential", "Energy of height", `${figure(s.potentialEnergy)} J`],
       ["momentum", "Momentum, N s", vector(s.momentum)],
       ["speed-rms", "Speed, rms", `${figure(s.speedRms)} m/s`],

@@ -1,0 +1,51 @@
+// What the springs between the spheres of each group hold, in the model `accurate`; after statistics_contacts.comp, whose rows it
+// completes. Groups without lists are left out.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/label.h"
+#include "shared/contact.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, uint, label, LabelBlock)
+BUFFER(3, readonly, uvec4, span, SpanBlock)
+BUFFER(4, readonly, uvec2, pairs, PairBlock)
+BUFFER(5, readonly, vec4, history, HistoryBlock)
+BUFFER(6, readonly, Law, laws, LawBlock)
+BUFFER(7, restrict, vec4, overlaps, OverlapBlock)
+
+PRIVATE(vec3, stretch)
+
+#include "shared/laws.h"
+#include "shared/spring.h"
+
+float energyOf(uint a, uint b) {
+    vec4 pa = position[a];
+    vec4 pb = position[b];
+    vec3 d = vec3(pa) - vec3(pb);
+    d = d + (vec3(position[params.spheres + a]) - vec3(position[params.spheres + b]));
+    float squared = dot3(d, d);
+    float ra = HAS(RADII) ? pa.w : params.radius;
+    float rb = HAS(RADII) ? pb.w : params.radius;
+    float reach = ra + rb;
+    if (!(squared < reach * reach)) return 0.0f;
+    vec4 normal = normalAndDistance(d, squared, a, b);
+    float speed = dot3(vec3(velocity[a]) - vec3(velocity[b]), vec3(normal));
+    return springEnergy(overlapWithSpeed(reach - normal.w, speed), ra * rb / reach, stiffnessLaw(a, b), stretch);
+}
+
+KERNEL(params.groups * 8u) {
+    uvec4 mine = span[invocation];
+    if (mine.y == UNLISTED) return;
+    float energy = 0.0f;
+    stretch = vec3(0.0f, 0.0f, 0.0f);
+    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+        uvec2 pair = pairs[k];
+        if (HAS(FRICTION)) stretch = vec3(history[k]);
+        energy += energyOf(pair.x, pair.y);
+    }
+    vec4 row = overlaps[invocation];
+    overlaps[invocation] = vec4(row.x, row.y, row.z, energy);
+}
