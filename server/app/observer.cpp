@@ -69,7 +69,8 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
                                       .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                       .potential = statistics.potentialEnergy,
                                       .given = statistics.pushWork,
-                                      .soft = simulation.scene().quality.model == scene::Model::Accurate}))
+                                      // Squeezed by an impact, spheres of both store energy in their overlaps.
+                                      .soft = simulation.scene().quality.model != scene::Model::Fast}))
             sight.alarms.push_back(std::move(*told));
     if (auto told = overlap_.take(simulation.steps(), statistics.deepest())) sight.alarms.push_back(std::move(*told));
     diagnostics.set_energy_rises(energy_.alarmed());

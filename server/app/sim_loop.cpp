@@ -62,8 +62,9 @@ Result<void> SimLoop::simulate(const std::stop_token& stop) {
         } else if (auto request = requests_.popFor(patience(now))) {
             serve(*request);
         }
-        produce(Pacer::Clock::now());
+        lookAtStill();
         if (auto done = report(); !done) return done;
+        produce(Pacer::Clock::now());
         tellOfTape();
     }
     return {};
@@ -157,9 +158,15 @@ void SimLoop::stopAtNonFinite() {
     announce();
 }
 
+// Before the frame that shows where a world has stopped: its status is that of this state.
+void SimLoop::lookAtStill() {
+    watched_ = !outlets_.demands().empty();
+    if (world_.running() || !watched_) return;
+    if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
+}
+
 void SimLoop::produce(Pacer::Clock::time_point now) {
     auto demands = outlets_.demands();
-    watched_ = !demands.empty();
     tape_.demand(demands, now);
     sim::Simulation& simulation = world_.simulation();
     chains_.serve({.source = simulation.tierSource(),

@@ -10,7 +10,7 @@ namespace spherule::quality {
 
 // Notices when mechanical energy rises though nothing can have given it. What soft spheres store while they touch is
 // not seen in a reading, so one that is low for a moment proves nothing: a rise is one above the highest of several.
-// Where spheres are hard, one reading is enough until there are several.
+// Where overlaps store nothing, one reading is enough until there are several.
 class EnergyWatch {
   public:
     struct Reading {

@@ -215,7 +215,7 @@ Result<std::uint32_t> Simulation::push(const v1::Push& push) {
 v1::Statistics Simulation::message(const Statistics& s) const {
     v1::Statistics message;
     message.set_step(steps_);
-    message.set_sim_time(time_);
+    message.set_sim_time(time());
     message.set_spheres(count());
     message.set_kinetic_energy(s.kineticEnergy);
     message.set_rotational_energy(s.rotationalEnergy);

@@ -122,9 +122,7 @@ Result<State> Simulation::liveState() {
 Result<void> Simulation::reset() {
     if (auto done = adopt(initial_, stateOf(initial_)); !done) return done;
     steps_ = 0;
-    time_ = 0;
     goodStep_ = 0;
-    goodTime_ = 0;
     impacts_ = {};
     ++generation_;
     return {};
@@ -134,7 +132,6 @@ Result<void> Simulation::step() {
     const bool observed = observing_ && steps_ % observedEvery == 0;
     for (std::uint32_t k = 0; k < substeps_; ++k) pipeline_->substep(observed);
     ++steps_;
-    time_ += scene_.step;
     return guard();
 }
 
@@ -173,7 +170,6 @@ Result<void> Simulation::guard() {
 void Simulation::keep() {
     good_ = pipeline_->download();
     goodStep_ = steps_;
-    goodTime_ = time_;
 }
 
 std::string Simulation::divergence() const {
@@ -190,7 +186,6 @@ std::string Simulation::divergence() const {
 void Simulation::restore() {
     put(inIdOrder(good_));
     steps_ = goodStep_;
-    time_ = goodTime_;
     counters_ = {};
 }
 

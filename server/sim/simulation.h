@@ -78,7 +78,7 @@ class Simulation {
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return plan().spheres; }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
-    [[nodiscard]] double time() const { return time_; }                     // s simulated
+    [[nodiscard]] double time() const { return static_cast<double>(steps_) * scene_.step; }  // s simulated
     [[nodiscard]] std::uint32_t generation() const { return generation_; }  // changes when spheres or obstacles do
 
   private:
@@ -120,9 +120,7 @@ class Simulation {
     std::vector<std::string> notices_;
     SlotState good_;  // the last one that was found finite
     std::uint64_t goodStep_ = 0;
-    double goodTime_ = 0;
     std::uint64_t steps_ = 0;
-    double time_ = 0;
     std::uint32_t generation_ = 0;
 };
 
