@@ -14,6 +14,12 @@ constexpr double noticeable = 1.2;  // times the cost that was last told
 constexpr std::uint64_t enoughSteps = 10;
 constexpr double enoughMs = 300;
 
+// In `accurate` all contacts do; in `balanced` those do that an impact has squeezed: the bed expands again.
+bool storesEnergy(scene::Model model, const sim::Statistics& statistics) {
+    constexpr double squeezed = 0.05;  // of the radius
+    return model == scene::Model::Accurate || (model == scene::Model::Balanced && statistics.deepest() > squeezed);
+}
+
 void addPasses(v1::Diagnostics& diagnostics, const std::vector<double>& seconds, std::uint64_t steps) {
     if (steps == 0) return;
     for (std::size_t pass = 0; pass < seconds.size(); ++pass) {
@@ -69,8 +75,7 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
                                       .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                       .potential = statistics.potentialEnergy,
                                       .given = statistics.pushWork,
-                                      // Squeezed by an impact, spheres of both store energy in their overlaps.
-                                      .soft = simulation.scene().quality.model != scene::Model::Fast}))
+                                      .soft = storesEnergy(simulation.scene().quality.model, statistics)}))
             sight.alarms.push_back(std::move(*told));
     if (auto told = overlap_.take(simulation.steps(), statistics.deepest())) sight.alarms.push_back(std::move(*told));
     diagnostics.set_energy_rises(energy_.alarmed());

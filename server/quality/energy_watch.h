@@ -10,7 +10,7 @@ namespace spherule::quality {
 
 // Notices when mechanical energy rises though nothing can have given it. What soft spheres store while they touch is
 // not seen in a reading, so one that is low for a moment proves nothing: a rise is one above the highest of several.
-// Where overlaps store nothing, one reading is enough until there are several.
+// Where contacts store nothing, one reading is enough until there are several.
 class EnergyWatch {
   public:
     struct Reading {
@@ -30,7 +30,12 @@ class EnergyWatch {
     [[nodiscard]] bool alarmed() const { return alarmed_; }
 
   private:
-    std::deque<double> recent_;      // J
+    struct Seen {
+        double energy = 0;  // J
+        bool soft = false;
+    };
+
+    std::deque<Seen> recent_;
     std::optional<double> ceiling_;  // J: the lowest that the highest of several in a row has been
     bool alarmed_ = false;
     std::size_t quiet_ = 0;  // readings since the last rise
