@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/label.h"
+#include "shared/outside.h"
 
 BUFFER(0, restrict, vec4, position, PositionBlock)
 BUFFER(1, restrict, vec4, velocity, VelocityBlock)
@@ -13,11 +14,89 @@ BUFFER(3, readonly, vec4, anchor, AnchorBlock)
 BUFFER(4, readonly, uint, label, LabelBlock)
 BUFFER(5, coherent, uint, counters, CounterBlock)
 BUFFER(6, restrict, vec4, resting, RestingBlock)
+BUFFER(7, readonly, Obstacle, obstacles, ObstacleBlock)
+
+#include "shared/frame.h"
+
+// Substeps are fitted after each step, to what was seen in it: what may be met within two must be seen.
+#define LOOK_AHEAD 2.0f
+
+PRIVATE(vec3, wallPoint)
+PRIVATE(vec3, flight)  // velocity of the sphere that looks ahead
+PRIVATE(float, reach)  // how far it looks, and its radius
+PRIVATE(float, own)    // its radius
+PRIVATE(bool, meets)
+
+// Whether the sphere may close the gap, in substeps that are too long for what it meets there.
+bool closes(float gap, vec3 normal) {
+    float ahead = LOOK_AHEAD * params.step;
+    float speed = -dot3(flight, normal);
+    if (HAS(GRAVITY)) speed = speed + max(-dot3(vec3(params.gravity), normal), 0.0f) * ahead;
+    return speed * ahead > gap && speed * params.substep > FAR_MOTION * own;
+}
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+    meets = meets || closes(reach - own - depth, normal);
+}
+
+#include "shared/walls.h"
+
+// Whether a sphere outside may soon meet a wall, an obstacle, or what is inside the bounds.
+bool comesTo(vec3 p, vec3 v, float radius) {
+    float ahead = LOOK_AHEAD * params.step;
+    float speed = sqrt(dot3(v, v));
+    if (HAS(GRAVITY)) speed = speed + sqrt(dot3(vec3(params.gravity), vec3(params.gravity))) * ahead;
+    wallPoint = p;
+    flight = v;
+    own = radius;
+    reach = radius + speed * ahead;
+    meets = false;
+    if (HAS(CONTACTS)) {
+        vec3 nearest = vec3(min(max(p.x, params.wallMin.x), params.wallMax.x),
+                            min(max(p.y, params.wallMin.y), params.wallMax.y),
+                            min(max(p.z, params.wallMin.z), params.wallMax.z));
+        vec3 d = p - nearest;
+        float distance = sqrt(dot3(d, d));
+        meets = distance <= strip() || closes(distance - strip(), d * (1.0f / distance));
+    }
+    visitWalls(reach);
+    return meets;
+}
+
+// How far the sphere moves in a substep, as far as that may carry it past what it should hit. `start` is its anchor.
+float riskyMotion(vec4 sphere, vec3 v, vec4 start) {
+    float h = params.substep;
+    float motion = sqrt(dot3(v, v) * h * h);
+    vec3 p = vec3(sphere);
+    if (!(beyond(p) > 0.0f) || comesTo(p, v, HAS(RADII) ? sphere.w : params.radius)) return motion;
+    if (!HAS(CONTACTS) || start.w >= UNLIMITED_ROOM || counters[COUNTER_REBUILDS] == 0u) return 0.0f;
+    // Among others outside, what counts is how fast it moves among them.
+    vec3 drift = v - frameVelocity();
+    float speed = sqrt(dot3(drift, drift));
+    vec3 since = p - vec3(start) - framePath();
+    float used = sqrt(dot3(since, since)) + speed * LOOK_AHEAD * params.step;
+    return start.w > 0.0f && used < 0.5f * start.w ? 0.0f : speed * h;
+}
+
+// Whether the lists may lack a pair of this sphere, which has moved to `to`.
+bool leavesLists(vec3 to, vec4 start, float radius) {
+    vec3 since = to - vec3(start);
+    bool far = dot3(since, since) > params.rebuildMove * params.rebuildMove;
+    if (start.w == 0.0f) return far;
+    if (far && !(beyondStrip(to) && beyondStrip(vec3(start)))) return true;
+    if (lost(vec4(vec3(start), radius))) return !lost(vec4(to, radius));
+    vec3 drift = since - framePath();
+    float most = ROOM_SHARE * abs(start.w);
+    // Those that a list pairs and that part need not be paired any longer.
+    if (start.w < 0.0f) most = min(most, strip());
+    return dot3(drift, drift) > most * most;
+}
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
     vec4 x = position[invocation];
+    if (farthestAxis(vec3(x)) > LAST_PLACE && finite3(vec3(x))) return;
     float h = params.substep;
     if (HAS(BEFORE)) before[invocation] = vec4(vec3(v), before[invocation].w);
     vec3 moved = vec3(v);
@@ -43,13 +122,14 @@ KERNEL(params.spheres) {
         atomicMax(counters[COUNTER_FIRST_ID], ~idOf(label[invocation]));
         return;
     }
+    vec4 start = HAS(CONTACTS) ? anchor[invocation] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
     float far = FAR_MOTION * (HAS(RADII) ? x.w : params.radius);
-    float squared = dot3(moved, moved) * h * h;
-    if (squared > far * far)
-        atomicMax(counters[COUNTER_FASTEST], floatBitsToUint(sqrt(squared) * FAR_MOTION / far));
+    if (dot3(moved, moved) * h * h > far * far) {
+        float motion = riskyMotion(vec4(to, x.w), moved, start);
+        if (motion > far) atomicMax(counters[COUNTER_FASTEST], floatBitsToUint(motion * FAR_MOTION / far));
+    }
     if (HAS(CONTACTS)) {
-        vec3 since = to - vec3(anchor[invocation]);
-        if (dot3(since, since) > params.rebuildMove * params.rebuildMove) atomicOr(counters[COUNTER_REBUILD], 1u);
+        if (leavesLists(to, start, x.w)) atomicOr(counters[COUNTER_REBUILD], 1u);
         // Not from `anchor`, which starts anew whenever some other sphere needs new lists: a slow one would never have
         // moved at all.
         if (HAS(SLEEP)) {

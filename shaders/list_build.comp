@@ -6,6 +6,7 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/outside.h"
 
 BUFFER(0, readonly, vec4, position, PositionBlock)
 BUFFER(1, readonly, uint, cellStart, CellBlock)
@@ -24,7 +25,7 @@ void visitPair(uint a, uint b) {
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
     float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + params.margin;
-    if (!(dot3(d, d) < reach * reach)) return;
+    if (!(dot3(d, d) < reach * reach) || lost(pa) || lost(pb)) return;
     if (base != UNLISTED) {
         pairs[base + found] = uvec2(a, b);
     } else if (found < LOCAL_PAIRS) {

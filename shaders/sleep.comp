@@ -2,15 +2,18 @@
 // its place, not by its speed in every substep: under load, the solver's pushes make it jitter about where it is. Slow
 // and in place is not enough: so is every sphere at the top of its flight, if gravity is weak. Carried means that contacts
 // took up at least half of gravity's pull in this substep. A spin about the normal of its only friction is slow to end:
-// the longer a sphere has stayed, the faster it may turn.
+// the longer a sphere has stayed, the faster it may turn. For one that falls asleep outside, there are new lists: it would
+// no longer see that the frame moves away from it.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
+#include "shared/outside.h"
 
 BUFFER(0, restrict, vec4, velocity, VelocityBlock)
 BUFFER(1, restrict, vec4, before, BeforeBlock)  // w: s spent in one place
 BUFFER(2, readonly, vec4, position, PositionBlock)
+BUFFER(3, coherent, uint, counters, CounterBlock)
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
@@ -34,6 +37,7 @@ KERNEL(params.spheres) {
         before[invocation] = vec4(vec3(u), spent);
         return;
     }
+    if (beyond(vec3(position[invocation])) > 0.0f) atomicOr(counters[COUNTER_REBUILD], 1u);
     // A sleeper has no velocity before the substep either: its neighbours bounce off what stands still.
     before[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     velocity[invocation] = vec4(0.0f, 0.0f, 0.0f, -v.w);

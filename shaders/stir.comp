@@ -1,21 +1,24 @@
 // Marks the groups that hold a sphere that is awake, with the number of the substep: on its level, and on the coarser ones,
 // whose groups have the pairs that it makes with larger spheres. Not on finer ones: those pairs are its own group's, and who
-// is woken by it marks its own group in the next substep.
+// is woken by it marks its own group in the next substep. A sphere that is in no list stirs nothing.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/outside.h"
 
 BUFFER(0, readonly, vec4, velocity, VelocityBlock)
 BUFFER(1, readonly, vec4, anchor, AnchorBlock)  // which cell the lists have it in
 BUFFER(2, readonly, uint, counters, CounterBlock)
 BUFFER(3, coherent, uint, stirred, StirredBlock)
+BUFFER(4, readonly, vec4, position, PositionBlock)
 
 KERNEL(params.spheres) {
     if (velocity[invocation].w < 0.0f) return;
     vec4 sphere = anchor[invocation];
     uint levels = HAS(LEVELS) ? params.levels : 1u;
-    for (uint level = levelOf(sphere.w); level < levels; ++level)
+    if (sphere.w > 0.0f && beyondStrip(vec3(sphere))) return;
+    for (uint level = levelOf(position[invocation].w); level < levels; ++level)
         atomicExchange(stirred[groupAt(vec3(sphere), level)], counters[COUNTER_SUBSTEPS]);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -90,14 +91,18 @@ Result<Written> write(store::Recording& recording, const Range& range, store::Ex
     auto more = enter(recording, std::max(range.from, recording.begin()), interrupt);
     const double first = recording.time();
     double due = 0;
+    std::optional<double> newest;
     for (; more && *more && !interrupt.asked(); more = recording.next()) {
         const double time = recording.time();
         if (time > range.to + sameTime) break;
+        // Of one moment there may be several, where the recording was made while the world was reset or paused.
+        if (newest && time <= *newest) continue;
         if (range.every > 0) {
             const double at = (time - first + sameTime) / range.every;
             if (at < due) continue;
             due = std::floor(at) + 1;
         }
+        newest = time;
         const store::Moment moment = recording.now();
         if (auto done = exporter.add(moment); !done) return tl::unexpected(done.error());
         ++written.frames;

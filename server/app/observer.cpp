@@ -14,6 +14,12 @@ constexpr double noticeable = 1.2;  // times the cost that was last told
 constexpr std::uint64_t enoughSteps = 10;
 constexpr double enoughMs = 300;
 
+// The contacts of `balanced` that an impact has squeezed: the bed expands again. Those of `accurate` are seen.
+bool storesUnseen(scene::Model model, const sim::Statistics& statistics) {
+    constexpr double squeezed = 0.05;  // of the radius
+    return model == scene::Model::Balanced && statistics.deepest() > squeezed;
+}
+
 void addPasses(v1::Diagnostics& diagnostics, const std::vector<double>& seconds, std::uint64_t steps) {
     if (steps == 0) return;
     for (std::size_t pass = 0; pass < seconds.size(); ++pass) {
@@ -69,7 +75,8 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
                                       .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                       .potential = statistics.potentialEnergy,
                                       .elastic = statistics.elasticEnergy,
-                                      .given = statistics.pushWork}))
+                                      .given = statistics.pushWork,
+                                      .soft = storesUnseen(simulation.scene().quality.model, statistics)}))
             sight.alarms.push_back(std::move(*told));
     if (auto told = overlap_.take(simulation.steps(), statistics.deepest())) sight.alarms.push_back(std::move(*told));
     diagnostics.set_energy_rises(energy_.alarmed());

@@ -73,8 +73,9 @@ Result<void> SimLoop::simulate(const std::stop_token& stop) {
         const bool worked = goOn(done);
         if (!done) break;
         tellOfChange();
-        produce(Pacer::Clock::now());
+        lookAtStill();
         done = report();
+        produce(Pacer::Clock::now());
         tellOfTape();
         if (worked) continue;
         if (auto request = requests_.popFor(patience(Pacer::Clock::now()))) serve(std::move(*request));
@@ -285,9 +286,15 @@ void SimLoop::stopAtNonFinite() {
     announce();
 }
 
+// Before the frame that shows where a world has stopped: its status is that of this state.
+void SimLoop::lookAtStill() {
+    watched_ = !outlets_.demands().empty();
+    if (world_.running() || !watched_ || world_.simulation().midStep()) return;
+    if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
+}
+
 void SimLoop::produce(Pacer::Clock::time_point now) {
     auto demands = outlets_.demands();
-    watched_ = !demands.empty();
     tape_.demand(demands, now);
     sim::Simulation& simulation = world_.simulation();
     chains_.serve({.source = simulation.tierSource(),

@@ -51,6 +51,7 @@ class SimLoop : public Show {
     Result<void> tune(double wallMs);
     void say(v1::Event::Kind kind, const std::string& text);
     void stopAtNonFinite();
+    void lookAtStill();
     void produce(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
     void publish(const frame::Link& link);

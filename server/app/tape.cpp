@@ -106,8 +106,9 @@ Result<void> Tape::start(const std::string& path, bool replace, std::uint64_t mo
     state_.set_file(utf8(path));
     told_ = false;
     number_.reset();
-    begin_ = time_ = offset_ = 0;
+    begin_ = time_ = offset_ = simTime_ = 0;
     timed_ = false;
+    waits_ = false;
     return {};
 }
 
@@ -142,12 +143,16 @@ void Tape::order(frame::SharedMessage message) {
 void Tape::frame(const frame::Link& link) {
     if (!writer_ || link.channel != channel_) return;
     using enum frame::Link::Kind;
+    const bool again = link.kind == Join && number_ == link.number;
+    if (!again) {
+        waits_ = timed_ && standsStill(link.message->content().frame());
+        if (waits_) return leaveOut(link.message->content().frame());
+    }
     if (link.kind == Delta && number_ != link.number - 1) {
         number_.reset();
         if (refused_) ++framesLost_;
         return;
     }
-    const bool again = link.kind == Join && number_ == link.number;
     // Joins of which others have need are of none here.
     if (again && (!moved_ || Clock::now() - keyframe_ < keyframesEvery)) return;
     refused_ = false;
@@ -167,9 +172,21 @@ void Tape::frame(const frame::Link& link) {
     add(again ? store::Kind::Join : link.kind == Delta ? store::Kind::Delta : store::Kind::Keyframe, link.message);
 }
 
+// Whether the world has not gone on since the newest frame. A paused one that was reset has not either.
+bool Tape::standsStill(const v1::Frame& frame) const {
+    return frame.sim_time() == simTime_ || (frame.status().paused() && frame.sim_time() + offset_ <= time_);
+}
+
+// The chain is lost by that, and begins anew once the world goes on.
+void Tape::leaveOut(const v1::Frame& frame) {
+    number_.reset();
+    timeOf(frame);
+}
+
 void Tape::timeOf(const v1::Frame& frame) {
     if (!timed_) begin_ = time_ = frame.sim_time();
     timed_ = true;
+    simTime_ = frame.sim_time();
     if (frame.sim_time() + offset_ < time_) offset_ = time_ - frame.sim_time();
     // Not less for being rounded.
     time_ = std::max(time_, frame.sim_time() + offset_);
@@ -188,7 +205,7 @@ void Tape::demand(std::vector<frame::Demand>& demands, Clock::time_point now) co
     auto own = std::ranges::find(demands, channel_, &frame::Demand::channel);
     if (own == demands.end()) own = demands.insert(demands.end(), frame::Demand{.channel = channel_});
     own->newcomer = own->newcomer || !timed_;
-    own->lost = own->lost || !number_ || (moved_ && now - keyframe_ >= keyframesEvery);
+    own->lost = own->lost || (!waits_ && (!number_ || (moved_ && now - keyframe_ >= keyframesEvery)));
 }
 
 std::optional<v1::Recording> Tape::finish() {

@@ -50,6 +50,8 @@ class Tape {
     [[nodiscard]] Result<std::string> newPath() const;
     void add(store::Kind kind, const frame::SharedMessage& message);
     void timeOf(const v1::Frame& frame);
+    [[nodiscard]] bool standsStill(const v1::Frame& frame) const;
+    void leaveOut(const v1::Frame& frame);
 
     TapeOptions options_;
     frame::Channel channel_;
@@ -63,8 +65,10 @@ class Tape {
     bool refused_ = false;  // the chain is lost because the disk is too slow
     // Time in the recording: never goes back, though that of the simulation does when it is reset.
     double begin_ = 0, time_ = 0, offset_ = 0;  // s
+    double simTime_ = 0;                        // s, of the simulation in the newest frame
     bool timed_ = false;
-    bool told_ = false;  // of the state
+    bool waits_ = false;  // for the world to go on
+    bool told_ = false;   // of the state
     Clock::time_point toldAt_{};
     std::uint64_t framesLost_ = 0;
 };

@@ -22,10 +22,12 @@ std::optional<std::string> EnergyWatch::take(const Reading& reading) {
     const double scale = reading.kinetic + reading.elastic + std::abs(reading.potential);
     std::optional<std::string> told;
     if (!recent_.empty()) {
-        const double highest = *std::ranges::max_element(recent_);
+        const double highest = std::ranges::max_element(recent_, {}, &Seen::energy)->energy;
         if (recent_.size() == several) ceiling_ = std::min(ceiling_.value_or(highest), highest);
         const double before = ceiling_.value_or(highest);
-        if (energy - before > tolerated * scale) {
+        const bool soft = reading.soft || std::ranges::any_of(recent_, &Seen::soft);
+        const bool enough = !soft || recent_.size() == several;
+        if (enough && energy - before > tolerated * scale) {
             if (!alarmed_)
                 told = fmt::format(
                     "at step {}, mechanical energy has risen by {:.3g} J to {:.3g} J, though nothing gave any: the "
@@ -38,7 +40,7 @@ std::optional<std::string> EnergyWatch::take(const Reading& reading) {
             alarmed_ = false;
         }
     }
-    recent_.push_back(energy);
+    recent_.push_back({energy, reading.soft});
     if (recent_.size() > several) recent_.pop_front();
     return told;
 }

@@ -8,8 +8,9 @@
 
 namespace spherule::quality {
 
-// Notices when mechanical energy rises though nothing can have given it. One reading that is low for a moment proves
-// nothing: a rise is one above the highest of several. Until there are several, one is enough.
+// Notices when mechanical energy rises though nothing can have given it. Where contacts store energy that a reading does
+// not show, one that is low for a moment proves nothing: a rise is one above the highest of several. Elsewhere one
+// reading is enough until there are several.
 class EnergyWatch {
   public:
     struct Reading {
@@ -18,6 +19,7 @@ class EnergyWatch {
         double potential = 0;  // J, zero at the lowest place of the scene
         double elastic = 0;    // J, in the springs of soft spheres
         double given = 0;      // J, of pushes out of walls, which are known to give some
+        bool soft = false;     // contacts hold energy that the others do not show
     };
 
     // What to say of a rise, once until it has been quiet for a while.
@@ -29,7 +31,12 @@ class EnergyWatch {
     [[nodiscard]] bool alarmed() const { return alarmed_; }
 
   private:
-    std::deque<double> recent_;      // J
+    struct Seen {
+        double energy = 0;  // J
+        bool soft = false;
+    };
+
+    std::deque<Seen> recent_;
     std::optional<double> ceiling_;  // J: the lowest that the highest of several in a row has been
     bool alarmed_ = false;
     std::size_t quiet_ = 0;  // readings since the last rise

@@ -74,6 +74,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     const double h = substep;
     p.substep = static_cast<float>(h);
     p.perSubstep = static_cast<float>(1 / h);
+    p.step = static_cast<float>(scene.step);
     p.radius = static_cast<float>(radii.largest);
     p.deadBand = static_cast<float>(2 * glm::length(scene.gravity) * h);
     p.materials = static_cast<std::uint32_t>(scene.materials.size());

@@ -132,7 +132,7 @@ void Pipeline::setParameters(const layout::Parameters& parameters) {
 
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
     // Whatever else there is of the spheres that were in these slots goes.
-    for (const Array array : {Array::Position, Array::Velocity, Array::Before, Array::Woken, Array::Span,
+    for (const Array array : {Array::Position, Array::Velocity, Array::Before, Array::Woken, Array::Span, Array::Anchor,
                               Array::Stirred, Array::History, Array::WallHistory, Array::Work, Array::Impacts})
         if (plan_.has(array)) device_.fill(buffer(array), 0);
     write<glm::vec4>(Array::Position, state.position);

@@ -108,7 +108,7 @@ void planScan(Planner& add, Pass pass, Array array, std::array<std::uint32_t, 2>
     add.onRebuild(pass, "scan_spread.comp", {array, BlockSums}, rows[0], sizes[0]);
 }
 
-void planGrid(Plan& plan) {
+void planGrid(Plan& plan, const scene::Scene& scene) {
     using enum Array;
     Planner add(plan);
     const std::uint32_t values = plan.grid.all() + 1;
@@ -117,8 +117,8 @@ void planGrid(Plan& plan) {
     const std::uint32_t owners = plan.spheres + 1;
     const std::uint32_t ownerBlocks = blocksOf(owners, SCAN_BLOCK);
     const std::uint32_t ownerSuperBlocks = blocksOf(ownerBlocks, SCAN_BLOCK);
-    plan.fullLaunches = {plan.spheres,  values, blocks,      superBlocks,     1,
-                         plan.groups(), owners, ownerBlocks, ownerSuperBlocks};
+    plan.fullLaunches = {plan.spheres,  values,       blocks, superBlocks, 1,
+                         plan.groups(), MOST_OUTSIDE, owners, ownerBlocks, ownerSuperBlocks};
     const bool remembers = plan.has(History);
 
     add.always(Pass::Grid, "rebuild_plan.comp", {Counters, FullLaunches, Launches}, 1);
@@ -143,7 +143,10 @@ void planGrid(Plan& plan) {
     add.onRebuild(Pass::Grid, "cell_order.comp", {CellStart, Order, Label}, LAUNCH_CELLS);
     add.onRebuild(Pass::Grid, "state_gather.comp", {Position, Velocity, Before, Label, Saved, SavedLabel, Order},
                   LAUNCH_SPHERES);
-    add.onRebuild(Pass::Grid, "state_anchor.comp", {Position, Label, Anchor, SlotOf}, LAUNCH_SPHERES);
+    add.onRebuild(Pass::Grid, "state_anchor.comp", {Position, Label, Anchor, SlotOf, Counters, Order}, LAUNCH_SPHERES);
+    if (std::ranges::find(scene.bounds.open, true) != scene.bounds.open.end())
+        add.onRebuild(Pass::Lists, "list_outside.comp", {Position, Velocity, Label, Order, Counters, Anchor},
+                      LAUNCH_OUTSIDE);
     add.onRebuild(Pass::Lists, "list_build.comp", {Position, CellStart, Counters, Pairs, Span}, LAUNCH_GROUPS);
     add.onRebuild(Pass::Lists, "list_fit.comp", {Counters, Span}, LAUNCH_GROUPS);
     if (remembers)
@@ -195,17 +198,18 @@ void planAccurate(Plan& plan, Planner& add) {
 }
 
 // The table of contents of a substep.
-void planSubstep(Plan& plan) {
+void planSubstep(Plan& plan, const scene::Scene& scene) {
     using enum Array;
     Planner add(plan);
     const scene::Features& has = plan.features;
     const std::uint32_t n = plan.spheres;
 
-    add.always(Pass::Integrate, "integrate.comp", {Position, Velocity, Before, Anchor, Label, Counters, Resting}, n);
+    add.always(Pass::Integrate, "integrate.comp",
+               {Position, Velocity, Before, Anchor, Label, Counters, Resting, Obstacles}, n);
     if (has.contacts) {
-        planGrid(plan);
+        planGrid(plan, scene);
         if (has.sleep) {
-            add.always(Pass::Sleep, "stir.comp", {Velocity, Anchor, Counters, Stirred}, n);
+            add.always(Pass::Sleep, "stir.comp", {Velocity, Anchor, Counters, Stirred, Position}, n);
             add.always(Pass::Sleep, "stir_spread.comp", {Counters, Stirred, Span}, plan.groups());
         }
     }
@@ -225,7 +229,7 @@ void planSubstep(Plan& plan) {
     if (impacts)
         add.whenObserved("statistics_impacts.comp", {Position, Velocity, Saved, Label, Span, Pairs, Laws, Impacts},
                          plan.groups());
-    if (has.sleep) add.always(Pass::Sleep, "sleep.comp", {Velocity, Before, Position}, n);
+    if (has.sleep) add.always(Pass::Sleep, "sleep.comp", {Velocity, Before, Position, Counters}, n);
 }
 
 void planOnDemand(Plan& plan) {
@@ -313,7 +317,7 @@ Plan planFor(const scene::Scene& scene, const scene::Features& features, std::ui
         plan.wallContacts =
             std::min<std::uint32_t>(mostWallContacts, 6 + static_cast<std::uint32_t>(scene.obstacles.size()));
     planArrays(plan, scene);
-    planSubstep(plan);
+    planSubstep(plan, scene);
     planOnDemand(plan);
     return plan;
 }

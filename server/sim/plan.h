@@ -30,7 +30,7 @@ enum class Array : std::uint8_t {
     Order,
     Saved,  // state while it is put in cell order; in observed steps then velocities before the solver
     SavedLabel,
-    Anchor,     // position when the lists were built
+    Anchor,     // position when the lists were built; w = room outside the bounds
     Resting,    // by id: position when it was last found to have crept
     Woken,      // sleepers to wake at this rebuild
     Stirred,    // per cell group: the last substep in which it held a sphere that was awake

@@ -25,11 +25,24 @@ static_assert(scene::farMotion == static_cast<double>(FAR_MOTION));
 
 constexpr double keepEvery = 1;  // s simulated
 
-// In radii, in h seconds.
-double farthestMotion(const State& state, double h) {
+// How far the place, relative to the bounds' centre, is outside an open face, m.
+double beyond(const scene::Bounds& bounds, glm::dvec3 place) {
+    const glm::dvec3 half = 0.5 * (bounds.max - bounds.min);
+    double farthest = 0;
+    for (unsigned face = 0; face < 6; ++face) {
+        const int axis = static_cast<int>(face / 2);
+        if (bounds.open[face]) farthest = std::max(farthest, (face % 2 == 0 ? -1 : 1) * place[axis] - half[axis]);
+    }
+    return farthest;
+}
+
+// In radii, in h seconds. Spheres outside count when they may be back within two steps; the device sees the others.
+double farthestMotion(const scene::Scene& scene, const State& state, double h) {
     double farthest = 0;
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const double speed = glm::length(glm::dvec3(state.velocity[id]));
+        const double ahead = 2 * scene.step * (speed + 2 * scene.step * glm::length(scene.gravity));
+        if (beyond(scene.bounds, positionOf(state, id)) > ahead + radiusOf(state, id)) continue;
         farthest = std::max(farthest, speed * h / static_cast<double>(state.position[id].w));
     }
     return farthest;
@@ -70,7 +83,7 @@ void Simulation::take(Preparation& preparation) {
             steps_, parted->before, scene::nameOf(scene_.quality.model), parted->after, parted->sweeps));
     mostSubsteps_ = scene::mostRaised(scene_);
     useSubsteps(scene_.quality.substeps);
-    fitToMotion(farthestMotion(preparation.built_.state, scene_.step / substeps_));
+    fitToMotion(farthestMotion(scene_, preparation.built_.state, scene_.step / substeps_));
     keep();
 }
 

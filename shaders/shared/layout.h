@@ -21,7 +21,7 @@ struct Parameters {
     float rebuildMove;   // lists hold until a sphere has moved this far; below margin / 2
     float radius;        // of every sphere where radii are equal
     float deadBand;      // m/s; slower approaches of spheres do not bounce in the model `fast`
-    float unusedReal;    // keeps the size a multiple of 16 bytes
+    float step;          // s; after each, substeps are fitted to how fast spheres are
 
     float sleepSpeed;    // m/s
     float sleepTime;     // s
@@ -85,7 +85,14 @@ struct SphereStatistics {
 #define COUNTER_FORGOTTEN 7u    // contacts with walls that found no room for their history, since the start
 #define COUNTER_FASTEST 8u      // largest motion in a substep, in radii, as a float's bits; 0: none beyond FAR_MOTION
 #define COUNTER_SAMPLED 9u      // cell groups so crowded that only some of their pairs are listed
-#define COUNTER_WORDS 10u
+#define COUNTER_OUTSIDE 10u     // spheres outside the bounds as the lists were built, but for those that are lost
+#define COUNTER_FRAME_FALLS 11u // whether the frame of those outside moves
+#define COUNTER_FRAME_VELOCITY 12u  // three words, as floats' bits: m/s
+#define COUNTER_FRAME_PATH 15u  // the same: m since the lists were built
+#define COUNTER_WORDS 18u
+
+// Of more spheres outside, nobody looks how far they are from each other: they have lists as those inside have.
+#define MOST_OUTSIDE 1024u
 
 // In a substep a sphere should move less than this share of its radius, or it may pass through what it should hit.
 #define FAR_MOTION 0.5f
@@ -97,10 +104,11 @@ struct SphereStatistics {
 #define LAUNCH_SUPERBLOCKS 3u
 #define LAUNCH_ONE 4u
 #define LAUNCH_GROUPS 5u
-#define LAUNCH_OWNERS 6u        // the same for the history of contacts
-#define LAUNCH_OWNER_BLOCKS 7u
-#define LAUNCH_OWNER_SUPERBLOCKS 8u
-#define LAUNCH_ROWS 9u
+#define LAUNCH_OUTSIDE 6u
+#define LAUNCH_OWNERS 7u        // the same for the history of contacts
+#define LAUNCH_OWNER_BLOCKS 8u
+#define LAUNCH_OWNER_SUPERBLOCKS 9u
+#define LAUNCH_ROWS 10u
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
 #define UNLISTED 0xffffffffu    // pair count of a group without a list

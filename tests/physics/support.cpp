@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -89,6 +90,17 @@ std::uint64_t touchingPairs(sim::Simulation& simulation) {
     std::uint64_t sum = 0;
     for (const glm::uvec4& group : simulation.pipeline().read<glm::uvec4>(sim::Array::Span)) sum += group.z;
     return sum;
+}
+
+std::vector<SlotPair> listedPairs(sim::Simulation& simulation) {
+    const auto span = simulation.pipeline().read<glm::uvec4>(sim::Array::Span);
+    const auto pairs = simulation.pipeline().read<glm::uvec2>(sim::Array::Pairs);
+    std::vector<SlotPair> found;
+    for (const glm::uvec4& group : span)
+        for (std::uint32_t k = group.x; group.y != UNLISTED && k < group.x + group.y; ++k)
+            found.emplace_back(std::min(pairs[k].x, pairs[k].y), std::max(pairs[k].x, pairs[k].y));
+    std::ranges::sort(found);
+    return found;
 }
 
 bool asleep(const sim::State& state, std::uint32_t id) {

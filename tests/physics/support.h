@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -46,6 +48,10 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
 
 // Pairs that overlapped in the last substep and were pushed apart.
 std::uint64_t touchingPairs(sim::Simulation& simulation);
+
+// The slots of the pairs that are listed, the lower one first; sorted.
+using SlotPair = std::pair<std::uint32_t, std::uint32_t>;
+std::vector<SlotPair> listedPairs(sim::Simulation& simulation);
 
 bool asleep(const sim::State& state, std::uint32_t id);
 std::uint32_t sleepers(const sim::State& state);

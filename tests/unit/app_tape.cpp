@@ -278,6 +278,43 @@ TEST_F(Taping, RoundingDoesNotSetTimeBack) {
     EXPECT_EQ(tape_->finish()->failure(), "");
 }
 
+TEST_F(Taping, OfAPausedWorldTakesNothing) {
+    open();
+    order();
+    ASSERT_TRUE(tape_->start());
+    const auto paused = [&](Kind kind, double time, std::uint32_t epoch = 1) {
+        frame::Link made = link(kind, time, epoch);
+        v1::ServerMessage message = made.message->content();
+        message.mutable_frame()->mutable_status()->set_paused(true);
+        made.message = frame::share(std::move(message));
+        tape_->frame(made);
+    };
+    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(link(Kind::Delta, 1));
+    for (int k = 0; k < 5; ++k) paused(Kind::Delta, 1);
+    EXPECT_FALSE(demands()[0].lost) << "before the world goes on";
+    paused(Kind::Join, 1);
+    tape_->frame(link(Kind::Delta, 1));  // it goes on, but has not yet
+    tape_->frame(link(Kind::Delta, 2));
+    EXPECT_TRUE(demands()[0].lost);
+    tape_->frame(link(Kind::Join, 2));
+    tape_->frame(link(Kind::Delta, 3));
+    paused(Kind::Delta, 3);
+    paused(Kind::Delta, 0);  // it was reset
+    keep(store::sceneMessage(2, spheres));
+    order(2);
+    paused(Kind::Keyframe, 0, 2);  // and others were loaded
+    paused(Kind::Delta, 0.5, 2);   // and stepped
+    paused(Kind::Join, 0.5, 2);
+    tape_->frame(link(Kind::Delta, 0.75, 2));
+    ASSERT_TRUE(tape_->stop());
+    auto recording = store::Recording::open(ended().file());
+    ASSERT_TRUE(recording) << recording.error().text();
+    std::vector<double> times;
+    while (recording->next().value()) times.push_back(recording->time());
+    EXPECT_EQ(times, (std::vector<double>{0, 1, 2, 3, 3.5, 3.75}));
+}
+
 TEST_F(Taping, AHostileSceneNameIsNoPath) {
     open();
     v1::ServerMessage scene = store::sceneMessage(1, spheres);

@@ -67,6 +67,14 @@ TEST(EnergyWatch, CountsWhatTheSpringsOfSoftSpheresHold) {
     EXPECT_TRUE(watch.take({.kinetic = 100, .elastic = 10}));
 }
 
+TEST(EnergyWatch, OfASqueezedBedReadsSeveralBeforeItTells) {
+    EnergyWatch watch;
+    EXPECT_FALSE(watch.take({.kinetic = 60, .soft = true}));
+    EXPECT_EQ(read(watch, 70), 0) << "it expands";
+    EXPECT_EQ(read(watch, 70, 3), 0);
+    EXPECT_EQ(read(watch, 80), 1);
+}
+
 TEST(EnergyWatch, StartsAnewAfterACommand) {
     EnergyWatch watch;
     read(watch, 100, 10);

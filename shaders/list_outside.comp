@@ -1,0 +1,57 @@
+// Tells each sphere outside the bounds how much room it has among the others there, and whether a list pairs it with one of
+// them. Starts the frame in which they hold their places: with the fastest of them, or at rest where one is asleep.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/math.h"
+#include "shared/label.h"
+#include "shared/outside.h"
+
+BUFFER(0, readonly, vec4, position, PositionBlock)
+BUFFER(1, readonly, vec4, velocity, VelocityBlock)
+BUFFER(2, readonly, uint, label, LabelBlock)
+BUFFER(3, readonly, uint, order, OrderBlock)
+BUFFER(4, coherent, uint, counters, CounterBlock)
+BUFFER(5, restrict, vec4, anchor, AnchorBlock)
+
+#include "shared/frame.h"
+
+// Of two as fast as each other, the lower id: they come in any order.
+bool faster(uint a, uint b) {
+    vec3 va = vec3(velocity[a]);
+    vec3 vb = vec3(velocity[b]);
+    float sa = dot3(va, va);
+    float sb = dot3(vb, vb);
+    return sa > sb || (sa == sb && idOf(label[a]) < idOf(label[b]));
+}
+
+KERNEL(MOST_OUTSIDE) {
+    uint count = counters[COUNTER_OUTSIDE];
+    if (count > MOST_OUTSIDE || invocation >= count) return;
+    uint mine = order[invocation];
+    vec4 p = position[mine];
+    float room = UNLIMITED_ROOM;
+    bool listed = false;
+    bool rests = false;
+    uint fastest = mine;
+    for (uint k = 0u; k < count; ++k) {
+        uint other = order[k];
+        if (HAS(SLEEP)) rests = rests || velocity[other].w < 0.0f;
+        if (other == mine) continue;
+        if (faster(other, fastest)) fastest = other;
+        vec4 q = position[other];
+        vec3 d = vec3(p) - vec3(q);
+        float touch = HAS(RADII) ? p.w + q.w : 2.0f * params.radius;
+        float reach = touch + params.margin;
+        float squared = dot3(d, d);
+        if (squared < reach * reach) {
+            listed = true;
+        } else {
+            room = min(room, sqrt(squared) - touch);
+        }
+    }
+    anchor[mine] = vec4(vec3(p), listed ? -room : room);
+    if (fastest != mine || rests) return;
+    counters[COUNTER_FRAME_FALLS] = 1u;
+    setFrameVector(COUNTER_FRAME_VELOCITY, vec3(velocity[mine]));
+}
