@@ -364,5 +364,29 @@ TEST(SoftFloor, OfHardSpheresHoldsNothing) {
     EXPECT_EQ(simulation->plan().statistics.size(), 2U);
 }
 
+TEST(SoftFloor, ThatWouldNotHoldIsRefusedByCommandsToo) {
+    scene::Scene scene = soft({.hertz = true, .walls = true, .friction = 0}, 0.5);
+    scene.gravity = {0, 0, -earth};
+    scene.spheres = {{.position = {0, 0, 0}, .radius = 0.05F}};
+    scene.materials[0].young = 1e6;
+    ASSERT_TRUE(scene::fitSubsteps(scene));
+    const auto simulation = simulate(scene);
+    v1::Command command;
+    command.mutable_set()->add_gravity(0);
+    command.mutable_set()->add_gravity(0);
+    command.mutable_set()->add_gravity(-100 * earth);
+    const auto heavier = simulation->apply(command);
+    ASSERT_FALSE(heavier);
+    EXPECT_EQ(heavier.error().where, "materials[0].young");
+    command.mutable_set()->set_model(v1::BALANCED);
+    ASSERT_TRUE(simulation->apply(command)) << "hard spheres bear it";
+    command.mutable_set()->clear_gravity();
+    command.mutable_set()->set_model(v1::ACCURATE);
+    const auto softer = simulation->apply(command);
+    ASSERT_FALSE(softer);
+    EXPECT_EQ(softer.error().where, "materials[0].young");
+    EXPECT_EQ(simulation->scene().quality.model, scene::Model::Balanced);
+}
+
 }  // namespace
 }  // namespace spherule::physics
