@@ -305,8 +305,8 @@ class Usage(unittest.TestCase):
                                   ("serve", "--viewer-token-file", "{}"), ("serve", "--controller-token-file", "{}"),
                                   ("serve", "--tls-certificate", "{}", "--tls-key", "{}"),
                                   ("serve", "--quality-table", "{}"), ("serve", "--config", "{}"),
-                                  ("ctl", "ws://127.0.0.1:1/ws", "pause", "--token-file", "{}"),
-                                  ("ctl", "ws://127.0.0.1:1/ws", "pause", "--ca", "{}")):
+                                  ("ctl", "--token-file", "{}", "ws://127.0.0.1:1/ws", "pause"),
+                                  ("ctl", "--ca", "{}", "ws://127.0.0.1:1/ws", "pause")):
                     said = self.refusal(*(word.format(path) for word in arguments))
                     self.assertIn(f"{path}: {what}, must be a regular file", said)
             self.assertEqual(os.listdir(folder), ["pipe.json"])
