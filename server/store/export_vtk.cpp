@@ -112,12 +112,13 @@ class FolderBeside {
         std::error_code error;
         if (!fs::exists(target_, error)) {
             fs::rename(place_, target_, error);
-            if (!error) place_.clear();
         } else {
             for (fs::directory_iterator file(place_, error), end; !error && file != end; file.increment(error))
                 fs::rename(file->path(), target_ / file->path().filename(), error);
+            if (!error) fs::remove(place_, error);
         }
         if (error) return fail(ErrorKind::Refused, target_.string(), "cannot be written: " + error.message());
+        place_.clear();
         return {};
     }
     [[nodiscard]] std::string name() const { return target_.filename().string(); }

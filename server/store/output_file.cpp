@@ -186,10 +186,10 @@ Result<void> OutputFile::put(std::string_view bytes) {
 }
 
 tl::unexpected<Error> OutputFile::cannot(int error) {
-    failed_ =
-        Error{ErrorKind::Refused, path_,
-              fmt::format("cannot be written on after {} bytes: {}; {}; {}", written_, std::strerror(error),
-                          adviceFor(error), kept_ ? "what has been written stays as it is" : "nothing of it is kept")};
+    failed_ = Error{
+        ErrorKind::Refused, path_,
+        fmt::format("cannot be written on after {} bytes: {}; {}; {}", written_, std::strerror(error), adviceFor(error),
+                    kept_ || place_.empty() ? "what has been written stays as it is" : "nothing of it is kept")};
     return tl::unexpected(*failed_);
 }
 
