@@ -36,12 +36,15 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
           [this](frame::SharedMessage order) {
               tape_.order(order);
               outlets_.order(std::move(order));
-          }),
+          },
+          [this](const std::string& text) { say(v1::Event::WARNING, text); }),
       tape_(std::move(recordings), welcomeOf(world_.device().info())),
       observer_(std::move(table)) {}
 
 Result<void> SimLoop::run(const std::stop_token& stop) {
     announce();
+    if (tape_.beginsByItself())
+        if (auto room = roomForTape(); !room) return room;
     if (auto done = tape_.startFromOptions(); !done) return done;
     const Result<void> done = simulate(stop);
     const Result<void> finished = finishTape();
@@ -95,7 +98,7 @@ void SimLoop::serve(const Request& request) {
 Result<v1::Applied> SimLoop::apply(const v1::Command& command) {
     Result<void> done;
     if (command.has_start_recording())
-        done = tape_.start();
+        done = startRecording();
     else if (command.has_stop_recording())
         done = tape_.stop();
     else if (command.has_seek())
@@ -106,6 +109,18 @@ Result<v1::Applied> SimLoop::apply(const v1::Command& command) {
     v1::Applied applied;
     applied.set_step(world_.simulation().steps());
     return applied;
+}
+
+Result<void> SimLoop::roomForTape() {
+    return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
+        error.message = "nothing is recorded: " + error.message;
+        return error;
+    });
+}
+
+Result<void> SimLoop::startRecording() {
+    if (auto room = roomForTape(); !room) return room;
+    return tape_.start();
 }
 
 // After anything that a command may have changed.
@@ -161,15 +176,18 @@ void SimLoop::produce(Pacer::Clock::time_point now) {
     auto demands = outlets_.demands();
     watched_ = !demands.empty();
     tape_.demand(demands, now);
+    chains_.serve(scenery(now), demands, now);
+}
+
+Scenery SimLoop::scenery(Pacer::Clock::time_point now) {
     sim::Simulation& simulation = world_.simulation();
-    chains_.serve({.source = simulation.tierSource(),
-                   .spheres = simulation.count(),
-                   .smallestRadius = simulation.radii().smallest,
-                   .epoch = epoch_,
-                   .version = version_,
-                   .positions = [&simulation] { return simulation.snapshot(); },
-                   .head = [this, now] { return head(now); }},
-                  demands, now);
+    return {.source = simulation.tierSource(),
+            .spheres = simulation.count(),
+            .smallestRadius = simulation.radii().smallest,
+            .epoch = epoch_,
+            .version = version_,
+            .positions = [&simulation] { return simulation.snapshot(); },
+            .head = [this, now] { return head(now); }};
 }
 
 v1::Frame SimLoop::head(Pacer::Clock::time_point now) {

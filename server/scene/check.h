@@ -22,6 +22,7 @@ constexpr double largestComponent = 1e9;
 class Check {
   public:
     void refuse(std::string field, std::string reason);
+    void refuse(Error error);
 
     double finite(double value, std::string_view field);
     double positive(double value, std::string_view field);

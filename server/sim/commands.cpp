@@ -7,6 +7,7 @@
 #include "scene/load.h"
 #include "scene/materials.h"
 #include "scene/quality.h"
+#include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/picking.h"
 #include "sim/simulation.h"
@@ -147,6 +148,8 @@ Result<void> Simulation::change(scene::Scene changed, bool disturbs) {
         // A change of substeps alone disturbs nobody's sleep.
         if (disturbs) pipeline_->wakeAll();
     } else {
+        auto copies = memory::Claim::make("", "a change of the scene", copiesToChange(plan()));
+        if (!copies) return tl::unexpected(copies.error());
         auto state = liveState();
         if (!state) return tl::unexpected(state.error());
         if (auto done = adopt(std::move(changed), std::move(*state)); !done) return done;
@@ -155,6 +158,8 @@ Result<void> Simulation::change(scene::Scene changed, bool disturbs) {
 }
 
 Result<void> Simulation::spawn(const v1::Spawn& spawn) {
+    auto copies = memory::Claim::make("group", "adding spheres to those that there are", copiesToSpawn(plan()));
+    if (!copies) return tl::unexpected(copies.error());
     auto live = liveState();
     if (!live) return tl::unexpected(live.error());
     State& state = *live;

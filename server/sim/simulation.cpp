@@ -10,6 +10,7 @@
 #include "core/log.h"
 #include "scene/load.h"
 #include "scene/quality.h"
+#include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/relax.h"
 
@@ -35,14 +36,23 @@ double farthestMotion(const State& state, double h) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::create(compute::Device& device, scene::Scene scene) {
+    const Plan plan =
+        planFor(scene, scene::featuresOf(scene), static_cast<std::uint32_t>(scene.spheres.size()), radiiOf(scene));
+    auto claim = claimFor(device, plan);
+    if (!claim) return tl::unexpected(claim.error());
     std::unique_ptr<Simulation> simulation(new Simulation(device, std::move(scene)));
+    simulation->claim_ = std::move(*claim);
     if (auto done = simulation->reset(); !done) return tl::unexpected(done.error());
     return simulation;
 }
 
 Result<void> Simulation::adopt(scene::Scene scene, State state) {
     const Radii radii = radiiOf(scene);
-    auto made = Pipeline::create(device_, planFor(scene, scene::featuresOf(scene), state.count(), radii));
+    Plan plan = planFor(scene, scene::featuresOf(scene), state.count(), radii);
+    // What replaces other arrays is made beside them.
+    auto beside = memory::Claim::make("", "other arrays of the scene", pipeline_ ? arraysOnHost(device_, plan) : 0);
+    if (!beside) return tl::unexpected(beside.error());
+    auto made = Pipeline::create(device_, std::move(plan));
     if (!made) return tl::unexpected(made.error());
     scene_ = std::move(scene);
     radii_ = radii;
@@ -58,6 +68,8 @@ Result<void> Simulation::adopt(scene::Scene scene, State state) {
     substeps_ = scene_.quality.substeps;
     put(state);
     uploadConstants();
+    settle(claim_, device_, this->plan());
+    *beside = {};
     if (auto done = takeApart(state); !done) return done;
     fitToMotion(farthestMotion(state, scene_.step / substeps_));
     keep();
@@ -107,6 +119,8 @@ Result<State> Simulation::liveState() {
 }
 
 Result<void> Simulation::reset() {
+    auto copies = memory::Claim::make("", "the scene as it began", pipeline_ ? copiesToChange(plan()) : 0);
+    if (!copies) return tl::unexpected(copies.error());
     if (auto done = adopt(initial_, stateOf(initial_)); !done) return done;
     steps_ = 0;
     time_ = 0;
@@ -158,7 +172,7 @@ Result<void> Simulation::guard() {
 }
 
 void Simulation::keep() {
-    good_ = pipeline_->download();
+    pipeline_->download(good_);
     goodStep_ = steps_;
     goodTime_ = time_;
 }
@@ -229,7 +243,10 @@ void Simulation::makeRoom() {
     }
     if (counters_.unlisted > 0)
         spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
-    if (auto grown = pipeline_->growPairs(capacity); !grown) {
+    auto grown = pipeline_->growPairs(capacity);
+    if (grown) {
+        settle(claim_, device_, plan());
+    } else {
         full_ = true;
         spdlog::warn("{}; without lists while there are more, slower", grown.error().text());
         return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compute/device.h"
+#include "core/memory.h"
 #include "scene/features.h"
 #include "scene/scene.h"
 #include "sim/pipeline.h"
@@ -103,6 +104,7 @@ class Simulation {
     Result<void> reset();
 
     compute::Device& device_;
+    memory::Claim claim_;
     scene::Scene initial_;
     scene::Scene scene_;
     Radii radii_;
