@@ -70,7 +70,7 @@ void setLimit(std::uint64_t bytes) {
 }
 
 Result<Claim> Claim::make(std::string where, std::string_view what, std::uint64_t bytes) {
-    const std::lock_guard lock(mutex);
+    std::unique_lock lock(mutex);
     Room now = room();
     if (bytes > std::max(freeOf(now, all.promised), trifle)) {
         malloc_trim(0);  // what was freed may still be the program's
@@ -85,9 +85,10 @@ Result<Claim> Claim::make(std::string where, std::string_view what, std::uint64_
                                 "give the program more memory",
                                 sizeText(bytes), what, sizeText(left), now.whose, sizeText(now.limit), others));
     }
+    all.promised += bytes;
+    lock.unlock();  // claims take it as they go
     Claim claim;
     claim.promised_ = bytes;
-    all.promised += bytes;
     return claim;
 }
 
