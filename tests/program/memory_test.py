@@ -2,7 +2,6 @@
 """What has no room in memory is refused before it is made, with need and limit: memory_test.py BINARY"""
 import json
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -43,12 +42,16 @@ class Memory(unittest.TestCase):
             self.assertIn(part, said)
 
     def test_run_is_refused_before_the_memory_is_taken(self):
-        done = self.call("run", self.scene(16_000_000), "--for", "1s", "--device", "cpu:1", "--memory-limit", "300MiB")
-        self.refused(done, "groups[0].lattice.count: 854 MiB", "--memory-limit allows 300 MiB")
-        done = self.call("run", self.scene(1_000_000), "--for", "1s", "--device", "cpu:1", "--memory-limit", "300MiB")
-        self.refused(done, "a scene of 1000000 spheres", "--memory-limit allows 300 MiB")
-        most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        self.assertLess(most, 150 << 10, "KiB: no more than the spheres of the second one")
+        for spheres, what in ((16_000_000, "groups[0].lattice.count: 854 MiB"), (1_000_000, "a scene of 1000000 spheres")):
+            command = [BINARY, "run", self.scene(spheres), "--for", "1s", "--device", "cpu:1", "--memory-limit", "300MiB"]
+            with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as run:
+                said = run.stderr.read()
+                _, status, used = os.wait4(run.pid, 0)
+                run.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(run.returncode, 4, said)
+            for part in (what, " more of memory are needed for ", "--memory-limit allows 300 MiB"):
+                self.assertIn(part, said)
+            self.assertLess(used.ru_maxrss, 150 << 10, f"KiB: at most the spheres of the smaller; {said}")
 
     def test_plan_says_it_beforehand(self):
         path = self.scene(200_000)
