@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The server in control groups of 1 and 4 GiB, in which it is loaded with scenes of many sizes and watched: each load
-runs or is refused, and the system ends none: memory_limits_test.py BINARY. Needs the right to make control groups."""
+runs or is refused, and the system ends none: memory_limits_test.py BINARY. Needs the right to make control groups.
+SPHERULE_TEST_MILLIONS="1.5 2" chooses sizes."""
 import json
 import os
 import re
