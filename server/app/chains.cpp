@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/log.h"
+#include <fmt/format.h>
+
 #include "frame/order.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
@@ -28,8 +29,11 @@ std::uint64_t microsecondsNow() {
 
 }  // namespace
 
-Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder)
-    : device_(device), publish_(std::move(publish)), announceOrder_(std::move(announceOrder)) {}
+Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder, Complain complain)
+    : device_(device),
+      publish_(std::move(publish)),
+      announceOrder_(std::move(announceOrder)),
+      complain_(std::move(complain)) {}
 
 void Chains::serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now) {
     if (world.epoch != epoch_) chains_.clear();
@@ -55,10 +59,18 @@ Chains::Chain* Chains::served(const frame::Demand& demand, const Scenery& world,
     if (!chains_.contains(demand.channel) && now < retry_) return nullptr;
     auto chain = chainOf(demand.channel, world);
     if (chain) return *chain;
-    spdlog::warn("viewers of {} at {}/s get no frames: {}", v1::Tier_Name(demand.channel.tier), demand.channel.rate,
-                 chain.error().text());
+    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(demand.channel.tier),
+                          demand.channel.rate, chain.error().text()));
     retry_ = now + retryEvery;
     return nullptr;
+}
+
+Result<void> Chains::open(const frame::Channel& channel, const Scenery& world) {
+    if (world.epoch != epoch_) chains_.clear();
+    if (world.spheres == 0) return {};
+    auto chain = chainOf(channel, world);
+    if (!chain) return tl::unexpected(chain.error());
+    return {};
 }
 
 // The order holds for an epoch: neighbours of its beginning stay near each other for long.

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "compute/device.h"
@@ -33,12 +34,16 @@ class Chains {
     using Clock = std::chrono::steady_clock;
     using Publish = std::function<void(const frame::Link&)>;
     using Announce = std::function<void(frame::SharedMessage)>;
+    using Complain = std::function<void(const std::string&)>;  // to viewers and the log
 
-    Chains(compute::Device& device, Publish publish, Announce announceOrder);
+    Chains(compute::Device& device, Publish publish, Announce announceOrder, Complain complain);
 
-    // Hands on the frames that have arrived, and begins those that are due. A chain that the device has no room for is
-    // left out, told in the log, and tried again now and then.
+    // Hands on the frames that have arrived, and begins those that are due. A chain that there is no room for is left
+    // out, which is complained of, and tried again now and then.
     void serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now);
+
+    // Whether there is room for a chain: makes it where it is not there yet. The next serve() demands it, or ends it.
+    Result<void> open(const frame::Channel& channel, const Scenery& world);
 
     // When to call again; nothing when there is nothing to do before the world or the demands change.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
@@ -69,6 +74,7 @@ class Chains {
     compute::Device& device_;
     Publish publish_;
     Announce announceOrder_;
+    Complain complain_;
     std::unique_ptr<sim::TierTools> tools_;
     bool slots_ = false;
     std::uint32_t epoch_ = 0;

@@ -16,7 +16,8 @@ constexpr int exitBySignal = 128;   // plus its number: of a signal that ended t
 constexpr const char* exitCodesText =
     "Exit codes: 0 done, 1 a fault of the program, 2 usage, scene or file, 3 no device, 4 refused (memory, disk, "
     "port), "
-    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 129, 130 or 143 ended by a signal before it was done.";
+    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 129, 130 or 143 ended by a "
+    "signal before it was done.";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {

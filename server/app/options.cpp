@@ -11,6 +11,7 @@
 #include "app/duration.h"
 #include "app/exit_codes.h"
 #include "app/usage.h"
+#include "core/memory.h"
 #include "core/quantity.h"
 #include "scene/goal.h"
 #include "scene/quality.h"
@@ -60,6 +61,11 @@ void SceneOptions::addTo(CLI::App& command) {
     addGoal(command, overrides);
     command.add_option("--seed", overrides.seed, "in place of the scene's seeds");
     command.add_flag("--no-sleep", overrides.noSleep, "no sphere is put to sleep");
+    command
+        .add_option_function<std::uint64_t>("--memory-limit", memory::setLimit,
+                                            "the most memory that the program may hold, such as 4GiB [what the machine "
+                                            "and its control groups allow]")
+        ->transform(CLI::AsSizeValue(false));
 }
 
 void addWatchdog(CLI::App& command, double& seconds) {

@@ -27,7 +27,8 @@ PlayLoop::PlayLoop(std::unique_ptr<compute::Device> device, Player player, const
       outlets_(stage.outlets),
       chains_(
           *device_, [this](const frame::Link& link) { publish(link); },
-          [this](frame::SharedMessage order) { outlets_.order(std::move(order)); }) {}
+          [this](frame::SharedMessage order) { outlets_.order(std::move(order)); },
+          [this](const std::string& text) { say(v1::Event::WARNING, text); }) {}
 
 Result<void> PlayLoop::run(const std::stop_token& stop) {
     v1::ServerMessage timeline;

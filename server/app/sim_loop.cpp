@@ -53,12 +53,15 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
           [this](frame::SharedMessage order) {
               tape_.order(order);
               outlets_.order(std::move(order));
-          }),
+          },
+          [this](const std::string& text) { say(v1::Event::WARNING, text); }),
       tape_(std::move(recordings), welcomeOf(world_.device().info())),
       observer_(std::move(table)) {}
 
 Result<void> SimLoop::run(const std::stop_token& stop) {
     announce();
+    if (tape_.beginsByItself())
+        if (auto room = roomForTape(); !room) return room;
     if (auto done = tape_.startFromOptions(); !done) return done;
     const Result<void> done = simulate(stop);
     const Result<void> finished = finishTape();
@@ -156,7 +159,7 @@ void SimLoop::finish(const Request& request, const Result<v1::Applied>& applied)
 std::optional<Result<v1::Applied>> SimLoop::apply(const v1::Command& command) {
     Result<void> done;
     if (command.has_start_recording()) {
-        done = tape_.start();
+        done = startRecording();
     } else if (command.has_stop_recording()) {
         done = tape_.stop();
     } else if (command.has_seek()) {
@@ -219,106 +222,119 @@ void SimLoop::advanceChange(Pacer::Clock::duration slice) {
     const Request request = std::move(change_->request);
     change_.reset();
     finish(request, *applied);
-}
-
-// After anything that a command may have changed.
-void SimLoop::announce() {
-    if (epoch_ != world_.epoch()) {
-        epoch_ = world_.epoch();
-        seen_.reset();
-        keep(world_.facts());
+    Result<void> SimLoop::roomForTape() {
+        return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
+            error.message = "nothing is recorded: " + error.message;
+            return error;
+        });
     }
-    v1::ServerMessage settings = world_.settings();
-    if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
-        settings_ = std::move(bytes);
-        keep(std::move(settings));
+
+    Result<void> SimLoop::startRecording() {
+        if (auto room = roomForTape(); !room) return room;
+        return tape_.start();
     }
-    if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
-    ++version_;
-}
 
-// The step under way, or the next one, as far as it goes before commands must be looked at.
-Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
-    const auto slice = world_.simulation().midStep() ? sliceOfStep : wholeStep;
-    const auto ended = world_.advance(now + slice);
-    const auto end = Pacer::Clock::now();
-    stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
-    if (!ended) return tl::unexpected(ended.error());
-    if (!*ended) return {};
-    const double wallMs = std::exchange(stepMs_, 0);
-    world_.pacer().stepped(end);
-    observer_.stepped(wallMs);
-    ++version_;
-    for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
-    stopAtNonFinite();
-    countStep();
-    return tune(wallMs);
-}
+    // After anything that a command may have changed.
+    void SimLoop::announce() {
+        if (epoch_ != world_.epoch()) {
+            epoch_ = world_.epoch();
+            seen_.reset();
+            keep(world_.facts());
+        }
+        v1::ServerMessage settings = world_.settings();
+        if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
+            settings_ = std::move(bytes);
+            keep(std::move(settings));
+        }
+        if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
+        ++version_;
+    }
 
-// For whoever asked for it.
-void SimLoop::countStep() {
-    if (steps_.empty() || --steps_.front().left > 0) return;
-    v1::Applied applied;
-    applied.set_step(world_.simulation().steps());
-    const Request& request = steps_.front().asked.request;
-    outlets_.reply(request.session, resultOf(request.command, applied));
-    steps_.pop_front();
-}
+    // The step under way, or the next one, as far as it goes before commands must be looked at.
+    Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
+        const auto slice = world_.simulation().midStep() ? sliceOfStep : wholeStep;
+        const auto ended = world_.advance(now + slice);
+        const auto end = Pacer::Clock::now();
+        stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
+        if (!ended) return tl::unexpected(ended.error());
+        if (!*ended) return {};
+        const double wallMs = std::exchange(stepMs_, 0);
+        world_.pacer().stepped(end);
+        observer_.stepped(wallMs);
+        ++version_;
+        for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
+        stopAtNonFinite();
+        countStep();
+        return tune(wallMs);
+    }
 
-Result<void> SimLoop::tune(double wallMs) {
-    auto told = tuner_.stepped(world_.simulation(), wallMs);
-    if (!told) return tl::unexpected(told.error());
-    if (!*told) return {};
-    say(v1::Event::TUNED, **told);
-    announce();
-    return {};
-}
+    // For whoever asked for it.
+    void SimLoop::countStep() {
+        if (steps_.empty() || --steps_.front().left > 0) return;
+        v1::Applied applied;
+        applied.set_step(world_.simulation().steps());
+        const Request& request = steps_.front().asked.request;
+        outlets_.reply(request.session, resultOf(request.command, applied));
+        steps_.pop_front();
+    }
 
-void SimLoop::stopAtNonFinite() {
-    if (!world_.simulation().counters().nonFinite) return;
-    world_.pause();
-    say(v1::Event::NON_FINITE,
-        fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
-                    world_.simulation().divergence()));
-    refuseSteps("a sphere left the numbers");
-    world_.simulation().restore();
-    observer_.disturbed();
-    announce();
-}
+    Result<void> SimLoop::tune(double wallMs) {
+        auto told = tuner_.stepped(world_.simulation(), wallMs);
+        if (!told) return tl::unexpected(told.error());
+        if (!*told) return {};
+        say(v1::Event::TUNED, **told);
+        announce();
+        return {};
+    }
 
-// Before the frame that shows where a world has stopped: its status is that of this state.
-void SimLoop::lookAtStill() {
-    watched_ = !outlets_.demands().empty();
-    if (world_.running() || !watched_ || world_.simulation().midStep()) return;
-    if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
-}
+    void SimLoop::stopAtNonFinite() {
+        if (!world_.simulation().counters().nonFinite) return;
+        world_.pause();
+        say(v1::Event::NON_FINITE,
+            fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
+                        world_.simulation().divergence()));
+        refuseSteps("a sphere left the numbers");
+        world_.simulation().restore();
+        observer_.disturbed();
+        announce();
+    }
 
-void SimLoop::produce(Pacer::Clock::time_point now) {
-    auto demands = outlets_.demands();
-    tape_.demand(demands, now);
-    sim::Simulation& simulation = world_.simulation();
-    chains_.serve({.source = simulation.tierSource(),
-                   .spheres = simulation.count(),
-                   .smallestRadius = simulation.radii().smallest,
-                   .epoch = epoch_,
-                   .version = version_,
-                   .positions = [&simulation] { return simulation.snapshot(); },
-                   .head = [this, now] { return head(now); }},
-                  demands, now);
-}
+    // Before the frame that shows where a world has stopped: its status is that of this state.
+    void SimLoop::lookAtStill() {
+        watched_ = !outlets_.demands().empty();
+        if (world_.running() || !watched_ || world_.simulation().midStep()) return;
+        if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
+    }
 
-v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
-    v1::Frame head;
-    head.set_step(world_.simulation().steps());
-    head.set_sim_time(world_.simulation().time());
-    *head.mutable_status() = status(now);
-    return head;
-}
+    void SimLoop::produce(Pacer::Clock::time_point now) {
+        auto demands = outlets_.demands();
+        tape_.demand(demands, now);
+        chains_.serve(scenery(now), demands, now);
+    }
 
-void SimLoop::publish(const frame::Link& link) {
-    states_.shown(version_, Pacer::Clock::now());
-    tape_.frame(link);
-    outlets_.frame(link);
-}
+    Scenery SimLoop::scenery(Pacer::Clock::time_point now) {
+        sim::Simulation& simulation = world_.simulation();
+        return {.source = simulation.tierSource(),
+                .spheres = simulation.count(),
+                .smallestRadius = simulation.radii().smallest,
+                .epoch = epoch_,
+                .version = version_,
+                .positions = [&simulation] { return simulation.snapshot(); },
+                .head = [this, now] { return head(now); }};
+    }
+
+    v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
+        v1::Frame head;
+        head.set_step(world_.simulation().steps());
+        head.set_sim_time(world_.simulation().time());
+        *head.mutable_status() = status(now);
+        return head;
+    }
+
+    void SimLoop::publish(const frame::Link& link) {
+        states_.shown(version_, Pacer::Clock::now());
+        tape_.frame(link);
+        outlets_.frame(link);
+    }
 
 }  // namespace spherule::app

@@ -52,7 +52,10 @@ class SimLoop : public Show {
     void say(v1::Event::Kind kind, const std::string& text);
     void stopAtNonFinite();
     void lookAtStill();
+    Result<void> roomForTape();
+    Result<void> startRecording();
     void produce(Pacer::Clock::time_point now);
+    Scenery scenery(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
     void publish(const frame::Link& link);
     Result<void> report();

@@ -41,6 +41,8 @@ class Tape {
     std::optional<v1::Recording> news(Clock::time_point now);
     // Ends the recording, if there is one, waits for the disk, and tells how it is.
     std::optional<v1::Recording> finish();
+    [[nodiscard]] const frame::Channel& channel() const { return channel_; }
+    [[nodiscard]] bool beginsByItself() const { return !options_.path.empty(); }
     [[nodiscard]] bool canRecord() const { return !options_.folder.empty() || !options_.path.empty(); }
     [[nodiscard]] std::uint64_t framesLost() const { return framesLost_; }
 

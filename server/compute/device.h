@@ -80,6 +80,9 @@ class Device {
     virtual Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes,
                                                          std::string_view words = "u") = 0;
 
+    // What such a buffer takes of the machine's memory: nothing on a device that has its own.
+    [[nodiscard]] virtual std::uint64_t hostBytes(std::uint64_t bytes, std::string_view words = "u") const = 0;
+
     // Compiles `file` with the defines; an error carries the compiler's text with file and line. A kernel has a local
     // size of 64 (or of 1, to measure what that costs), storage buffers bound at their slot, at most one uniform block
     // (binding 0), and may have the uniforms `phase` and `invocations` (its count; 0xffffffff when launched indirectly:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/memory.h"
 #include "scene/group.h"
 #include "scene/materials.h"
 #include "scene/occupancy.h"
@@ -30,6 +31,18 @@ double largestRadiusOf(const v1::Group& group) {
     return group.has_radius() ? std::max(smallestRadius, readRadii(check, group.radius(), "").max) : smallestRadius;
 }
 
+void append(Check& check, std::vector<Sphere>& all, std::vector<Sphere> spheres) {
+    if (all.empty()) {
+        all = std::move(spheres);
+        return;
+    }
+    const std::size_t count = all.size() + spheres.size();
+    const auto room = memory::Claim::make("groups", fmt::format("{} spheres in a scene", count),
+                                          count > all.capacity() ? count * sizeof(Sphere) : 0);
+    if (!room) return check.refuse(room.error());
+    all.insert(all.end(), spheres.begin(), spheres.end());
+}
+
 void readGroups(Check& check, const v1::Scene& message, const std::optional<std::filesystem::path>& directory,
                 const Overrides& overrides, Scene& scene) {
     if (static_cast<std::uint32_t>(message.groups_size()) > maxGroups)
@@ -50,11 +63,7 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
                                                  .occupancy = occupancy,
                                                  .room = maxSpheres - first});
         scene.groups.push_back({group.name(), first, static_cast<std::uint32_t>(spheres.size()), group.colour()});
-        if (first == 0) {
-            scene.spheres = std::move(spheres);
-        } else {
-            scene.spheres.insert(scene.spheres.end(), spheres.begin(), spheres.end());
-        }
+        append(check, scene.spheres, std::move(spheres));
     }
 }
 

@@ -11,8 +11,11 @@
 namespace spherule::scene {
 
 void Check::refuse(std::string field, std::string reason) {
-    if (!ok()) return;
-    error_ = {ErrorKind::Input, std::move(field), std::move(reason)};
+    refuse(Error{ErrorKind::Input, std::move(field), std::move(reason)});
+}
+
+void Check::refuse(Error error) {
+    if (ok()) error_ = std::move(error);
 }
 
 bool Check::goesOn(const char* doing, std::size_t done, std::size_t of) {

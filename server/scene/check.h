@@ -27,6 +27,7 @@ class Check {
     explicit Check(Progress* progress = nullptr) : progress_(progress) {}
 
     void refuse(std::string field, std::string reason);
+    void refuse(Error error);
 
     // Says how far long work has come: `done` of `of` parts. False once something was refused, or the work is to end:
     // Cancelled.

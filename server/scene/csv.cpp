@@ -1,5 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -112,6 +113,20 @@ class CsvReader {
 
 }  // namespace
 
+namespace {
+
+// For one more. Only what has been read says how many there are.
+bool makeRoom(Check& check, const SourceInput& input, std::vector<Sphere>& spheres, const std::string& field) {
+    constexpr std::size_t first = 1024;
+    if (spheres.size() < spheres.capacity()) return true;
+    const std::size_t next = std::max(spheres.size() + 1, std::min(std::max(first, 2 * spheres.size()), input.room));
+    const auto room = checkRoom(check, input, static_cast<double>(next), field);
+    if (room) spheres.reserve(next);
+    return room.has_value();
+}
+
+}  // namespace
+
 std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
                             SourceInput input) {
     const std::string field = at(input.field, "file");
@@ -127,7 +142,7 @@ std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesys
     std::vector<Sphere> spheres;
     while (check.ok() && reader.nextLine()) {
         const auto row = reader.row(names);
-        if (!row || !checkRoom(check, input, static_cast<double>(spheres.size() + 1), field)) break;
+        if (!row || !makeRoom(check, input, spheres, field)) break;
         const Row& v = *row;
         Sphere sphere{.position = {v[0], v[1], v[2]}, .velocity = input.velocity, .spin = input.spin};
         if (columns->velocity) sphere.velocity = glm::dvec3(v[3], v[4], v[5]);

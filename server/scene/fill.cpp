@@ -66,7 +66,10 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
     const Box region = check.box(fill.min(), fill.max(), input.field);
     const std::string countField = at(input.field, "count");
     if (fill.count() == 0) check.refuse(countField, "is 0 or missing, must be at least 1");
-    if (!check.ok() || !checkRoom(check, input, fill.count(), countField)) return {};
+    if (!check.ok()) return {};
+    const auto room = checkRoom(check, input, fill.count(), countField,
+                                Occupancy::mostBytesPerSphere() + 2 * sizeof(std::uint32_t));  // places and their order
+    if (!room) return {};
     const glm::dvec3 side = region.max - region.min;
     if (const double narrowest = std::min({side.x, side.y, side.z}); narrowest < 2 * radii.max) {
         check.refuse(input.field, fmt::format("is {} m wide between min and max, too narrow for a radius of {} m",

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <optional>
 
+#include "core/memory.h"
 #include "scene/check.h"
 
 namespace spherule::scene {
@@ -74,9 +75,21 @@ tl::unexpected<Error> fieldError(std::string_view message, std::string_view file
     return fail(ErrorKind::Input, where, std::string(reason.substr(0, 200)));
 }
 
+// Bytes at most, beside the text: the message on its way, twice while it grows; then objects, and numbers in arrays
+// that grow.
+std::uint64_t costOf(std::string_view text) {
+    constexpr std::uint64_t object = 200;
+    constexpr std::uint64_t value = 24;
+    const auto objects = static_cast<std::uint64_t>(std::ranges::count(text, '{'));
+    const auto values = static_cast<std::uint64_t>(std::ranges::count(text, ','));
+    return 2 * text.size() + object * objects + value * values;
+}
+
 }  // namespace
 
 Result<v1::Scene> parseJson(const std::string& text, std::string_view file) {
+    const auto claim = memory::Claim::make(std::string(file), "reading it", costOf(text));
+    if (!claim) return tl::unexpected(claim.error());
     v1::Scene scene;
     const auto status = google::protobuf::util::JsonStringToMessage(text, &scene);
     if (status.ok()) return scene;

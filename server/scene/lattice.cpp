@@ -50,7 +50,8 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
                                  std::max(wanted, 1.0), places.count.x, places.count.y, places.count.z, spacing));
         return {};
     }
-    if (!checkRoom(check, input, wanted, field)) return {};
+    const auto room = checkRoom(check, input, wanted, field);
+    if (!room) return {};
 
     const auto total = static_cast<std::size_t>(wanted);
     std::vector<Sphere> spheres;

@@ -5,12 +5,20 @@
 
 namespace spherule::scene {
 
-bool checkRoom(Check& check, const SourceInput& input, double count, std::string_view field) {
-    if (count <= static_cast<double>(input.room)) return true;
-    check.refuse(std::string(field),
-                 fmt::format("asks for {:.0f} spheres, but a scene holds at most {} and has room for {}", count,
-                             maxSpheres, input.room));
-    return false;
+std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, double count, std::string_view field,
+                                       std::size_t besides) {
+    if (count > static_cast<double>(input.room)) {
+        check.refuse(std::string(field),
+                     fmt::format("asks for {:.0f} spheres, but a scene holds at most {} and has room for {}", count,
+                                 maxSpheres, input.room));
+        return std::nullopt;
+    }
+    const auto spheres = static_cast<std::uint64_t>(count);
+    auto claim = memory::Claim::make(std::string(field), fmt::format("{} spheres in a scene", spheres),
+                                     spheres * (sizeof(Sphere) + besides));
+    if (claim) return std::move(*claim);
+    check.refuse(claim.error());
+    return std::nullopt;
 }
 
 Radii requiredRadii(Check& check, const SourceInput& input) {
@@ -24,7 +32,8 @@ Radii requiredRadii(Check& check, const SourceInput& input) {
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input) {
     std::vector<Sphere> spheres;
     const auto count = static_cast<std::size_t>(list.spheres_size());
-    if (!checkRoom(check, input, static_cast<double>(count), at(input.field, "spheres"))) return spheres;
+    const auto room = checkRoom(check, input, static_cast<double>(count), at(input.field, "spheres"));
+    if (!room) return spheres;
     spheres.reserve(count);
     for (std::size_t i = 0; i < count && check.ok(); ++i) {
         const v1::Sphere& message = list.spheres(static_cast<int>(i));

@@ -46,6 +46,11 @@ void Occupancy::add(const glm::dvec3& centre, double radius) {
     for (std::size_t k = 0; k < level.items.size(); ++k) link(level, k);
 }
 
+// Items twice, and chains of the old size and the next.
+std::size_t Occupancy::mostBytesPerSphere() {
+    return 2 * sizeof(Item) + 3 * sizeof(std::uint32_t);
+}
+
 void Occupancy::link(Level& level, std::size_t item) {
     std::uint32_t& head = level.heads[slotOf(level, glm::floor(level.items[item].centre / level.cell))];
     level.items[item].next = std::exchange(head, static_cast<std::uint32_t>(item));

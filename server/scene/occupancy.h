@@ -17,6 +17,8 @@ class Occupancy {
 
     void add(const glm::dvec3& centre, double radius);
     [[nodiscard]] std::size_t size() const { return size_; }
+    // That it takes while it grows.
+    [[nodiscard]] static std::size_t mostBytesPerSphere();
 
     // No sphere overlaps this one. Touching is free.
     [[nodiscard]] bool isFree(const glm::dvec3& centre, double radius);

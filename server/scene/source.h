@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/memory.h"
 #include "scene/check.h"
 #include "scene/occupancy.h"
 #include "scene/radii.h"
@@ -25,8 +26,10 @@ struct SourceInput {
     Random random;
 };
 
-// False, and refused, when `count` spheres are more than there is room for.
-bool checkRoom(Check& check, const SourceInput& input, double count, std::string_view field);
+// For `count` spheres that a source makes, and `besides` (bytes) for each of them, until they are there. Nothing, and
+// refused, when they are more than the scene has room for, or than memory has.
+std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, double count, std::string_view field,
+                                       std::size_t besides = 0);
 
 // The group's radii; refused when it has none.
 Radii requiredRadii(Check& check, const SourceInput& input);

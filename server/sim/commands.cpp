@@ -7,6 +7,7 @@
 #include "scene/load.h"
 #include "scene/materials.h"
 #include "scene/quality.h"
+#include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/picking.h"
 #include "sim/simulation.h"

@@ -29,7 +29,7 @@ constexpr std::string_view parameterWords =
     "uuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuu"
     "rrrrrrrrrrrr"
     "uuuuuuuuuuuu";
-constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrrruuu";
+constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrrrrrruuuu";
 static_assert(parameterWords.size() * 4 == sizeof(Parameters));
 static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));
 static_assert(parameterWords.rfind('r') * 4 + 4 == offsetof(Parameters, spheres));
@@ -37,6 +37,6 @@ static_assert(statisticsWords.size() * 4 == sizeof(SphereStatistics));
 static_assert(statisticsWords.find('u') * 4 == offsetof(SphereStatistics, sleeping));
 
 static_assert(sizeof(Obstacle) == 32 && sizeof(Law) == 32);
-static_assert(sizeof(SphereStatistics) == 80);
+static_assert(sizeof(SphereStatistics) == 96);
 
 }  // namespace spherule::sim::layout

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/memory.h"
 #include "scene/load.h"
 #include "scene/materials.h"
 #include "sim/shaders.h"
@@ -150,9 +151,15 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
 }
 
 SlotState Pipeline::download() {
-    const std::size_t velocities = (plan_.features.friction ? 2 : 1) * std::size_t{plan_.spheres};
-    return {read<glm::vec4>(Array::Position, plan_.spheres), read<glm::vec4>(Array::Velocity, velocities),
-            read<std::uint32_t>(Array::Label, plan_.spheres)};
+    SlotState slots;
+    download(slots);
+    return slots;
+}
+
+void Pipeline::download(SlotState& slots) {
+    readInto(slots.position, Array::Position, plan_.spheres);
+    readInto(slots.velocity, Array::Velocity, (plan_.features.friction ? 2 : 1) * std::size_t{plan_.spheres});
+    readInto(slots.label, Array::Label, plan_.spheres);
 }
 
 std::uint32_t Pipeline::slotOf(std::uint32_t id) {
@@ -189,15 +196,31 @@ void Pipeline::wakeAll() {
     write<glm::vec4>(Array::Velocity, velocity);
 }
 
+// By parts: a copy of the whole would take as much memory again.
+void Pipeline::copy(compute::Buffer& from, compute::Buffer& to) {
+    constexpr std::size_t most = 16U << 20U;
+    std::vector<std::byte> part;
+    for (std::size_t first = 0; first < from.bytes(); first += part.size()) {
+        part.resize(std::min(most, from.bytes() - first));
+        device_.download(from, first, part);
+        device_.upload(to, first, part);
+    }
+}
+
 Result<void> Pipeline::growPairs(std::uint32_t capacity) {
+    const auto grownBytes = [&](const ArraySpec& spec) { return spec.bytes / plan_.pairCapacity * capacity; };
+    std::uint64_t onHost = 0;
+    for (const ArraySpec& spec : plan_.arrays)
+        if (holdsPairs(spec.array)) onHost += device_.hostBytes(grownBytes(spec), wordsOf(spec.array));
+    const auto claim = memory::Claim::make("", fmt::format("lists of {} pairs", capacity), onHost);
+    if (!claim) return tl::unexpected(claim.error());
     std::vector<std::unique_ptr<compute::Buffer>> grown;
     for (ArraySpec& spec : plan_.arrays) {
         if (!holdsPairs(spec.array)) continue;
-        auto made =
-            device_.createBuffer(nameOf(spec.array), spec.bytes / plan_.pairCapacity * capacity, wordsOf(spec.array));
+        auto made = device_.createBuffer(nameOf(spec.array), grownBytes(spec), wordsOf(spec.array));
         if (!made) return tl::unexpected(made.error());
         // The old lists are read once more as the new ones are made.
-        device_.upload(**made, 0, read<std::byte>(spec.array));
+        copy(buffer(spec.array), **made);
         grown.push_back(std::move(*made));
     }
     auto next = grown.begin();

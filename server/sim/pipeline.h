@@ -37,6 +37,7 @@ class Pipeline {
     // In id order, as are the materials of the spheres; the lists are rebuilt in the next substep.
     void upload(const State& state, std::span<const std::uint8_t> materials);
     [[nodiscard]] SlotState download();  // waits for the device
+    void download(SlotState& slots);     // the same, in the memory that there is
 
     void substep(bool observed = false);
     // Of each cell group what the observed steps since the last call have seen, as statistics_impacts.comp adds it up;
@@ -48,9 +49,14 @@ class Pipeline {
     // array.
     template <class T>
     std::vector<T> read(Array array, std::size_t most = SIZE_MAX) {
-        std::vector<T> values(std::min(static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T), most));
-        if (!values.empty()) device_.download(buffer(array), 0, std::as_writable_bytes(std::span(values)));
+        std::vector<T> values;
+        readInto(values, array, most);
         return values;
+    }
+    template <class T>
+    void readInto(std::vector<T>& values, Array array, std::size_t most = SIZE_MAX) {
+        values.resize(std::min(static_cast<std::size_t>(plan_.bytesOf(array)) / sizeof(T), most));
+        if (!values.empty()) device_.download(buffer(array), 0, std::as_writable_bytes(std::span(values)));
     }
     template <class T>
     void write(Array array, std::span<const T> values, std::size_t first = 0) {
@@ -75,6 +81,7 @@ class Pipeline {
     Result<void> makeArray(const ArraySpec& spec);
     Result<void> makeKernel(std::string_view file);
     void fillLaunches();
+    void copy(compute::Buffer& from, compute::Buffer& to);
     std::uint32_t slotOf(std::uint32_t id);
     void adopt(Array array, std::unique_ptr<compute::Buffer> made);
     void run(const std::vector<LaunchSpec>& launches, bool observed = false);

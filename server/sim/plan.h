@@ -101,6 +101,7 @@ struct Plan {
 Plan planFor(const scene::Scene& scene, const scene::Features& features, std::uint32_t spheres, const Radii& radii,
              std::uint32_t pairCapacity = 0);
 
+// With the memory that it needs.
 std::string planText(const scene::Scene& scene, const Plan& plan);
 std::string planJson(const scene::Scene& scene, const Plan& plan);
 

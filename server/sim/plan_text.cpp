@@ -3,6 +3,7 @@
 
 #include "scene/quality.h"
 #include "scene/stiffness.h"
+#include "sim/need.h"
 #include "sim/plan.h"
 
 namespace spherule::sim {
@@ -100,6 +101,9 @@ std::string planText(const scene::Scene& scene, const Plan& plan) {
     for (const ArraySpec& spec : plan.arrays)
         text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));
     text += fmt::format("{:<16}{:>14}{:>16.1f}\n", "all", plan.bytes(), perSphere(plan, plan.bytes()));
+    text += fmt::format("\n{:<36}{:>14}{:>16}\n", "memory", "bytes", "bytes/sphere");
+    for (const Need::Part& part : needOf(plan).parts())
+        text += fmt::format("{:<36}{:>14}{:>16.1f}\n", part.name, part.bytes, perSphere(plan, part.bytes));
     text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "invocations", "when");
     for (const Row& row : rowsOf(plan))
         text += fmt::format("{:<17}{:<26}{:>9}{:>13}  {}\n", nameOf(row.pass), row.kernel, row.launches,
@@ -136,6 +140,9 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
         json["arrays"].push_back({{"name", nameOf(spec.array)}, {"bytes", spec.bytes}});
     json["bytes"] = plan.bytes();
     json["bytesPerSphere"] = perSphere(plan, plan.bytes());
+    json["memory"] = nlohmann::ordered_json::array();
+    for (const Need::Part& part : needOf(plan).parts())
+        json["memory"].push_back({{"name", part.name}, {"bytes", part.bytes}});
     json["passes"] = nlohmann::ordered_json::array();
     for (const Row& row : rowsOf(plan))
         json["passes"].push_back({{"pass", nameOf(row.pass)},

@@ -11,6 +11,7 @@
 #include "core/log.h"
 #include "scene/load.h"
 #include "scene/quality.h"
+#include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/preparation.h"
 
@@ -69,6 +70,8 @@ void Simulation::take(Preparation& preparation) {
     scene_ = std::move(preparation.built_.scene);
     radii_ = preparation.radii_;
     pipeline_ = std::move(preparation.pipeline_);
+    claim_ = std::move(preparation.claim_);
+    settle(claim_, device_, plan());
     counters_ = {};
     sampled_ = false;
     forgot_ = false;
@@ -87,14 +90,14 @@ void Simulation::take(Preparation& preparation) {
     keep();
 }
 
-Simulation::Outcome Simulation::prepare(Anew anew, Preparation::Build build) {
+Simulation::Outcome Simulation::prepare(Anew anew, memory::Claim copies, Preparation::Build build) {
     anew_ = anew;
-    return {.preparation = std::make_unique<Preparation>(device_, std::move(build))};
+    return {.preparation = std::make_unique<Preparation>(device_, std::move(build), std::move(copies))};
 }
 
-Simulation::Outcome Simulation::prepare(Anew anew, Built built) {
+Simulation::Outcome Simulation::prepare(Anew anew, memory::Claim copies, Built built) {
     anew_ = anew;
-    return {.preparation = std::make_unique<Preparation>(device_, std::move(built))};
+    return {.preparation = std::make_unique<Preparation>(device_, std::move(built), std::move(copies))};
 }
 
 v1::Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
@@ -203,7 +206,7 @@ Result<void> Simulation::guard() {
 }
 
 void Simulation::keep() {
-    good_ = pipeline_->download();
+    pipeline_->download(good_);
     goodStep_ = steps_;
 }
 
@@ -272,7 +275,10 @@ void Simulation::makeRoom() {
     }
     if (counters_.unlisted > 0)
         spdlog::info("{} cell groups had no room for their pairs; making room for {}", counters_.unlisted, capacity);
-    if (auto grown = pipeline_->growPairs(capacity); !grown) {
+    auto grown = pipeline_->growPairs(capacity);
+    if (grown) {
+        settle(claim_, device_, plan());
+    } else {
         full_ = true;
         spdlog::warn("{}; without lists while there are more, slower", grown.error().text());
         return;

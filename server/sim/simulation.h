@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compute/device.h"
+#include "core/memory.h"
 #include "scene/features.h"
 #include "scene/scene.h"
 #include "sim/pipeline.h"
@@ -105,8 +106,9 @@ class Simulation {
     enum class Anew : std::uint8_t { Nothing, Spheres, World };
 
     void take(Preparation& preparation);
-    Outcome prepare(Anew anew, Preparation::Build build);
-    Outcome prepare(Anew anew, Built built);
+    // `copies` are those that are made for it, beside what it claims itself.
+    Outcome prepare(Anew anew, memory::Claim copies, Preparation::Build build);
+    Outcome prepare(Anew anew, memory::Claim copies, Built built);
     Result<State> liveState();  // DeviceLost, rather than what a lost device gives
     void useSubsteps(std::uint32_t substeps);
     Result<void> guard();
@@ -123,6 +125,7 @@ class Simulation {
     Result<void> checkPush(std::uint32_t id, const glm::dvec3& impulse);
 
     compute::Device& device_;
+    memory::Claim claim_;
     scene::Scene initial_;
     scene::Scene scene_;
     Radii radii_;

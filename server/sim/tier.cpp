@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "sim/layout.h"
 #include "sim/shaders.h"
 
@@ -28,17 +30,45 @@ std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t index) {
     return value;
 }
 
+struct Counts {
+    std::uint32_t blocks, groups, chunks;
+    explicit Counts(std::uint32_t spheres)
+        : blocks(over(spheres, CODEC_BLOCK)), groups(over(blocks, CODEC_GROUP)), chunks(over(groups, CODEC_CHUNK)) {}
+    [[nodiscard]] std::size_t frameWords() const {
+        return CODEC_FRAME_HEAD + chunks + groups * (1 + CODEC_GROUP * std::size_t{CODEC_MOST_WORDS});
+    }
+};
+
 }  // namespace
+
+TierSizes tierSizes(std::uint32_t spheres) {
+    const Counts counts(spheres);
+    const std::uint64_t n = spheres;
+    const std::uint64_t blocks = counts.blocks;
+    constexpr std::uint64_t idBytes = 3;      // of an order
+    constexpr std::uint64_t jsonBytes = 8;    // of an order for who reads JSON, and on its way there
+    constexpr std::uint64_t frameBytes = 6;   // per sphere of a keyframe, about
+    constexpr std::uint64_t frameCopies = 6;  // read back, as bytes, in a message and as it travels; of two frames
+    return {.toolArrays = word * (n + blocks * (CODEC_PACKED + CODEC_SCRATCH) + counts.groups),
+            .order = n * (word + 2 * idBytes + jsonBytes),
+            .tierArrays = word * (2 * blocks * CODEC_VALUES + counts.frameWords()),
+            .frames = n * frameBytes * frameCopies};
+}
 
 TierTools::TierTools(compute::Device& device, std::uint32_t spheres)
     : device_(device),
       spheres_(spheres),
-      blocks_(over(spheres, CODEC_BLOCK)),
-      groups_(over(blocks_, CODEC_GROUP)),
-      chunks_(over(groups_, CODEC_CHUNK)) {}
+      blocks_(Counts(spheres).blocks),
+      groups_(Counts(spheres).groups),
+      chunks_(Counts(spheres).chunks) {}
 
 Result<std::unique_ptr<TierTools>> TierTools::create(compute::Device& device, std::uint32_t spheres, bool slots) {
+    const TierSizes sizes = tierSizes(spheres);
+    const std::uint64_t arrays = device.hostBytes(sizes.toolArrays);
+    auto claim = memory::Claim::make("", fmt::format("the order of {} spheres", spheres), arrays + sizes.order);
+    if (!claim) return tl::unexpected(claim.error());
     std::unique_ptr<TierTools> tools(new TierTools(device, spheres));
+    tools->claim_ = std::move(*claim);
     const std::array defines = {compute::Define{"CONTACTS", slots ? "true" : "false"}};
     for (std::size_t k = 0; k < KernelCount; ++k) {
         auto kernel = device.createKernel(shaders(), kernelFiles[k], defines);
@@ -66,6 +96,7 @@ Result<std::unique_ptr<TierTools>> TierTools::create(compute::Device& device, st
     std::vector<std::uint32_t> ids(spheres);
     std::iota(ids.begin(), ids.end(), 0U);
     tools->setOrder(ids);
+    tools->claim_.settle(arrays, sizes.order);
     return tools;
 }
 
@@ -83,10 +114,14 @@ void TierTools::run(Kernel kernel, std::initializer_list<compute::Buffer*> buffe
 }
 
 Result<std::unique_ptr<Tier>> Tier::create(TierTools& tools, const Grid& grid) {
+    const TierSizes sizes = tierSizes(tools.spheres_);
+    const std::uint64_t arrays = tools.device_.hostBytes(sizes.tierArrays);
+    auto claim = memory::Claim::make("", fmt::format("frames of {} spheres", tools.spheres_), arrays + sizes.frames);
+    if (!claim) return tl::unexpected(claim.error());
     std::unique_ptr<Tier> tier(new Tier(tools, grid));
+    tier->claim_ = std::move(*claim);
     const std::size_t blocks = tools.blocks_;
-    const std::size_t frameWords =
-        CODEC_FRAME_HEAD + tools.chunks_ + tools.groups_ * (1 + CODEC_GROUP * std::size_t{CODEC_MOST_WORDS});
+    const std::size_t frameWords = Counts(tools.spheres_).frameWords();
     for (auto& [buffer, words] :
          {std::pair(&tier->newest_, blocks * CODEC_VALUES), std::pair(&tier->before_, blocks * CODEC_VALUES),
           std::pair(&tier->frame_, frameWords)}) {
@@ -94,6 +129,7 @@ Result<std::unique_ptr<Tier>> Tier::create(TierTools& tools, const Grid& grid) {
         if (!made) return tl::unexpected(made.error());
         *buffer = std::move(*made);
     }
+    tier->claim_.settle(arrays, sizes.frames);
     return tier;
 }
 

@@ -11,16 +11,27 @@
 #include <glm/vec3.hpp>
 
 #include "compute/device.h"
+#include "core/memory.h"
 #include "core/result.h"
 #include "sim/codec_layout.h"
 
 // The encoder of docs/codec.md on a device. Used by the thread that owns the device.
 namespace spherule::sim {
 
+// What encoding takes, in bytes.
+struct TierSizes {
+    std::uint64_t toolArrays = 0;  // on the device, for all tiers of a scene;
+    std::uint64_t order = 0;       // on the host: ids, and the message that tells viewers of them
+    std::uint64_t tierArrays = 0;  // on the device, for each tier;
+    std::uint64_t frames = 0;      // on the host: frames on their way to viewers, as far as they have the size of most
+};
+TierSizes tierSizes(std::uint32_t spheres);
+
 // What all tiers of a scene share: the kernels, the order, and what a frame in the making needs.
 class TierTools {
   public:
-    // For `spheres` (at least 1) in id order. `slots`: positions lie by slot, and slotOf says where.
+    // For `spheres` (at least 1) in id order. `slots`: positions lie by slot, and slotOf says where. Refused where
+    // there is no room.
     static Result<std::unique_ptr<TierTools>> create(compute::Device& device, std::uint32_t spheres, bool slots);
 
     // Ids in the order of the codec, a permutation of 0 .. spheres - 1. Every tier must begin() anew after it.
@@ -37,6 +48,7 @@ class TierTools {
              std::uint32_t phase = 0);
 
     compute::Device& device_;
+    memory::Claim claim_;
     std::uint32_t spheres_, blocks_, groups_, chunks_;
     std::array<std::unique_ptr<compute::Kernel>, KernelCount> kernels_;
     std::unique_ptr<compute::Buffer> order_, blockWords_, scratch_, groupWords_, sums_, parameters_;
@@ -56,7 +68,7 @@ class Tier {
         double quantum = 0;  // m
     };
 
-    // `tools` must outlive it. Refused where the device has no room.
+    // `tools` must outlive it. Refused where there is no room.
     static Result<std::unique_ptr<Tier>> create(TierTools& tools, const Grid& grid);
 
     // With `hash`, the frame carries that of its state.
@@ -80,6 +92,7 @@ class Tier {
     [[nodiscard]] std::size_t headBytes() const;
 
     TierTools& tools_;
+    memory::Claim claim_;
     Grid grid_;
     std::unique_ptr<compute::Buffer> newest_, before_, frame_;
     std::uint32_t number_ = 0;

@@ -25,13 +25,15 @@ constexpr bool frameNeeds(Kind kind) {
 
 Result<std::unique_ptr<BackgroundWriter>> BackgroundWriter::create(const std::string& path, bool replace,
                                                                    std::uint64_t mostBytes) {
+    auto queue = memory::Claim::make(path, "frames that wait for the disk", mostWaiting);
+    if (!queue) return tl::unexpected(queue.error());
     auto writer = Writer::create(path, replace);
     if (!writer) return tl::unexpected(writer.error());
-    return std::unique_ptr<BackgroundWriter>(new BackgroundWriter(std::move(*writer), mostBytes));
+    return std::unique_ptr<BackgroundWriter>(new BackgroundWriter(std::move(*writer), mostBytes, std::move(*queue)));
 }
 
-BackgroundWriter::BackgroundWriter(Writer writer, std::uint64_t mostBytes)
-    : writer_(std::move(writer)), mostBytes_(mostBytes), thread_([this] { write(); }) {}
+BackgroundWriter::BackgroundWriter(Writer writer, std::uint64_t mostBytes, memory::Claim queue)
+    : queue_(std::move(queue)), writer_(std::move(writer)), mostBytes_(mostBytes), thread_([this] { write(); }) {}
 
 BackgroundWriter::~BackgroundWriter() {
     finish();

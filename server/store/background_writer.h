@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/memory.h"
 #include "core/result.h"
 #include "frame/message.h"
 #include "store/writer.h"
@@ -18,7 +19,8 @@ namespace spherule::store {
 // Writes a recording on a thread of its own, so that who records never waits for a disk. Used by one thread.
 class BackgroundWriter {
   public:
-    // As Writer::create. The recording ends, and says so, where it has `mostBytes`; 0: it may have any.
+    // As Writer::create, and refused where there is no memory for what waits. The recording ends, and says so, where it
+    // has `mostBytes`; 0: it may have any.
     static Result<std::unique_ptr<BackgroundWriter>> create(const std::string& path, bool replace,
                                                             std::uint64_t mostBytes);
     ~BackgroundWriter();  // finishes it, and waits for that
@@ -47,12 +49,13 @@ class BackgroundWriter {
         frame::SharedMessage message;
     };
 
-    BackgroundWriter(Writer writer, std::uint64_t mostBytes);
+    BackgroundWriter(Writer writer, std::uint64_t mostBytes, memory::Claim queue);
     void write();
     Result<bool> take(std::vector<Item>& items);
     Result<void> put(const std::vector<Item>& items);
     void end(const Result<void>& done);
 
+    const memory::Claim queue_;
     Writer writer_;  // of the thread
     const std::uint64_t mostBytes_;
     std::mutex mutex_;

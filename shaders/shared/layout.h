@@ -66,9 +66,11 @@ struct SphereStatistics {
     float speedSquaredMax;
     float wallOverlapMax;   // depth / r
     float wallSprings;      // sum of what the springs at walls hold, in the model `accurate`
+    float unusedReals[3];   // keep the size a multiple of 16 bytes, and what follows aligned for doubles, too
     uint sleeping;
     uint outside;
     uint nonFinite;
+    uint unused;
 };
 
 // In place of a quiet time: of a sphere that has crept so far that it may carry a sleeper no longer.

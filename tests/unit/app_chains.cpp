@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 
+#include "core/memory.h"
+
 namespace spherule::app {
 namespace {
 
@@ -21,9 +23,20 @@ class Watched : public testing::Test {
     Watched()
         : chains_(
               *device_, [this](const frame::Link& link) { links_.push_back(link); },
-              [this](auto order) { orders_.push_back(std::move(order)); }) {
+              [this](auto order) { orders_.push_back(std::move(order)); },
+              [this](const std::string& text) { complaints_.push_back(text); }) {
         position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
         state_.position.resize(spheres);
+    }
+
+    [[nodiscard]] Scenery scenery() const {
+        return {.source = {.position = position_.get(), .slotOf = nullptr},
+                .spheres = count_,
+                .smallestRadius = 0.05,
+                .epoch = epoch_,
+                .version = version_,
+                .positions = [this] { return state_; },
+                .head = [] { return v1::Frame(); }};
     }
 
     // The world as it is after `steps` more; the kinds of the frames that came.
@@ -31,14 +44,7 @@ class Watched : public testing::Test {
         version_ += steps;
         now_ += later;
         links_.clear();
-        chains_.serve({.source = {.position = position_.get(), .slotOf = nullptr},
-                       .spheres = count_,
-                       .smallestRadius = 0.05,
-                       .epoch = epoch_,
-                       .version = version_,
-                       .positions = [this] { return state_; },
-                       .head = [] { return v1::Frame(); }},
-                      demands, now_);
+        chains_.serve(scenery(), demands, now_);
         std::string kinds;
         for (const frame::Link& link : links_)
             kinds += link.kind == Kind::Keyframe ? 'K' : link.kind == Kind::Join ? 'J' : 'D';
@@ -50,6 +56,7 @@ class Watched : public testing::Test {
     sim::State state_;
     std::vector<frame::Link> links_;
     std::vector<frame::SharedMessage> orders_;
+    std::vector<std::string> complaints_;
     Chains chains_;
     std::uint32_t count_ = spheres;
     std::uint32_t epoch_ = 1;
@@ -122,6 +129,26 @@ TEST_F(Watched, BeginsAnewForOtherSpheresAndForWhoComesBack) {
     count_ = 0;
     epoch_ = 3;
     EXPECT_EQ(serve({{.channel = normal}}, 40ms), "");
+}
+
+TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
+    const std::uint64_t before = memory::claimed().held;
+    count_ = 200'000;
+    memory::setLimit(1);
+    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "");
+    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "");
+    const Result<void> refused = chains_.open(normal, scenery());
+    memory::setLimit(0);
+    ASSERT_EQ(complaints_.size(), 1U) << "not again and again";
+    EXPECT_NE(complaints_[0].find("Viewers of NORMAL at 30/s get no frames: "), std::string::npos) << complaints_[0];
+    EXPECT_NE(complaints_[0].find("MiB more of memory are needed"), std::string::npos) << complaints_[0];
+    EXPECT_TRUE(orders_.empty());
+    EXPECT_EQ(memory::claimed().held, before);
+    ASSERT_FALSE(refused) << "a recording would be refused";
+    EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
+    count_ = spheres;
+    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 11s), "K") << "tried again";
+    EXPECT_GT(memory::claimed().held, before);
 }
 
 }  // namespace

@@ -105,6 +105,10 @@ Result<std::unique_ptr<Buffer>> CpuDevice::createBuffer(std::string_view label, 
     return CpuBuffer::create(label, bytes, Words(words, precision_));
 }
 
+std::uint64_t CpuDevice::hostBytes(std::uint64_t bytes, std::string_view words) const {
+    return Words(words, precision_).bytesFor(bytes);
+}
+
 Result<std::unique_ptr<Kernel>> CpuDevice::createKernel(const SourceSet& /*sources*/, std::string_view file,
                                                         std::span<const Define> defines) {
     const auto kernels = precision_ == Precision::Double ? doubleKernels() : floatKernels();
@@ -129,8 +133,13 @@ void CpuDevice::download(const Buffer& buffer, std::size_t offset, std::span<std
 }
 
 void CpuDevice::fill(Buffer& buffer, std::uint32_t value) {
-    const std::vector<std::uint32_t> values(buffer.bytes() / sizeof value, value);
-    upload(buffer, 0, std::as_bytes(std::span(values)));
+    // By parts: a copy of the whole would take as much memory again.
+    constexpr std::size_t most = 1U << 16U;
+    const std::vector<std::uint32_t> values(std::min(buffer.bytes() / sizeof value, most), value);
+    for (std::size_t first = 0; first < buffer.bytes(); first += most * sizeof value) {
+        const std::size_t bytes = std::min(most * sizeof value, buffer.bytes() - first);
+        upload(buffer, first, std::as_bytes(std::span(values)).first(bytes));
+    }
 }
 
 void CpuDevice::launch(const Launch& launch) {

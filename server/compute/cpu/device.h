@@ -20,6 +20,7 @@ class CpuDevice final : public Device {
     [[nodiscard]] const DeviceInfo& info() const override { return info_; }
     Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes,
                                                  std::string_view words) override;
+    [[nodiscard]] std::uint64_t hostBytes(std::uint64_t bytes, std::string_view words) const override;
     Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                  std::span<const Define> defines) override;
     void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) override;

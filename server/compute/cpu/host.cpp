@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <fstream>
 
-#include "compute/cpu/cgroup.h"
-
 namespace spherule::compute::cpu {
 
 std::string processorName() {
@@ -29,24 +27,6 @@ unsigned processors() {
 std::size_t memoryBytes() {
     return static_cast<std::size_t>(std::max(sysconf(_SC_PHYS_PAGES), 1L)) *
            static_cast<std::size_t>(std::max(sysconf(_SC_PAGESIZE), 1L));
-}
-
-namespace {
-
-std::size_t availableOnHost() {
-    std::ifstream file("/proc/meminfo");
-    for (std::string key; file >> key;) {
-        std::size_t kibibytes = 0;
-        if (key == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024;
-    }
-    return memoryBytes();
-}
-
-}  // namespace
-
-std::size_t availableBytes() {
-    const std::size_t here = availableOnHost();
-    return std::min(here, roomInControlGroup().value_or(here));
 }
 
 }  // namespace spherule::compute::cpu

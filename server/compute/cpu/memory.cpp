@@ -6,7 +6,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "compute/cpu/host.h"
+#include "core/memory.h"
 
 namespace spherule::compute::cpu {
 namespace {
@@ -75,15 +75,14 @@ void Words::load(const std::byte* memory, std::size_t hostOffset, std::span<std:
 Result<std::unique_ptr<Buffer>> CpuBuffer::create(std::string_view label, std::size_t bytes, Words words) {
     const std::size_t size = words.bytesFor((bytes + word - 1) / word * word);
     void* data = nullptr;
-    const std::size_t available = availableBytes();
-    // The kernel gives more than it has, and kills who uses it.
-    if (size > available || posix_memalign(&data, alignment, std::max<std::size_t>(size, 1)) != 0) {
-        constexpr double mebi = 1 << 20;
-        return fail(
-            ErrorKind::Refused, std::string(label),
-            fmt::format("needs {:.1f} MiB of memory, of which at most {:.1f} MiB are left for this program; use "
-                        "fewer spheres, or give it more",
-                        static_cast<double>(size) / mebi, static_cast<double>(available) / mebi));
+    // Linux gives more than it has, and ends who uses it. What others have been promised is not looked at: who made the
+    // plan of which this is a part has a claim to it.
+    const memory::Room room = memory::room();
+    if (size > room.left || posix_memalign(&data, alignment, std::max<std::size_t>(size, 1)) != 0) {
+        return fail(ErrorKind::Refused, std::string(label),
+                    fmt::format("needs {} of memory, of which at most {} are left for this program; use fewer spheres, "
+                                "or give it more",
+                                memory::sizeText(size), memory::sizeText(room.left)));
     }
     std::memset(data, 0, size);
     return std::unique_ptr<Buffer>(new CpuBuffer(bytes, std::move(words), static_cast<std::byte*>(data)));

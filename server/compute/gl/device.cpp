@@ -76,6 +76,10 @@ Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, s
     return GlBuffer::create(context_, label, bytes);
 }
 
+std::uint64_t GlDevice::hostBytes(std::uint64_t bytes, std::string_view /*words*/) const {
+    return info_.kind == "gpu" ? 0 : bytes;
+}
+
 Result<std::unique_ptr<Kernel>> GlDevice::createKernel(const SourceSet& sources, std::string_view file,
                                                        std::span<const Define> defines) {
     pulse::beat("compiling a kernel");

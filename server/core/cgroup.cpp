@@ -1,10 +1,10 @@
-#include "compute/cpu/cgroup.h"
+#include "core/cgroup.h"
 
 #include <algorithm>
 #include <fstream>
 #include <string>
 
-namespace spherule::compute::cpu {
+namespace spherule::memory {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,33 +19,36 @@ constexpr Names version1{
     .limit = "memory.limit_in_bytes", .used = "memory.usage_in_bytes", .reclaimable = "total_inactive_file"};
 
 // Nothing where the file is not there, or has no number ("max").
-std::optional<std::size_t> number(const fs::path& path) {
+std::optional<std::uint64_t> number(const fs::path& path) {
     std::ifstream file(path);
-    std::size_t value = 0;
+    std::uint64_t value = 0;
     if (file >> value) return value;
     return std::nullopt;
 }
 
-std::size_t reclaimable(const fs::path& path, const std::string& wanted) {
+std::uint64_t reclaimable(const fs::path& path, const std::string& wanted) {
     std::ifstream file(path);
-    std::size_t value = 0;
+    std::uint64_t value = 0;
     for (std::string name; file >> name >> value;)
         if (name == wanted) return value;
     return 0;
 }
 
+void narrow(std::optional<GroupRoom>& least, const GroupRoom& room) {
+    if (!least || room.left < least->left) least = room;
+}
+
 // Of the group and of those that it lies in.
-std::optional<std::size_t> roomIn(const fs::path& mount, const fs::path& group, const Names& names) {
-    std::optional<std::size_t> least;
+std::optional<GroupRoom> roomIn(const fs::path& mount, const fs::path& group, const Names& names) {
+    std::optional<GroupRoom> least;
     fs::path folder = group.relative_path();
     while (true) {
         const auto limit = number(mount / folder / names.limit);
         const auto used = number(mount / folder / names.used);
         if (limit && used) {
-            const std::size_t held =
+            const std::uint64_t held =
                 *used - std::min(*used, reclaimable(mount / folder / "memory.stat", names.reclaimable));
-            const std::size_t room = *limit - std::min(*limit, held);
-            least = std::min(least.value_or(room), room);
+            narrow(least, {.left = *limit - std::min(*limit, held), .limit = *limit});
         }
         if (folder.empty()) return least;
         folder = folder.parent_path();
@@ -54,9 +57,9 @@ std::optional<std::size_t> roomIn(const fs::path& mount, const fs::path& group, 
 
 }  // namespace
 
-std::optional<std::size_t> roomInControlGroup(const fs::path& root) {
+std::optional<GroupRoom> roomInControlGroup(const fs::path& root) {
     std::ifstream groups(root / "proc/self/cgroup");
-    std::optional<std::size_t> least;
+    std::optional<GroupRoom> least;
     // "0::/group" in version 2, "4:memory:/group" in version 1.
     for (std::string line; std::getline(groups, line);) {
         const auto path = line.rfind(':');
@@ -65,9 +68,9 @@ std::optional<std::size_t> roomInControlGroup(const fs::path& root) {
         if (!second && line.find(":memory:") == std::string::npos) continue;
         const auto mount = root / (second ? "sys/fs/cgroup" : "sys/fs/cgroup/memory");
         const auto room = roomIn(mount, line.substr(path + 1), second ? version2 : version1);
-        if (room) least = std::min(least.value_or(*room), *room);
+        if (room) narrow(least, *room);
     }
     return least;
 }
 
-}  // namespace spherule::compute::cpu
+}  // namespace spherule::memory

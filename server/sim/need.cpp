@@ -1,0 +1,93 @@
+#include "sim/need.h"
+
+#include <numeric>
+
+#include <fmt/format.h>
+#include <glm/vec4.hpp>
+
+#include "scene/occupancy.h"
+#include "scene/scene.h"
+#include "sim/layout.h"
+#include "sim/tier.h"
+
+namespace spherule::sim {
+
+namespace {
+
+// Per sphere. A State, and a SlotState: with friction it has angular velocities.
+constexpr std::uint64_t stateBytes = 3 * sizeof(glm::vec4);
+constexpr std::uint64_t slotBytes(bool friction) {
+    return (friction ? 3 : 2) * sizeof(glm::vec4) + sizeof(std::uint32_t);
+}
+// Ids and materials, as they are uploaded.
+constexpr std::uint64_t uploadBytes = sizeof(std::uint32_t) + sizeof(std::uint8_t);
+// The radii that viewers are told: in a message, and that as it travels.
+constexpr std::uint64_t radiiBytes = 2 * sizeof(float);
+
+std::uint64_t snapshotBytes(const Plan& plan) {
+    return stateBytes + slotBytes(plan.features.friction);
+}
+
+}  // namespace
+
+std::uint64_t Need::onHost() const {
+    return std::accumulate(host.begin(), host.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const Part& part) { return sum + part.bytes; });
+}
+
+std::vector<Need::Part> Need::parts() const {
+    std::vector<Part> all{{"device: arrays", arrays}};
+    for (const Part& part : host) all.push_back(part);
+    all.insert(all.end(), {{"host: for a time", work},
+                           {"all, where device and host are one", arrays + onHost() + work},
+                           {"device: order, if watched", orderArrays},
+                           {"host: order, if watched", order},
+                           {"device: each tier that is watched", tierArrays},
+                           {"host: each tier that is watched", tier}});
+    return all;
+}
+
+Need needOf(const Plan& plan) {
+    const std::uint64_t n = plan.spheres;
+    const TierSizes sizes = tierSizes(plan.spheres);
+    Need need{.arrays = plan.bytes(),
+              .host = {{"host: scene", n * sizeof(scene::Sphere)},
+                       {"host: scene at the start", n * sizeof(scene::Sphere)},
+                       {"host: last good state", n * slotBytes(plan.features.friction)}},
+              .work = n * snapshotBytes(plan),
+              .orderArrays = sizes.toolArrays,
+              .order = sizes.order,
+              .tierArrays = sizes.tierArrays,
+              .tier = sizes.frames};
+    if (plan.features.radii) need.host.push_back({"host: radii for viewers", n * radiiBytes});
+    return need;
+}
+
+std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan) {
+    std::uint64_t bytes = 0;
+    for (const ArraySpec& spec : plan.arrays) bytes += device.hostBytes(spec.bytes, wordsOf(spec.array));
+    return bytes;
+}
+
+Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan) {
+    const Need need = needOf(plan);
+    const std::uint64_t there = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
+    return memory::Claim::make("", fmt::format("a scene of {} spheres", plan.spheres),
+                               arraysOnHost(device, plan) + need.onHost() - there + need.work);
+}
+
+void settle(memory::Claim& claim, const compute::Device& device, const Plan& plan) {
+    const Need need = needOf(plan);
+    claim.settle(arraysOnHost(device, plan) + need.onHost(), need.work);
+}
+
+std::uint64_t copiesToChange(const Plan& plan) {
+    return plan.spheres * (sizeof(scene::Sphere) + snapshotBytes(plan) + uploadBytes);
+}
+
+std::uint64_t copiesToSpawn(const Plan& plan) {
+    // The scene as it is now, and as it grows.
+    return copiesToChange(plan) + plan.spheres * (2 * sizeof(scene::Sphere) + scene::Occupancy::mostBytesPerSphere());
+}
+
+}  // namespace spherule::sim

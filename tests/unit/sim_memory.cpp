@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "compute/device.h"
+#include "core/memory.h"
+#include "scene/load.h"
+#include "sim/need.h"
+#include "sim/simulation.h"
+
+namespace spherule::sim {
+namespace {
+
+constexpr std::uint64_t mebi = 1U << 20U;
+
+v1::Scene latticeOf(std::uint32_t count, double friction) {
+    v1::Scene scene;
+    constexpr double spacing = 0.11;
+    const double side = spacing * (std::ceil(std::cbrt(count)) + 1);
+    for (int axis = 0; axis < 3; ++axis) {
+        scene.mutable_bounds()->add_min(0);
+        scene.mutable_bounds()->add_max(side);
+    }
+    scene.add_materials()->set_friction(friction);
+    scene.mutable_quality()->set_model(v1::BALANCED);
+    v1::Group& group = *scene.add_groups();
+    group.mutable_radius()->set_constant(0.05);
+    v1::Lattice& lattice = *group.mutable_lattice();
+    for (int axis = 0; axis < 3; ++axis) {
+        lattice.add_min(0);
+        lattice.add_max(side);
+    }
+    lattice.set_spacing(spacing);
+    lattice.set_count(count);
+    return scene;
+}
+
+// Bytes that this process holds, and the most that it ever held.
+std::uint64_t held() {
+    std::ifstream file("/proc/self/statm");
+    std::uint64_t size = 0;
+    std::uint64_t resident = 0;
+    file >> size >> resident;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+std::uint64_t mostHeld() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+class SimMemory : public testing::Test {
+  protected:
+    ~SimMemory() override { memory::setLimit(0); }
+    std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
+};
+
+TEST_F(SimMemory, WhatIsCountedIsWhatIsTaken) {
+    for (const double friction : {0.0, 0.3}) {
+        auto scene = scene::build(latticeOf(200'000, friction));
+        ASSERT_TRUE(scene) << scene.error().text();
+        const std::uint64_t before = held() - 200'000 * sizeof(scene::Sphere);
+        auto simulation = Simulation::create(*device_, std::move(*scene));
+        ASSERT_TRUE(simulation) << simulation.error().text();
+        ASSERT_TRUE((*simulation)->step());
+        const Need need = needOf((*simulation)->plan());
+        const auto stays = static_cast<double>(need.arrays + need.onHost());
+        EXPECT_GT(stays, 0.9 * static_cast<double>(held() - before)) << "friction " << friction;
+        EXPECT_LT(stays, 1.3 * static_cast<double>(held() - before)) << "friction " << friction;
+        EXPECT_EQ(memory::claimed().held, need.arrays + need.onHost());
+        EXPECT_EQ(memory::claimed().promised, need.work);
+    }
+    EXPECT_EQ(memory::claimed().held + memory::claimed().promised, 0U);
+}
+
+TEST_F(SimMemory, ASceneWithoutRoomIsRefusedBeforeItIsMade) {
+    memory::setLimit(held() + 100 * mebi);
+    const std::uint64_t before = mostHeld();
+    const auto scene = scene::build(latticeOf(16'000'000, 0));
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().kind, ErrorKind::Refused);
+    EXPECT_EQ(scene.error().where, "groups[0].lattice.count");
+    EXPECT_NE(scene.error().message.find("854 MiB more of memory are needed"), std::string::npos)
+        << scene.error().message;
+    EXPECT_LT(mostHeld(), before + 20 * mebi);
+}
+
+TEST_F(SimMemory, ASimulationWithoutRoomIsRefusedBeforeItIsMade) {
+    auto scene = scene::build(latticeOf(400'000, 0));
+    ASSERT_TRUE(scene);
+    memory::setLimit(held() + 150 * mebi);
+    const std::uint64_t before = mostHeld();
+    const auto refused = Simulation::create(*device_, std::move(*scene));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
+    EXPECT_NE(refused.error().text().find("more of memory are needed for a scene of 400000 spheres"), std::string::npos)
+        << refused.error().text();
+    EXPECT_LT(mostHeld(), before + 20 * mebi);
+    EXPECT_EQ(memory::claimed().promised, 0U);
+}
+
+TEST_F(SimMemory, BothWorldsCountWhileOneTakesThePlaceOfTheOther) {
+    auto scene = scene::build(latticeOf(200'000, 0));
+    ASSERT_TRUE(scene);
+    const auto running = Simulation::create(*device_, std::move(*scene));
+    ASSERT_TRUE(running);
+    auto next = scene::build(latticeOf(200'000, 0));
+    ASSERT_TRUE(next);
+    memory::setLimit(held() + 60 * mebi);
+    const auto refused = Simulation::create(*device_, std::move(*next));
+    ASSERT_FALSE(refused);
+    const std::string holds = "what runs here holds " + memory::sizeText(memory::claimed().held);
+    EXPECT_NE(refused.error().text().find(holds), std::string::npos) << refused.error().text();
+    EXPECT_TRUE((*running)->step()) << "it goes on";
+}
+
+TEST_F(SimMemory, CommandsThatCopyAreRefusedAndChangeNothing) {
+    auto scene = scene::build(latticeOf(100'000, 0));
+    ASSERT_TRUE(scene);
+    const auto simulation = Simulation::create(*device_, std::move(*scene));
+    ASSERT_TRUE(simulation);
+    ASSERT_TRUE((*simulation)->step());
+    v1::Command reset;
+    reset.mutable_reset();
+    v1::Command friction;
+    friction.mutable_set()->set_friction(0.3);
+    v1::Command spawn;
+    *spawn.mutable_spawn()->mutable_group() = latticeOf(1, 0).groups(0);
+    for (const v1::Command& command : {reset, friction, spawn}) {
+        memory::setLimit(held());
+        const auto refused = (*simulation)->apply(command);
+        memory::setLimit(0);
+        ASSERT_FALSE(refused) << command.ShortDebugString();
+        EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
+        EXPECT_NE(refused.error().text().find("more of memory are needed"), std::string::npos)
+            << refused.error().text();
+    }
+    EXPECT_EQ((*simulation)->steps(), 1U);
+    EXPECT_EQ((*simulation)->count(), 100'000U);
+    EXPECT_TRUE((*simulation)->apply(reset)) << "with room it goes";
+}
+
+}  // namespace
+}  // namespace spherule::sim
