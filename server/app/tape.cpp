@@ -1,6 +1,6 @@
 #include "app/tape.h"
 
-#include "app/utf8.h"
+#include "core/text.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
