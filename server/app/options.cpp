@@ -11,6 +11,7 @@
 #include "app/duration.h"
 #include "app/exit_codes.h"
 #include "core/quantity.h"
+#include "core/text.h"
 #include "scene/goal.h"
 #include "scene/quality.h"
 
@@ -30,6 +31,13 @@ std::optional<scene::Goal> goalFrom(const std::string& words) {
 }
 
 }  // namespace
+
+const CLI::Validator finiteRate(
+    [](const std::string& words) {
+        const auto given = quantityOf(words);
+        return given && given->unit.empty() && given->number >= 0 ? "" : "'" + words + "' is no number of 0 or above";
+    },
+    "NUMBER");
 
 void addQuality(CLI::App& command, scene::Overrides& overrides) {
     command
@@ -79,7 +87,7 @@ namespace {
 
 // To stderr, if somebody takes it within a second: a pipe that nobody reads must not keep the program from its end.
 void complain(std::string text) {
-    text.resize(std::min<std::size_t>(text.size(), PIPE_BUF));  // so much is taken at once, or not at all
+    text.resize(cutUtf8(text, PIPE_BUF).size());  // so much is taken at once, or not at all
     pollfd place{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (poll(&place, 1, 1000) <= 0) return;
     const auto written = write(STDERR_FILENO, text.data(), text.size());
@@ -90,7 +98,7 @@ void complain(std::string text) {
 
 int report(const Error& error) {
     const char* const advice = error.kind == ErrorKind::DeviceLost ? "; start it again" : "";
-    complain(fmt::format("spherule: {}{}\n", error.text(), advice));
+    complain(fmt::format("spherule: {}{}\n", withoutControls(error.text()), advice));
     return exitCodeOf(error.kind);
 }
 
