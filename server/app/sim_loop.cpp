@@ -17,6 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then waits this long for a state
 constexpr int commandsPerStep = 32;
+constexpr auto oldestAnswer = 100ms;  // to a query, while the world runs by itself
 
 // Whether the world, or how it goes on, may be another after it.
 bool changesWorld(const v1::Command& command) {
@@ -62,6 +63,7 @@ Result<void> SimLoop::simulate(const std::stop_token& stop) {
         } else if (auto request = requests_.popFor(patience(now))) {
             serve(*request);
         }
+        answerQueries();
         produce(Pacer::Clock::now());
         if (auto done = report(); !done) return done;
         tellOfTape();
@@ -88,7 +90,7 @@ void SimLoop::serve(const Request& request) {
         observer_.disturbed();
         nextReport_ = {};  // what energy there is at the start is soon gone
     }
-    if (!request.command.has_query() && applied) announce();
+    if (applied) announce();
     outlets_.reply(request.session, resultOf(request.command, applied));
 }
 
@@ -108,8 +110,25 @@ Result<v1::Applied> SimLoop::apply(const v1::Command& command) {
     return applied;
 }
 
+// All that wait get the same answer. It shows each command that was applied, and each step that was asked for.
+void SimLoop::answerQueries() {
+    const auto queries = requests_.takeQueries();
+    if (queries.empty()) return;
+    const auto now = Pacer::Clock::now();
+    if (!answered_ || now - *answered_ > oldestAnswer) {
+        try {
+            answer_ = world_.apply(queries.front().command);
+        } catch (const std::bad_alloc&) {
+            answer_ = fail(ErrorKind::Refused, "", "there is not enough memory for this");
+        }
+        answered_ = now;
+    }
+    for (const Request& query : queries) outlets_.reply(query.session, resultOf(query.command, answer_));
+}
+
 // After anything that a command may have changed.
 void SimLoop::announce() {
+    answered_.reset();
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
         seen_.reset();
@@ -132,6 +151,7 @@ Result<void> SimLoop::step() {
     world_.pacer().stepped(end);
     observer_.stepped(wallMs);
     ++version_;
+    if (world_.paused()) answered_.reset();
     for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
     stopAtNonFinite();
     return tune(wallMs);

@@ -27,6 +27,7 @@ class SimLoop : public Show {
     Result<void> simulate(const std::stop_token& stop);
     void serve(const Request& request);
     Result<v1::Applied> apply(const v1::Command& command);
+    void answerQueries();
     void announce();
     void keep(v1::ServerMessage message);
     void everybody(v1::ServerMessage message);
@@ -47,7 +48,7 @@ class SimLoop : public Show {
 
     std::unique_ptr<World> owned_;
     World& world_;
-    BoundedQueue<Request>& requests_;
+    Requests& requests_;
     Live& live_;
     Outlets outlets_;
     Chains chains_;
@@ -56,8 +57,10 @@ class SimLoop : public Show {
     Pacer::Clock::time_point nextReport_{};
     Tuner tuner_;
     Observer observer_;
-    std::optional<v1::Diagnostics> seen_;  // of the last report while somebody watched
-    std::uint64_t version_ = 0;            // of the world, as far as viewers can see
+    Result<v1::Applied> answer_;                        // to queries; nothing newer is needed before
+    std::optional<Pacer::Clock::time_point> answered_;  // when it was made, the world as it was then
+    std::optional<v1::Diagnostics> seen_;               // of the last report while somebody watched
+    std::uint64_t version_ = 0;                         // of the world, as far as viewers can see
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
     bool watched_ = false;

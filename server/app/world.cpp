@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/facts.h"
+#include "scene/check.h"
 
 namespace spherule::app {
 
@@ -94,14 +95,17 @@ Result<v1::Applied> World::stepBy(std::uint32_t count) {
 
 // By name only scenes that come with the program: a client does not reach the server's files.
 Result<v1::Applied> World::load(const v1::LoadScene& load) {
-    Result<scene::Scene> loaded = fail(ErrorKind::Refused, "load", "needs a name or a scene");
+    Result<scene::Scene> loaded = fail(ErrorKind::Refused, "", "load needs a name or a scene");
     if (load.source_case() == v1::LoadScene::kScene) {
-        loaded = scene::build(load.scene(), overrides_);
+        loaded = scene::build(load.scene(), overrides_).map_error([](Error error) {
+            error.where = "scene." + error.where;
+            return error;
+        });
     } else if (load.source_case() == v1::LoadScene::kName) {
         const auto names = scene::names();
         if (std::ranges::find(names, load.name()) == names.end())
-            return fail(ErrorKind::Refused, "load.name",
-                        fmt::format("is \"{}\"; known are {}", load.name(), fmt::join(names, ", ")));
+            return fail(ErrorKind::Refused, "name",
+                        fmt::format("is {}; known are {}", scene::shown(load.name()), fmt::join(names, ", ")));
         loaded = scene::load(load.name(), device_->info().kind, overrides_);
     }
     if (!loaded) return tl::unexpected(loaded.error());
