@@ -12,14 +12,17 @@ namespace {
 using namespace std::chrono_literals;
 
 Request pauseOf(std::uint64_t session, std::uint64_t id, std::size_t bytes = 100) {
-    Request request{.session = session, .bytes = bytes};
+    Request request;
+    request.session = session;
+    request.bytes = bytes;
     request.command.set_id(id);
     request.command.mutable_pause();
     return request;
 }
 
 Request queryOf(std::uint64_t session, std::uint64_t id) {
-    Request request{.session = session};
+    Request request;
+    request.session = session;
     request.command.set_id(id);
     request.command.mutable_query();
     return request;
