@@ -12,8 +12,8 @@ enum class Encoding { Binary, Text };
 
 // One WebSocket message of a client. An error of kind Input: the bytes are no message. Of kind Refused: they are JSON,
 // and the field `where` is not known or its value does not fit; the path begins at the Command where it is in one.
-// Protobuf skips fields that are not known. NaN and numbers beyond a double, which JSON has not, are read as numbers
-// that are not finite.
+// Protobuf skips fields that are not known. NaN and infinities as bare words, which JSON has not, are read as numbers;
+// a number beyond a double does not fit.
 Result<v1::ClientMessage> decodeClientMessage(std::string_view bytes, Encoding encoding);
 
 }  // namespace spherule::net
