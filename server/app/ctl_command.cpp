@@ -5,6 +5,7 @@
 #include "app/exit_codes.h"
 #include "app/options.h"
 #include "app/secret_files.h"
+#include "core/text.h"
 #include "net/ctl.h"
 #include "net/url.h"
 
@@ -25,9 +26,16 @@ bool isLocal(const std::string& url) {
     return parts && (parts->host == "localhost" || parts->host == "::1" || parts->host.starts_with("127."));
 }
 
+// Who named a scene file that is not there may have meant a scene.
+Error withScenes(Error error, const std::vector<std::string>& words) {
+    if (words.size() == 2 && words[0] == "load" && error.where == words[1])
+        error.message += fmt::format(" (one of {})", fmt::join(scene::names(), ", "));
+    return error;
+}
+
 int ctl(const CtlOptions& options) {
     const auto command = net::commandFrom(options.words);
-    if (!command) return report(command.error());
+    if (!command) return report(withScenes(command.error(), options.words));
     net::Target target = options.target;
     target.timeout = std::chrono::seconds(options.timeoutSeconds);
     auto token = tokenOf("--token-file", options.tokenFile, "SPHERULE_TOKEN");
@@ -39,10 +47,11 @@ int ctl(const CtlOptions& options) {
     if (!authorities) return report(authorities.error());
     target.authorities = std::move(*authorities);
     const auto result = net::sendCommand(target, *command, [](const v1::Person& holder) {
-        fmt::print(stderr, "{} (session {}) has the controls; asking for them\n", holder.client(), holder.session());
+        fmt::print(stderr, "{} (session {}) has the controls; asking for them\n", withoutControls(holder.client()),
+                   holder.session());
     });
     if (!result) return report(result.error());
-    fmt::print("{}\n", net::resultText(*result));
+    fmt::print(result->has_applied() ? stdout : stderr, "{}\n", net::resultText(*result));
     return result->has_applied() ? exitDone : exitRefused;
 }
 

@@ -1,5 +1,7 @@
 #include "app/duration.h"
 
+#include <cmath>
+
 #include "core/quantity.h"
 
 namespace spherule::app {
@@ -10,7 +12,7 @@ Result<double> secondsOf(const std::string& text, const std::string& option) {
     if (unit.empty() || unit == "s") scale = 1;
     if (unit == "ms") scale = 1e-3;
     if (unit == "min") scale = 60;
-    if (scale == 0 || number < 0)
+    if (scale == 0 || number < 0 || !std::isfinite(number * scale))
         return fail(ErrorKind::Input, option, "is \"" + text + "\"; give a time such as 2s, 250ms or 1.5min");
     return number * scale;
 }

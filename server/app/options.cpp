@@ -13,6 +13,7 @@
 #include "app/usage.h"
 #include "core/memory.h"
 #include "core/quantity.h"
+#include "core/text.h"
 #include "scene/goal.h"
 #include "scene/quality.h"
 
@@ -32,6 +33,13 @@ std::optional<scene::Goal> goalFrom(const std::string& words) {
 }
 
 }  // namespace
+
+const CLI::Validator finiteRate(
+    [](const std::string& words) {
+        const auto given = quantityOf(words);
+        return given && given->unit.empty() && given->number >= 0 ? "" : "'" + words + "' is no number of 0 or above";
+    },
+    "NUMBER");
 
 void addQuality(CLI::App& command, scene::Overrides& overrides) {
     command
@@ -83,8 +91,8 @@ void addWatchdog(CLI::App& command, double& seconds) {
 }
 
 void complain(const std::string& what) {
-    std::string text = fmt::format("spherule: {}\n", what);
-    text.resize(std::min<std::size_t>(text.size(), PIPE_BUF));  // so much is taken at once, or not at all
+    std::string text = fmt::format("spherule: {}\n", withoutControls(what));
+    text.resize(cutUtf8(text, PIPE_BUF).size());  // so much is taken at once, or not at all
     pollfd place{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (poll(&place, 1, 1000) <= 0) return;
     const auto written = write(STDERR_FILENO, text.data(), text.size());

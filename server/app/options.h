@@ -31,6 +31,9 @@ void addHealth(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);
 void addMeasure(CLI::App& app, int& exitCode);
 
+// A check for options: a number that is finite and not negative. CLI11's own takes nan for one.
+extern const CLI::Validator finiteRate;
+
 // --quality and --substeps.
 void addQuality(CLI::App& command, scene::Overrides& overrides);
 

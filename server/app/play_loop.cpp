@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "app/facts.h"
-#include "app/utf8.h"
 #include "core/log.h"
 #include "core/pulse.h"
+#include "core/text.h"
 
 namespace spherule::app {
 
@@ -38,6 +38,7 @@ Result<void> PlayLoop::run(const std::stop_token& stop) {
         pulse::beat("serving viewers");
         // All that was asked for, before anything is decoded: of several seeks only the last counts.
         while (auto request = requests_.tryPop()) serve(*request);
+        for (const Request& query : requests_.takeQueries()) serve(query);
         const auto now = Chains::Clock::now();
         if (auto done = advance(now); !done) return done;
         sendSettings();

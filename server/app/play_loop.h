@@ -36,7 +36,7 @@ class PlayLoop : public Show {
 
     std::unique_ptr<compute::Device> device_;
     Player player_;
-    BoundedQueue<Request>& requests_;
+    Requests& requests_;
     Live& live_;
     Outlets outlets_;
     Chains chains_;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/pacer.h"
-#include "app/utf8.h"
+#include "core/text.h"
 
 namespace spherule::app {
 
@@ -46,8 +46,7 @@ Result<v1::Applied> Player::apply(const v1::Command& command, Clock::time_point 
             seek(recording_.begin());
             break;
         case v1::Command::kSeek:
-            if (!std::isfinite(command.seek().time()))
-                return fail(ErrorKind::Refused, "seek.time", "is no finite number");
+            if (!std::isfinite(command.seek().time())) return fail(ErrorKind::Refused, "time", "is no finite number");
             seek(std::clamp(command.seek().time(), recording_.begin(), recording_.end()));
             break;
         case v1::Command::kSet:
@@ -66,7 +65,7 @@ Result<void> Player::setSpeed(const v1::Set& set, Clock::time_point now) {
     v1::Set rest = set;
     rest.clear_speed();
     if (rest.ByteSizeLong() > 0)
-        return fail(ErrorKind::Refused, "set", "a recording is played here: only its speed can be set");
+        return fail(ErrorKind::Refused, "", "a recording is played here: only its speed can be set");
     if (!set.has_speed()) return {};
     if (auto right = checkSpeed(set.speed()); !right) return right;
     goOnFrom(placeBy(now), now);

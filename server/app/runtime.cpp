@@ -8,8 +8,8 @@
 
 #include "app/facts.h"
 #include "app/options.h"
-#include "app/utf8.h"
 #include "core/pulse.h"
+#include "core/text.h"
 
 namespace spherule::app {
 
@@ -101,9 +101,10 @@ net::Handlers Runtime::handlers() {
                 return welcome;
             },
         .submit =
-            [this](net::SessionId session, v1::Command command) {
-                return requests_.push({session, std::move(command)});
+            [this](net::SessionId session, v1::Command command, std::size_t cost) {
+                return requests_.push({.session = session, .command = std::move(command), .bytes = cost});
             },
+        .refuses = [this](net::SessionId session, std::size_t cost) { return requests_.refuses(session, cost); },
         .ready = [this] { return opened(); },
         .get = [this](const std::string& path, const net::Counters& counters) { return site_.get(path, counters); }};
 }
@@ -144,12 +145,14 @@ void Runtime::beginToEnd(const std::optional<Error>& failure) {
 }
 
 void Runtime::refuseWaiting() {
-    while (auto request = requests_.tryPop()) {
+    const auto refuse = [this](const Request& request) {
         v1::CommandResult result;
-        result.set_id(request->command.id());
+        result.set_id(request.command.id());
         result.mutable_refused()->set_reason("the server is stopping");
-        server_->reply(request->session, std::move(result));
-    }
+        server_->reply(request.session, std::move(result));
+    };
+    while (const auto request = requests_.tryPop()) refuse(*request);
+    for (const Request& query : requests_.takeQueries()) refuse(query);
 }
 
 }  // namespace spherule::app

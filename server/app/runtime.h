@@ -12,7 +12,6 @@
 #include "app/show.h"
 #include "app/site.h"
 #include "app/watchdog.h"
-#include "core/bounded_queue.h"
 #include "net/server.h"
 
 namespace spherule::app {
@@ -51,7 +50,7 @@ class Runtime {
     net::Handlers handlers();
 
     Live live_;
-    BoundedQueue<Request> requests_{256};
+    Requests requests_;
     std::unique_ptr<Show> show_;  // of its thread
     mutable std::mutex mutex_;    // of the next three
     bool opened_ = false;

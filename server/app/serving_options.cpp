@@ -54,11 +54,11 @@ void ServingOptions::addTo(CLI::App& command) {
         .add_option("--connections-per-second", net.visitors.connectionsPerSecond,
                     "new connections of one address, on average")
         ->capture_default_str()
-        ->check(CLI::NonNegativeNumber)
+        ->check(finiteRate)
         ->group(limits);
     command.add_option("--commands-per-second", net.commandsPerSecond, "of one client, on average")
         ->capture_default_str()
-        ->check(CLI::NonNegativeNumber)
+        ->check(finiteRate)
         ->group(limits);
 }
 

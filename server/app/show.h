@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "app/live.h"
-#include "core/bounded_queue.h"
+#include "app/requests.h"
 #include "core/result.h"
 #include "frame/channel.h"
 #include "frame/message.h"
 
 namespace spherule::app {
-
-struct Request {
-    std::uint64_t session = 0;
-    v1::Command command;
-};
 
 // Where results go; called on the show's thread.
 struct Outlets {
@@ -31,7 +26,8 @@ struct Outlets {
     std::function<std::vector<frame::Demand>()> demands;
 };
 
-// The answer to a command.
+// The answer to a command. The field of a refusal is a path that begins at the Command: `applied` names it from the
+// command's own message. Whatever else is at fault is named in the reason.
 v1::CommandResult resultOf(const v1::Command& command, const Result<v1::Applied>& applied);
 
 // The change that a command asks for, in words: "load box-50k", "reset",
@@ -40,7 +36,7 @@ std::string changeOf(const v1::Command& command);
 
 // What a show has to do with: what is asked of it, what it says of itself, where its results go.
 struct Stage {
-    BoundedQueue<Request>& requests;
+    Requests& requests;
     Live& live;
     Outlets outlets;
 };

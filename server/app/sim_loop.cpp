@@ -18,11 +18,13 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then waits this long for a state
 constexpr int commandsPerTurn = 32;
+constexpr auto oldestAnswer = 100ms;  // to a query, while the world runs by itself
 // A step is done as a whole where that takes no longer; commands come between the substeps of longer ones.
 constexpr auto wholeStep = 100ms;
 constexpr auto sliceOfStep = 20ms;
 constexpr auto sliceOfChange = 5ms;  // at least; as much time as stepping takes, where both are to be done
 constexpr auto longestHold = 500ms;  // of a command that waits for a change under way to end
+constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of those commands
 constexpr std::size_t mostStepCommands = 64;
 
 // Whether the world, or how it goes on, may be another after it.
@@ -75,6 +77,7 @@ Result<void> SimLoop::simulate(const std::stop_token& stop) {
         serveWaiting();
         const bool worked = goOn(done);
         if (!done) break;
+        answerQueries();
         tellOfChange();
         lookAtStill();
         done = report();
@@ -107,20 +110,31 @@ Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
 }
 
 void SimLoop::serveWaiting() {
-    for (; !held_.empty() && !world_.changing(); held_.pop_front()) serve(std::move(held_.front().request));
+    while (!held_.empty() && !world_.changing()) serve(takeHeld());
     for (int k = 0; k < commandsPerTurn; ++k) {
         auto request = requests_.tryPop();
         if (!request) break;
         serve(std::move(*request));
     }
     const auto now = Pacer::Clock::now();
-    for (; !held_.empty() && now - held_.front().since > longestHold; held_.pop_front())
-        refuse(held_.front().request, changeInWords() + ": wait until that is done, or cancel it");
+    while (!held_.empty() && now - held_.front().since > longestHold)
+        refuse(takeHeld(), changeInWords() + ": wait until that is done, or cancel it");
+}
+
+// The first of those that wait for a change.
+Request SimLoop::takeHeld() {
+    Request request = std::move(held_.front().request);
+    held_.pop_front();
+    heldBytes_ -= request.bytes;
+    return request;
 }
 
 void SimLoop::serve(Request request) {
     const v1::Command& command = request.command;
     if (world_.changing() && waitsForChange(command)) {
+        if (heldBytes_ + request.bytes > mostHeldBytes)
+            return refuse(request, changeInWords() + ": too much waits for that already");
+        heldBytes_ += request.bytes;
         held_.push_back({std::move(request), Pacer::Clock::now()});
         return;
     }
@@ -151,7 +165,7 @@ void SimLoop::finish(const Request& request, const Result<v1::Applied>& applied)
     }
     if (applied && (command.has_load() || command.has_reset())) stepMs_ = 0;
     if (applied && endsSteps(command)) refuseSteps("came before all its steps were done");
-    if (!command.has_query() && applied) announce();
+    if (applied) announce();
     outlets_.reply(request.session, resultOf(command, applied));
 }
 
@@ -198,7 +212,7 @@ void SimLoop::refuse(const Request& request, const std::string& reason) {
 void SimLoop::refuseChange(const std::string& reason) {
     refuse(change_->request, reason);
     change_.reset();
-    for (; !held_.empty(); held_.pop_front()) refuse(held_.front().request, reason);
+    while (!held_.empty()) refuse(takeHeld(), reason);
 }
 
 void SimLoop::refuseSteps(std::string_view reason) {
@@ -222,119 +236,139 @@ void SimLoop::advanceChange(Pacer::Clock::duration slice) {
     const Request request = std::move(change_->request);
     change_.reset();
     finish(request, *applied);
-    Result<void> SimLoop::roomForTape() {
-        return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
-            error.message = "nothing is recorded: " + error.message;
-            return error;
-        });
-    }
+}
 
-    Result<void> SimLoop::startRecording() {
-        if (auto room = roomForTape(); !room) return room;
-        return tape_.start();
-    }
+Result<void> SimLoop::roomForTape() {
+    return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
+        error.message = "nothing is recorded: " + error.message;
+        return error;
+    });
+}
 
-    // After anything that a command may have changed.
-    void SimLoop::announce() {
-        if (epoch_ != world_.epoch()) {
-            epoch_ = world_.epoch();
-            seen_.reset();
-            keep(world_.facts());
+Result<void> SimLoop::startRecording() {
+    if (auto room = roomForTape(); !room) return room;
+    return tape_.start();
+}
+
+// All that wait get the same answer. It shows each command that was applied, and each step that was asked for.
+void SimLoop::answerQueries() {
+    const auto queries = requests_.takeQueries();
+    if (queries.empty()) return;
+    const auto now = Pacer::Clock::now();
+    if (!answered_ || now - *answered_ > oldestAnswer) {
+        try {
+            answer_ = *world_.apply(queries.front().command);
+        } catch (const std::bad_alloc&) {
+            answer_ = fail(ErrorKind::Refused, "", "there is not enough memory for this");
         }
-        v1::ServerMessage settings = world_.settings();
-        if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
-            settings_ = std::move(bytes);
-            keep(std::move(settings));
-        }
-        if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
-        ++version_;
+        answered_ = now;
     }
+    for (const Request& query : queries) outlets_.reply(query.session, resultOf(query.command, answer_));
+}
 
-    // The step under way, or the next one, as far as it goes before commands must be looked at.
-    Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
-        const auto slice = world_.simulation().midStep() ? sliceOfStep : wholeStep;
-        const auto ended = world_.advance(now + slice);
-        const auto end = Pacer::Clock::now();
-        stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
-        if (!ended) return tl::unexpected(ended.error());
-        if (!*ended) return {};
-        const double wallMs = std::exchange(stepMs_, 0);
-        world_.pacer().stepped(end);
-        observer_.stepped(wallMs);
-        ++version_;
-        for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
-        stopAtNonFinite();
-        countStep();
-        return tune(wallMs);
+// After anything that a command may have changed.
+void SimLoop::announce() {
+    answered_.reset();
+    if (epoch_ != world_.epoch()) {
+        epoch_ = world_.epoch();
+        seen_.reset();
+        keep(world_.facts());
     }
+    v1::ServerMessage settings = world_.settings();
+    if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
+        settings_ = std::move(bytes);
+        keep(std::move(settings));
+    }
+    if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
+    ++version_;
+}
 
-    // For whoever asked for it.
-    void SimLoop::countStep() {
-        if (steps_.empty() || --steps_.front().left > 0) return;
-        v1::Applied applied;
-        applied.set_step(world_.simulation().steps());
-        const Request& request = steps_.front().asked.request;
-        outlets_.reply(request.session, resultOf(request.command, applied));
-        steps_.pop_front();
-    }
+// The step under way, or the next one, as far as it goes before commands must be looked at.
+Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
+    const auto slice = world_.simulation().midStep() ? sliceOfStep : wholeStep;
+    const auto ended = world_.advance(now + slice);
+    const auto end = Pacer::Clock::now();
+    stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
+    if (!ended) return tl::unexpected(ended.error());
+    if (!*ended) return {};
+    const double wallMs = std::exchange(stepMs_, 0);
+    world_.pacer().stepped(end);
+    observer_.stepped(wallMs);
+    ++version_;
+    if (world_.paused()) answered_.reset();
+    for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
+    stopAtNonFinite();
+    countStep();
+    return tune(wallMs);
+}
 
-    Result<void> SimLoop::tune(double wallMs) {
-        auto told = tuner_.stepped(world_.simulation(), wallMs);
-        if (!told) return tl::unexpected(told.error());
-        if (!*told) return {};
-        say(v1::Event::TUNED, **told);
-        announce();
-        return {};
-    }
+// For whoever asked for it.
+void SimLoop::countStep() {
+    if (steps_.empty() || --steps_.front().left > 0) return;
+    v1::Applied applied;
+    applied.set_step(world_.simulation().steps());
+    const Request& request = steps_.front().asked.request;
+    outlets_.reply(request.session, resultOf(request.command, applied));
+    steps_.pop_front();
+}
 
-    void SimLoop::stopAtNonFinite() {
-        if (!world_.simulation().counters().nonFinite) return;
-        world_.pause();
-        say(v1::Event::NON_FINITE,
-            fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
-                        world_.simulation().divergence()));
-        refuseSteps("a sphere left the numbers");
-        world_.simulation().restore();
-        observer_.disturbed();
-        announce();
-    }
+Result<void> SimLoop::tune(double wallMs) {
+    auto told = tuner_.stepped(world_.simulation(), wallMs);
+    if (!told) return tl::unexpected(told.error());
+    if (!*told) return {};
+    say(v1::Event::TUNED, **told);
+    announce();
+    return {};
+}
 
-    // Before the frame that shows where a world has stopped: its status is that of this state.
-    void SimLoop::lookAtStill() {
-        watched_ = !outlets_.demands().empty();
-        if (world_.running() || !watched_ || world_.simulation().midStep()) return;
-        if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
-    }
+void SimLoop::stopAtNonFinite() {
+    if (!world_.simulation().counters().nonFinite) return;
+    world_.pause();
+    say(v1::Event::NON_FINITE,
+        fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
+                    world_.simulation().divergence()));
+    refuseSteps("a sphere left the numbers");
+    world_.simulation().restore();
+    observer_.disturbed();
+    announce();
+}
 
-    void SimLoop::produce(Pacer::Clock::time_point now) {
-        auto demands = outlets_.demands();
-        tape_.demand(demands, now);
-        chains_.serve(scenery(now), demands, now);
-    }
+// Before the frame that shows where a world has stopped: its status is that of this state.
+void SimLoop::lookAtStill() {
+    watched_ = !outlets_.demands().empty();
+    if (world_.running() || !watched_ || world_.simulation().midStep()) return;
+    if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
+}
 
-    Scenery SimLoop::scenery(Pacer::Clock::time_point now) {
-        sim::Simulation& simulation = world_.simulation();
-        return {.source = simulation.tierSource(),
-                .spheres = simulation.count(),
-                .smallestRadius = simulation.radii().smallest,
-                .epoch = epoch_,
-                .version = version_,
-                .positions = [&simulation] { return simulation.snapshot(); },
-                .head = [this, now] { return head(now); }};
-    }
+void SimLoop::produce(Pacer::Clock::time_point now) {
+    auto demands = outlets_.demands();
+    tape_.demand(demands, now);
+    chains_.serve(scenery(now), demands, now);
+}
 
-    v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
-        v1::Frame head;
-        head.set_step(world_.simulation().steps());
-        head.set_sim_time(world_.simulation().time());
-        *head.mutable_status() = status(now);
-        return head;
-    }
+Scenery SimLoop::scenery(Pacer::Clock::time_point now) {
+    sim::Simulation& simulation = world_.simulation();
+    return {.source = simulation.tierSource(),
+            .spheres = simulation.count(),
+            .smallestRadius = simulation.radii().smallest,
+            .epoch = epoch_,
+            .version = version_,
+            .positions = [&simulation] { return simulation.snapshot(); },
+            .head = [this, now] { return head(now); }};
+}
 
-    void SimLoop::publish(const frame::Link& link) {
-        states_.shown(version_, Pacer::Clock::now());
-        tape_.frame(link);
-        outlets_.frame(link);
-    }
+v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
+    v1::Frame head;
+    head.set_step(world_.simulation().steps());
+    head.set_sim_time(world_.simulation().time());
+    *head.mutable_status() = status(now);
+    return head;
+}
+
+void SimLoop::publish(const frame::Link& link) {
+    states_.shown(version_, Pacer::Clock::now());
+    tape_.frame(link);
+    outlets_.frame(link);
+}
 
 }  // namespace spherule::app

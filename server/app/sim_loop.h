@@ -32,12 +32,14 @@ class SimLoop : public Show {
     Result<void> simulate(const std::stop_token& stop);
     void serveWaiting();
     void serve(Request request);
+    Request takeHeld();
     std::optional<Result<v1::Applied>> apply(const v1::Command& command);
     void finish(const Request& request, const Result<v1::Applied>& applied);
     void refuse(const Request& request, const std::string& reason);
     void refuseChange(const std::string& reason);
     void refuseSteps(std::string_view reason);
     Result<void> cancel();
+    void answerQueries();
     bool goOn(Result<void>& done);
     Result<void> stepFor(Pacer::Clock::time_point now);
     void advanceChange(Pacer::Clock::duration slice);
@@ -68,7 +70,7 @@ class SimLoop : public Show {
 
     std::unique_ptr<World> owned_;
     World& world_;
-    BoundedQueue<Request>& requests_;
+    Requests& requests_;
     Live& live_;
     Outlets outlets_;
     Chains chains_;
@@ -77,8 +79,10 @@ class SimLoop : public Show {
     Pacer::Clock::time_point nextReport_{};
     Tuner tuner_;
     Observer observer_;
-    std::optional<v1::Diagnostics> seen_;  // of the last report while somebody watched
-    std::uint64_t version_ = 0;            // of the world, as far as viewers can see
+    Result<v1::Applied> answer_;                        // to queries; nothing newer is needed before
+    std::optional<Pacer::Clock::time_point> answered_;  // when it was made, the world as it was then
+    std::optional<v1::Diagnostics> seen_;               // of the last report while somebody watched
+    std::uint64_t version_ = 0;                         // of the world, as far as viewers can see
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
     bool watched_ = false;
@@ -93,6 +97,7 @@ class SimLoop : public Show {
     };
     std::optional<Asked> change_;  // whose change is under way
     std::deque<Asked> held_;       // commands that wait for it to end
+    std::size_t heldBytes_ = 0;    // of these
     std::deque<Steps> steps_;      // commands whose steps are not all done, in order
     double stepMs_ = 0;            // wall time of the step under way
     bool toldOfChange_ = false;

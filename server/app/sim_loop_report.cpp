@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "app/sim_loop.h"
-#include "app/utf8.h"
 #include "core/log.h"
+#include "core/text.h"
 
 namespace spherule::app {
 

@@ -55,7 +55,8 @@ net::HttpAnswer readiness(const LiveReport& live) {
                                          {"steps", live.steps},
                                          {"realTimeFactor", live.status.real_time_factor()}};
     const bool ready = live.state == "running" || live.state == "paused";
-    return {ready ? 200 : 503, "application/json", json.dump() + "\n"};
+    return {ready ? 200 : 503, "application/json",
+            json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "app/tape.h"
 
-#include "app/utf8.h"
 #include "core/log.h"
+#include "core/text.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/facts.h"
+#include "scene/check.h"
 
 namespace spherule::app {
 
@@ -143,18 +144,21 @@ std::optional<Result<v1::Applied>> World::load(const v1::LoadScene& load) {
     std::function<Result<scene::Scene>(Progress&)> make;
     if (load.source_case() == v1::LoadScene::kScene) {
         make = [scene = load.scene(), overrides = overrides_](Progress& progress) {
-            return scene::build(scene, overrides, &progress);
+            return scene::build(scene, overrides, &progress).map_error([](Error error) {
+                if (!error.where.empty()) error.where = "scene." + error.where;
+                return error;
+            });
         };
     } else if (load.source_case() == v1::LoadScene::kName) {
         const auto names = scene::names();
         if (std::ranges::find(names, load.name()) == names.end())
-            return fail(ErrorKind::Refused, "load.name",
-                        fmt::format("is \"{}\"; known are {}", load.name(), fmt::join(names, ", ")));
+            return fail(ErrorKind::Refused, "name",
+                        fmt::format("is {}; known are {}", scene::shown(load.name()), fmt::join(names, ", ")));
         make = [name = load.name(), kind = device_->info().kind, overrides = overrides_](Progress& progress) {
             return scene::load(name, kind, overrides, &progress);
         };
     } else {
-        return fail(ErrorKind::Refused, "load", "needs a name or a scene");
+        return fail(ErrorKind::Refused, "", "load needs a name or a scene");
     }
     change_ = std::make_unique<sim::Preparation>(*device_, builderOf(std::move(make)));
     changeKind_ = v1::Command::kLoad;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include "core/json_error.h"
 #include "core/quantity.h"
 #include "net/ctl.h"
 
@@ -37,6 +39,8 @@ const std::string_view commandForms =
 namespace {
 
 using Words = std::span<const std::string>;
+
+constexpr std::uintmax_t largestScene = std::uintmax_t{16} << 20U;  // bytes; of what is sent as less than 1 MiB
 
 tl::unexpected<Error> refuse(const std::string& what) {
     return fail(ErrorKind::Input, "command", what + "; accepted are\n" + std::string(commandForms));
@@ -64,11 +68,13 @@ Result<void> numbers(Words words, Field* field) {
 }
 
 template <class Message>
-Result<Message> fromJson(const std::string& json, const std::string& where) {
+Result<Message> fromJson(const std::string& json, const std::string& where, const char* what) {
     Message message;
     const auto status = google::protobuf::util::JsonStringToMessage(json, &message);
-    if (!status.ok()) return fail(ErrorKind::Input, where, std::string(status.message()));
-    return message;
+    if (status.ok()) return message;
+    const JsonError error = jsonErrorOf({status.message().data(), status.message().size()}, json, what);
+    const char* const separator = error.isJson && !error.place.empty() ? ": " : "";
+    return fail(ErrorKind::Input, where + separator + error.place, error.reason);
 }
 
 Result<void> wantWords(Words words, std::size_t count, const std::string& command) {
@@ -93,9 +99,18 @@ Result<void> load(Words words, v1::Command& command) {
         command.mutable_load()->set_name(source);
         return {};
     }
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(source, error))
+        return fail(ErrorKind::Input, source,
+                    std::string(std::filesystem::exists(source, error) ? "is not a file" : "there is no such file") +
+                        "; give the path of a scene file on this machine, which is sent, or the name of a scene of "
+                        "the server, without .json");
+    if (std::filesystem::file_size(source, error) > largestScene)
+        return fail(ErrorKind::Input, source,
+                    "is larger than 16 MiB, and a server takes messages of 1 MiB: start it with this file");
     std::ifstream file(source, std::ios::binary);
-    if (!file) return fail(ErrorKind::Input, source, "cannot be read");
-    auto scene = fromJson<v1::Scene>({std::istreambuf_iterator<char>(file), {}}, source);
+    if (!file) return fail(ErrorKind::Input, source, "cannot be read: see its permissions");
+    auto scene = fromJson<v1::Scene>({std::istreambuf_iterator<char>(file), {}}, source, "a scene");
     if (!scene) return tl::unexpected(scene.error());
     *command.mutable_load()->mutable_scene() = std::move(*scene);
     return {};
@@ -155,7 +170,7 @@ Result<void> set(Words words, v1::Command& command) {
 
 Result<void> spawn(Words words, v1::Command& command) {
     if (auto right = wantWords(words, 1, "spawn"); !right) return right;
-    auto group = fromJson<v1::Group>(words[0], "spawn");
+    auto group = fromJson<v1::Group>(words[0], "spawn", "a group");
     if (!group) return tl::unexpected(group.error());
     *command.mutable_spawn()->mutable_group() = std::move(*group);
     return {};
@@ -227,7 +242,7 @@ const std::map<std::string_view, Parse>& parsers() {
 Result<v1::Command> commandFrom(const std::vector<std::string>& words) {
     if (words.empty()) return refuse("nothing was given");
     if (words.size() == 1 && words[0].starts_with('{')) {
-        auto command = fromJson<v1::Command>(words[0], "command");
+        auto command = fromJson<v1::Command>(words[0], "command", "a command");
         if (command && command->kind_case() == v1::Command::KIND_NOT_SET) return refuse("the JSON names no command");
         return command;
     }

@@ -23,11 +23,12 @@ enum class CloseCause : std::uint8_t {
     Stalled,      // dropped: a write made no progress
     Silent,       // dropped: no sign of life
     Drained,      // 1012: the server stopped
+    Fault,        // dropped: it could not be served, for lack of memory or by a fault of the server
 };
 
-constexpr std::array<std::string_view, 11> closeCauseNames = {"left",        "no_hello", "no_token", "full",
+constexpr std::array<std::string_view, 12> closeCauseNames = {"left",        "no_hello", "no_token", "full",
                                                               "undecodable", "too_big",  "protocol", "overflow",
-                                                              "stalled",     "silent",   "drained"};
+                                                              "stalled",     "silent",   "drained",  "fault"};
 
 // For metrics. Written by the io thread, read by any.
 struct Counters {

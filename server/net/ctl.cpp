@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "core/text.h"
 #include "net/client.h"
 
 namespace spherule::net {
@@ -122,12 +123,12 @@ std::string resultText(const v1::CommandResult& result) {
     if (result.has_refused()) {
         const v1::Refused& refused = result.refused();
         const std::string_view separator = refused.field().empty() ? "" : ": ";
-        return fmt::format("refused: {}{}{}", refused.field(), separator, refused.reason());
+        return withoutControls(fmt::format("refused: {}{}{}", refused.field(), separator, refused.reason()));
     }
     const v1::Applied& applied = result.applied();
+    if (applied.has_statistics()) return figures(applied.statistics());
     std::string text = fmt::format("applied at step {}", applied.step());
     if (applied.has_sphere()) text += fmt::format(", hit sphere {}", applied.sphere());
-    if (applied.has_statistics()) text += fmt::format("\n{}", figures(applied.statistics()));
     return text;
 }
 

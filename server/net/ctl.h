@@ -33,7 +33,7 @@ struct Target {
 Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
                                       const std::function<void(const v1::Person& holder)>& asks);
 
-// For people: "applied at step 120", with the figures of a query on the lines that follow, or "refused: ...".
+// For people: "applied at step 120" or "refused: ..."; of a query its figures alone, as JSON. A terminal only shows it.
 std::string resultText(const v1::CommandResult& result);
 
 }  // namespace spherule::net

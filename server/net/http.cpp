@@ -51,6 +51,12 @@ std::string_view bearerOf(const http::request<http::string_body>& request) {
     return given ? value.substr(scheme.size()) : std::string_view();
 }
 
+// Beast takes any transfer encoding for one that it knows, and then finds no body.
+bool hasKnownEnd(const http::request<http::string_body>& request) {
+    const auto encodings = request.count(http::field::transfer_encoding);
+    return encodings == 0 || (encodings == 1 && beast::iequals(request[http::field::transfer_encoding], "chunked"));
+}
+
 void describe(http::fields& answer) {
     answer.set(http::field::server, "spherule/" SPHERULE_VERSION);
     answer.set("Content-Security-Policy", contentPolicy);
@@ -104,7 +110,12 @@ void HttpConnection::onRead(ErrorCode error) {
     if (error == http::error::end_of_stream) return shutdown();
     if (error) return refuseUnread(error);
     ++context_.counters.httpRequests;
-    const Request request = parser_->release();
+    Request request = parser_->release();
+    if (!hasKnownEnd(request)) {
+        // Where its body ends is not known, so nothing can follow it.
+        request.keep_alive(false);
+        return refuse(request, Rejection::Malformed, 501, "the only transfer encoding that is understood is chunked");
+    }
     const std::string path = pathOf({request.target().data(), request.target().size()});
     if (!context_.admission->isHost(fieldOf(request, http::field::host))) {
         return refuse(

@@ -89,6 +89,15 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
         });
         return;
     }
+    try {
+        serve(std::move(socket));
+    } catch (const std::exception&) {
+        ++context_.counters.rejectedFor(Rejection::Fault);
+    }
+    accept();
+}
+
+void Listener::serve(tcp::socket socket) {
     // Nothing that could be read here is worth an error: the peer may be gone already.
     error_code ignored;
     const auto address = socket.remote_endpoint(ignored).address();
@@ -97,7 +106,7 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
         // Without this, each would leave a closed connection behind for a minute.
         socket.set_option(asio::socket_base::linger(true, 0), ignored);
         socket.close(ignored);
-        return accept();
+        return;
     }
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
@@ -105,7 +114,6 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
     std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), context_.tls),
                                      context_.visitors->admit(address), address.to_string(), context_)
         ->run();
-    accept();
 }
 
 }  // namespace spherule::net

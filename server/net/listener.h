@@ -27,6 +27,7 @@ class Listener : public std::enable_shared_from_this<Listener> {
   private:
     void accept();
     void onAccept(boost::system::error_code error, boost::asio::ip::tcp::socket socket);
+    void serve(boost::asio::ip::tcp::socket socket);
 
     boost::asio::io_context& io_;
     Context& context_;

@@ -12,6 +12,7 @@ enum class Rejection : std::uint8_t {
     Connections,     // as many are open as may be
     Accept,          // by the system: mostly, no descriptor was left
     ConnectionRate,  // of this address, too many in a second
+    Fault,           // it could not be served, for lack of memory or by a fault of the server
     Tls,             // no TLS, or none that is good enough
     // Requests.
     SlowRequest,  // it did not come in time
@@ -33,21 +34,37 @@ enum class Rejection : std::uint8_t {
     UnknownCommand,
     CommandRate,
     CommandQueue,
+    CommandCost,   // it would take too much memory
+    UnfitCommand,  // a field that is not known, or a value that is not one of the field
     ViewersCommand,
     ControlsHeld,  // by somebody else
 };
 
-constexpr std::array<std::string_view, 23> rejectionNames = {"connections",     "accept",
-                                                             "connection_rate", "tls",
-                                                             "slow_request",    "malformed",
-                                                             "long_header",     "long_body",
-                                                             "bad_request",     "host",
-                                                             "no_token",        "wrong_token",
-                                                             "origin",          "subprotocol",
-                                                             "handshake",       "not_ready",
-                                                             "sessions",        "sessions_per_address",
-                                                             "unknown_command", "command_rate",
-                                                             "command_queue",   "viewers_command",
+constexpr std::array<std::string_view, 26> rejectionNames = {"connections",
+                                                             "accept",
+                                                             "connection_rate",
+                                                             "fault",
+                                                             "tls",
+                                                             "slow_request",
+                                                             "malformed",
+                                                             "long_header",
+                                                             "long_body",
+                                                             "bad_request",
+                                                             "host",
+                                                             "no_token",
+                                                             "wrong_token",
+                                                             "origin",
+                                                             "subprotocol",
+                                                             "handshake",
+                                                             "not_ready",
+                                                             "sessions",
+                                                             "sessions_per_address",
+                                                             "unknown_command",
+                                                             "command_rate",
+                                                             "command_queue",
+                                                             "command_cost",
+                                                             "unfit_command",
+                                                             "viewers_command",
                                                              "controls_held"};
 
 constexpr std::string_view nameOf(Rejection cause) {

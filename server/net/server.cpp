@@ -1,5 +1,6 @@
 #include "net/server.h"
 
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -42,7 +43,7 @@ class RunningServer final : public Server {
         context_.tellControl(context_.lease.state());
         if (auto opened = listener_->open(); !opened) return opened;
         listener_->run();
-        thread_ = std::thread([this] { io_.run(); });
+        thread_ = std::thread([this] { work(); });
         return {};
     }
 
@@ -83,6 +84,19 @@ class RunningServer final : public Server {
     }
 
   private:
+    // What a handler throws ends what the handler was for, and nothing else.
+    void work() {
+        while (!io_.stopped()) {
+            try {
+                io_.run();
+            } catch (const std::bad_alloc&) {
+                ++context_.counters.rejectedFor(Rejection::Fault);  // to tell of it takes memory
+            } catch (const std::exception& error) {
+                context_.refusals.add(Rejection::Fault, error.what());
+            }
+        }
+    }
+
     // What is made of the secrets.
     struct Keys {
         std::shared_ptr<const Admission> admission;

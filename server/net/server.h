@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,15 +28,16 @@ struct Options {
     Places places;
     Secrets secrets;
     VisitorLimits visitors;
-    double commandsPerSecond = 100;                     // of one session; as many at once; 0: no limit
-    std::chrono::milliseconds guessDelay{1'000};        // before a wrong token is answered
-    std::size_t firstMessageBytes = 4096;               // of a hello, and of all that viewers send
-    std::size_t maxMessageBytes = 1U << 20U;            // of controllers; a longer one closes with 1009
-    std::size_t controlQueue = 64;                      // messages per session; overflow closes with 1013
-    std::chrono::milliseconds progressTimeout{10'000};  // a write without progress for this long ends the session
-    std::chrono::milliseconds idleTimeout{60'000};      // a silent peer is pinged, then dropped
-    std::chrono::milliseconds helloTimeout{10'000};     // for the client's first message
-    std::chrono::milliseconds requestTimeout{10'000};   // for a request, from its connection or from the answer before
+    double commandsPerSecond = 100;                       // of one session; as many at once; 0: no limit
+    std::chrono::milliseconds guessDelay{1'000};          // before a wrong token is answered
+    std::size_t firstMessageBytes = 4096;                 // of a hello, and of all that viewers send
+    std::size_t maxMessageBytes = 1U << 20U;              // of controllers; a longer one closes with 1009
+    std::size_t maxMessageCost = std::size_t{16} << 20U;  // bytes of memory for a parsed message; beyond, it is refused
+    std::size_t controlQueue = 64;                        // messages per session; overflow closes with 1013
+    std::chrono::milliseconds progressTimeout{10'000};    // a write without progress for this long ends the session
+    std::chrono::milliseconds idleTimeout{60'000};        // a silent peer is pinged, then dropped
+    std::chrono::milliseconds helloTimeout{10'000};       // for the client's first message
+    std::chrono::milliseconds requestTimeout{10'000};  // for a request, from its connection or from the answer before
     std::chrono::milliseconds drainTimeout{10'000};
 };
 
@@ -45,11 +47,16 @@ struct HttpAnswer {
     std::string body;
 };
 
-// What the server asks of its owner. Called on the io thread: must neither wait nor throw.
+// What the server asks of its owner. Called on the io thread: must not wait. What is thrown ends the session or the
+// connection.
 struct Handlers {
     std::function<v1::Welcome(const v1::Hello&)> welcome;
-    std::function<bool(SessionId, v1::Command)> submit;  // false: the queue is full
-    std::function<bool()> ready = [] { return true; };   // false: there is no stream yet, it is refused with 503
+    using WhyNot = std::optional<std::string>;  // nothing: it is taken
+    // `cost`: bytes of memory, as Preview estimates them.
+    std::function<WhyNot(SessionId, v1::Command, std::size_t cost)> submit;
+    // Whether a command of that cost would be taken now: asked before a long one is parsed.
+    std::function<WhyNot(SessionId, std::size_t cost)> refuses = [](SessionId, std::size_t) { return WhyNot(); };
+    std::function<bool()> ready = [] { return true; };  // false: there is no stream yet, it is refused with 503
     // status 404 where there is nothing; `counters` are the server's.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;
 };

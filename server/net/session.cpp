@@ -40,6 +40,10 @@ Session::Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const
       views_(viewsPerSecond, TokenBucket::Clock::now()) {}
 
 void Session::run(const Request& upgrade) {
+    guarded([&upgrade](Session& self) { self.begin(upgrade); })();
+}
+
+void Session::begin(const Request& upgrade) {
     id_ = context_.hub.add(shared_from_this());
     ++context_.counters.sessions;
     configure();
@@ -82,25 +86,32 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
     if (finished_) return;  // what had come before the end may be read after it
     if (error) return finish(causeOf(error));
     if (!closing_) {
-        const Encoding encoding = stream_.got_text() ? Encoding::Text : Encoding::Binary;
         const auto bytes = incoming_.cdata();
-        auto message = decodeClientMessage({static_cast<const char*>(bytes.data()), bytes.size()}, encoding);
-        if (!message) {
-            close(close_code::bad_payload, message.error().text(), CloseCause::Undecodable);
-        } else if (message->has_hello() == helloDone_) {
-            close(close_code::policy_error, helloDone_ ? "hello was said before" : "the first message must be hello",
-                  CloseCause::NoHello);
-        } else {
-            if (!helloDone_) encoding_ = encoding;
-            onMessage(std::move(*message));
-        }
+        onBytes({static_cast<const char*>(bytes.data()), bytes.size()},
+                stream_.got_text() ? Encoding::Text : Encoding::Binary);
     }
     incoming_.clear();
     if (incoming_.capacity() > keptBuffer) incoming_.shrink_to_fit();
     if (!turnedAway_ && !closing_) read();  // the peer's goodbye is read by what closes
 }
 
-void Session::onMessage(v1::ClientMessage message) {
+void Session::onBytes(std::string_view bytes, Encoding encoding) {
+    const Preview preview = previewOf(bytes, encoding, context_.options.maxMessageCost);
+    if (helloDone_ && refusesUnparsed(preview, bytes.size())) return;
+    auto message = decodeClientMessage(bytes, encoding);
+    if (!message) {
+        if (helloDone_ && message.error().kind == ErrorKind::Refused) return onUnfit(preview, message.error());
+        close(close_code::bad_payload, message.error().text(), CloseCause::Undecodable);
+    } else if (message->has_hello() == helloDone_) {
+        close(close_code::policy_error, helloDone_ ? "hello was said before" : "the first message must be hello",
+              CloseCause::NoHello);
+    } else {
+        if (!helloDone_) encoding_ = encoding;
+        onMessage(std::move(*message), preview.cost);
+    }
+}
+
+void Session::onMessage(v1::ClientMessage message, std::size_t cost) {
     switch (message.kind_case()) {
         case v1::ClientMessage::kHello:
             return onHello(message.hello());
@@ -114,7 +125,7 @@ void Session::onMessage(v1::ClientMessage message) {
             return onControls(message);
         case v1::ClientMessage::kCommand:
         case v1::ClientMessage::KIND_NOT_SET:  // of a newer protocol: a command, at least, is answered
-            return onCommand(std::move(*message.mutable_command()));
+            return onCommand(std::move(*message.mutable_command()), cost);
     }
 }
 
@@ -153,12 +164,12 @@ void Session::turnAway(bool guessed) {
     if (!guessed) return close(tokenWanted, "this server asks for a token", CloseCause::NoToken);
     turnedAway_ = true;
     watchTimer_.expires_after(context_.options.guessDelay);
-    watchTimer_.async_wait([self = shared_from_this()](ErrorCode error) {
-        if (error || self->finished_) return;
-        self->turnedAway_ = false;
-        self->close(tokenWanted, "this token is not known here", CloseCause::NoToken);
-        self->watch();
-    });
+    watchTimer_.async_wait(guarded([](Session& self, ErrorCode error) {
+        if (error || self.finished_) return;
+        self.turnedAway_ = false;
+        self.close(tokenWanted, "this token is not known here", CloseCause::NoToken);
+        self.watch();
+    }));
 }
 
 // What comes too often waits, and only the last of it counts: each change begins a chain anew.
@@ -194,10 +205,10 @@ void Session::finish(CloseCause cause) {
     outbox_.clear();
     beast::get_lowest_layer(stream_).close();
     --context_.counters.sessions;
-    context_.refusals.ended(cause, who());
+    visit_.reset();
     context_.hub.remove(id_);
     context_.lease.left(id_);
-    visit_.reset();
+    context_.refusals.ended(cause, who());
 }
 
 CloseCause Session::causeOf(ErrorCode error) const {

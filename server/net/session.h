@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <boost/asio/cancellation_signal.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -21,6 +23,7 @@
 #include "net/liveness.h"
 #include "net/outbox.h"
 #include "net/pace.h"
+#include "net/preview.h"
 #include "net/token_bucket.h"
 #include "net/transport.h"
 
@@ -46,18 +49,22 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
   private:
     using ErrorCode = boost::beast::error_code;
 
+    void begin(const Request& upgrade);
     void configure();
     void onAccepted(ErrorCode error);
     void read();
     void onRead(ErrorCode error, std::size_t bytes);
-    void onMessage(v1::ClientMessage message);
+    void onBytes(std::string_view bytes, Encoding encoding);
+    [[nodiscard]] bool refusesUnparsed(const Preview& preview, std::size_t bytes);
+    void onMessage(v1::ClientMessage message, std::size_t cost);
     void onHello(const v1::Hello& hello);
     void admit(const v1::Hello& hello, v1::Role role);
     void turnAway(bool guessed);
     void onView(const v1::View& view);
     void onAck(const v1::Ack& ack);
-    void onCommand(v1::Command command);
-    void refuse(std::uint64_t command, Rejection cause, const std::string& reason);
+    void onCommand(v1::Command command, std::size_t cost);
+    void onUnfit(const Preview& preview, const Error& error);
+    void refuse(std::uint64_t command, Rejection cause, const std::string& reason, const std::string& field = "");
     void onControls(const v1::ClientMessage& message);
     [[nodiscard]] std::string who() const;
 
@@ -78,11 +85,22 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void finish(CloseCause cause);
     [[nodiscard]] CloseCause causeOf(ErrorCode error) const;
 
-    // Keeps the session alive until the handler has run.
-    template <class Method>
-    auto bind(Method method) {
-        return boost::beast::bind_front_handler(method, shared_from_this());
+    // Keeps the session alive until the handler has run. What the handler throws ends the session, and nothing else.
+    template <class Handler>
+    auto guarded(Handler handler) {
+        return [self = shared_from_this(), handler = std::move(handler)](auto&&... results) mutable {
+            try {
+                handler(*self, std::forward<decltype(results)>(results)...);
+            } catch (const std::exception& error) {
+                self->fault(error);
+            }
+        };
     }
+    template <class... Results>
+    auto bind(void (Session::*method)(Results...)) {
+        return guarded([method](Session& self, Results... results) { (self.*method)(results...); });
+    }
+    void fault(const std::exception& error);
 
     Context& context_;
     boost::beast::websocket::stream<Transport, false> stream_;

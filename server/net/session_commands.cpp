@@ -7,6 +7,8 @@ namespace spherule::net {
 
 namespace {
 
+constexpr const char* tooMany = "too many commands came from this client within a second";
+
 // Who may give it: a controller what changes anything, everybody what does not.
 bool changes(v1::Command::KindCase kind) {
     return kind != v1::Command::kQuery;
@@ -14,11 +16,35 @@ bool changes(v1::Command::KindCase kind) {
 
 }  // namespace
 
-void Session::onCommand(v1::Command command) {
+// Parsing takes time and memory: for a long message, only when what it asks for may then wait.
+bool Session::refusesUnparsed(const Preview& preview, std::size_t bytes) {
+    const Options& options = context_.options;
+    if (preview.cost > options.maxMessageCost) {
+        refuse(preview.id, Rejection::CommandCost,
+               "the message takes more than " + std::to_string(options.maxMessageCost >> 20U) +
+                   " MiB of memory when it is read: send it in parts");
+        return true;
+    }
+    if (bytes <= options.firstMessageBytes) return false;
+    if (!commands_.has(TokenBucket::Clock::now())) {
+        refuse(preview.id, Rejection::CommandRate, tooMany);
+        return true;
+    }
+    const auto reason = context_.handlers.refuses(id_, preview.cost);
+    if (reason) refuse(preview.id, Rejection::CommandQueue, *reason);
+    return reason.has_value();
+}
+
+void Session::onUnfit(const Preview& preview, const Error& error) {
+    if (preview.command) ++context_.counters.commands;
+    if (!commands_.take(TokenBucket::Clock::now())) return refuse(preview.id, Rejection::CommandRate, tooMany);
+    refuse(preview.id, Rejection::UnfitCommand, error.message, error.where);
+}
+
+void Session::onCommand(v1::Command command, std::size_t cost) {
     const std::uint64_t id = command.id();
     ++context_.counters.commands;
-    if (!commands_.take(TokenBucket::Clock::now()))
-        return refuse(id, Rejection::CommandRate, "too many commands came from this client within a second");
+    if (!commands_.take(TokenBucket::Clock::now())) return refuse(id, Rejection::CommandRate, tooMany);
     if (command.kind_case() == v1::Command::KIND_NOT_SET)
         return refuse(id, Rejection::UnknownCommand, "the command is not known to this server");
     if (changes(command.kind_case())) {
@@ -30,14 +56,15 @@ void Session::onCommand(v1::Command command) {
                               std::to_string(context_.lease.state().holder().session()) +
                               ") has the controls: ask for them");
     }
-    if (!context_.handlers.submit(id_, std::move(command)))
-        refuse(id, Rejection::CommandQueue, "the command queue is full");
+    if (const auto reason = context_.handlers.submit(id_, std::move(command), cost))
+        refuse(id, Rejection::CommandQueue, *reason);
 }
 
-void Session::refuse(std::uint64_t command, Rejection cause, const std::string& reason) {
+void Session::refuse(std::uint64_t command, Rejection cause, const std::string& reason, const std::string& field) {
     context_.refusals.add(cause, who());
     v1::ServerMessage message;
     message.mutable_result()->set_id(command);
+    message.mutable_result()->mutable_refused()->set_field(field);
     message.mutable_result()->mutable_refused()->set_reason(reason);
     queue(std::make_shared<frame::Message>(std::move(message)));
 }

@@ -18,25 +18,25 @@ using websocket::close_code;
 using Clock = Pace::Clock;
 
 void Session::send(frame::SharedMessage message) {
-    asio::post(stream_.get_executor(), [self = shared_from_this(), message = std::move(message)]() mutable {
-        self->queue(std::move(message));
-    });
+    asio::post(stream_.get_executor(),
+               guarded([message = std::move(message)](Session& self) mutable { self.queue(std::move(message)); }));
 }
 
 // However long the io thread is busy, one frame waits for it, not a row of them.
 void Session::offer(frame::Link link) {
     if (offered_.put(std::move(link))) return;
-    asio::post(stream_.get_executor(), [self = shared_from_this()] {
-        const auto newest = self->offered_.take();
-        if (self->closing_ || self->finished_) return;
-        // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on its way here.
-        if (newest->channel == self->pace_.channel()) self->asked_ = false;
-        const auto offered = self->outbox_.offer(*newest);
-        if (offered == Outbox::Offered::Busy) self->missed();
-        if (offered == Outbox::Offered::Gap) ++self->context_.counters.chainsLost;
-        self->askKeyframe();
-        self->pump();
-    });
+    asio::post(stream_.get_executor(), guarded([](Session& self) {
+                   const auto newest = self.offered_.take();
+                   if (self.closing_ || self.finished_) return;
+                   // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on
+                   // its way here.
+                   if (newest->channel == self.pace_.channel()) self.asked_ = false;
+                   const auto offered = self.outbox_.offer(*newest);
+                   if (offered == Outbox::Offered::Busy) self.missed();
+                   if (offered == Outbox::Offered::Gap) ++self.context_.counters.chainsLost;
+                   self.askKeyframe();
+                   self.pump();
+               }));
 }
 
 // The client lost the chain, because it did not take the frame before or could not decode it.
@@ -72,14 +72,14 @@ void Session::sayStream(const std::string& reason) {
 }
 
 void Session::drain() {
-    asio::post(stream_.get_executor(), [self = shared_from_this()] {
-        self->draining_ = true;
-        self->pump();
-    });
+    asio::post(stream_.get_executor(), guarded([](Session& self) {
+                   self.draining_ = true;
+                   self.pump();
+               }));
 }
 
 void Session::drop() {
-    asio::post(stream_.get_executor(), [self = shared_from_this()] { self->abort(CloseCause::Drained); });
+    asio::post(stream_.get_executor(), guarded([](Session& self) { self.abort(CloseCause::Drained); }));
 }
 
 void Session::queue(frame::SharedMessage message) {
@@ -159,9 +159,13 @@ void Session::close(close_code code, const std::string& reason, CloseCause cause
     liveness_.closeBegan(Clock::now());
     if (!stream_.is_open()) return finish(cause);
     stream_.async_close({code, closeReason(reason)},
-                        asio::bind_cancellation_slot(endOfClose_.slot(), [self = shared_from_this()](ErrorCode) {
-                            self->finish(self->cause_);
-                        }));
+                        asio::bind_cancellation_slot(
+                            endOfClose_.slot(), guarded([](Session& self, ErrorCode) { self.finish(self.cause_); })));
+}
+
+void Session::fault(const std::exception& error) {
+    abort(CloseCause::Fault);
+    context_.refusals.add(Rejection::Fault, who() + ": " + error.what());
 }
 
 // For a peer that does not take what is sent: a close frame would wait behind it, and so would the kernel's copy.

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/text.h"
+
 namespace spherule::net {
 
 namespace {
 
 constexpr std::size_t longestName = 64;
 constexpr std::size_t longestReason = 123;
-
-bool continuesCharacter(char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
 
 }  // namespace
 
@@ -24,10 +22,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string closeReason(std::string_view reason) {
-    if (reason.size() <= longestReason) return std::string(reason);
-    std::size_t end = longestReason;
-    while (end > 0 && continuesCharacter(reason[end])) --end;
-    return std::string(reason.substr(0, end));
+    return std::string(cutUtf8(utf8(reason), longestReason));
 }
 
 }  // namespace spherule::net

@@ -8,7 +8,7 @@ namespace spherule::net {
 // What a stranger sent, made fit for one line of the log.
 std::string printable(std::string_view text);
 
-// Cut to the 123 bytes that a close frame holds, never within a character.
+// Valid UTF-8, cut between characters to the 123 bytes that a close frame holds.
 std::string closeReason(std::string_view reason);
 
 }  // namespace spherule::net

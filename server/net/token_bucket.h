@@ -13,6 +13,9 @@ class TokenBucket {
     // `rate` in events per second; 0: any number.
     TokenBucket(double rate, Clock::time_point now) : rate_(rate), level_(burst()), filled_(now) {}
 
+    // Whether take() would be true.
+    [[nodiscard]] bool has(Clock::time_point now) const { return rate_ <= 0 || levelAt(now) >= 1; }
+
     // False where the event is one too many.
     [[nodiscard]] bool take(Clock::time_point now) {
         if (rate_ <= 0) return true;

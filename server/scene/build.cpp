@@ -82,6 +82,8 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
                       const Overrides& overrides, Progress* progress) {
     Check check(progress);
     Scene scene;
+    if (message.name().size() > longestName)
+        check.refuse("name", fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
     scene.name = message.name();
     scene.description = message.description();
     scene.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");

@@ -119,9 +119,9 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     const std::uint8_t material =
         materialNamed(check, message.material(), scene.materials, at(context.field, "material"));
     check.colour(message.colour(), at(context.field, "colour"));
-    if (message.name().size() > longestGroupName)
+    if (message.name().size() > longestName)
         check.refuse(at(context.field, "name"),
-                     fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestGroupName));
+                     fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
     if (!check.ok()) return {};
 
     std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));

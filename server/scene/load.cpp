@@ -7,6 +7,7 @@
 
 #include "core/input_file.h"
 #include "core/pulse.h"
+#include "core/text.h"
 #include "scene/build.h"
 #include "scene/catalog.h"
 #include "scene/check.h"
@@ -28,7 +29,7 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
                         Progress* progress) {
     auto message = parseJson(text, source);
     if (!message) return tl::unexpected(message.error());
-    if (message->name().empty()) message->set_name(name);
+    if (message->name().empty()) message->set_name(std::string(cutUtf8(utf8(name), longestName)));
     return buildIn(directory, *message, overrides, progress).map_error([&](Error error) {
         error.where = fmt::format("{}: {}", source, error.where);
         return error;

@@ -114,7 +114,7 @@ Result<Simulation::Outcome> Simulation::begin(const v1::Command& command) {
             break;
         }
         case v1::Command::kReset:
-            outcome = prepare(Anew::World, Built{initial_, stateOf(initial_)});
+            outcome = reset();
             break;
         case v1::Command::kQuery:
             *outcome->applied.mutable_statistics() = message(statistics());
@@ -159,9 +159,17 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
         if (disturbs) pipeline_->wakeAll();
         return {};
     }
+    auto copies = memory::Claim::make("", "a change of the scene", copiesToChange(plan()));
+    if (!copies) return tl::unexpected(copies.error());
     auto state = liveState();
     if (!state) return tl::unexpected(state.error());
-    return prepare(Anew::Nothing, Built{std::move(changed), std::move(*state)});
+    return prepare(Anew::Nothing, std::move(*copies), Built{std::move(changed), std::move(*state)});
+}
+
+Result<Simulation::Outcome> Simulation::reset() {
+    auto copies = memory::Claim::make("", "the scene as it began", copiesToChange(plan()));
+    if (!copies) return tl::unexpected(copies.error());
+    return prepare(Anew::World, std::move(*copies), Built{initial_, stateOf(initial_)});
 }
 
 namespace {
@@ -191,9 +199,11 @@ Result<Built> grownBy(const v1::Group& group, scene::Scene scene, State state, P
 }  // namespace
 
 Result<Simulation::Outcome> Simulation::spawn(const v1::Spawn& spawn) {
+    auto copies = memory::Claim::make("group", "adding spheres to those that there are", copiesToSpawn(plan()));
+    if (!copies) return tl::unexpected(copies.error());
     auto live = liveState();
     if (!live) return tl::unexpected(live.error());
-    return prepare(Anew::Spheres,
+    return prepare(Anew::Spheres, std::move(*copies),
                    [group = spawn.group(), scene = scene_, state = std::move(*live)](Progress& progress) mutable {
                        return grownBy(group, std::move(scene), std::move(state), progress);
                    });

@@ -9,15 +9,17 @@
 #include "core/log.h"
 #include "core/pulse.h"
 #include "scene/features.h"
+#include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/statistics.h"
 
 namespace spherule::sim {
 
-Preparation::Preparation(compute::Device& device, Built built)
-    : device_(device), stage_(Stage::Planning), built_(std::move(built)) {}
+Preparation::Preparation(compute::Device& device, Built built, memory::Claim copies)
+    : device_(device), copies_(std::move(copies)), stage_(Stage::Planning), built_(std::move(built)) {}
 
-Preparation::Preparation(compute::Device& device, Build build) : device_(device) {
+Preparation::Preparation(compute::Device& device, Build build, memory::Claim copies)
+    : device_(device), copies_(std::move(copies)) {
     std::packaged_task<Result<Built>()> task([this, build = std::move(build)]() -> Result<Built> {
         try {
             return build(progress_);
@@ -52,8 +54,7 @@ Result<void> Preparation::doStage(std::chrono::milliseconds patience) {
         case Stage::Building:
             return awaitBuilt(patience);
         case Stage::Planning:
-            makePlan();
-            return {};
+            return makePlan();
         case Stage::Making:
             return makeNext();
         case Stage::Uploading:
@@ -83,12 +84,17 @@ Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
     return {};
 }
 
-void Preparation::makePlan() {
+// Claims all memory before any of it is taken.
+Result<void> Preparation::makePlan() {
     progress_.at("planning", 0);
     radii_ = radiiOf(built_.scene);
-    pipeline_ = std::make_unique<Pipeline>(
-        device_, planFor(built_.scene, scene::featuresOf(built_.scene), built_.state.count(), radii_));
+    Plan plan = planFor(built_.scene, scene::featuresOf(built_.scene), built_.state.count(), radii_);
+    auto claim = claimFor(device_, plan);
+    if (!claim) return tl::unexpected(claim.error());
+    claim_ = std::move(*claim);
+    pipeline_ = std::make_unique<Pipeline>(device_, std::move(plan));
     stage_ = Stage::Making;
+    return {};
 }
 
 Result<void> Preparation::makeNext() {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "compute/device.h"
+#include "core/memory.h"
 #include "core/progress.h"
 #include "core/result.h"
 #include "scene/scene.h"
@@ -31,9 +32,10 @@ class Preparation {
   public:
     using Build = std::function<Result<Built>(Progress&)>;
 
-    Preparation(compute::Device& device, Built built);
+    // `copies`: memory that its maker has claimed for `built` or `build`, released with it.
+    Preparation(compute::Device& device, Built built, memory::Claim copies = {});
     // `build` runs on a thread of its own, without the device; bad_alloc in it is an error as any other.
-    Preparation(compute::Device& device, Build build);
+    Preparation(compute::Device& device, Build build, memory::Claim copies = {});
     // Cancels `build` and waits for its thread.
     ~Preparation();
     Preparation(const Preparation&) = delete;
@@ -60,13 +62,15 @@ class Preparation {
 
     Result<void> doStage(std::chrono::milliseconds patience);
     Result<void> awaitBuilt(std::chrono::milliseconds patience);
-    void makePlan();
+    Result<void> makePlan();
     Result<void> makeNext();
     void upload();
     Result<void> look();
     Result<void> part();
 
     compute::Device& device_;
+    memory::Claim copies_;
+    memory::Claim claim_;  // of the simulation that it makes
     Progress progress_;
     std::uint64_t marks_ = 0;  // of the thread that builds, as last seen
     std::future<Result<Built>> building_;

@@ -120,6 +120,7 @@ class Simulation {
 
     Result<Outcome> set(const v1::Set& set);
     Result<Outcome> change(scene::Scene changed, bool disturbs);
+    Result<Outcome> reset();
     Result<Outcome> spawn(const v1::Spawn& spawn);
     Result<std::uint32_t> push(const v1::Push& push);
     Result<void> checkPush(std::uint32_t id, const glm::dvec3& impulse);

@@ -190,7 +190,7 @@ class Full(Faults):
         done = subprocess.run([BINARY, "ctl", server.stream, "load", "box-50k"], capture_output=True, text=True, timeout=60,
                               check=False)
         self.assertEqual(done.returncode, 4)
-        self.assertRegex(done.stdout, rf"refused: [a-z ]+: {self.need}")
+        self.assertRegex(done.stderr, rf"refused: [a-z ]+: {self.need}")
         viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 3)
         self.assertEqual(viewer.of("scene")[-1]["name"], "cradle")
         self.assertEqual(json.loads(server.get("/readyz"))["spheres"], 5)

@@ -106,12 +106,12 @@ class Served {
     net::Handlers handlers() {
         return {.welcome = [](const v1::Hello&) { return v1::Welcome(); },
                 .submit =
-                    [this](net::SessionId session, const v1::Command& command) {
+                    [this](net::SessionId session, const v1::Command& command, std::size_t) {
                         v1::ServerMessage message;
                         message.mutable_result()->set_id(command.id());
                         context_.hub.sendTo(session, frame::share(std::move(message)));
                         sendFrames();
-                        return command.kind_case() != v1::Command::kReset;  // which finds the queue full
+                        return command.has_reset() ? std::optional<std::string>("the queue is full") : std::nullopt;
                     },
                 .get = [](const std::string& path, const net::Counters&) -> net::HttpAnswer {
                     if (path != "/") return {.status = 404, .contentType = "text/plain", .body = "nothing\n"};

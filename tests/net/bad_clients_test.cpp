@@ -1,5 +1,7 @@
 #include <random>
 
+#include "core/text.h"
+#include "net/text.h"
 #include "owner.h"
 #include "raw_socket.h"
 
@@ -67,8 +69,7 @@ TEST(BadClients, AreClosedWith1007ForBytesThatAreNoMessage) {
 TEST(BadClients, AreClosedWith1007ForTextThatIsNoMessage) {
     Owner owner;
     const std::string accented = R"({"command":{"pause":{}, ")" + std::string(200, '\xc3') + R"(": 1}})";
-    for (const std::string text :
-         {"rubbish", R"({"comand":{}})", R"({"command":{"pause":{"for":3}}})", "{", "[]", ""}) {
+    for (const std::string text : {"rubbish", "{", "", R"({"command":{"id":1,"set":{"friction":nothing}}})"}) {
         const auto client = join(owner, 0, Encoding::Text);
         ASSERT_TRUE(client->sendBytes(text, Encoding::Text));
         const auto end = readToEnd(*client);
@@ -82,13 +83,55 @@ TEST(BadClients, AreClosedWith1007ForTextThatIsNoMessage) {
 
 TEST(BadClients, GetAReasonCutBetweenCharacters) {
     Owner owner;
-    const auto client = join(owner, 0, Encoding::Text);
-    std::string name;
-    for (int i = 0; i < 100; ++i) name += "ü";
-    ASSERT_TRUE(client->sendBytes(R"({")" + name + R"(":1})", Encoding::Text));
-    const auto end = readToEnd(*client);
-    EXPECT_EQ(end.code, 1007) << end.reason;
-    EXPECT_GT(end.reason.size(), 100U);
+    for (const std::string before : {"", "a"}) {
+        const auto client = connect(owner);
+        std::string name = before;
+        for (int i = 0; i < 100; ++i) name += "ü";
+        ASSERT_TRUE(client->sendBytes(R"({")" + name + R"(":1})", Encoding::Text));
+        const auto end = readToEnd(*client);
+        EXPECT_EQ(end.code, 1007) << end.reason;
+        EXPECT_GT(end.reason.size(), 100U);
+        EXPECT_EQ(end.reason, utf8(end.reason));
+    }
+}
+
+// A parser quotes what is around a fault, and counts bytes.
+TEST(BadClients, GetAReasonOfWholeCharacters) {
+    Owner owner;
+    for (int shift = 0; shift < 4; ++shift) {
+        const auto client = join(owner, 0, Encoding::Text);
+        std::string name;
+        for (int i = 0; i < 20; ++i) name += "ü";
+        ASSERT_TRUE(client->sendBytes(R"({")" + name + std::string(static_cast<std::size_t>(shift), 'x') + R"("1})",
+                                      Encoding::Text));
+        const auto end = readToEnd(*client);
+        EXPECT_EQ(end.code, 1007);
+        EXPECT_EQ(end.reason, utf8(end.reason)) << "shift " << shift;
+    }
+    const std::string reason = closeReason("caf\xc3 and " + std::string(111, 'x') + "\xc3\xbc");
+    EXPECT_EQ(reason, utf8(reason));
+    EXPECT_EQ(reason.size(), 122U) << reason;
+}
+
+TEST(BadClients, ThatCannotBeServedAreDroppedAlone) {
+    Owner owner;
+    const auto other = join(owner, 0);
+    const auto client = join(owner, 0);
+    owner.throws = true;
+    v1::ClientMessage message;
+    message.mutable_command()->mutable_pause();
+    ASSERT_TRUE(client->send(message));
+    EXPECT_EQ(readToEnd(*client).code, 1006) << "no close frame";
+    const RawSocket socket(owner.server().port());
+    socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(socket.readAll(), "");
+    owner.throws = false;
+    EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::Fault) == 1; }));
+    EXPECT_TRUE(eventually([&] { return owner.counters().rejectedFor(Rejection::Fault) == 2; }));
+    EXPECT_EQ(owner.counters().sessions, 1U);
+    ASSERT_TRUE(other->send(message));
+    EXPECT_TRUE(next(*other).result().has_applied());
+    EXPECT_TRUE(join(owner, 0)) << "who comes later is served";
 }
 
 TEST(BadClients, ThatSendGarbageInsteadOfHttpAreAnsweredAndForgotten) {

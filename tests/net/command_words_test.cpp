@@ -55,7 +55,10 @@ TEST(CommandWords, LoadAFileAsAnInlineScene) {
     std::ofstream(path) << R"({"nam":"from a file"})";
     EXPECT_EQ(parsed({"load", path.string()}).find("error: " + path.string() + ": "), 0U);
     std::filesystem::remove(path);
-    EXPECT_EQ(parsed({"load", path.string()}), "error: " + path.string() + ": cannot be read");
+    EXPECT_EQ(parsed({"load", path.string()}),
+              "error: " + path.string() +
+                  ": there is no such file; give the path of a scene file on this machine, which is sent, or the name "
+                  "of a scene of the server, without .json");
 }
 
 TEST(CommandWords, ThatAreWrongAreAnErrorThatListsWhatIsAccepted) {
@@ -108,9 +111,18 @@ TEST(CommandResults, AreTextForPeople) {
     result.mutable_applied()->clear_sphere();
     result.mutable_applied()->mutable_statistics()->set_spheres(5);
     const std::string text = resultText(result);
-    EXPECT_EQ(text.find("applied at step 12\n"), 0U) << text;
+    EXPECT_TRUE(text.starts_with('{') && text.ends_with("}\n")) << "JSON alone: " << text;
     EXPECT_NE(text.find("\"spheres\": 5"), std::string::npos) << text;
     EXPECT_NE(text.find("\"contacts\": \"0\""), std::string::npos) << text;
+}
+
+TEST(CommandResults, MoveNoTerminal) {
+    v1::CommandResult result;
+    result.mutable_refused()->set_field("\x1b]0;title\x07");
+    result.mutable_refused()->set_reason(
+        "\x1b[2J red\r \xc2\x9b"
+        "31m zu gro\xc3\x9f \x7f\nnext");
+    EXPECT_EQ(resultText(result), "refused: ?]0;title?: ?[2J red? ?31m zu gro\xc3\x9f ?\nnext");
 }
 
 TEST(Urls, AreTakenApart) {

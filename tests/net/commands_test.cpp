@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "net/ctl.h"
 #include "owner.h"
 
@@ -56,6 +58,85 @@ TEST(Commands, OfANewerClientAreRefusedAndTheSessionGoesOn) {
     EXPECT_TRUE(owner.commands().empty());
     ASSERT_TRUE(client->send(pauseOf(5)));
     EXPECT_EQ(next(*client).result().applied().step(), 7U);
+}
+
+TEST(Commands, ThatDoNotFitAreRefusedWithFieldAndReasonAndTheSessionGoesOn) {
+    Owner owner;
+    const auto client = join(owner, 0, Encoding::Text);
+    struct Case {
+        std::string text, id, field, reason;
+    };
+    const std::vector<Case> cases = {
+        {R"({"command":{"id":7,"set":{"gravty":[0,0,0]}}})", "7", "set.gravty", "is not a field of"},
+        {R"({"command":{"set":{"max_speed":1},"id":"8"}})", "8", "set.maxSpeed", "is not a field of"},
+        {R"({"command":{"id":9,"step":{"count":"many"}}})", "9", "step.count", "\"many\""},
+        {R"({"command":{"id":9,"step":{"count":NaN}}})", "9", "step.count", "\"NaN\""},
+        {R"({"command":{"id":9,"set":{"gravity":[0,1e999,0]}}})", "9", "set.gravity[1]", "\"1e999\""},
+        {R"({"command":{"id":10,"set":[]}})", "10", "set", "not repeating"},
+        {R"({"command":{"id":11,"pausee":{}}})", "11", "pausee", "is not a field of"},
+        {R"({"command":{"id":12,"load":{"scene":{"groups":[{"radius":{"constan":1}}]}}}})", "12",
+         "load.scene.groups[0].radius.constan", "is not a field of"},
+        {R"({"comand":{"id":13,"pause":{}}})", "0", "comand", "is not a field of"},
+        {R"({"command":{"id":"one","pause":{}}})", "0", "id", "\"one\""},
+        {"[]", "0", "", "must be a message"},
+    };
+    for (const Case& one : cases) {
+        ASSERT_TRUE(client->sendBytes(one.text, Encoding::Text));
+        const v1::CommandResult result = next(*client).result();
+        EXPECT_EQ(std::to_string(result.id()), one.id) << one.text;
+        EXPECT_EQ(result.refused().field(), one.field) << one.text;
+        EXPECT_NE(result.refused().reason().find(one.reason), std::string::npos) << result.refused().reason();
+    }
+    EXPECT_EQ(owner.counters().rejectedFor(Rejection::UnfitCommand), cases.size());
+    EXPECT_TRUE(owner.commands().empty());
+    ASSERT_TRUE(client->sendBytes(R"({"command":{"id":99,"pause":{}}})", Encoding::Text));
+    EXPECT_EQ(next(*client).result().id(), 99U);
+}
+
+// As Python and JavaScript libraries write them; the owner refuses them with the field.
+TEST(Commands, MayHoldNumbersThatAreNotFinite) {
+    Owner owner;
+    const auto client = join(owner, 0, Encoding::Text);
+    ASSERT_TRUE(client->sendBytes(R"({"command":{"id":1,"set":{"friction":NaN,"speed":-Infinity}}})", Encoding::Text));
+    EXPECT_EQ(next(*client).result().id(), 1U);
+    ASSERT_EQ(owner.commands().size(), 1U);
+    const v1::Command command = owner.commands().front();
+    EXPECT_TRUE(std::isnan(command.set().friction()));
+    EXPECT_TRUE(std::isinf(command.set().speed()));
+}
+
+TEST(Commands, ThatTakeTooMuchMemoryAreRefusedAndTheSessionGoesOn) {
+    Owner owner;
+    for (const Encoding encoding : {Encoding::Binary, Encoding::Text}) {
+        const auto client = join(owner, 0, encoding);
+        v1::ClientMessage message;
+        message.mutable_command()->set_id(6);
+        for (int k = 0; k < 300'000; ++k) message.mutable_command()->mutable_load()->mutable_scene()->add_groups();
+        ASSERT_TRUE(client->send(message, encoding));
+        const v1::CommandResult result = next(*client).result();
+        EXPECT_EQ(result.id(), 6U);
+        EXPECT_NE(result.refused().reason().find("more than 16 MiB"), std::string::npos) << result.refused().reason();
+        ASSERT_TRUE(client->send(pauseOf(7), encoding));
+        EXPECT_EQ(next(*client).result().applied().step(), 7U);
+    }
+    EXPECT_EQ(owner.commands().size(), 2U);
+    EXPECT_EQ(owner.counters().rejectedFor(Rejection::CommandCost), 2U);
+}
+
+TEST(Commands, ThatAreLongAreNotParsedWhereTheyCouldNotWait) {
+    Owner owner;
+    owner.takesLong = false;
+    const auto client = join(owner, 0);
+    v1::ClientMessage message;
+    message.mutable_command()->set_id(8);
+    message.mutable_command()->mutable_load()->mutable_scene()->set_description(std::string(10'000, 'x'));
+    // Were it parsed, the session would end here.
+    ASSERT_TRUE(client->sendBytes(message.SerializeAsString() + '\xff', Encoding::Binary));
+    const v1::CommandResult result = next(*client).result();
+    EXPECT_EQ(result.id(), 8U);
+    EXPECT_EQ(result.refused().reason(), "the command queue is full");
+    ASSERT_TRUE(client->send(pauseOf(9)));
+    EXPECT_EQ(next(*client).result().id(), 9U);
 }
 
 TEST(Commands, MayBeAsLongAsTheLimitAllows) {

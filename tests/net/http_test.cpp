@@ -66,6 +66,17 @@ TEST_F(Http, ALongBodyIs413) {
     EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 413") << answer;
 }
 
+TEST_F(Http, AnUnknownTransferEncodingIs501AndNothingFollows) {
+    for (const std::string encoding : {"xchunked", "gzip", "chunked, gzip", "chunkedx", ""}) {
+        const auto answer =
+            ask("GET /healthz", "Transfer-Encoding: " + encoding + "\r\n\r\nGET /nowhere HTTP/1.1\r\n\r\n");
+        EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 501") << encoding;
+        EXPECT_FALSE(has(answer, "404")) << encoding;
+        EXPECT_TRUE(has(answer, "Connection: close\r\n")) << answer;
+    }
+    EXPECT_EQ(ask("GET /healthz", "Transfer-Encoding: Chunked\r\n\r\n0\r\n\r\n").substr(0, 12), "HTTP/1.1 200");
+}
+
 TEST_F(Http, TheStreamWithoutAnUpgradeIs400) {
     const auto answer = ask("GET /ws");
     EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 400");

@@ -1,5 +1,6 @@
 #include "owner.h"
 
+#include <new>
 #include <utility>
 
 namespace spherule::net {
@@ -118,22 +119,27 @@ Handlers Owner::handlers() {
                 welcome.set_server("fake owner, for " + hello.client());
                 return welcome;
             },
-        .submit =
-            [this](SessionId session, v1::Command command) {
-                if (!takesCommands) return false;
-                for (; hold; std::this_thread::sleep_for(1ms)) held = true;
-                v1::CommandResult result;
-                result.set_id(command.id());
-                result.mutable_applied()->set_step(7);
-                {
-                    const std::lock_guard lock(mutex_);
-                    commands_.push_back(std::move(command));
-                }
-                server_->reply(session, std::move(result));
-                return true;
+        .submit = [this](SessionId session, v1::Command command, std::size_t) -> Handlers::WhyNot {
+            if (throws) throw std::bad_alloc();
+            if (!takesCommands) return "the command queue is full";
+            for (; hold; std::this_thread::sleep_for(1ms)) held = true;
+            v1::CommandResult result;
+            result.set_id(command.id());
+            result.mutable_applied()->set_step(7);
+            {
+                const std::lock_guard lock(mutex_);
+                commands_.push_back(std::move(command));
+            }
+            server_->reply(session, std::move(result));
+            return std::nullopt;
+        },
+        .refuses =
+            [this](SessionId, std::size_t) {
+                return takesLong ? Handlers::WhyNot() : Handlers::WhyNot("the command queue is full");
             },
         .get =
-            [](const std::string& path, const Counters&) {
+            [this](const std::string& path, const Counters&) {
+                if (throws) throw std::bad_alloc();
                 if (path == "/healthz") return HttpAnswer{.status = 200, .contentType = "text/plain", .body = "well\n"};
                 return HttpAnswer{.status = 404, .contentType = "text/plain", .body = "nothing at " + path + "\n"};
             },

@@ -57,6 +57,8 @@ class Owner {
 
     // What submit answers.
     std::atomic<bool> takesCommands = true;
+    std::atomic<bool> takesLong = true;  // or has no room for what is long
+    std::atomic<bool> throws = false;    // it, and what is asked by HTTP, runs out of memory instead
     std::vector<v1::Command> commands();
     // Keeps the io thread busy with the next command until it is false again.
     std::atomic<bool> hold = false;

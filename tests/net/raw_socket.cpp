@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <stdexcept>
 
 namespace spherule::net {
@@ -40,6 +41,12 @@ std::string RawSocket::readSome(std::size_t most) const {
     const ssize_t received = ::recv(socket_, bytes.data(), bytes.size(), 0);
     bytes.resize(received > 0 ? static_cast<std::size_t>(received) : 0);
     return bytes;
+}
+
+void RawSocket::drain() const {
+    std::array<char, 65536> bytes{};
+    while (::recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT) == static_cast<ssize_t>(bytes.size())) {
+    }
 }
 
 std::string RawSocket::readUntil(std::string_view end) const {

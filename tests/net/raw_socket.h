@@ -20,6 +20,8 @@ class RawSocket {
     void send(std::string_view bytes) const;
     // Some bytes, `most` at most; none at the end of the stream, after an error or when the time is over.
     [[nodiscard]] std::string readSome(std::size_t most = 65536) const;
+    // Throws away what has come, without waiting for more.
+    void drain() const;
     // Until `end` has come, or the stream has ended.
     [[nodiscard]] std::string readUntil(std::string_view end) const;
     [[nodiscard]] std::string readAll() const;

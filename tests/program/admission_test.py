@@ -64,7 +64,7 @@ class Tokens(Files):
             self.assertIn("this server asks for a token", none.stderr)
             viewer = call("ctl", server.stream, "pause", SPHERULE_TOKEN=VIEWERS)
             self.assertEqual(viewer.returncode, 4)
-            self.assertIn("a viewer may not command", viewer.stdout)
+            self.assertIn("a viewer may not command", viewer.stderr)
             query = call("ctl", server.stream, "query", SPHERULE_TOKEN=VIEWERS)
             self.assertEqual(query.returncode, 0, query.stderr)
             self.assertEqual(call("ctl", server.stream, "pause", SPHERULE_TOKEN=CONTROLLERS).returncode, 0)

@@ -236,6 +236,15 @@ class Interrupted(unittest.TestCase):
 
 
 class Others(unittest.TestCase):
+    def test_no_limit_is_switched_off_by_a_number_that_is_none(self):
+        for option in ("--connections-per-second", "--commands-per-second"):
+            for value in ("nan", "inf", "-1", "many"):
+                done = call("serve", "bounce", option, value, "--listen", "127.0.0.1:0", "--device", DEVICE)
+                self.assertEqual(done.returncode, 2, (option, value))
+                self.assertIn(option, done.stderr)
+        for value in ("nan", "inf", "1e308min"):
+            self.assertEqual(call("run", "bounce", "--for", "1s", "--watchdog", value).returncode, 2, value)
+
     def test_plan_says_what_a_scene_requires(self):
         plan = json.loads(call("plan", "box-50k", "--json").stdout)
         self.assertEqual(plan["spheres"], 50000)
@@ -275,15 +284,36 @@ class Serve(unittest.TestCase):
         done = self.ctl("set", "gravity", "0", "0", "-1.6")
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout, r"^applied at step \d+")
-        for words, reason in {("set", "restitution", "1.5"): "restitution: is 1.5",
-                              ("set", "friction", "-1"): "friction: is -1",
-                              ("set", "substeps", "0"): "substeps: is 0",
-                              ("load", "nothing"): "load.name", ("push", "99", "0", "0", "1"): "sphere: is 99",
-                              ("step", "0"): "step.count"}.items():
+        for words, reason in {("set", "restitution", "1.5"): "set.restitution: is 1.5",
+                              ("set", "friction", "-1"): "set.friction: is -1",
+                              ("set", "substeps", "0"): "set.substeps: is 0",
+                              ("load", "nothing"): 'load.name: is "nothing"; known are',
+                              ('{"load":{"scene":{}}}',): "load.scene.bounds: are missing",
+                              ("spawn", "{}"): "spawn.group: has no spheres",
+                              ("push", "99", "0", "0", "1"): "push.sphere: is 99",
+                              ("step", "0"): "step.count: is 0"}.items():
             refused = self.ctl(*words)
-            self.assertEqual(refused.returncode, 4, words)
-            self.assertIn(reason, refused.stdout)
+            self.assertEqual((refused.returncode, refused.stdout), (4, ""), words)
+            self.assertTrue(refused.stderr.startswith("refused: " + reason), refused.stderr)
         self.assertEqual(self.ctl("dance").returncode, 2)
+
+    def test_a_query_is_answered_with_json_alone(self):
+        done = self.ctl("query")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["spheres"], 5)
+
+    def test_a_scene_file_that_cannot_be_loaded_is_answered_with_what_can(self):
+        done = self.ctl("load", "nope.json")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        for words in ("nope.json: there is no such file", "path of a scene file on this machine", "box-50k"):
+            self.assertIn(words, done.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkfifo(os.path.join(folder, "pipe.json"))
+            self.assertIn("is not a file", self.ctl("load", os.path.join(folder, "pipe.json")).stderr)
+            path = os.path.join(folder, "wrong.json")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write('{"bounds": }')
+            self.assertIn("wrong.json:1:12: is not JSON", self.ctl("load", path).stderr)
 
     def test_friction_and_the_model_can_be_set(self):
         for words in (("set", "friction", "0.3"), ("set", "model", "fast"), ("set", "model", "accurate"),
@@ -294,6 +324,24 @@ class Serve(unittest.TestCase):
     def test_a_refused_set_changes_nothing(self):
         self.assertEqual(self.ctl('{"set":{"speed":2,"restitution":5}}').returncode, 4)
         self.assertEqual(self.ctl('{"set":{"speed":-2,"gravity":[0,0,0]}}').returncode, 4)
+
+    def test_a_file_name_that_is_no_utf8_does_not_end_the_server(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = scene_in(folder, "plain.json", 0.1, [0.5, 0.5, 0.5])
+            path = os.path.join(os.fsencode(folder), b"caf\xe9.json")
+            os.rename(scene, path)
+            other = subprocess.Popen([BINARY, "serve", path, "--device", DEVICE, "--listen", "127.0.0.1:0"],
+                                     stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            try:
+                address = next(found.group(1).decode() for line in other.stdout
+                               if (found := re.search(rb"open (http://\S+)/", line)))
+                with urllib.request.urlopen(f"{address}/readyz", timeout=30) as answer:
+                    self.assertEqual(json.load(answer)["scene"], "caf\ufffd")
+                self.assertIsNone(other.poll())
+            finally:
+                other.kill()
+                other.wait()
+                other.stdout.close()
 
     def test_health_readiness_and_metrics(self):
         self.assertEqual(self.get("/healthz"), "alive\n")

@@ -26,7 +26,7 @@ class Looping : public testing::Test {
         });
     }
 
-    void tell(const v1::Command& command) { ASSERT_TRUE(requests_.push({.session = 1, .command = command})); }
+    void tell(const v1::Command& command) { ASSERT_FALSE(requests_.push({.session = 1, .command = command})); }
     void step(std::uint32_t count) {
         v1::Command command;
         command.mutable_step()->set_count(count);
@@ -67,7 +67,7 @@ class Looping : public testing::Test {
     }
 
     store::Folder folder_;
-    BoundedQueue<Request> requests_{8};
+    Requests requests_;
     Live live_;
     std::mutex mutex_;
     std::condition_variable changed_;

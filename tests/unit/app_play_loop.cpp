@@ -75,7 +75,7 @@ class Stage {
                     }};
     }
 
-    BoundedQueue<Request> requests_{8};
+    Requests requests_;
     Live live_;
     std::stop_source stop_;
 };

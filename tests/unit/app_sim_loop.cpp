@@ -24,7 +24,7 @@ class Desk {
         v1::Command command;
         EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &command).ok()) << json;
         command.set_id(++given_);
-        EXPECT_TRUE(requests_.push({session, std::move(command)}));
+        EXPECT_FALSE(requests_.push({.session = session, .command = std::move(command)}));
         return given_;
     }
 
@@ -77,7 +77,7 @@ class Desk {
                 .demands = [] { return std::vector<frame::Demand>(); }};
     }
 
-    BoundedQueue<Request> requests_{256};
+    Requests requests_;
     Live live_;
     std::stop_source stop_;
     std::function<bool()> enough_;

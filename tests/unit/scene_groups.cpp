@@ -130,11 +130,11 @@ TEST(SceneGroups, MayNotMeetTooManyObstacles) {
 }
 
 TEST(SceneGroups, AreLimitedInNumberAndName) {
-    std::string groups = R"({"list": {}, "name": ")" + std::string(longestGroupName, 'n') + R"("})";
+    std::string groups = R"({"list": {}, "name": ")" + std::string(longestName, 'n') + R"("})";
     EXPECT_EQ(refusalOf(R"("groups": [)" + groups + "]"), "accepted");
     for (std::uint32_t k = 0; k < maxGroups; ++k) groups += R"(,{"list":{}})";
     EXPECT_EQ(refusalOf(R"("groups": [)" + groups + "]"), "groups: has 10001 entries, must have at most 10000");
-    EXPECT_EQ(refusalOf(group(R"("list": {}, "name": ")" + std::string(longestGroupName + 1, 'n') + "\"")),
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "name": ")" + std::string(longestName + 1, 'n') + "\"")),
               "groups[0].name: is 201 bytes long, must be at most 200");
 
     Scene full = sceneWith("");

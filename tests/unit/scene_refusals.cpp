@@ -50,6 +50,19 @@ TEST(SceneRefusals, NumbersFitTheSimulation) {
     EXPECT_EQ(refusalOf(R"("gravity": [0, 0, 1e300])"), "gravity[2]: is 1e+300, must be -1000000000 to 1000000000");
 }
 
+TEST(SceneRefusals, NamesAreLimited) {
+    EXPECT_EQ(refusalOf(R"("name": ")" + std::string(longestName, 'n') + "\""), "accepted");
+    EXPECT_EQ(refusalOf(R"("name": ")" + std::string(longestName + 1, 'n') + "\""),
+              "name: is 201 bytes long, must be at most 200");
+}
+
+TEST(SceneRefusals, NamesOfFilesBecomeUtf8) {
+    const Folder folder;
+    const auto named = load(folder.write("caf\xe9.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}})"), "cpu");
+    ASSERT_TRUE(named) << named.error().text();
+    EXPECT_EQ(named->name, "caf\xef\xbf\xbd");
+}
+
 TEST(SceneRefusals, StepHasARange) {
     EXPECT_EQ(refusalOf(R"("step": 0)"), "step: is 0, must be 1e-06 to 1 s");
     EXPECT_EQ(refusalOf(R"("step": 1.5)"), "step: is 1.5, must be 1e-06 to 1 s");

@@ -54,8 +54,7 @@ TEST_F(Hostile, WhatIsNoRecordingIsSaid) {
     std::string newer = fileHead();
     newer[8] = 2;
     EXPECT_EQ(refusal(newer), "is of version 2 of the format, this program reads version 1");
-    EXPECT_EQ(Recording::open(folder_ / "none").error().text(),
-              (folder_ / "none") + ": there is no such file");
+    EXPECT_EQ(Recording::open(folder_ / "none").error().text(), (folder_ / "none") + ": there is no such file");
     EXPECT_EQ(Recording::open("/tmp").error().text(), "/tmp: is a folder, must be a regular file");
 }
 

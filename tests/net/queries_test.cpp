@@ -1,0 +1,144 @@
+// Viewers who ask for statistics as fast as they may, and a controller, on the program's own server and simulation.
+#include <algorithm>
+#include <memory>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "app/runtime.h"
+#include "app/sim_loop.h"
+#include "owner.h"
+#include "raw_socket.h"
+
+namespace spherule::net {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint8_t binaryFrame = 0x82;
+
+std::unique_ptr<app::Runtime> serve() {
+    auto runtime = app::Runtime::start(
+        [](const app::Stage& stage) -> Result<std::unique_ptr<app::Show>> {
+            auto world = app::World::open("cpu:1", "box-4k", {});
+            if (!world) return tl::unexpected(world.error());
+            return std::make_unique<app::SimLoop>(std::move(*world), stage, quality::ownTable(), app::TapeOptions());
+        },
+        quickOptions(), app::Watchdog::Seconds(0));
+    if (!runtime) throw std::runtime_error(runtime.error().text());
+    EXPECT_TRUE(eventually([&] { return (*runtime)->opened(); }));
+    return std::move(*runtime);
+}
+
+// Each sends a query every ten milliseconds, as many as one session may give commands, while asked to.
+class Viewers {
+  public:
+    Viewers(std::uint16_t port, int count) {
+        for (int k = 0; k < count; ++k) {
+            sockets_.push_back(std::make_unique<RawSocket>(port));
+            EXPECT_EQ(sockets_.back()->openStream().substr(0, 12), "HTTP/1.1 101");
+            sockets_.back()->sendFrame(binaryFrame, helloOf(0).SerializeAsString());
+        }
+        thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+    }
+
+    void ask(bool on) { asking_ = on; }
+
+  private:
+    void work(const std::stop_token& stop) {
+        v1::ClientMessage query;
+        query.mutable_command()->mutable_query();
+        query.mutable_command()->set_id(1);
+        const std::string bytes = query.SerializeAsString();
+        while (!stop.stop_requested()) {
+            for (const auto& socket : sockets_) {
+                if (asking_) socket->sendFrame(binaryFrame, bytes);
+                socket->drain();
+            }
+            std::this_thread::sleep_for(10ms);
+        }
+    }
+
+    std::atomic<bool> asking_ = false;
+    std::vector<std::unique_ptr<RawSocket>> sockets_;
+    std::jthread thread_;
+};
+
+class Controller {
+  public:
+    explicit Controller(std::uint16_t port)
+        : client_(std::move(*Client::connect("ws://127.0.0.1:" + std::to_string(port) + "/ws", patience))) {
+        EXPECT_TRUE(client_->send(helloOf(0)));
+    }
+
+    // Of a command that is applied.
+    v1::Applied give(const std::string& json) {
+        const std::uint64_t id = ++id_;
+        EXPECT_TRUE(
+            client_->sendBytes(R"({"command":{"id":)" + std::to_string(id) + "," + json + "}}", Encoding::Text));
+        for (;;) {
+            const v1::ServerMessage message = next(*client_);
+            if (message.kind_case() == v1::ServerMessage::KIND_NOT_SET) return {};
+            if (!message.has_result() || message.result().id() != id) continue;
+            EXPECT_TRUE(message.result().has_applied()) << message.ShortDebugString();
+            return message.result().applied();
+        }
+    }
+
+    Clock::duration timeOf(const std::string& json) {
+        const auto begin = Clock::now();
+        (void)give(json);
+        return Clock::now() - begin;
+    }
+
+  private:
+    std::unique_ptr<Client> client_;
+    std::uint64_t id_ = 0;
+};
+
+template <class T>
+T medianOf(std::vector<T> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// The world has all the steps to do that it can, so that an answer takes about a step, with queries or without.
+TEST(Queries, OfFortyViewersRefuseNoCommandAndDelayNoAnswer) {
+    const auto runtime = serve();
+    Viewers viewers(runtime->port(), 40);
+    Controller controller(runtime->port());
+    (void)controller.give(R"("set":{"speed":100,"substeps":30})");
+    std::vector<double> ratios;
+    for (int round = 0; round < 7; ++round) {
+        std::vector<Clock::duration> times[2];
+        for (const bool asked : {false, true}) {
+            viewers.ask(asked);
+            for (int k = 0; k < 25; ++k) times[asked ? 1 : 0].push_back(controller.timeOf(R"("set":{"speed":100})"));
+        }
+        ratios.push_back(std::chrono::duration<double>(medianOf(times[1])) /
+                         std::chrono::duration<double>(medianOf(times[0])));
+    }
+    EXPECT_LE(medianOf(ratios), 1.5) << testing::PrintToString(ratios);
+    EXPECT_TRUE(runtime->drain());
+}
+
+TEST(Queries, ShowWhatWasCommandedBefore) {
+    const auto runtime = serve();
+    Controller controller(runtime->port());
+    (void)controller.give(R"("pause":{})");
+    const auto paused = controller.give(R"("query":{})").statistics();
+    EXPECT_EQ(paused.spheres(), 4000U);
+    (void)controller.give(R"("load":{"name":"cradle"})");
+    EXPECT_EQ(controller.give(R"("query":{})").statistics().spheres(), 5U);
+    for (std::uint64_t step = 1; step <= 5; ++step) {
+        (void)controller.give(R"("step":{"count":1})");
+        EXPECT_TRUE(eventually([&] { return controller.give(R"("query":{})").statistics().step() == step; }));
+    }
+    (void)controller.give(R"("push":{"sphere":0,"impulse":[0,0,5]})");
+    EXPECT_GT(controller.give(R"("query":{})").statistics().momentum(2), 4);
+    EXPECT_TRUE(runtime->drain());
+}
+
+}  // namespace
+}  // namespace spherule::net

@@ -1,0 +1,77 @@
+#include "app/show.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/world.h"
+
+namespace spherule::app {
+namespace {
+
+v1::Refused refusalOf(const v1::Command& command, const std::string& where) {
+    const auto result = resultOf(command, fail(ErrorKind::Refused, where, "is wrong"));
+    EXPECT_TRUE(result.has_refused());
+    return result.refused();
+}
+
+TEST(ResultOf, NamesTheFieldFromTheCommandOn) {
+    v1::Command command;
+    command.mutable_set();
+    EXPECT_EQ(refusalOf(command, "gravity[1]").field(), "set.gravity[1]");
+    EXPECT_EQ(refusalOf(command, "auto.budgetMs").field(), "set.auto.budgetMs");
+    EXPECT_EQ(refusalOf(command, "auto.budgetMs").reason(), "is wrong");
+    command.mutable_load();
+    EXPECT_EQ(refusalOf(command, "scene.groups[0].fill").field(), "load.scene.groups[0].fill");
+}
+
+TEST(ResultOf, NamesInTheReasonWhatIsNoFieldOfTheCommand) {
+    v1::Command command;
+    command.mutable_set();
+    EXPECT_EQ(refusalOf(command, "materials[0].young").field(), "");
+    EXPECT_EQ(refusalOf(command, "materials[0].young").reason(), "materials[0].young: is wrong");
+    EXPECT_EQ(refusalOf(command, "").reason(), "is wrong");
+}
+
+TEST(ResultOf, IsFitForAMessageWhateverBytesAFileHas) {
+    v1::Command command;
+    command.mutable_pause();
+    EXPECT_EQ(refusalOf(command, "a\xff.json").reason(), "a\xef\xbf\xbd.json: is wrong");
+}
+
+// What a world refuses of each command, as clients see it.
+TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
+    auto world = World::open("cpu:1", "cradle", {});
+    ASSERT_TRUE(world);
+    const auto refused = [&](const v1::Command& command) {
+        const auto result = resultOf(command, (*world)->apply(command));
+        EXPECT_TRUE(result.has_refused()) << command.ShortDebugString();
+        return result.refused().field();
+    };
+    v1::Command command;
+    command.mutable_set()->set_speed(-1);
+    EXPECT_EQ(refused(command), "set.speed");
+    command.mutable_set()->Clear();
+    command.mutable_set()->set_friction(std::nan(""));
+    EXPECT_EQ(refused(command), "set.friction");
+    command.mutable_set()->Clear();
+    command.mutable_set()->set_substeps(0);
+    EXPECT_EQ(refused(command), "set.substeps");
+    command.mutable_set()->Clear();
+    command.mutable_set()->add_gravity(1);
+    EXPECT_EQ(refused(command), "set.gravity");
+    command.mutable_step();
+    EXPECT_EQ(refused(command), "step.count");
+    command.mutable_load()->set_name("nothing");
+    EXPECT_EQ(refused(command), "load.name");
+    command.mutable_load()->mutable_scene();
+    EXPECT_EQ(refused(command), "load.scene.bounds");
+    command.mutable_spawn()->mutable_group();
+    EXPECT_EQ(refused(command), "spawn.group");
+    command.mutable_push()->set_sphere(99);
+    for (int axis = 0; axis < 3; ++axis) command.mutable_push()->add_impulse(1);
+    EXPECT_EQ(refused(command), "push.sphere");
+}
+
+}  // namespace
+}  // namespace spherule::app

@@ -1,0 +1,23 @@
+#include "app/site.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace spherule::app {
+namespace {
+
+TEST(Site, ReadinessIsJsonWhateverBytesANameHas) {
+    Live live;
+    live.update([](LiveReport& report) {
+        report.scene = "caf\xe9";  // as a file system of Latin 1 has it
+        report.device.renderer = "\xff";
+    });
+    const Watchdog watchdog(Watchdog::Seconds(0));
+    Site site(live, watchdog);
+    const auto answer = site.get("/readyz", net::Counters());
+    EXPECT_EQ(nlohmann::json::parse(answer.body).at("scene"), "caf\xef\xbf\xbd");
+}
+
+}  // namespace
+}  // namespace spherule::app
