@@ -4,6 +4,7 @@
 
 #include "app/exit_codes.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "app/secret_files.h"
 #include "core/text.h"
 #include "net/ctl.h"
@@ -46,10 +47,20 @@ int ctl(const CtlOptions& options) {
     auto authorities = contentOf("--ca", options.authoritiesFile);
     if (!authorities) return report(authorities.error());
     target.authorities = std::move(*authorities);
-    const auto result = net::sendCommand(target, *command, [](const v1::Person& holder) {
+    const auto asks = [](const v1::Person& holder) {
         fmt::print(stderr, "{} (session {}) has the controls; asking for them\n", withoutControls(holder.client()),
                    holder.session());
-    });
+    };
+    Result<v1::CommandResult> result;
+    {
+        ProgressLine progress;
+        result = net::sendCommand(target, *command, asks, [&progress](const v1::Change& change) {
+            progress.show([&] {
+                return fmt::format("{}: {}, {:.0f} %   ", withoutControls(change.what()),
+                                   withoutControls(change.doing()), 100 * change.share());
+            });
+        });
+    }
     if (!result) return report(result.error());
     fmt::print(result->has_applied() ? stdout : stderr, "{}\n", net::resultText(*result));
     return result->has_applied() ? exitDone : exitRefused;
@@ -66,7 +77,9 @@ void addCtl(CLI::App& app, int& exitCode) {
     command->add_option("--token-file", options->tokenFile,
                         "a file with the server's token; or give the token itself as SPHERULE_TOKEN");
     command->add_option("--ca", options->authoritiesFile, "trust what these certificates (PEM) sign, and no others");
-    command->add_option("--timeout", options->timeoutSeconds, "s to wait for the answer, and for the controls")
+    command
+        ->add_option("--timeout", options->timeoutSeconds,
+                     "s to wait for the answer, or for word of how far it has come, and for the controls")
         ->capture_default_str();
     // Numbers such as -1.6 are words of the command, not options.
     command->positionals_at_end();

@@ -24,6 +24,7 @@ const std::string_view commandForms =
     "  resume\n"
     "  step [N]\n"
     "  reset\n"
+    "  cancel                                     what takes long: a load, a spawn, steps\n"
     "  load NAME | load FILE.json\n"
     "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
     "  set model fast|balanced|accurate | set substeps N\n"
@@ -225,6 +226,7 @@ const std::map<std::string_view, Parse>& parsers() {
         {"pause", plain<&v1::Command::mutable_pause>},
         {"resume", plain<&v1::Command::mutable_resume>},
         {"reset", plain<&v1::Command::mutable_reset>},
+        {"cancel", plain<&v1::Command::mutable_cancel>},
         {"query", plain<&v1::Command::mutable_query>},
         {"step", step},
         {"load", load},

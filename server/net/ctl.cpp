@@ -43,7 +43,9 @@ struct Standing {
 // One connection to a server, with a limit on each wait.
 class Conversation {
   public:
-    Conversation(std::unique_ptr<Client> client, const Target& target) : client_(std::move(client)), target_(target) {}
+    Conversation(std::unique_ptr<Client> client, const Target& target,
+                 const std::function<void(const v1::Change&)>& hears)
+        : client_(std::move(client)), target_(target), hears_(hears) {}
 
     Result<void> say(const v1::ClientMessage& message) { return client_->send(message); }
 
@@ -77,7 +79,7 @@ class Conversation {
   private:
     // Hears until `enough`, or fails with `late`.
     Result<void> hearUntil(const std::function<bool(const v1::ServerMessage&)>& enough, const char* late) {
-        const auto end = std::chrono::steady_clock::now() + target_.timeout;
+        auto end = std::chrono::steady_clock::now() + target_.timeout;
         for (;;) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
             if (left.count() <= 0) return fail(ErrorKind::Refused, target_.url, late);
@@ -86,20 +88,25 @@ class Conversation {
             if (!*received) continue;
             standing.hear(**received);
             if (enough(**received)) return {};
+            if (!(*received)->has_change() || (*received)->change().what().empty()) continue;
+            hears_((*received)->change());
+            end = std::chrono::steady_clock::now() + target_.timeout;
         }
     }
 
     std::unique_ptr<Client> client_;
     const Target& target_;
+    const std::function<void(const v1::Change&)>& hears_;
 };
 
 }  // namespace
 
 Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
-                                      const std::function<void(const v1::Person& holder)>& asks) {
+                                      const std::function<void(const v1::Person& holder)>& asks,
+                                      const std::function<void(const v1::Change& change)>& hears) {
     auto client = Client::connect(target.url, target.timeout, "spherule.v1", target.authorities);
     if (!client) return tl::unexpected(client.error());
-    Conversation conversation(std::move(*client), target);
+    Conversation conversation(std::move(*client), target, hears);
     if (command.id() == 0) command.set_id(1);
 
     v1::ClientMessage hello;

@@ -161,7 +161,7 @@ TEST(Commands, OfASessionThatLeftAreAnsweredIntoTheVoid) {
 TEST(Ctl, SendsOneCommandAndReturnsItsResult) {
     Owner owner;
     owner.publishEvery(5ms, 64);
-    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, *commandFrom({"pause"}), {});
+    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, *commandFrom({"pause"}), {}, {});
     ASSERT_TRUE(result) << result.error().text();
     EXPECT_EQ(resultText(*result), "applied at step 7");
     ASSERT_EQ(owner.commands().size(), 1U);
@@ -171,7 +171,7 @@ TEST(Ctl, SendsOneCommandAndReturnsItsResult) {
 TEST(Ctl, ReturnsARefusalAsAResult) {
     Owner owner;
     owner.takesCommands = false;
-    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, *commandFrom({"reset"}), {});
+    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, *commandFrom({"reset"}), {}, {});
     ASSERT_TRUE(result) << result.error().text();
     EXPECT_EQ(resultText(*result), "refused: the command queue is full");
 }
@@ -182,7 +182,7 @@ TEST(Ctl, SaysThatNobodyListens) {
         const Owner owner;
         url = owner.url();
     }
-    const auto result = sendCommand({.url = url, .timeout = patience}, *commandFrom({"reset"}), {});
+    const auto result = sendCommand({.url = url, .timeout = patience}, *commandFrom({"reset"}), {}, {});
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text().find("cannot be reached"), std::string::npos) << result.error().text();
 }
@@ -191,7 +191,7 @@ TEST(Ctl, SaysWhyTheServerClosed) {
     Owner owner;
     v1::Command command;
     command.mutable_load()->mutable_scene()->set_description(std::string(Options().maxMessageBytes, 'x'));
-    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, command, {});
+    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, command, {}, {});
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text().find("1009"), std::string::npos) << result.error().text();
 }

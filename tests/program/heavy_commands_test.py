@@ -2,6 +2,7 @@
 import json
 import os
 import statistics
+import subprocess
 import sys
 import tempfile
 import time
@@ -106,6 +107,21 @@ class HeavyCommands(unittest.TestCase):
                 self.assertEqual(server.end(), 0, server.said)
                 print(f"{name}: median {statistics.median(times):.3f} s, longest {max(times):.3f} s; "
                       f"SIGTERM {time.monotonic() - began:.2f} s", file=sys.stderr)
+
+    def test_ctl_waits_for_a_load_as_long_as_that_progresses(self):
+        with Server(BINARY, "serve", "box-4k", "--device", "cpu:1") as server, tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "packed.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(PACKED["load"]["scene"], file)
+            controller = Controller(server.port)
+            ctl = subprocess.Popen([BINARY, "ctl", server.stream, "--timeout", "1", "load", path], stderr=subprocess.PIPE,
+                                   text=True)
+            # Five a second, and one each time that it has come farther.
+            controller.wait(lambda one: len({change.get("share") for change in one.of("change")}) > 12)
+            self.assertIsNone(ctl.poll())
+            controller.ask({"cancel": {}})
+            self.assertEqual(ctl.communicate(timeout=30)[1], "refused: cancelled\n")
+            self.assertEqual(ctl.returncode, 4)
 
     def test_what_a_world_cannot_bear_is_refused_with_the_most_that_it_can(self):
         with Server(BINARY, "serve", "box-4k", "--device", "cpu:1") as server:
