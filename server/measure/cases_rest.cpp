@@ -31,14 +31,33 @@ double springForceOnFloor(const scene::Scene& scene, const sim::State& state) {
     return force;
 }
 
-// Adds the mean force on the floor over `steps`: by the springs where there are some, else by what momentum lacks.
+// N, upwards, by what the tangential springs at the sides hold: walls that rub carry a share of a bed, or press it
+// down.
+double springForceOnSides(sim::Simulation& simulation, const sim::State& state) {
+    const double modulus =
+        scene::stiffnessBetween(simulation.scene(), 0, 0, scene::springModulus(simulation.scene())).tangential;
+    const auto stretches = simulation.pipeline().read<glm::vec4>(sim::Array::WallHistory);
+    double force = 0;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+        const auto surface = static_cast<int>(stretches[k].w) - 1;
+        if (surface < scene::XMin || surface > scene::YMax) continue;
+        const auto id = static_cast<std::uint32_t>(k / (stretches.size() / state.count()));
+        force -= 2 * modulus * radiusOf(state, id) * static_cast<double>(stretches[k].z);
+    }
+    return force;
+}
+
+// Adds the mean force on the floor over `steps`: by the springs where there are some, with what the sides hold, else by
+// what momentum lacks.
 Result<void> addFloorForce(Bench& bench, sim::Simulation& simulation, int steps) {
     const sim::State before = simulation.snapshot();
     const double weight = weightOf(before);
     double springs = 0;
     for (int k = 0; k < steps; ++k) {
         if (auto done = bench.step(simulation); !done) return done;
-        if (bench.accurate()) springs += springForceOnFloor(simulation.scene(), simulation.snapshot()) / steps;
+        if (!bench.accurate()) continue;
+        const sim::State state = simulation.snapshot();
+        springs += (springForceOnFloor(simulation.scene(), state) + springForceOnSides(simulation, state)) / steps;
     }
     const double gained = momentumOf(simulation.snapshot()).z - momentumOf(before).z;
     const double balance = weight + gained / (steps * simulation.scene().step);
