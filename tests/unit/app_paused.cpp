@@ -21,7 +21,7 @@ class Looping : public testing::Test {
             "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
         thread_ = std::jthread([this](const std::stop_token& stop) {
             SimLoop loop(World::open("cpu:1", folder_ / "one.json", {}).value(), {requests_, live_, outlets()},
-                         quality::ownTable(), {});
+                         quality::ownTable(), TapeOptions());
             EXPECT_TRUE(loop.run(stop));
         });
     }

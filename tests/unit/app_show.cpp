@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "app/world.h"
@@ -44,7 +45,9 @@ TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
     auto world = World::open("cpu:1", "cradle", {});
     ASSERT_TRUE(world);
     const auto refused = [&](const v1::Command& command) {
-        const auto result = resultOf(command, (*world)->apply(command));
+        auto applied = (*world)->apply(command);
+        while (!applied) applied = (*world)->advanceChange(std::chrono::milliseconds(10));
+        const auto result = resultOf(command, *applied);
         EXPECT_TRUE(result.has_refused()) << command.ShortDebugString();
         return result.refused().field();
     };

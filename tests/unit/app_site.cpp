@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 namespace spherule::app {
@@ -10,8 +12,8 @@ namespace {
 TEST(Site, ReadinessIsJsonWhateverBytesANameHas) {
     Live live;
     live.update([](LiveReport& report) {
-        report.scene = "caf\xe9";  // as a file system of Latin 1 has it
-        report.device.renderer = "\xff";
+        report.scene = std::string("caf\xe9");  // as a file system of Latin 1 has it
+        report.device.renderer = std::string("\xff");
     });
     const Watchdog watchdog(Watchdog::Seconds(0));
     Site site(live, watchdog);
