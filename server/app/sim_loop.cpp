@@ -34,7 +34,7 @@ bool changesWorld(const v1::Command& command) {
 
 // Needs the world as it is, and so waits while that is being changed.
 bool waitsForChange(const v1::Command& command) {
-    return command.has_set() || command.has_spawn() || command.has_push();
+    return command.has_set() || command.has_spawn() || command.has_push() || command.has_step();
 }
 
 // Ends the steps that were asked for.

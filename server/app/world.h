@@ -25,8 +25,8 @@ class World {
                                                const scene::Overrides& overrides);
 
     // Carries a command out, or refuses it and changes nothing. Nothing: a change is under way now, and advanceChange()
-    // gives the result. While one is under way only pause, resume and step may be applied, and what cancelChange() made
-    // room for.
+    // gives the result. While one is under way only pause and resume may be applied, and load and reset, which take its
+    // place.
     std::optional<Result<v1::Applied>> apply(const v1::Command& command);
 
     [[nodiscard]] bool changing() const { return change_ != nullptr; }

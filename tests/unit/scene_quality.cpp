@@ -51,10 +51,11 @@ TEST(SceneQuality, ACallersModelReplacesTheScenes) {
 }
 
 TEST(SceneQuality, SubstepsHaveARange) {
-    EXPECT_EQ(refusalOf(quality(R"("substeps": 0)")), "quality.substeps: is 0, must be 1 to 1000000");
-    EXPECT_EQ(refusalOf(quality(R"("substeps": 1000001)")), "quality.substeps: is 1000001, must be 1 to 1000000");
-    EXPECT_EQ(refusalOf("", {.substeps = 0}), "quality.substeps: is 0, must be 1 to 1000000");
-    EXPECT_EQ(sceneWith(quality(R"("substeps": 1000000)")).quality.substeps, 1'000'000U);
+    const std::string range = "must be 1 to 20000 for the 0 spheres of this scene";
+    EXPECT_EQ(refusalOf(quality(R"("substeps": 0)")), "quality.substeps: is 0, " + range);
+    EXPECT_EQ(refusalOf(quality(R"("substeps": 20001)")), "quality.substeps: is 20001, " + range);
+    EXPECT_EQ(refusalOf("", {.substeps = 0}), "quality.substeps: is 0, " + range);
+    EXPECT_EQ(sceneWith(quality(R"("substeps": 20000)")).quality.substeps, 20'000U);
 }
 
 TEST(SceneQuality, ADefaultOfTooManySubstepsIsRefusedWithItsReason) {

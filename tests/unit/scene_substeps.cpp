@@ -62,9 +62,9 @@ TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
 TEST(SceneSubsteps, AreRefusedOutOfTheirRange) {
     Scene scene = sceneOf(R"("substeps": 3)");
     scene.quality.substeps = 0;
-    EXPECT_EQ(refusalBy(scene), "quality.substeps: is 0, must be 1 to 1000000");
+    EXPECT_EQ(refusalBy(scene), "quality.substeps: is 0, must be 1 to 19996 for the 2 spheres of this scene");
     scene.quality.substeps = maxSubsteps + 1;
-    EXPECT_EQ(refusalBy(scene), "quality.substeps: is 1000001, must be 1 to 1000000");
+    EXPECT_EQ(refusalBy(scene), "quality.substeps: is 1000001, must be 1 to 19996 for the 2 spheres of this scene");
     scene.quality.pinned = false;
     EXPECT_EQ(refusalBy(scene), "accepted") << "what was there does not count";
     EXPECT_EQ(scene.quality.substeps, 8U);
