@@ -94,7 +94,7 @@ class Play(Files):
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_what_cannot_be_played_is_said(self):
-        for arguments, said in (([self.at("none.sph")], "cannot be read: No such file or directory"),
+        for arguments, said in (([self.at("none.sph")], "there is no such file"),
                                 ([__file__], "is no recording"),
                                 ([self.recording, "--speed", "0"], "--speed: is 0, must be within"),
                                 ([self.recording, "--listen", "nowhere"], "nowhere"), ([], "file is required")):
@@ -136,9 +136,9 @@ class Record(Files):
 
     def test_viewers_start_and_stop_recordings_and_nothing_moves_back_in_them(self):
         with self.serve("two-spheres") as server:
-            self.assertIn("nothing is being recorded", tell(server, "record", "stop").stdout)
+            self.assertIn("nothing is being recorded", tell(server, "record", "stop").stderr)
             self.assertEqual(tell(server, "record").returncode, 0)
-            self.assertIn("already", tell(server, "record").stdout)
+            self.assertIn("already", tell(server, "record").stderr)
             time.sleep(1)
             self.assertEqual(tell(server, "reset").returncode, 0)
             time.sleep(1)
@@ -146,7 +146,7 @@ class Record(Files):
             time.sleep(1)
             self.assertEqual(tell(server, "record", "stop").returncode, 0)
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_recording_active", ""] == 0))
-            self.assertIn("no other time than now", tell(server, "seek", "1").stdout)
+            self.assertIn("no other time than now", tell(server, "seek", "1").stderr)
             server.end()
         made = os.listdir(self.at("recordings"))
         self.assertEqual(len(made), 1)
