@@ -114,7 +114,7 @@ class HeavyCommands(unittest.TestCase):
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(PACKED["load"]["scene"], file)
             controller = Controller(server.port)
-            ctl = subprocess.Popen([BINARY, "ctl", server.stream, "--timeout", "1", "load", path], stderr=subprocess.PIPE,
+            ctl = subprocess.Popen([BINARY, "ctl", "--timeout", "1", server.stream, "load", path], stderr=subprocess.PIPE,
                                    text=True)
             # Five a second, and one each time that it has come farther.
             controller.wait(lambda one: len({change.get("share") for change in one.of("change")}) > 12)
