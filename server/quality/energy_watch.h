@@ -8,8 +8,8 @@
 
 namespace spherule::quality {
 
-// Notices when mechanical energy rises though nothing can have given it. Where contacts store energy that a reading does
-// not show, one that is low for a moment proves nothing: a rise is one above the highest of several. Elsewhere one
+// Notices when mechanical energy rises though nothing can have given it. Where contacts store energy that a reading
+// does not show, one that is low for a moment proves nothing: a rise is one above the highest of several. Elsewhere one
 // reading is enough until there are several.
 class EnergyWatch {
   public:

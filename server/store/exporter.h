@@ -9,7 +9,8 @@
 namespace spherule::store {
 
 // Writes moments of a recording in a format that other tools read. Nothing is there under the names of its files before
-// finish(), and nothing is left of one that is destroyed before. Used by one thread. What goes wrong is as OutputFile says.
+// finish(), and nothing is left of one that is destroyed before. Used by one thread. What goes wrong is as OutputFile
+// says.
 class Exporter {
   public:
     virtual ~Exporter() = default;
