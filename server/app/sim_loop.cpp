@@ -159,6 +159,7 @@ void SimLoop::serve(Request request) {
 void SimLoop::finish(const Request& request, const Result<v1::Applied>& applied) {
     const v1::Command& command = request.command;
     if (applied && changesWorld(command)) {
+        tellNotices();
         tuner_.forget();
         observer_.disturbed();
         nextReport_ = {};  // what energy there is at the start is soon gone
@@ -296,7 +297,7 @@ Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
     observer_.stepped(wallMs);
     ++version_;
     if (world_.paused()) answered_.reset();
-    for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
+    tellNotices();
     stopAtNonFinite();
     countStep();
     return tune(wallMs);

@@ -52,6 +52,7 @@ class SimLoop : public Show {
     void countStep();
     Result<void> tune(double wallMs);
     void say(v1::Event::Kind kind, const std::string& text);
+    void tellNotices();
     void stopAtNonFinite();
     void lookAtStill();
     Result<void> roomForTape();

@@ -33,6 +33,10 @@ void SimLoop::say(v1::Event::Kind kind, const std::string& text) {
     everybody(std::move(message));
 }
 
+void SimLoop::tellNotices() {
+    for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
+}
+
 // For viewers, and for the recording.
 void SimLoop::everybody(v1::ServerMessage message) {
     const auto shared = frame::share(std::move(message));
@@ -95,7 +99,7 @@ void SimLoop::tellOfChange() {
 // Why commands or states may be late, for who asks after the server's health; empty: they are not.
 std::string SimLoop::slowness() const {
     if (change_) return changeInWords();
-    if (stepMs_ < slowStepMs) return "";
+    if (stepMs_ < slowStepMs || !world_.running()) return "";
     return fmt::format("the step under way has taken {:.1f} s so far, {:.1f} % of it is done", 1e-3 * stepMs_,
                        100 * world_.simulation().shareOfStep());
 }
