@@ -56,12 +56,13 @@ void Chains::serve(const Scenery& world, const std::vector<frame::Demand>& deman
 }
 
 Chains::Chain* Chains::served(const frame::Demand& demand, const Scenery& world, Clock::time_point now) {
-    if (!chains_.contains(demand.channel) && now < retry_) return nullptr;
+    if (!chains_.contains(demand.channel) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
     auto chain = chainOf(demand.channel, world);
     if (chain) return *chain;
     complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(demand.channel.tier),
                           demand.channel.rate, chain.error().text()));
     retry_ = now + retryEvery;
+    refusedEpoch_ = world.epoch;
     return nullptr;
 }
 

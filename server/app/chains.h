@@ -82,7 +82,8 @@ class Chains {
     std::uint64_t version_ = 0;  // of the world when it was last served
     std::map<frame::Channel, Chain> chains_;
     std::uint64_t turns_ = 0;
-    Clock::time_point retry_{};  // of what was refused
+    Clock::time_point retry_{};       // of what was refused,
+    std::uint32_t refusedEpoch_ = 0;  // in this epoch
     std::uint64_t sequence_ = 0;
 };
 

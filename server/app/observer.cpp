@@ -14,10 +14,13 @@ constexpr double noticeable = 1.2;  // times the cost that was last told
 constexpr std::uint64_t enoughSteps = 10;
 constexpr double enoughMs = 300;
 
-// The contacts of `balanced` that an impact has squeezed: the bed expands again. Those of `accurate` are seen.
-bool storesUnseen(scene::Model model, const sim::Statistics& statistics) {
+// The contacts of `balanced` that an impact has squeezed: the bed expands again. In `accurate` those of crowds that
+// have no lists.
+bool storesUnseen(const sim::Simulation& simulation, const sim::Statistics& statistics) {
     constexpr double squeezed = 0.05;  // of the radius
-    return model == scene::Model::Balanced && statistics.deepest() > squeezed;
+    const scene::Model model = simulation.scene().quality.model;
+    return (model == scene::Model::Balanced && statistics.deepest() > squeezed) ||
+           (model == scene::Model::Accurate && simulation.counters().unlisted > 0);
 }
 
 void addPasses(v1::Diagnostics& diagnostics, const std::vector<double>& seconds, std::uint64_t steps) {
@@ -76,7 +79,7 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
                                       .potential = statistics.potentialEnergy,
                                       .elastic = statistics.elasticEnergy,
                                       .given = statistics.pushWork,
-                                      .soft = storesUnseen(simulation.scene().quality.model, statistics)}))
+                                      .soft = storesUnseen(simulation, statistics)}))
             sight.alarms.push_back(std::move(*told));
     if (auto told = overlap_.take(simulation.steps(), statistics.deepest())) sight.alarms.push_back(std::move(*told));
     diagnostics.set_energy_rises(energy_.alarmed());

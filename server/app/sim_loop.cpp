@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <new>
 #include <string>
 #include <utility>
@@ -88,6 +89,7 @@ Result<void> SimLoop::simulate(const std::stop_token& stop) {
     }
     constexpr const char* reason = "the server is stopping";
     if (change_) refuseChange(reason);
+    while (!held_.empty()) refuse(takeHeld(), reason);
     refuseSteps(reason);
     return done;
 }
@@ -110,14 +112,16 @@ Pacer::Clock::duration SimLoop::patience(Pacer::Clock::time_point now) const {
 }
 
 void SimLoop::serveWaiting() {
-    while (!held_.empty() && !world_.changing()) serve(takeHeld());
-    for (int k = 0; k < commandsPerTurn; ++k) {
+    const auto end = Pacer::Clock::now() + sliceOfStep;
+    const auto inTime = [end] { return Pacer::Clock::now() < end; };
+    while (!held_.empty() && !world_.changing() && inTime()) carryOut(takeHeld());
+    for (int k = 0; k < commandsPerTurn && inTime(); ++k) {
         auto request = requests_.tryPop();
         if (!request) break;
         serve(std::move(*request));
     }
     const auto now = Pacer::Clock::now();
-    while (!held_.empty() && now - held_.front().since > longestHold)
+    while (world_.changing() && !held_.empty() && now - held_.front().since > longestHold)
         refuse(takeHeld(), changeInWords() + ": wait until that is done, or cancel it");
 }
 
@@ -131,18 +135,23 @@ Request SimLoop::takeHeld() {
 
 void SimLoop::serve(Request request) {
     const v1::Command& command = request.command;
-    if (world_.changing() && waitsForChange(command)) {
-        if (heldBytes_ + request.bytes > mostHeldBytes)
-            return refuse(request, changeInWords() + ": too much waits for that already");
-        heldBytes_ += request.bytes;
-        held_.push_back({std::move(request), Pacer::Clock::now()});
-        return;
-    }
+    // Behind those that wait already.
+    if (!waitsForChange(command) || (!world_.changing() && held_.empty())) return carryOut(std::move(request));
+    if (heldBytes_ + request.bytes > mostHeldBytes)
+        return refuse(request, "too much waits already for what is under way");
+    heldBytes_ += request.bytes;
+    held_.push_back({std::move(request), Pacer::Clock::now()});
+}
+
+void SimLoop::carryOut(Request request) {
+    const v1::Command& command = request.command;
     std::optional<Result<v1::Applied>> applied;
     try {
         applied = apply(command);
     } catch (const std::bad_alloc&) {
         applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
+    } catch (const std::exception& error) {
+        applied = fail(ErrorKind::Refused, "", error.what());
     }
     if (!applied) {
         if (change_) refuseChange(fmt::format("session {} has asked for {}", request.session, changeOf(command)));
@@ -165,6 +174,7 @@ void SimLoop::finish(const Request& request, const Result<v1::Applied>& applied)
         nextReport_ = {};  // what energy there is at the start is soon gone
     }
     if (applied && (command.has_load() || command.has_reset())) stepMs_ = 0;
+    if (applied && (command.has_pause() || command.has_resume())) refuseHeldSteps();
     if (applied && endsSteps(command)) refuseSteps("came before all its steps were done");
     if (applied) announce();
     outlets_.reply(request.session, resultOf(command, applied));
@@ -216,6 +226,21 @@ void SimLoop::refuseChange(const std::string& reason) {
     while (!held_.empty()) refuse(takeHeld(), reason);
 }
 
+// A command of later ends the steps that have not begun, too.
+void SimLoop::refuseHeldSteps() {
+    std::deque<Asked> others;
+    for (; !held_.empty(); held_.pop_front()) {
+        Asked& asked = held_.front();
+        if (!asked.request.command.has_step()) {
+            others.push_back(std::move(asked));
+            continue;
+        }
+        heldBytes_ -= asked.request.bytes;
+        refuse(asked.request, "none of its steps were done: a later command came before");
+    }
+    held_ = std::move(others);
+}
+
 void SimLoop::refuseSteps(std::string_view reason) {
     for (const Steps& steps : steps_) {
         const std::uint32_t asked = steps.asked.request.command.step().count();
@@ -232,6 +257,9 @@ void SimLoop::advanceChange(Pacer::Clock::duration slice) {
     } catch (const std::bad_alloc&) {
         world_.cancelChange();
         applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
+    } catch (const std::exception& error) {
+        world_.cancelChange();
+        applied = fail(ErrorKind::Refused, "", error.what());
     }
     if (!applied) return;
     const Request request = std::move(change_->request);
@@ -292,6 +320,7 @@ Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
     stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
     if (!ended) return tl::unexpected(ended.error());
     if (!*ended) return {};
+    if (std::exchange(missed_, false)) nextReport_ = {};
     const double wallMs = std::exchange(stepMs_, 0);
     world_.pacer().stepped(end);
     observer_.stepped(wallMs);

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/chains.h"
 #include "app/observer.h"
@@ -32,12 +33,14 @@ class SimLoop : public Show {
     Result<void> simulate(const std::stop_token& stop);
     void serveWaiting();
     void serve(Request request);
+    void carryOut(Request request);
     Request takeHeld();
     std::optional<Result<v1::Applied>> apply(const v1::Command& command);
     void finish(const Request& request, const Result<v1::Applied>& applied);
     void refuse(const Request& request, const std::string& reason);
     void refuseChange(const std::string& reason);
     void refuseSteps(std::string_view reason);
+    void refuseHeldSteps();
     Result<void> cancel();
     void answerQueries();
     bool goOn(Result<void>& done);
@@ -87,6 +90,8 @@ class SimLoop : public Show {
     std::uint32_t epoch_ = 0;
     std::string settings_;  // as last sent
     bool watched_ = false;
+    std::vector<double> passSeconds_;  // by sim::Pass, since somebody looked
+    bool missed_ = false;              // a report came due in the middle of a step
 
     struct Asked {
         Request request;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/sim_loop.h"
 #include "core/log.h"
@@ -154,11 +155,14 @@ Result<void> SimLoop::report() {
     nextReport_ = now + reportEvery;
     if (auto alive = world_.device().status(); !alive) return alive;
     const auto times = world_.simulation().passSeconds();
-    if (world_.simulation().midStep()) {
-        // Figures are those of whole steps.
-    } else if (watched_ || live_.askedWithin(interest)) {
-        look(times);
-    } else {
+    passSeconds_.resize(std::max(passSeconds_.size(), times.size()));
+    for (std::size_t pass = 0; pass < times.size(); ++pass) passSeconds_[pass] += times[pass];
+    // Figures are those of whole steps.
+    missed_ = world_.simulation().midStep();
+    if (!missed_ && (watched_ || live_.askedWithin(interest))) {
+        look(std::exchange(passSeconds_, {}));
+    } else if (!missed_) {
+        passSeconds_.clear();
         seen_.reset();
         observer_.rest();
     }

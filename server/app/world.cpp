@@ -16,8 +16,7 @@ sim::Preparation::Build builderOf(std::function<Result<scene::Scene>(Progress&)>
     return [make = std::move(make)](Progress& progress) -> Result<sim::Built> {
         auto scene = make(progress);
         if (!scene) return tl::unexpected(scene.error());
-        sim::State state = sim::stateOf(*scene);
-        return sim::Built{std::move(*scene), std::move(state)};
+        return sim::builtOf(std::move(*scene));
     };
 }
 
@@ -97,10 +96,13 @@ std::optional<Result<v1::Applied>> World::simulate(const v1::Command& command) {
         if (auto right = checkSpeed(command.set().speed()); !right) return tl::unexpected(right.error());
     auto outcome = simulation_->begin(command);
     if (!outcome) return tl::unexpected(outcome.error());
-    if (paced) pacer_.setSpeed(command.set().speed());
-    if (!outcome->preparation) return std::move(outcome->applied);
+    if (!outcome->preparation) {
+        if (paced) pacer_.setSpeed(command.set().speed());
+        return std::move(outcome->applied);
+    }
     change_ = std::move(outcome->preparation);
     changeKind_ = command.kind_case();
+    changeSpeed_ = paced ? std::optional(command.set().speed()) : std::nullopt;
     return std::nullopt;
 }
 
@@ -124,6 +126,7 @@ v1::Applied World::finishChange() {
         return applied();
     }
     v1::Applied done = simulation_->adopt(std::move(change_));
+    if (changeSpeed_) pacer_.setSpeed(*changeSpeed_);
     pacer_.resume(Clock::now());
     if (changeKind_ == v1::Command::kReset) pendingSteps_ = 0;
     if (simulation_->generation() != generation_) refreshFacts();

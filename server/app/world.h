@@ -25,8 +25,8 @@ class World {
                                                const scene::Overrides& overrides);
 
     // Carries a command out, or refuses it and changes nothing. Nothing: a change is under way now, and advanceChange()
-    // gives the result. While one is under way only pause and resume may be applied, and load and reset, which take its
-    // place.
+    // gives the result. While one is under way only pause, resume and query may be applied, and load and reset, which
+    // take its place.
     std::optional<Result<v1::Applied>> apply(const v1::Command& command);
 
     [[nodiscard]] bool changing() const { return change_ != nullptr; }
@@ -70,6 +70,7 @@ class World {
     std::unique_ptr<sim::Simulation> simulation_;
     std::unique_ptr<sim::Preparation> change_;  // under way
     v1::Command::KindCase changeKind_{};        // of its command
+    std::optional<double> changeSpeed_;         // that comes with it
     Pacer pacer_;
     bool paused_ = false;
     std::uint32_t pendingSteps_ = 0;

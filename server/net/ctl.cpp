@@ -60,7 +60,7 @@ class Conversation {
                 result = answer.result();
                 return true;
             },
-            "gave no answer in time; the command may still apply");
+            "gave no answer in time; the command may still apply", true);
         if (!heard) return tl::unexpected(heard.error());
         return result;
     }
@@ -69,7 +69,8 @@ class Conversation {
         v1::ClientMessage ask;
         ask.mutable_ask_control();
         if (auto sent = say(ask); !sent) return sent;
-        return hearUntil([&](const auto&) { return !standing.mustAsk(); }, "the controls were not handed over in time");
+        return hearUntil([&](const auto&) { return !standing.mustAsk(); }, "the controls were not handed over in time",
+                         false);
     }
 
     void end() { client_->close(); }
@@ -77,8 +78,9 @@ class Conversation {
     Standing standing;
 
   private:
-    // Hears until `enough`, or fails with `late`.
-    Result<void> hearUntil(const std::function<bool(const v1::ServerMessage&)>& enough, const char* late) {
+    // Hears until `enough`, or fails with `late`; `patient`: not as long as some command progresses.
+    Result<void> hearUntil(const std::function<bool(const v1::ServerMessage&)>& enough, const char* late,
+                           bool patient) {
         auto end = std::chrono::steady_clock::now() + target_.timeout;
         for (;;) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
@@ -88,7 +90,7 @@ class Conversation {
             if (!*received) continue;
             standing.hear(**received);
             if (enough(**received)) return {};
-            if (!(*received)->has_change() || (*received)->change().what().empty()) continue;
+            if (!patient || !(*received)->has_change() || (*received)->change().what().empty()) continue;
             hears_((*received)->change());
             end = std::chrono::steady_clock::now() + target_.timeout;
         }

@@ -70,8 +70,10 @@ Result<v1::ClientMessage> decodeClientMessage(std::string_view bytes, Encoding e
         return message;
     }
     v1::ClientMessage message;
-    if (message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return message;
-    return fail(ErrorKind::Input, "", "not a ClientMessage of spherule.v1");
+    if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+        return fail(ErrorKind::Input, "", "not a ClientMessage of spherule.v1");
+    message.DiscardUnknownFields();  // they would be kept for nothing
+    return message;
 }
 
 }  // namespace spherule::net

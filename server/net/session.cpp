@@ -44,8 +44,8 @@ void Session::run(const Request& upgrade) {
 }
 
 void Session::begin(const Request& upgrade) {
-    id_ = context_.hub.add(shared_from_this());
     ++context_.counters.sessions;
+    id_ = context_.hub.add(shared_from_this());
     configure();
     watch();
     stream_.async_accept(upgrade, bind(&Session::onAccepted));

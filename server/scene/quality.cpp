@@ -139,7 +139,9 @@ std::uint32_t mostSubsteps(const Scene& scene) {
     // The launches of a substep take as long as so many spheres.
     constexpr double launches = 1e4;
     constexpr double timesOwn = 8;  // what the dial offers
-    const double own = defaultSubsteps(unpinned(scene, scene.quality.model));
+    // Only the springs of `accurate` depend on whether substeps are pinned; others need no copy of the scene.
+    const bool pinnedCounts = scene.quality.model == Model::Accurate && scene.quality.pinned;
+    const double own = defaultSubsteps(pinnedCounts ? unpinned(scene, scene.quality.model) : scene);
     const double bySize = mostSphereSubsteps / (static_cast<double>(scene.spheres.size()) + launches);
     return static_cast<std::uint32_t>(std::clamp<double>(std::max(timesOwn * own, bySize), 1, maxSubsteps));
 }
@@ -154,9 +156,9 @@ double mostSpeed(const Scene& scene, double radius) {
     return farMotion * radius * mostRaised(scene) / scene.step;
 }
 
-Result<void> checkSpeeds(const Scene& scene) {
+Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
     const double radiiPerSecond = mostSpeed(scene, 1);
-    for (std::size_t id = 0; id < scene.spheres.size(); ++id) {
+    for (std::size_t id = first; id < scene.spheres.size(); ++id) {
         const Sphere& sphere = scene.spheres[id];
         const double speed = glm::length(glm::dvec3(sphere.velocity));
         const double most = radiiPerSecond * static_cast<double>(sphere.radius);

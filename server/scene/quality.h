@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -38,8 +39,8 @@ constexpr double farMotion = 0.5;
 // The fastest that a sphere of this radius (m) can be in the scene (m/s), with more substeps while it is so fast.
 double mostSpeed(const Scene& scene, double radius);
 
-// Refuses spheres that begin faster than that.
-Result<void> checkSpeeds(const Scene& scene);
+// Refuses spheres, from id `first` on, that begin faster than that.
+Result<void> checkSpeeds(const Scene& scene, std::size_t first = 0);
 
 // Within which the model is of use for the scene, as far as was measured.
 struct SubstepRange {

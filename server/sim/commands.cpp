@@ -192,7 +192,8 @@ Result<Built> grownBy(const v1::Group& group, scene::Scene scene, State state, P
     state.spin.insert(state.spin.end(), fresh.spin.begin(), fresh.spin.end());
     scene.spheres.insert(scene.spheres.end(), added->begin(), added->end());
     if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());
-    if (auto fits = scene::checkSpeeds(scene); !fits) return tl::unexpected(fits.error());
+    if (auto fits = scene::checkSpeeds(scene, scene.spheres.size() - added->size()); !fits)
+        return tl::unexpected(fits.error());
     return Built{std::move(scene), std::move(state)};
 }
 
@@ -214,14 +215,15 @@ Result<void> Simulation::checkPush(std::uint32_t id, const glm::dvec3& impulse) 
     const glm::dvec4 now(pipeline_->velocityOf(id));
     const glm::dvec3 velocity(now);
     const glm::dvec3 change = impulse * std::abs(now.w);
-    const double most = scene::mostSpeed(scene_, static_cast<double>(scene_.spheres[id].radius));
+    const double radius = static_cast<double>(scene_.spheres[id].radius);
     // One that is faster already may still be slowed down.
-    if (const double speed = glm::length(velocity + change); speed <= std::max(most, glm::length(velocity))) return {};
+    const double most = std::max(scene::farMotion * radius * mostSubsteps_ / scene_.step, glm::length(velocity));
+    if (glm::length(velocity + change) <= most) return {};
     // The share of the impulse that makes it as fast as it can be.
     const double b = glm::dot(velocity, change);
     const double square = glm::dot(change, change);
     const double room = std::max(most * most - glm::dot(velocity, velocity), 0.0);
-    const double share = room / (b + std::sqrt(b * b + square * room));
+    const double share = (std::sqrt(b * b + square * room) - b) / square;
     return fail(ErrorKind::Refused, "impulse",
                 fmt::format("is {:g} N s, which gives sphere {} {:g} m/s; the scene can compute {:g} m/s at most: give "
                             "it at most {:g} N s",

@@ -69,6 +69,10 @@ std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan) {
     return bytes;
 }
 
+Result<memory::Claim> claimForState(std::size_t spheres) {
+    return memory::Claim::make("", fmt::format("the states of {} spheres", spheres), spheres * stateBytes);
+}
+
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan) {
     const Need need = needOf(plan);
     const std::uint64_t there = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);

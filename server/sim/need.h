@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,8 @@ Need needOf(const Plan& plan);
 // What `plan` takes of the machine's memory when it is made on `device`.
 std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan);
 
+// For the states of so many spheres, until they are there.
+Result<memory::Claim> claimForState(std::size_t spheres);
 // For the simulation of a scene that is in memory already.
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan);
 // Once all of it has been made: what is held, and the promise of what its commands need.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -15,6 +16,13 @@
 
 namespace spherule::sim {
 
+Result<Built> builtOf(scene::Scene scene) {
+    const auto room = claimForState(scene.spheres.size());
+    if (!room) return tl::unexpected(room.error());
+    State state = stateOf(scene);
+    return Built{std::move(scene), std::move(state)};
+}
+
 Preparation::Preparation(compute::Device& device, Built built, memory::Claim copies)
     : device_(device), copies_(std::move(copies)), stage_(Stage::Planning), built_(std::move(built)) {}
 
@@ -25,6 +33,8 @@ Preparation::Preparation(compute::Device& device, Build build, memory::Claim cop
             return build(progress_);
         } catch (const std::bad_alloc&) {
             return fail(ErrorKind::Refused, "", "there is not enough memory for this");
+        } catch (const std::exception& error) {
+            return fail(ErrorKind::Refused, "", error.what());
         }
     });
     building_ = task.get_future();
@@ -101,7 +111,13 @@ Result<void> Preparation::makeNext() {
     progress_.at("making arrays and kernels", pipeline_->shareMade());
     const auto more = pipeline_->makeNext();
     if (!more) return tl::unexpected(more.error());
-    if (!*more) stage_ = Stage::Uploading;
+    if (*more) return {};
+    // The arrays are no longer a promise.
+    const Plan& plan = pipeline_->plan();
+    const Need need = needOf(plan);
+    const std::uint64_t there = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
+    claim_.settle(arraysOnHost(device_, plan), need.onHost() - there + need.work);
+    stage_ = Stage::Uploading;
     return {};
 }
 

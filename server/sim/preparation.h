@@ -26,6 +26,9 @@ struct Built {
     State state;
 };
 
+// As the scene says. Refused where there is no memory for the states.
+Result<Built> builtOf(scene::Scene scene);
+
 // Everything a simulation needs to step: arrays, kernels, the spheres on the device. Made in pieces, beside a world
 // that may go on stepping on the same device meanwhile. Used by the thread that owns the device.
 class Preparation {

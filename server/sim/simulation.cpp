@@ -52,8 +52,9 @@ double farthestMotion(const scene::Scene& scene, const State& state, double h) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::create(compute::Device& device, scene::Scene scene) {
-    State state = stateOf(scene);
-    auto preparation = std::make_unique<Preparation>(device, Built{std::move(scene), std::move(state)});
+    auto built = builtOf(std::move(scene));
+    if (!built) return tl::unexpected(built.error());
+    auto preparation = std::make_unique<Preparation>(device, std::move(*built));
     if (auto done = preparation->finish(); !done) return tl::unexpected(done.error());
     return from(std::move(preparation));
 }
@@ -91,13 +92,15 @@ void Simulation::take(Preparation& preparation) {
 }
 
 Simulation::Outcome Simulation::prepare(Anew anew, memory::Claim copies, Preparation::Build build) {
+    auto preparation = std::make_unique<Preparation>(device_, std::move(build), std::move(copies));
     anew_ = anew;
-    return {.preparation = std::make_unique<Preparation>(device_, std::move(build), std::move(copies))};
+    return {.preparation = std::move(preparation)};
 }
 
 Simulation::Outcome Simulation::prepare(Anew anew, memory::Claim copies, Built built) {
+    auto preparation = std::make_unique<Preparation>(device_, std::move(built), std::move(copies));
     anew_ = anew;
-    return {.preparation = std::make_unique<Preparation>(device_, std::move(built), std::move(copies))};
+    return {.preparation = std::move(preparation)};
 }
 
 v1::Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {

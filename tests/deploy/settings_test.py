@@ -9,8 +9,9 @@ import unittest
 from facts import ROOT
 
 BINARY = sys.argv.pop()
-# Tokens are read from the environment alone. The last is of the build: -D SPHERULE_TESTS.
-BESIDES = {"SPHERULE_VIEWER_TOKEN", "SPHERULE_CONTROLLER_TOKEN", "SPHERULE_TESTS"}
+# Tokens are read from the environment alone, and the file of settings is named there. The last is of the build:
+# -D SPHERULE_TESTS.
+BESIDES = {"SPHERULE_VIEWER_TOKEN", "SPHERULE_CONTROLLER_TOKEN", "SPHERULE_CONFIG", "SPHERULE_TESTS"}
 
 
 class Settings(unittest.TestCase):

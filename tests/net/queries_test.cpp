@@ -108,7 +108,7 @@ TEST(Queries, OfFortyViewersRefuseNoCommandAndDelayNoAnswer) {
     const auto runtime = serve();
     Viewers viewers(runtime->port(), 40);
     Controller controller(runtime->port());
-    (void)controller.give(R"("set":{"speed":100,"substeps":30})");
+    (void)controller.give(R"("set":{"speed":100,"substeps":120})");
     std::vector<double> ratios;
     for (int round = 0; round < 5; ++round) {
         std::vector<Clock::duration> times[2];

@@ -248,6 +248,35 @@ TEST(World, RefusesAPushThatIsTooFastAndTakesTheLargest) {
     }
 }
 
+// What is refused changes nothing, its speed neither.
+TEST(World, ASpeedComesWithTheRestOfItsCommand) {
+    const auto world = open("two-spheres");
+    const char* set = R"({"set":{"speed":4,"model":"ACCURATE"}})";
+    ASSERT_FALSE(world->apply(commandOf(set)));
+    world->cancelChange();
+    EXPECT_EQ(world->pacer().speed(), 1);
+    ASSERT_FALSE(world->apply(commandOf(set)));
+    Result<v1::Applied> result;
+    piecesOf(*world, 1'000'000'000, result);
+    ASSERT_TRUE(result) << result.error().text();
+    EXPECT_EQ(world->pacer().speed(), 4);
+}
+
+// However fast it was: the refusal names an impulse that is accepted.
+TEST(World, APushAgainstAVeryFastSphereNamesTheLargest) {
+    const auto world = open();
+    load(*world, thrown);
+    done(*world, R"({"set":{"substeps":20}})");
+    done(*world, R"({"push":{"sphere":0,"impulse":[1000,0,0]}})");
+    done(*world, R"({"set":{"substeps":1}})");  // too few for so fast a sphere: from now on it is faster than may be
+    const Error refused = refusalOf(*world, R"({"push":{"sphere":0,"impulse":[-1e9,0,0]}})");
+    const auto at = refused.message.rfind("at most ");
+    ASSERT_NE(at, std::string::npos) << refused.text();
+    const double most = std::stod(refused.message.substr(at + 8));
+    EXPECT_GT(most, 0) << refused.text();
+    done(*world, fmt::format(R"({{"push":{{"sphere":0,"impulse":[{},0,0]}}}})", -0.999 * most));
+}
+
 TEST(World, RefusesSpheresThatBeginTooFast) {
     const auto world = open();
     const std::string scene = R"("bounds":{"min":[-1,-1,-1],"max":[1,1,1]},"groups":[{"radius":{"constant":0.05},

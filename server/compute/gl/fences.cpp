@@ -9,6 +9,8 @@ namespace {
 
 // Few enough that they end within seconds on a slow device, many enough that fences cost nothing.
 constexpr unsigned launchesPerFence = 64;
+// The host is ahead of the device by no more: what it is asked for next must not wait for minutes of work.
+constexpr std::size_t mostFences = 4;
 constexpr GLuint64 look = 1'000'000'000;  // ns; then the context may be lost, which not every driver tells a fence
 
 }  // namespace
@@ -21,19 +23,23 @@ Fences::~Fences() {
 }
 
 void Fences::launched() {
-    if (++launches_ >= launchesPerFence) add();
+    if (++launches_ < launchesPerFence) return;
+    add();
+    if (fences_.size() > mostFences) waitForFirst();
 }
 
 void Fences::wait() {
     add();
-    while (!fences_.empty()) {
-        pulse::beat("waiting for the device");
-        while (glClientWaitSync(fences_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, look) == GL_TIMEOUT_EXPIRED &&
-               !context_->resetCause()) {
-        }
-        glDeleteSync(fences_.front());
-        fences_.pop_front();
+    while (!fences_.empty()) waitForFirst();
+}
+
+void Fences::waitForFirst() {
+    pulse::beat("waiting for the device");
+    while (glClientWaitSync(fences_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, look) == GL_TIMEOUT_EXPIRED &&
+           !context_->resetCause()) {
     }
+    glDeleteSync(fences_.front());
+    fences_.pop_front();
 }
 
 void Fences::add() {

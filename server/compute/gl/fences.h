@@ -16,13 +16,14 @@ class Fences {
     Fences(const Fences&) = delete;
     Fences& operator=(const Fences&) = delete;
 
-    // After each launch.
+    // After each launch. The context is current. Waits where the device has much to do already.
     void launched();
     // Until all that was asked of the device has ended, or it is lost. The context is current.
     void wait();
 
   private:
     void add();
+    void waitForFirst();
 
     std::shared_ptr<Context> context_;
     std::deque<GLsync> fences_;
