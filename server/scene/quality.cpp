@@ -140,8 +140,8 @@ std::uint32_t mostSubsteps(const Scene& scene) {
     constexpr double launches = 1e4;
     constexpr double timesOwn = 8;  // what the dial offers
     // Only the springs of `accurate` depend on whether substeps are pinned; others need no copy of the scene.
-    const bool pinnedCounts = scene.quality.model == Model::Accurate && scene.quality.pinned;
-    const double own = defaultSubsteps(pinnedCounts ? unpinned(scene, scene.quality.model) : scene);
+    const bool copied = scene.quality.model == Model::Accurate && scene.quality.pinned;
+    const double own = copied ? defaultSubsteps(unpinned(scene, Model::Accurate)) : defaultSubsteps(scene);
     const double bySize = mostSphereSubsteps / (static_cast<double>(scene.spheres.size()) + launches);
     return static_cast<std::uint32_t>(std::clamp<double>(std::max(timesOwn * own, bySize), 1, maxSubsteps));
 }
