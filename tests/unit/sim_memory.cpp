@@ -78,6 +78,15 @@ TEST_F(SimMemory, WhatIsCountedIsWhatIsTaken) {
     EXPECT_EQ(memory::claimed().held + memory::claimed().promised, 0U);
 }
 
+// More spheres than the other tests have, so that their most does not hide this one's.
+TEST_F(SimMemory, ASceneIsMadeWithoutASecondCopyOfItsSpheres) {
+    constexpr std::uint32_t spheres = 4'000'000;
+    const std::uint64_t before = held();
+    const auto scene = scene::build(latticeOf(spheres, 0.3));
+    ASSERT_TRUE(scene) << scene.error().text();
+    EXPECT_LT(mostHeld(), before + 13 * std::uint64_t{spheres} * sizeof(scene::Sphere) / 10);
+}
+
 TEST_F(SimMemory, ASceneWithoutRoomIsRefusedBeforeItIsMade) {
     memory::setLimit(held() + 100 * mebi);
     const std::uint64_t before = mostHeld();
