@@ -267,18 +267,6 @@ void SimLoop::advanceChange(Pacer::Clock::duration slice) {
     finish(request, *applied);
 }
 
-Result<void> SimLoop::roomForTape() {
-    return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
-        error.message = "nothing is recorded: " + error.message;
-        return error;
-    });
-}
-
-Result<void> SimLoop::startRecording() {
-    if (auto room = roomForTape(); !room) return room;
-    return tape_.start();
-}
-
 // All that wait get the same answer. It shows each command that was applied, and each step that was asked for.
 void SimLoop::answerQueries() {
     const auto queries = requests_.takeQueries();

@@ -51,6 +51,18 @@ void SimLoop::keep(v1::ServerMessage message) {
     outlets_.keep(shared);
 }
 
+Result<void> SimLoop::roomForTape() {
+    return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
+        error.message = "nothing is recorded: " + error.message;
+        return error;
+    });
+}
+
+Result<void> SimLoop::startRecording() {
+    if (auto room = roomForTape(); !room) return room;
+    return tape_.start();
+}
+
 void SimLoop::tellOfTape() {
     if (!tape_.canRecord()) return;
     const auto news = tape_.news(Tape::Clock::now());
