@@ -49,9 +49,7 @@ function feed(decoder, view) {
   }
   const { user, system } = process.cpuUsage(begin);
   const took = (user + system) / 1000;
-  seen.slowest = Math.max(seen.slowest, took);
-  if (took > patience) throw new Broken(`takes ${took} ms`);
-  return reason;
+  return { reason, took };
 }
 
 /** Two decoders, of which the other sees the same frames among other bytes. */
@@ -61,8 +59,13 @@ function check(pair, frame) {
   const first = placed(frame, around);
   const before = one.newest;
   const state = draw(16) === 0 ? before.slice() : undefined;
-  const reason = feed(one, first.view);
-  if (feed(other, placed(frame, 255 - around).view) !== reason) throw new Broken("depends on what lies around the frame");
+  const { reason, took } = feed(one, first.view);
+  const again = feed(other, placed(frame, 255 - around).view);
+  if (again.reason !== reason) throw new Broken("depends on what lies around the frame");
+  // Time that the host of a virtual machine takes may count as ours: a frame that is slow is slow in both.
+  const least = Math.min(took, again.took);
+  seen.slowest = Math.max(seen.slowest, least);
+  if (least > patience) throw new Broken(`takes ${least} ms`);
   if (one.wantsKeyframe !== (reason !== "")) throw new Broken("takes a frame and wants a keyframe, or refuses one and wants none");
   if (first.whole.subarray(first.view.byteOffset, first.view.byteOffset + frame.length).some((byte, k) => byte !== frame[k])) {
     throw new Broken("changes the frame");
