@@ -3,7 +3,7 @@
 #include "shared/layout.h"
 PARAMETERS
 
-BUFFER(0, writeonly, uint, cellStart, CellBlock)
+BUFFER(writeonly, uint, cellStart)
 
 KERNEL(params.cells.w + 1u) {
     cellStart[invocation] = 0u;

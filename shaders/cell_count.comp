@@ -5,10 +5,10 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, coherent, uint, cellStart, CellBlock)
-BUFFER(2, writeonly, uint, place, PlaceBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(coherent, uint, cellStart)
+BUFFER(writeonly, uint, rankInCell)
 
 KERNEL(params.spheres) {
-    place[invocation] = atomicAdd(cellStart[cellOf(position[invocation])], 1u);
+    rankInCell[invocation] = atomicAdd(cellStart[cellOf(position[invocation])], 1u);
 }

@@ -5,23 +5,23 @@
 PARAMETERS
 #include "shared/label.h"
 
-BUFFER(0, readonly, uint, cellStart, CellBlock)
-BUFFER(1, restrict, uint, order, OrderBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
+BUFFER(readonly, uint, cellStart)
+BUFFER(restrict, uint, cellOrder)
+BUFFER(readonly, uint, idAndMaterial)
 
-// Restores the heap below `root` in order[first .. first + count - 1].
+// Restores the heap below `root` in cellOrder[first .. first + count - 1].
 void sink(uint first, uint root, uint count) {
-    uint moving = order[first + root];
-    uint key = idOf(label[moving]);
+    uint moving = cellOrder[first + root];
+    uint key = idOf(idAndMaterial[moving]);
     uint hole = root;
     for (uint child = 2u * hole + 1u; child < count; child = 2u * hole + 1u) {
-        if (child + 1u < count && idOf(label[order[first + child + 1u]]) > idOf(label[order[first + child]]))
+        if (child + 1u < count && idOf(idAndMaterial[cellOrder[first + child + 1u]]) > idOf(idAndMaterial[cellOrder[first + child]]))
             child = child + 1u;
-        if (idOf(label[order[first + child]]) <= key) break;
-        order[first + hole] = order[first + child];
+        if (idOf(idAndMaterial[cellOrder[first + child]]) <= key) break;
+        cellOrder[first + hole] = cellOrder[first + child];
         hole = child;
     }
-    order[first + hole] = moving;
+    cellOrder[first + hole] = moving;
 }
 
 KERNEL(params.cells.w) {
@@ -30,9 +30,9 @@ KERNEL(params.cells.w) {
     if (count < 2u) return;
     for (uint root = count / 2u; root > 0u; --root) sink(first, root - 1u, count);
     for (uint end = count - 1u; end > 0u; --end) {
-        uint top = order[first];
-        order[first] = order[first + end];
-        order[first + end] = top;
+        uint top = cellOrder[first];
+        cellOrder[first] = cellOrder[first + end];
+        cellOrder[first + end] = top;
         sink(first, 0u, end);
     }
 }

@@ -5,11 +5,11 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, uint, cellStart, CellBlock)
-BUFFER(2, readonly, uint, place, PlaceBlock)
-BUFFER(3, writeonly, uint, order, OrderBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, cellStart)
+BUFFER(readonly, uint, rankInCell)
+BUFFER(writeonly, uint, cellOrder)
 
 KERNEL(params.spheres) {
-    order[cellStart[cellOf(position[invocation])] + place[invocation]] = invocation;
+    cellOrder[cellStart[cellOf(position[invocation])] + rankInCell[invocation]] = invocation;
 }

@@ -5,13 +5,13 @@
 #include "shared/codec.h"
 PARAMETERS
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, uint, slotOf, SlotBlock)
-BUFFER(2, readonly, uint, order, OrderBlock)
-BUFFER(3, readonly, uint, newest, NewestBlock)
-BUFFER(4, restrict, uint, before, BeforeBlock)
-BUFFER(5, writeonly, uint, blockWords, BlockWordsBlock)
-BUFFER(6, writeonly, uint, scratch, ScratchBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, slotOf)
+BUFFER(readonly, uint, order)
+BUFFER(readonly, uint, newest)
+BUFFER(restrict, uint, before)
+BUFFER(writeonly, uint, blockWords)
+BUFFER(writeonly, uint, scratch)
 
 PRIVATE(uint, change[CODEC_VALUES])    // new positions less the newest; for the predictor `none` the positions
 PRIVATE(uint, step[CODEC_VALUES])      // the newest less those before

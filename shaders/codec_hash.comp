@@ -4,8 +4,8 @@
 #include "shared/codec.h"
 PARAMETERS
 
-BUFFER(0, readonly, uint, newest, NewestBlock)
-BUFFER(1, coherent, uint, frame, FrameBlock)
+BUFFER(readonly, uint, newest)
+BUFFER(coherent, uint, frame)
 
 KERNEL(params.blocks) {
     uint first = invocation * CODEC_VALUES;

@@ -4,9 +4,9 @@
 #include "shared/codec_layout.h"
 PARAMETERS
 
-BUFFER(0, restrict, uint, scratch, ScratchBlock)
-BUFFER(1, readonly, uint, groupStart, GroupBlock)
-BUFFER(2, writeonly, uint, frame, FrameBlock)
+BUFFER(restrict, uint, scratch)
+BUFFER(readonly, uint, groupStart)
+BUFFER(writeonly, uint, frame)
 
 KERNEL(params.groups) {
     uint start = groupStart[invocation];

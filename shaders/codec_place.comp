@@ -4,9 +4,9 @@
 #include "shared/codec_layout.h"
 PARAMETERS
 
-BUFFER(0, readonly, uint, blockWords, BlockWordsBlock)
-BUFFER(1, readonly, uint, scratch, ScratchBlock)
-BUFFER(2, writeonly, uint, frame, FrameBlock)
+BUFFER(readonly, uint, blockWords)
+BUFFER(readonly, uint, scratch)
+BUFFER(writeonly, uint, frame)
 
 KERNEL(params.blocks) {
     uint head = invocation * CODEC_SCRATCH;

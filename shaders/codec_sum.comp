@@ -3,8 +3,8 @@
 #include "shared/codec_layout.h"
 PARAMETERS
 
-BUFFER(0, readonly, uint, scratch, ScratchBlock)
-BUFFER(1, writeonly, uint, groupWords, GroupBlock)
+BUFFER(readonly, uint, scratch)
+BUFFER(writeonly, uint, groupWords)
 
 KERNEL(params.groups) {
     uint end = min(params.blocks, (invocation + 1u) * CODEC_GROUP);

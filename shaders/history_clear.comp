@@ -3,8 +3,8 @@
 #include "shared/layout.h"
 PARAMETERS
 
-BUFFER(0, writeonly, uint, keptStart, KeptStartBlock)
+BUFFER(writeonly, uint, carriedOffsets)
 
 KERNEL(params.spheres + 1u) {
-    keptStart[invocation] = 0u;
+    carriedOffsets[invocation] = 0u;
 }

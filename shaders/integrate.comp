@@ -7,14 +7,15 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/outside.h"
 
-BUFFER(0, restrict, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, restrict, vec4, before, BeforeBlock)
-BUFFER(3, readonly, vec4, anchor, AnchorBlock)
-BUFFER(4, readonly, uint, label, LabelBlock)
-BUFFER(5, coherent, uint, counters, CounterBlock)
-BUFFER(6, restrict, vec4, resting, RestingBlock)
-BUFFER(7, readonly, Obstacle, obstacles, ObstacleBlock)
+BUFFER(restrict, vec4, position)
+BUFFER(restrict, vec4, positionLow)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, velocityBefore)
+BUFFER(readonly, vec4, listReference)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(coherent, uint, counters)
+BUFFER(restrict, vec4, restReference)
+BUFFER(readonly, Obstacle, obstacles)
 
 #include "shared/frame.h"
 
@@ -98,7 +99,7 @@ KERNEL(params.spheres) {
     vec4 x = position[invocation];
     if (farthestAxis(vec3(x)) > LAST_PLACE && finite3(vec3(x))) return;
     float h = params.substep;
-    if (HAS(BEFORE)) before[invocation] = vec4(vec3(v), before[invocation].w);
+    if (HAS(VELOCITY_BEFORE)) velocityBefore[invocation] = vec4(vec3(v), velocityBefore[invocation].w);
     vec3 moved = vec3(v);
     if (HAS(GRAVITY)) {
         vec3 kick = vec3(params.gravity) * h;
@@ -107,22 +108,22 @@ KERNEL(params.spheres) {
         moved = moved - kick * 0.5f;
     }
     precise vec3 to = vec3(x) + moved * h;
-    if (HAS(RESIDUAL)) {
+    if (HAS(LOW_BITS)) {
         // What float32 cannot hold of the position: short substeps would not move a slow sphere at all.
-        vec4 residual = position[params.spheres + invocation];
+        vec4 residual = positionLow[invocation];
         precise vec3 low = vec3(residual) + moved * h;
         to = vec3(x) + low;
         precise vec3 held = to - vec3(x);
-        position[params.spheres + invocation] = vec4(low - held, residual.w);
+        positionLow[invocation] = vec4(low - held, residual.w);
     }
     position[invocation] = vec4(to, x.w);
     if (!finite3(to)) {
         // Counted and reported; such a sphere touches nothing, because comparisons with it fail.
         atomicAdd(counters[COUNTER_NON_FINITE], 1u);
-        atomicMax(counters[COUNTER_FIRST_ID], ~idOf(label[invocation]));
+        atomicMax(counters[COUNTER_FIRST_ID], ~idOf(idAndMaterial[invocation]));
         return;
     }
-    vec4 start = HAS(CONTACTS) ? anchor[invocation] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    vec4 start = HAS(CONTACTS) ? listReference[invocation] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
     float far = FAR_MOTION * (HAS(RADII) ? x.w : params.radius);
     if (dot3(moved, moved) * h * h > far * far) {
         float motion = riskyMotion(vec4(to, x.w), moved, start);
@@ -130,14 +131,14 @@ KERNEL(params.spheres) {
     }
     if (HAS(CONTACTS)) {
         if (leavesLists(to, start, x.w)) atomicOr(counters[COUNTER_REBUILD], 1u);
-        // Not from `anchor`, which starts anew whenever some other sphere needs new lists: a slow one would never have
+        // Not from `listReference`, which starts anew whenever some other sphere needs new lists: a slow one would never have
         // moved at all.
         if (HAS(SLEEP)) {
-            uint id = idOf(label[invocation]);
-            vec3 crept = to - vec3(resting[id]);
+            uint id = idOf(idAndMaterial[invocation]);
+            vec3 crept = to - vec3(restReference[id]);
             if (dot3(crept, crept) > params.creep * params.creep) {
-                resting[id] = vec4(to, 0.0f);
-                before[invocation] = vec4(vec3(v), CREPT);
+                restReference[id] = vec4(to, 0.0f);
+                velocityBefore[invocation] = vec4(vec3(v), CREPT);
             }
         }
     }

@@ -8,11 +8,11 @@ PARAMETERS
 #include "shared/grid.h"
 #include "shared/outside.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, uint, cellStart, CellBlock)
-BUFFER(2, coherent, uint, counters, CounterBlock)
-BUFFER(3, writeonly, uvec2, pairs, PairBlock)
-BUFFER(4, writeonly, uvec4, span, SpanBlock)  // per group: first pair, or the turn of one without a list, listed,
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, cellStart)
+BUFFER(coherent, uint, counters)
+BUFFER(writeonly, uvec2, pairs)
+BUFFER(writeonly, uvec4, groupRange)  // per group: first pair, or the turn of one without a list, listed,
                                               // touching, whether it stirs
 
 #define LOCAL_PAIRS 192u
@@ -49,10 +49,10 @@ KERNEL(params.groups * 8u) {
     }
     uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
     if (count > params.pairCapacity || start > params.pairCapacity - count) {
-        span[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
+        groupRange[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
         return;
     }
-    span[invocation] = uvec4(start, count, 0u, 1u);
+    groupRange[invocation] = uvec4(start, count, 0u, 1u);
     if (count <= LOCAL_PAIRS) {
         // One from each half in turn: a solver then need not wait for the result of the pair before.
         uint middle = (count + 1u) / 2u;

@@ -4,11 +4,11 @@
 #include "shared/layout.h"
 PARAMETERS
 
-BUFFER(0, coherent, uint, counters, CounterBlock)
-BUFFER(1, restrict, uvec4, span, SpanBlock)
+BUFFER(coherent, uint, counters)
+BUFFER(restrict, uvec4, groupRange)
 
 KERNEL(params.groups * 8u) {
-    if (counters[COUNTER_PAIRS] <= params.pairCapacity || span[invocation].y == 0u) return;
+    if (counters[COUNTER_PAIRS] <= params.pairCapacity || groupRange[invocation].y == 0u) return;
     atomicAdd(counters[COUNTER_UNLISTED], 1u);
-    span[invocation] = uvec4(counters[COUNTER_REBUILDS], UNLISTED, 0u, 1u);
+    groupRange[invocation] = uvec4(counters[COUNTER_REBUILDS], UNLISTED, 0u, 1u);
 }

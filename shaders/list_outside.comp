@@ -7,12 +7,12 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/outside.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
-BUFFER(3, readonly, uint, order, OrderBlock)
-BUFFER(4, coherent, uint, counters, CounterBlock)
-BUFFER(5, restrict, vec4, anchor, AnchorBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uint, cellOrder)
+BUFFER(coherent, uint, counters)
+BUFFER(restrict, vec4, listReference)
 
 #include "shared/frame.h"
 
@@ -22,20 +22,20 @@ bool faster(uint a, uint b) {
     vec3 vb = vec3(velocity[b]);
     float sa = dot3(va, va);
     float sb = dot3(vb, vb);
-    return sa > sb || (sa == sb && idOf(label[a]) < idOf(label[b]));
+    return sa > sb || (sa == sb && idOf(idAndMaterial[a]) < idOf(idAndMaterial[b]));
 }
 
 KERNEL(MOST_OUTSIDE) {
     uint count = counters[COUNTER_OUTSIDE];
     if (count > MOST_OUTSIDE || invocation >= count) return;
-    uint mine = order[invocation];
+    uint mine = cellOrder[invocation];
     vec4 p = position[mine];
     float room = UNLIMITED_ROOM;
     bool listed = false;
     bool rests = false;
     uint fastest = mine;
     for (uint k = 0u; k < count; ++k) {
-        uint other = order[k];
+        uint other = cellOrder[k];
         if (HAS(SLEEP)) rests = rests || velocity[other].w < 0.0f;
         if (other == mine) continue;
         if (faster(other, fastest)) fastest = other;
@@ -50,7 +50,7 @@ KERNEL(MOST_OUTSIDE) {
             room = min(room, sqrt(squared) - touch);
         }
     }
-    anchor[mine] = vec4(vec3(p), listed ? -room : room);
+    listReference[mine] = vec4(vec3(p), listed ? -room : room);
     if (fastest != mine || rests) return;
     counters[COUNTER_FRAME_FALLS] = 1u;
     setFrameVector(COUNTER_FRAME_VELOCITY, vec3(velocity[mine]));

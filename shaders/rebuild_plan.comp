@@ -3,9 +3,9 @@
 #include "shared/layout.h"
 PARAMETERS
 
-BUFFER(0, coherent, uint, counters, CounterBlock)
-BUFFER(1, readonly, uvec4, fullLaunches, FullLaunchBlock)
-BUFFER(2, writeonly, uvec4, launches, LaunchBlock)
+BUFFER(coherent, uint, counters)
+BUFFER(readonly, uvec4, dispatchSizes)
+BUFFER(writeonly, uvec4, dispatchArgs)
 
 #include "shared/frame.h"
 
@@ -24,7 +24,7 @@ KERNEL(1u) {
     counters[COUNTER_SUBSTEPS] = counters[COUNTER_SUBSTEPS] + 1u;
     bool rebuild = counters[COUNTER_REBUILD] != 0u;
     for (uint row = 0u; row < LAUNCH_ROWS; ++row)
-        launches[row] = rebuild ? fullLaunches[row] : uvec4(0u, 1u, 1u, 0u);
+        dispatchArgs[row] = rebuild ? dispatchSizes[row] : uvec4(0u, 1u, 1u, 0u);
     if (rebuild) {
         counters[COUNTER_REBUILD] = 0u;
         counters[COUNTER_PAIRS] = 0u;

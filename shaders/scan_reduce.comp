@@ -2,8 +2,8 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 
-BUFFER(0, readonly, uint, values, ValueBlock)
-BUFFER(1, writeonly, uint, sums, SumBlock)
+BUFFER(readonly, uint, values)
+BUFFER(writeonly, uint, sums)
 
 KERNEL((phase + SCAN_BLOCK - 1u) / SCAN_BLOCK) {
     uint end = min(phase, (invocation + 1u) * SCAN_BLOCK);

@@ -2,8 +2,8 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 
-BUFFER(0, restrict, uint, values, ValueBlock)
-BUFFER(1, readonly, uint, sums, SumBlock)
+BUFFER(restrict, uint, values)
+BUFFER(readonly, uint, sums)
 
 KERNEL((phase + SCAN_BLOCK - 1u) / SCAN_BLOCK) {
     uint end = min(phase, (invocation + 1u) * SCAN_BLOCK);

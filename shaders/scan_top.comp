@@ -2,7 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 
-BUFFER(0, restrict, uint, sums, SumBlock)
+BUFFER(restrict, uint, sums)
 
 KERNEL(1u) {
     uint running = 0u;

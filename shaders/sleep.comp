@@ -10,15 +10,16 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/outside.h"
 
-BUFFER(0, restrict, vec4, velocity, VelocityBlock)
-BUFFER(1, restrict, vec4, before, BeforeBlock)  // w: s spent in one place
-BUFFER(2, readonly, vec4, position, PositionBlock)
-BUFFER(3, coherent, uint, counters, CounterBlock)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(restrict, vec4, velocityBefore)  // w: s spent in one place
+BUFFER(readonly, vec4, position)
+BUFFER(coherent, uint, counters)
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
     if (v.w < 0.0f) return;
-    vec4 u = before[invocation];
+    vec4 u = velocityBefore[invocation];
     float squared = dot3(vec3(v), vec3(v));
     float spent = squared < params.wakeSpeed * params.wakeSpeed ? max(u.w, 0.0f) + params.substep : 0.0f;
     bool asleep = spent >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
@@ -28,18 +29,18 @@ KERNEL(params.spheres) {
         asleep = asleep && dot3(carried, carried) > 0.25f * dot3(pull, pull);
     }
     if (HAS(FRICTION)) {
-        vec3 spin = vec3(velocity[params.spheres + invocation]) *
+        vec3 spin = vec3(angularVelocity[invocation]) *
                     (HAS(RADII) ? position[invocation].w : params.radius);
         float turning = params.sleepSpeed * min(spent / params.sleepTime, 4.0f);
         asleep = asleep && dot3(spin, spin) < turning * turning;
     }
     if (!asleep) {
-        before[invocation] = vec4(vec3(u), spent);
+        velocityBefore[invocation] = vec4(vec3(u), spent);
         return;
     }
     if (beyond(vec3(position[invocation])) > 0.0f) atomicOr(counters[COUNTER_REBUILD], 1u);
     // A sleeper has no velocity before the substep either: its neighbours bounce off what stands still.
-    before[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     velocity[invocation] = vec4(0.0f, 0.0f, 0.0f, -v.w);
-    if (HAS(FRICTION)) velocity[params.spheres + invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    if (HAS(FRICTION)) angularVelocity[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }

@@ -10,14 +10,18 @@ PARAMETERS
 #include "shared/contact.h"
 #include "shared/rub.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)  // with what float32 cannot hold of it behind
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
-BUFFER(3, readonly, uint, cellStart, CellBlock)
-BUFFER(4, restrict, uvec4, span, SpanBlock)
-BUFFER(5, readonly, uvec2, pairs, PairBlock)
-BUFFER(6, restrict, vec4, history, HistoryBlock)  // per listed pair: stretch, of the first against the second, m; w: 1 in touch
-BUFFER(7, readonly, Law, laws, LawBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, positionLow)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, angularVelocity)
+BUFFER(restrict, vec4, deltaVelocity)
+BUFFER(restrict, vec4, deltaOmega)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uint, cellStart)
+BUFFER(restrict, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(restrict, vec4, tangentialSlip)  // per listed pair: stretch, of the first against the second, m; w: 1 in touch
+BUFFER(readonly, Law, contactParams)
 
 PRIVATE(vec3, stretch)
 PRIVATE(bool, touches)
@@ -31,8 +35,8 @@ PRIVATE(bool, listed)     // the contact remembers; another is stretched in ever
 void rubSprings(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    vec4 sa = velocity[params.spheres + a];
-    vec4 sb = velocity[params.spheres + b];
+    vec4 sa = angularVelocity[a];
+    vec4 sb = angularVelocity[b];
     vec3 difference = vec3(va) - vec3(vb);
     vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n) * lever;
     stretch = turnedInto(stretch, n);
@@ -57,7 +61,7 @@ void visitPair(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
-    d = d + (vec3(position[params.spheres + a]) - vec3(position[params.spheres + b]));
+    d = d + (vec3(positionLow[a]) - vec3(positionLow[b]));
     float squared = dot3(d, d);
     float ra = HAS(RADII) ? pa.w : params.radius;
     float rb = HAS(RADII) ? pb.w : params.radius;
@@ -82,7 +86,7 @@ void visitPair(uint a, uint b) {
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = span[group];
+    uvec4 mine = groupRange[group];
     listed = mine.y != UNLISTED;
     if (!listed) {
         visitGroupNumber(group, mine.x);
@@ -91,15 +95,15 @@ KERNEL(groupsOfPhase()) {
     uint touched = 0u;
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
-        if (HAS(FRICTION)) stretch = vec3(history[k]);
+        if (HAS(FRICTION)) stretch = vec3(tangentialSlip[k]);
         visitPair(pair.x, pair.y);
         if (touches) touched = touched + 1u;
         if (HAS(FRICTION)) {
             if (touches)
-                history[k] = vec4(stretch, 1.0f);
-            else if (history[k].w != 0.0f)
-                history[k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+                tangentialSlip[k] = vec4(stretch, 1.0f);
+            else if (tangentialSlip[k].w != 0.0f)
+                tangentialSlip[k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
         }
     }
-    span[group] = uvec4(mine.x, mine.y, touched, mine.w);
+    groupRange[group] = uvec4(mine.x, mine.y, touched, mine.w);
 }

@@ -10,27 +10,28 @@ PARAMETERS
 #include "shared/contact.h"
 #include "shared/rub.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
-BUFFER(3, readonly, uvec4, span, SpanBlock)
-BUFFER(4, readonly, uvec2, pairs, PairBlock)
-BUFFER(5, readonly, Law, laws, LawBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, touching)
+BUFFER(readonly, float, normalImpulses)
+BUFFER(readonly, Law, contactParams)
 
 #include "shared/laws.h"
 #include "shared/rub_pair.h"
 
 KERNEL(groupsOfPhase()) {
-    uvec4 mine = span[groupOfPhase(invocation)];
+    uvec4 mine = groupRange[groupOfPhase(invocation)];
     if (HAS(SLEEP) && mine.w == 0u) return;
     // Groups without lists know no impulses: they go without friction.
     if (mine.y == UNLISTED) return;
-    uint first = params.pairCapacity + mine.x;
-    for (uint k = first; k < first + mine.z; ++k) {
-        float pressing = uintBitsToFloat(pairs[params.pairCapacity + k].x);
+    for (uint k = mine.x; k < mine.x + mine.z; ++k) {
+        float pressing = normalImpulses[k];
         if (!(pressing > 0.0f)) continue;
-        uint a = pairs[k].x;
-        uint b = pairs[k].y;
+        uint a = touching[k].x;
+        uint b = touching[k].y;
         vec4 pa = position[a];
         vec4 pb = position[b];
         vec3 d = vec3(pa) - vec3(pb);

@@ -11,14 +11,15 @@ PARAMETERS
 #include "shared/wake.h"
 #include "shared/rub.h"
 
-BUFFER(0, restrict, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
-BUFFER(3, readonly, uint, cellStart, CellBlock)
-BUFFER(4, readonly, uvec4, span, SpanBlock)
-BUFFER(5, readonly, uvec2, pairs, PairBlock)
-BUFFER(6, readonly, vec4, before, BeforeBlock)
-BUFFER(7, readonly, Law, laws, LawBlock)
+BUFFER(restrict, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uint, cellStart)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(readonly, vec4, velocityBefore)
+BUFFER(readonly, Law, contactParams)
 
 #include "shared/laws.h"
 #include "shared/rub_pair.h"
@@ -69,7 +70,7 @@ void visitPair(uint a, uint b) {
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = span[group];
+    uvec4 mine = groupRange[group];
     if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
         visitGroupNumber(group, mine.x);

@@ -10,12 +10,14 @@ PARAMETERS
 #include "shared/contact.h"
 #include "shared/wake.h"
 
-BUFFER(0, restrict, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, cellStart, CellBlock)
-BUFFER(3, restrict, uvec4, span, SpanBlock)
-BUFFER(4, restrict, uvec2, pairs, PairBlock)  // listed, then touching, then what presses those
-BUFFER(5, readonly, vec4, before, BeforeBlock)
+BUFFER(restrict, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(readonly, uint, cellStart)
+BUFFER(restrict, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(writeonly, uvec2, touching)
+BUFFER(writeonly, float, normalImpulses)  // of the touching pairs, N s
+BUFFER(readonly, vec4, velocityBefore)
 
 #include "shared/sleepers.h"
 
@@ -79,7 +81,7 @@ void visitPair(uint a, uint b) {
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = span[group];
+    uvec4 mine = groupRange[group];
     if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
         visitGroupNumber(group, mine.x);
@@ -89,11 +91,10 @@ KERNEL(groupsOfPhase()) {
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
         if (separate(pair.x, pair.y)) {
-            uint to = params.pairCapacity + mine.x + touched;
-            pairs[to] = pair;
-            if (HAS(FRICTION)) pairs[params.pairCapacity + to] = uvec2(floatBitsToUint(load), 0u);
+            touching[mine.x + touched] = pair;
+            if (HAS(FRICTION)) normalImpulses[mine.x + touched] = load;
             touched = touched + 1u;
         }
     }
-    span[group] = uvec4(mine.x, mine.y, touched, mine.w);
+    groupRange[group] = uvec4(mine.x, mine.y, touched, mine.w);
 }

@@ -10,14 +10,15 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/contact.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, restrict, vec4, before, BeforeBlock)
-BUFFER(3, readonly, uint, label, LabelBlock)
-BUFFER(4, readonly, uint, cellStart, CellBlock)
-BUFFER(5, readonly, uvec4, span, SpanBlock)
-BUFFER(6, restrict, uvec2, pairs, PairBlock)
-BUFFER(7, readonly, Law, laws, LawBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, velocityBefore)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uint, cellStart)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, touching)
+BUFFER(restrict, float, normalImpulses)
+BUFFER(readonly, Law, contactParams)
 
 #include "shared/laws.h"
 
@@ -38,8 +39,8 @@ float collide(uint a, uint b, bool known) {
     if (ma + mb == 0.0f) return 0.0f;
     float inverse = 1.0f / (ma + mb);
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
-    vec4 ua = before[a];
-    vec4 ub = before[b];
+    vec4 ua = velocityBefore[a];
+    vec4 ub = velocityBefore[b];
     vec4 law = contactLaw(a, b);
     float approach = dot3(vec3(ua) - vec3(ub), n);
     float e = HAS(RESTITUTION) ? law.x : 0.0f;
@@ -47,8 +48,8 @@ float collide(uint a, uint b, bool known) {
     float least = max(-e * approach, 0.0f);
     float most = max(approach, least);
     vec3 rebound = n * ((most - approach) * inverse);
-    before[a] = vec4(vec3(ua) + rebound * ma, ua.w);
-    before[b] = vec4(vec3(ub) - rebound * mb, ub.w);
+    velocityBefore[a] = vec4(vec3(ua) + rebound * ma, ua.w);
+    velocityBefore[b] = vec4(vec3(ub) - rebound * mb, ub.w);
     float speed = dot3(vec3(va) - vec3(vb), n);
     float strength = (min(max(speed, least), most) - speed) * inverse;
     vec3 impulse = n * strength;
@@ -65,19 +66,15 @@ void visitPair(uint a, uint b) {
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = span[group];
+    uvec4 mine = groupRange[group];
     if (HAS(SLEEP) && mine.w == 0u) return;
     if (mine.y == UNLISTED) {
         visitGroupNumber(group, mine.x);
         return;
     }
-    uint first = params.pairCapacity + mine.x;
-    for (uint k = first; k < first + mine.z; ++k) {
-        uvec2 pair = pairs[k];
+    for (uint k = mine.x; k < mine.x + mine.z; ++k) {
+        uvec2 pair = touching[k];
         float impulse = collide(pair.x, pair.y, true);
-        if (HAS(FRICTION)) {
-            uint at = params.pairCapacity + k;
-            pairs[at] = uvec2(floatBitsToUint(uintBitsToFloat(pairs[at].x) + impulse), 0u);
-        }
+        if (HAS(FRICTION)) normalImpulses[k] = normalImpulses[k] + impulse;
     }
 }

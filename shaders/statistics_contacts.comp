@@ -5,11 +5,11 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, uint, cellStart, CellBlock)
-BUFFER(2, readonly, uvec4, span, SpanBlock)
-BUFFER(3, readonly, uvec2, pairs, PairBlock)
-BUFFER(4, writeonly, vec4, overlaps, OverlapBlock)  // per group: contacts, sum and largest of overlap / r, J in springs
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, cellStart)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(writeonly, vec4, overlaps)  // per group: contacts, sum and largest of overlap / r, J in springs
 
 PRIVATE(float, contacts)
 PRIVATE(float, sum)
@@ -34,7 +34,7 @@ KERNEL(params.groups * 8u) {
     contacts = 0.0f;
     sum = 0.0f;
     largest = 0.0f;
-    uvec4 mine = span[invocation];
+    uvec4 mine = groupRange[invocation];
     if (mine.y == UNLISTED) {
         visitGroupNumber(invocation, mine.x);
     } else {

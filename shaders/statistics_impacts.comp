@@ -8,14 +8,14 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/contact.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, vec4, saved, SavedBlock)  // the velocities before
-BUFFER(3, readonly, uint, label, LabelBlock)
-BUFFER(4, readonly, uvec4, span, SpanBlock)
-BUFFER(5, readonly, uvec2, pairs, PairBlock)
-BUFFER(6, readonly, Law, laws, LawBlock)
-BUFFER(7, restrict, vec4, impacts, ImpactBlock)  // per group, until the host takes them: impacts, sums of the speeds of
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, velocityBeforeSolve)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(readonly, Law, contactParams)
+BUFFER(restrict, vec4, impacts)  // per group, until the host takes them: impacts, sums of the speeds of
                                                  // approach, of parting, and of the parting that was asked for
 
 #include "shared/laws.h"
@@ -33,7 +33,7 @@ void visitPair(uint a, uint b) {
     float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) * (1.0f + TOUCH_TOLERANCE);
     if (!(squared < reach * reach)) return;
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
-    float approach = dot3(vec3(saved[b]) - vec3(saved[a]), n);
+    float approach = dot3(vec3(velocityBeforeSolve[b]) - vec3(velocityBeforeSolve[a]), n);
     if (!(approach > WEIGHTLESS * params.deadBand)) return;
     float parting = dot3(vec3(velocity[a]) - vec3(velocity[b]), n);
     // One that goes on as it came has not met yet: it is within the tolerance only.
@@ -42,7 +42,7 @@ void visitPair(uint a, uint b) {
 }
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = span[invocation];
+    uvec4 mine = groupRange[invocation];
     if (mine.y == UNLISTED || (HAS(SLEEP) && mine.w == 0u)) return;
     sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);

@@ -5,13 +5,15 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/label.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(3, writeonly, SphereStatistics, parts, PartBlock)
-BUFFER(4, readonly, uint, label, LabelBlock)
-BUFFER(5, readonly, Law, laws, LawBlock)
-BUFFER(6, readonly, vec4, wallHistory, WallHistoryBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, positionLow)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, angularVelocity)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(writeonly, SphereStatistics, sphereSums)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, vec4, wallSlip)
 
 PRIVATE(vec3, wallPoint)
 PRIVATE(float, deepest)
@@ -24,18 +26,18 @@ PRIVATE(float, springs)
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     deepest = max(deepest, depth);
-    if (!HAS(RESIDUAL)) return;
-    float overlap = depth - dot3(vec3(position[params.spheres + wallSphere]), normal);
+    if (!HAS(LOW_BITS)) return;
+    float overlap = depth - dot3(vec3(positionLow[wallSphere]), normal);
     if (!(overlap > 0.0f)) return;
     stretch = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) {
-        uint first = idOf(label[wallSphere]) * params.wallContacts;
+        uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
         for (uint k = first; k < first + params.wallContacts; ++k)
-            if (wallHistory[k].w == float(surface + 1u)) stretch = vec3(wallHistory[k]);
+            if (wallSlip[k].w == float(surface + 1u)) stretch = vec3(wallSlip[k]);
     }
     float radius = HAS(RADII) ? position[wallSphere].w : params.radius;
     float speed = dot3(vec3(velocity[wallSphere]), normal);
-    springs += springEnergy(overlapWithSpeed(overlap, speed), radius, laws[wallLawIndex(wallMaterial)].stiffness, stretch);
+    springs += springEnergy(overlapWithSpeed(overlap, speed), radius, contactParams[wallLawIndex(wallMaterial)].stiffness, stretch);
 }
 
 #include "shared/walls.h"
@@ -73,7 +75,7 @@ KERNEL(params.statisticBlocks) {
         momentum = momentum + vec3(v) * mass;
         angular = angular + cross3(x, vec3(v)) * mass;
         if (HAS(FRICTION)) {
-            vec3 spin = vec3(velocity[params.spheres + k]);
+            vec3 spin = vec3(angularVelocity[k]);
             float r = HAS(RADII) ? position[k].w : params.radius;
             float inertia = 0.4f * mass * r * r;
             angular = angular + spin * inertia;
@@ -92,15 +94,15 @@ KERNEL(params.statisticBlocks) {
         visitWalls(radius);
         overlap = max(overlap, deepest / radius);
     }
-    parts[invocation].weighted = weighted;
-    parts[invocation].momentum = vec4(momentum, energy);
-    parts[invocation].angular = vec4(angular, rotation);
-    parts[invocation].heightSum = height;
-    parts[invocation].speedSquares = squares;
-    parts[invocation].speedSquaredMax = fastest;
-    parts[invocation].wallOverlapMax = overlap;
-    parts[invocation].wallSprings = springs;
-    parts[invocation].sleeping = sleeping;
-    parts[invocation].outside = left;
-    parts[invocation].nonFinite = nonFinite;
+    sphereSums[invocation].weighted = weighted;
+    sphereSums[invocation].momentum = vec4(momentum, energy);
+    sphereSums[invocation].angular = vec4(angular, rotation);
+    sphereSums[invocation].heightSum = height;
+    sphereSums[invocation].speedSquares = squares;
+    sphereSums[invocation].speedSquaredMax = fastest;
+    sphereSums[invocation].wallOverlapMax = overlap;
+    sphereSums[invocation].wallSprings = springs;
+    sphereSums[invocation].sleeping = sleeping;
+    sphereSums[invocation].outside = left;
+    sphereSums[invocation].nonFinite = nonFinite;
 }

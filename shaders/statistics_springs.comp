@@ -7,14 +7,15 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/contact.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, label, LabelBlock)
-BUFFER(3, readonly, uvec4, span, SpanBlock)
-BUFFER(4, readonly, uvec2, pairs, PairBlock)
-BUFFER(5, readonly, vec4, history, HistoryBlock)
-BUFFER(6, readonly, Law, laws, LawBlock)
-BUFFER(7, restrict, vec4, overlaps, OverlapBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, positionLow)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(readonly, vec4, tangentialSlip)
+BUFFER(readonly, Law, contactParams)
+BUFFER(restrict, vec4, overlaps)
 
 PRIVATE(vec3, stretch)
 
@@ -25,7 +26,7 @@ float energyOf(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
-    d = d + (vec3(position[params.spheres + a]) - vec3(position[params.spheres + b]));
+    d = d + (vec3(positionLow[a]) - vec3(positionLow[b]));
     float squared = dot3(d, d);
     float ra = HAS(RADII) ? pa.w : params.radius;
     float rb = HAS(RADII) ? pb.w : params.radius;
@@ -37,13 +38,13 @@ float energyOf(uint a, uint b) {
 }
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = span[invocation];
+    uvec4 mine = groupRange[invocation];
     if (mine.y == UNLISTED) return;
     float energy = 0.0f;
     stretch = vec3(0.0f, 0.0f, 0.0f);
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
-        if (HAS(FRICTION)) stretch = vec3(history[k]);
+        if (HAS(FRICTION)) stretch = vec3(tangentialSlip[k]);
         energy += energyOf(pair.x, pair.y);
     }
     vec4 row = overlaps[invocation];

@@ -8,17 +8,17 @@ PARAMETERS
 #include "shared/grid.h"
 #include "shared/outside.h"
 
-BUFFER(0, readonly, vec4, velocity, VelocityBlock)
-BUFFER(1, readonly, vec4, anchor, AnchorBlock)  // which cell the lists have it in
-BUFFER(2, readonly, uint, counters, CounterBlock)
-BUFFER(3, coherent, uint, stirred, StirredBlock)
-BUFFER(4, readonly, vec4, position, PositionBlock)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, listReference)  // which cell the lists have it in
+BUFFER(readonly, uint, counters)
+BUFFER(coherent, uint, activeGroup)
+BUFFER(readonly, vec4, position)
 
 KERNEL(params.spheres) {
     if (velocity[invocation].w < 0.0f) return;
-    vec4 sphere = anchor[invocation];
+    vec4 sphere = listReference[invocation];
     uint levels = HAS(LEVELS) ? params.levels : 1u;
     if (sphere.w > 0.0f && beyondStrip(vec3(sphere))) return;
     for (uint level = levelOf(position[invocation].w); level < levels; ++level)
-        atomicExchange(stirred[groupAt(vec3(sphere), level)], counters[COUNTER_SUBSTEPS]);
+        atomicExchange(activeGroup[groupAt(vec3(sphere), level)], counters[COUNTER_SUBSTEPS]);
 }

@@ -6,9 +6,9 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
 
-BUFFER(0, readonly, uint, counters, CounterBlock)
-BUFFER(1, readonly, uint, stirred, StirredBlock)
-BUFFER(2, restrict, uvec4, span, SpanBlock)
+BUFFER(readonly, uint, counters)
+BUFFER(readonly, uint, activeGroup)
+BUFFER(restrict, uvec4, groupRange)
 
 // Neighbours on a ring of `count` places.
 uint lower(uint at, uint count) {
@@ -20,7 +20,7 @@ uint upper(uint at, uint count) {
 }
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = span[invocation];
+    uvec4 mine = groupRange[invocation];
     if (mine.y == 0u) return;  // no pairs
     uvec4 cells = cellsOf(levelOfGroup(invocation));
     uint first = cells.w / 8u;
@@ -39,10 +39,10 @@ KERNEL(params.groups * 8u) {
         uint z = below;
         for (uint j = 0u; j < 3u && !stirs; ++j) {
             uint start = first + (y * gz + z) * gx;
-            stirs = stirred[start + west] == substep || stirred[start + x] == substep || stirred[start + east] == substep;
+            stirs = activeGroup[start + west] == substep || activeGroup[start + x] == substep || activeGroup[start + east] == substep;
             z = upper(z, gz);
         }
         y = upper(y, gy);
     }
-    span[invocation] = uvec4(mine.x, mine.y, 0u, stirs ? 1u : 0u);
+    groupRange[invocation] = uvec4(mine.x, mine.y, 0u, stirs ? 1u : 0u);
 }

@@ -8,23 +8,23 @@ PARAMETERS
 #include "shared/grid.h"
 #include "shared/wake.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, vec4, before, BeforeBlock)
-BUFFER(3, readonly, uint, cellStart, CellBlock)
-BUFFER(4, readonly, uvec4, span, SpanBlock)
-BUFFER(5, readonly, uvec2, pairs, PairBlock)
-BUFFER(6, coherent, uint, woken, WokenBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, vec4, velocityBefore)
+BUFFER(readonly, uint, cellStart)
+BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(coherent, uint, wakeFlags)
 
 // Whether the one that moves was at the sleeper as the substep began.
 void leave(uint sleeper, uint mover) {
-    vec4 u = before[mover];
+    vec4 u = velocityBefore[mover];
     if (!wakes(u)) return;
     vec4 pa = position[sleeper];
     vec4 pb = position[mover];
     vec3 d = vec3(pb) - vec3(u) * params.substep - vec3(pa);
     float far = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + wakeGap();
-    if (dot3(d, d) < far * far) atomicOr(woken[sleeper], 1u);
+    if (dot3(d, d) < far * far) atomicOr(wakeFlags[sleeper], 1u);
 }
 
 void visitPair(uint a, uint b) {
@@ -37,7 +37,7 @@ void visitPair(uint a, uint b) {
 #include "shared/group.h"
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = span[invocation];
+    uvec4 mine = groupRange[invocation];
     if (mine.y == UNLISTED) {
         visitGroupNumber(invocation, mine.x);
         return;

@@ -7,13 +7,17 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/rub.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(3, readonly, uint, label, LabelBlock)
-BUFFER(4, readonly, Law, laws, LawBlock)
-BUFFER(5, restrict, vec4, wallHistory, WallHistoryBlock)  // by id, params.wallContacts each: stretch, m; w: surface + 1
-BUFFER(6, coherent, uint, counters, CounterBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, positionLow)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(restrict, vec4, deltaVelocity)
+BUFFER(restrict, vec4, deltaOmega)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, Law, contactParams)
+BUFFER(restrict, vec4, wallSlip)  // by id, params.wallContacts each: stretch, m; w: surface + 1
+BUFFER(coherent, uint, counters)
 
 #define NO_PLACE 0xffffffffu
 
@@ -35,10 +39,10 @@ PRIVATE(uint, seen)       // bits of the remembered walls that it still touches
 
 // Where the stretch at this surface is kept: where it was, or a place that nothing uses.
 uint placeOf(uint surface) {
-    uint first = idOf(label[wallSphere]) * params.wallContacts;
+    uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
     uint empty = NO_PLACE;
     for (uint k = 0u; k < params.wallContacts; ++k) {
-        float owner = wallHistory[first + k].w;
+        float owner = wallSlip[first + k].w;
         if (owner == float(surface + 1u)) return first + k;
         if (owner == 0.0f && empty == NO_PLACE) empty = first + k;
     }
@@ -48,8 +52,8 @@ uint placeOf(uint surface) {
 // `fall`: what gravity has added to the velocity since the middle of the last motion. `arm`: from the centre to the wall.
 void rubSprings(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 law) {
     uint place = placeOf(surface);
-    bool known = place != NO_PLACE && wallHistory[place].w != 0.0f;
-    stretch = known ? turnedInto(vec3(wallHistory[place]), n) : vec3(0.0f, 0.0f, 0.0f);
+    bool known = place != NO_PLACE && wallSlip[place].w != 0.0f;
+    stretch = known ? turnedInto(vec3(wallSlip[place]), n) : vec3(0.0f, 0.0f, 0.0f);
     vec3 slip = moving - n * dot3(moving, n) - cross3(turning, n) * arm;
     vec3 path = slip;
     if (HAS(GRAVITY)) path = slip - (fall - n * dot3(fall, n));
@@ -68,8 +72,8 @@ void rubSprings(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 
         atomicAdd(counters[COUNTER_FORGOTTEN], 1u);
         return;
     }
-    wallHistory[place] = vec4(stretch, float(surface + 1u));
-    seen = seen | (1u << (place - idOf(label[wallSphere]) * params.wallContacts));
+    wallSlip[place] = vec4(stretch, float(surface + 1u));
+    seen = seen | (1u << (place - idOf(idAndMaterial[wallSphere]) * params.wallContacts));
 }
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
@@ -80,18 +84,18 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = vec3(params.gravity) * (0.5f * params.substep);
     Spring spring =
-        springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, inverseMass, laws[index].stiffness);
+        springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, inverseMass, contactParams[index].stiffness);
     push = push + normal * spring.impulse;
-    if (HAS(FRICTION)) rubSprings(normal, surface, fall, wallRadius - overlap, spring, laws[index].contact);
+    if (HAS(FRICTION)) rubSprings(normal, surface, fall, wallRadius - overlap, spring, contactParams[index].contact);
 }
 
 #include "shared/walls.h"
 
 void forget() {
-    uint first = idOf(label[wallSphere]) * params.wallContacts;
+    uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
     for (uint k = 0u; k < params.wallContacts; ++k)
-        if ((seen & (1u << k)) == 0u && wallHistory[first + k].w != 0.0f)
-            wallHistory[first + k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        if ((seen & (1u << k)) == 0u && wallSlip[first + k].w != 0.0f)
+            wallSlip[first + k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 KERNEL(params.spheres) {
@@ -100,9 +104,9 @@ KERNEL(params.spheres) {
     wallRadius = HAS(RADII) ? x.w : params.radius;
     wallPoint = vec3(x);
     vec4 spin = vec4(0.0f, 0.0f, 0.0f, 0.0f);  // w: whether any wall is remembered
-    if (HAS(FRICTION)) spin = velocity[params.spheres + invocation];
+    if (HAS(FRICTION)) spin = angularVelocity[invocation];
     if (spin.w == 0.0f && clearOfWalls(wallPoint, wallRadius)) return;
-    residual = vec3(position[params.spheres + invocation]);
+    residual = vec3(positionLow[invocation]);
     vec4 v = velocity[invocation];
     inverseMass = v.w;
     moving = vec3(v);
@@ -114,7 +118,7 @@ KERNEL(params.spheres) {
     addKick(invocation, push * inverseMass);
     if (HAS(FRICTION)) {
         addTwist(invocation, torque * (2.5f * inverseMass / (wallRadius * wallRadius)));
-        velocity[params.spheres + invocation] = vec4(turning, seen != 0u ? 1.0f : 0.0f);
+        angularVelocity[invocation] = vec4(turning, seen != 0u ? 1.0f : 0.0f);
         if (spin.w != 0.0f) forget();
     }
 }

@@ -6,12 +6,13 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/rub.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(3, readonly, uint, label, LabelBlock)
-BUFFER(4, readonly, Law, laws, LawBlock)
-BUFFER(5, readonly, vec4, pressed, PressedBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, vec4, wallImpulse)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
@@ -23,8 +24,8 @@ PRIVATE(vec3, turning)    // rad/s
 #include "shared/rub_wall.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    float pressing = dot3(vec3(pressed[wallSphere]), normal);
-    if (pressing > 0.0f) rubWall(normal, wallRadius, pressing, laws[wallLawIndex(wallMaterial)].contact);
+    float pressing = dot3(vec3(wallImpulse[wallSphere]), normal);
+    if (pressing > 0.0f) rubWall(normal, wallRadius, pressing, contactParams[wallLawIndex(wallMaterial)].contact);
 }
 
 #include "shared/walls.h"
@@ -38,8 +39,8 @@ KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
     corrected = vec3(v);
-    turning = vec3(velocity[params.spheres + invocation]);
+    turning = vec3(angularVelocity[invocation]);
     visitWalls(wallRadius);
     velocity[invocation] = vec4(corrected, v.w);
-    velocity[params.spheres + invocation] = vec4(turning, 0.0f);
+    angularVelocity[invocation] = vec4(turning, 0.0f);
 }

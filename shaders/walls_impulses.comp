@@ -7,12 +7,13 @@ PARAMETERS
 #include "shared/label.h"
 #include "shared/rub.h"
 
-BUFFER(0, restrict, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(3, readonly, uint, label, LabelBlock)
-BUFFER(4, readonly, Law, laws, LawBlock)
-BUFFER(5, restrict, float, work, WorkBlock)  // by id: J that pushes out of walls have done against gravity
+BUFFER(restrict, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, Law, contactParams)
+BUFFER(restrict, float, wallWork)  // by id: J that pushes out of walls have done against gravity
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
@@ -26,7 +27,7 @@ PRIVATE(bool, met)
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     met = true;
-    vec4 law = laws[wallLawIndex(wallMaterial)].contact;
+    vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
     float speed = dot3(corrected, normal);
@@ -50,14 +51,14 @@ KERNEL(params.spheres) {
     if (HAS(SLEEP) && v.w < 0.0f) return;
     corrected = vec3(v);
     met = false;
-    if (HAS(FRICTION)) turning = vec3(velocity[params.spheres + invocation]);
+    if (HAS(FRICTION)) turning = vec3(angularVelocity[invocation]);
     visitWalls(wallRadius);
     if (!met) return;
     position[invocation] = vec4(wallPoint, x.w);
     velocity[invocation] = vec4(corrected, v.w);
-    if (HAS(FRICTION)) velocity[params.spheres + invocation] = vec4(turning, 0.0f);
+    if (HAS(FRICTION)) angularVelocity[invocation] = vec4(turning, 0.0f);
     if (HAS(GRAVITY)) {
-        uint id = idOf(label[invocation]);
-        work[id] = work[id] - dot3(vec3(params.gravity), wallPoint - vec3(x)) / abs(v.w);
+        uint id = idOf(idAndMaterial[invocation]);
+        wallWork[id] = wallWork[id] - dot3(vec3(params.gravity), wallPoint - vec3(x)) / abs(v.w);
     }
 }

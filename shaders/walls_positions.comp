@@ -7,13 +7,13 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/label.h"
 
-BUFFER(0, restrict, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, restrict, vec4, before, BeforeBlock)
-BUFFER(3, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(4, readonly, uint, label, LabelBlock)
-BUFFER(5, readonly, Law, laws, LawBlock)
-BUFFER(6, writeonly, vec4, pressed, PressedBlock)  // sum of the pushes, m/s
+BUFFER(restrict, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, velocityBefore)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, Law, contactParams)
+BUFFER(writeonly, vec4, wallImpulse)  // sum of the pushes, m/s
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
@@ -37,7 +37,7 @@ void hold(vec3 n, float most) {
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     met = true;
-    vec4 law = laws[wallLawIndex(wallMaterial)].contact;
+    vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
     if (HAS(RESTITUTION)) {
         float h = params.substep;
         float start = dot3(running, normal);
@@ -73,16 +73,16 @@ KERNEL(params.spheres) {
     met = false;
     vec4 u = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     if (HAS(RESTITUTION)) {
-        u = before[invocation];
+        u = velocityBefore[invocation];
         running = vec3(u);
     }
     if (HAS(FRICTION)) {
         pushes = vec3(0.0f, 0.0f, 0.0f);
     }
     visitWalls(wallRadius);
-    if (HAS(FRICTION)) pressed[invocation] = vec4(pushes, 0.0f);
+    if (HAS(FRICTION)) wallImpulse[invocation] = vec4(pushes, 0.0f);
     if (!met) return;
     position[invocation] = vec4(wallPoint, x.w);
     velocity[invocation] = vec4(corrected, v.w);
-    if (HAS(RESTITUTION)) before[invocation] = vec4(running, u.w);
+    if (HAS(RESTITUTION)) velocityBefore[invocation] = vec4(running, u.w);
 }

@@ -5,13 +5,13 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/label.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, restrict, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, vec4, before, BeforeBlock)
-BUFFER(3, readonly, Obstacle, obstacles, ObstacleBlock)
-BUFFER(4, readonly, uint, label, LabelBlock)
-BUFFER(5, readonly, Law, laws, LawBlock)
-BUFFER(6, restrict, vec4, pressed, PressedBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(readonly, vec4, velocityBefore)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, Law, contactParams)
+BUFFER(restrict, vec4, wallImpulse)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
@@ -23,7 +23,7 @@ PRIVATE(vec3, pushes)
 #include "shared/wall_laws.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    vec4 law = laws[wallLawIndex(wallMaterial)].contact;
+    vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
     float speed = dot3(corrected, normal);
     precise float wanted = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {
@@ -47,9 +47,9 @@ KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
     corrected = vec3(v);
-    if (HAS(RESTITUTION)) running = vec3(before[invocation]);
-    if (HAS(FRICTION)) pushes = vec3(pressed[invocation]);
+    if (HAS(RESTITUTION)) running = vec3(velocityBefore[invocation]);
+    if (HAS(FRICTION)) pushes = vec3(wallImpulse[invocation]);
     visitWalls(wallRadius);
     velocity[invocation] = vec4(corrected, v.w);
-    if (HAS(FRICTION)) pressed[invocation] = vec4(pushes, 0.0f);
+    if (HAS(FRICTION)) wallImpulse[invocation] = vec4(pushes, 0.0f);
 }

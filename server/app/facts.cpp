@@ -64,12 +64,12 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     for (int face = 0; face < 6; ++face)
         if (scene.bounds.open[static_cast<std::size_t>(face)]) facts.add_open(static_cast<v1::Face>(face + v1::X_MIN));
     setObstacles(facts, scene);
-    setSpheres(facts, scene, plan.features.radii);
+    setSpheres(facts, scene, plan.features.has(sim::Feature::Radii));
     set(facts.mutable_camera()->mutable_eye(), scene.camera.eye);
     set(facts.mutable_camera()->mutable_target(), scene.camera.target);
     facts.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
     facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
-    if (plan.features.contacts)
+    if (plan.features.has(sim::Feature::Contacts))
         for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);
     return message;
 }

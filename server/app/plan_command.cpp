@@ -2,7 +2,6 @@
 
 #include "app/exit_codes.h"
 #include "app/options.h"
-#include "scene/features.h"
 #include "sim/plan.h"
 
 namespace spherule::app {
@@ -19,7 +18,7 @@ struct PlanOptions {
 int plan(const PlanOptions& options) {
     const auto loaded = scene::load(options.scene, options.kind, options.overrides);
     if (!loaded) return report(loaded.error());
-    const auto plan = sim::planFor(*loaded, scene::featuresOf(*loaded),
+    const auto plan = sim::planFor(*loaded, sim::featuresOf(*loaded),
                                    static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiiOf(*loaded));
     fmt::print("{}\n", options.json ? sim::planJson(*loaded, plan) : sim::planText(*loaded, plan));
     return exitDone;

@@ -31,10 +31,21 @@ class Buffer {
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
+// Storage buffers that one kernel may declare. OpenGL guarantees 8; a device with fewer than this is not opened.
+constexpr std::size_t maxKernelBuffers = 16;
+
+// A buffer as a kernel declares it: `BUFFER(access, type, name)`.
+struct BufferDeclaration {
+    std::string_view type;  // of its elements: "vec4", "uint", "Law"
+    std::string_view name;
+};
+
 class Kernel {
   public:
     virtual ~Kernel() = default;
     [[nodiscard]] virtual const std::string& name() const = 0;
+    // In the order of the text; the first is bound at slot 0. Valid as long as the kernel.
+    [[nodiscard]] virtual std::span<const BufferDeclaration> buffers() const = 0;
 };
 
 struct Define {
@@ -53,7 +64,7 @@ class SourceSet {
 // `arguments` says (groups x, y, z, then the invocation count).
 struct Launch {
     const Kernel* kernel = nullptr;
-    std::span<Buffer* const> buffers;  // by slot
+    std::span<Buffer* const> buffers;  // in the order of Kernel::buffers()
     Buffer* parameters = nullptr;      // the uniform block; may be null
     std::uint32_t phase = 0;           // the kernel's `phase`
     std::uint32_t count = 0;
@@ -84,9 +95,9 @@ class Device {
     [[nodiscard]] virtual std::uint64_t hostBytes(std::uint64_t bytes, std::string_view words = "u") const = 0;
 
     // Compiles `file` with the defines; an error carries the compiler's text with file and line. A kernel has a local
-    // size of 64 (or of 1, to measure what that costs), storage buffers bound at their slot, at most one uniform block
-    // (binding 0), and may have the uniforms `phase` and `invocations` (its count; 0xffffffff when launched indirectly:
-    // then it reads the count itself). Its index is
+    // size of 64 (or of 1, to measure what that costs), at most maxKernelBuffers storage buffers, at most one uniform
+    // block (binding 0), and may have the uniforms `phase` and `invocations` (its count; 0xffffffff when launched
+    // indirectly: then it reads the count itself). Its index is
     // gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU device has the
     // kernels of shaders/ compiled in and takes no others.
     virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,

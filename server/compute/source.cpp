@@ -1,6 +1,8 @@
 #include "compute/source.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <optional>
 
@@ -10,6 +12,33 @@ namespace spherule::compute {
 namespace {
 
 constexpr std::size_t linesPerFile = 100000;
+
+constexpr std::string_view bufferKeyword = "BUFFER(";
+
+// `access, type, name` and the rest of the line in `BUFFER(access, type, name) rest`; nullopt when it is not of this
+// form.
+struct BufferLine {
+    std::string access, type, name, rest;
+};
+std::optional<BufferLine> parseBuffer(std::string_view line) {
+    const auto isName = [](std::string_view text) {
+        const auto inName = [](char c) { return (std::isalnum(static_cast<unsigned char>(c)) != 0) || c == '_'; };
+        return !text.empty() && std::ranges::all_of(text, inName);
+    };
+    const auto end = line.find(')');
+    if (end == std::string_view::npos) return std::nullopt;
+    std::string_view list = line.substr(bufferKeyword.size(), end - bufferKeyword.size());
+    std::array<std::string_view, 3> parts;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const auto comma = list.find(", ");
+        if ((comma == std::string_view::npos) != (k + 1 == parts.size())) return std::nullopt;
+        parts[k] = list.substr(0, comma);
+        if (!isName(parts[k])) return std::nullopt;
+        if (comma != std::string_view::npos) list.remove_prefix(comma + 2);
+    }
+    return BufferLine{std::string(parts[0]), std::string(parts[1]), std::string(parts[2]),
+                      std::string(line.substr(end + 1))};
+}
 
 // The name in `#include "name"`, or nothing when the line is something else.
 std::optional<std::string_view> includedName(std::string_view line) {
@@ -87,12 +116,31 @@ class Expander {
             if (const auto name = includedName(line)) {
                 if (auto included = append(*name, fmt::format("{}:{}", file, number)); !included) return included;
                 markLine(number + 1, index);
+            } else if (line.starts_with(bufferKeyword)) {
+                if (auto declared = declareBuffer(line, fmt::format("{}:{}", file, number)); !declared) return declared;
             } else {
                 result_.text.append(line);
                 result_.text.push_back('\n');
             }
             text.remove_prefix(std::min(end + 1, text.size()));
         }
+        return {};
+    }
+
+    Result<void> declareBuffer(std::string_view line, const std::string& where) {
+        const auto declared = parseBuffer(line);
+        if (!declared) return fail(ErrorKind::Input, where, "is not of the form BUFFER(access, type, name)");
+        auto& buffers = result_.buffers;
+        if (std::ranges::any_of(buffers, [&](const auto& other) { return other.name == declared->name; }))
+            return fail(ErrorKind::Input, where, fmt::format("declares the buffer {} a second time", declared->name));
+        if (buffers.size() == maxKernelBuffers)
+            return fail(ErrorKind::Input, where,
+                        fmt::format("declares {} as buffer {} of its kernel; a kernel has at most {}", declared->name,
+                                    buffers.size() + 1, maxKernelBuffers));
+        result_.text +=
+            fmt::format("layout(std430, binding = {}) {} buffer {}Block {{ {} {}[]; }};{}\n", buffers.size(),
+                        declared->access, declared->name, declared->type, declared->name, declared->rest);
+        buffers.push_back({declared->type, declared->name});
         return {};
     }
 

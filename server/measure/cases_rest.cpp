@@ -36,7 +36,7 @@ double springForceOnFloor(const scene::Scene& scene, const sim::State& state) {
 double springForceOnSides(sim::Simulation& simulation, const sim::State& state) {
     const double modulus =
         scene::stiffnessBetween(simulation.scene(), 0, 0, scene::springModulus(simulation.scene())).tangential;
-    const auto stretches = simulation.pipeline().read<glm::vec4>(sim::Array::WallHistory);
+    const auto stretches = simulation.pipeline().read<glm::vec4>(sim::Array::WallSlip);
     double force = 0;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const auto surface = static_cast<int>(stretches[k].w) - 1;

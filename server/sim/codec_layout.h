@@ -16,7 +16,5 @@ using uint = std::uint32_t;
 
 static_assert(sizeof(Parameters) == 48);
 static_assert(offsetof(Parameters, spheres) == 16);
-// What the words are: 'r' a real number, 'u' an unsigned integer.
-constexpr std::string_view parameterWords = "rrrruuuuuuuu";
 
 }  // namespace spherule::sim::codec_layout

@@ -148,8 +148,8 @@ Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
 Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
     // Gravity and the model have a say in how short a substep must be.
     if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
-    scene::Features features = scene::featuresOf(changed);
-    features.levels = plan().features.levels;  // a matter of the spheres alone
+    Features features = featuresOf(changed);
+    features.set(Feature::Levels, plan().features.has(Feature::Levels));  // a matter of the spheres alone
     if (features == plan().features) {
         scene_ = std::move(changed);
         mostSubsteps_ = scene::mostRaised(scene_);

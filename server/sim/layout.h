@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include <glm/vec2.hpp>
@@ -17,26 +18,13 @@ using uint = std::uint32_t;
 
 #include "shared/layout.h"
 
-// std140 puts a uniform block's vectors on multiples of 16 and packs scalars; the struct keeps to it without padding.
 static_assert(sizeof(vec4) == 16 && sizeof(uvec4) == 16);
-static_assert(offsetof(Parameters, cells) == 208);
-static_assert(offsetof(Parameters, substep) == 352);
-static_assert(offsetof(Parameters, spheres) == 400);
-static_assert(sizeof(Parameters) == 448);
-// What the words of these are: 'r' a real number, 'u' an unsigned integer.
-constexpr std::string_view parameterWords =
-    "rrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrrr"
-    "uuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuuu"
-    "rrrrrrrrrrrr"
-    "uuuuuuuuuuuu";
-constexpr std::string_view statisticsWords = "rrrrrrrrrrrrrrrrrrrruuuu";
-static_assert(parameterWords.size() * 4 == sizeof(Parameters));
-static_assert(parameterWords.find('u') * 4 == offsetof(Parameters, cells));
-static_assert(parameterWords.rfind('r') * 4 + 4 == offsetof(Parameters, spheres));
-static_assert(statisticsWords.size() * 4 == sizeof(SphereStatistics));
-static_assert(statisticsWords.find('u') * 4 == offsetof(SphereStatistics, sleeping));
+static_assert(sizeof(Parameters) % 16 == 0, "std140");
 
-static_assert(sizeof(Obstacle) == 32 && sizeof(Law) == 32);
-static_assert(sizeof(SphereStatistics) == 96);
+// The 32-bit words of a struct of shaders/shared/`file`, in turn, as compute::Device::createBuffer wants them: 'r' a
+// real number, 'u' an unsigned integer. Read from the text of the file. Throws std::logic_error for a struct that is
+// not there and for a member that would not lie in a uniform block (std140) as it lies in C++: a vector must begin at a
+// multiple of 16 bytes.
+std::string wordsOf(std::string_view structName, std::string_view file = "layout.h");
 
 }  // namespace spherule::sim::layout

@@ -25,7 +25,7 @@ constexpr std::uint64_t uploadBytes = sizeof(std::uint32_t) + sizeof(std::uint8_
 constexpr std::uint64_t radiiBytes = 2 * sizeof(float);
 
 std::uint64_t snapshotBytes(const Plan& plan) {
-    return stateBytes + slotBytes(plan.features.friction);
+    return stateBytes + slotBytes(plan.features.has(Feature::Friction));
 }
 
 }  // namespace
@@ -53,19 +53,19 @@ Need needOf(const Plan& plan) {
     Need need{.arrays = plan.bytes(),
               .host = {{"host: scene", n * sizeof(scene::Sphere)},
                        {"host: scene at the start", n * sizeof(scene::Sphere)},
-                       {"host: last good state", n * slotBytes(plan.features.friction)}},
+                       {"host: last good state", n * slotBytes(plan.features.has(Feature::Friction))}},
               .work = n * snapshotBytes(plan),
               .orderArrays = sizes.toolArrays,
               .order = sizes.order,
               .tierArrays = sizes.tierArrays,
               .tier = sizes.frames};
-    if (plan.features.radii) need.host.push_back({"host: radii for viewers", n * radiiBytes});
+    if (plan.features.has(Feature::Radii)) need.host.push_back({"host: radii for viewers", n * radiiBytes});
     return need;
 }
 
 std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan) {
     std::uint64_t bytes = 0;
-    for (const ArraySpec& spec : plan.arrays) bytes += device.hostBytes(spec.bytes, wordsOf(spec.array));
+    for (const ArraySpec& spec : plan.arrays) bytes += device.hostBytes(spec.bytes, typeOf(spec.array).words);
     return bytes;
 }
 

@@ -38,25 +38,23 @@ Error withNeed(Error error, const Plan& plan) {
     return error;
 }
 
-// Arrays whose size goes with the number of listed pairs.
-bool holdsPairs(Array array) {
-    return array == Array::Pairs || array == Array::History || array == Array::Kept;
+bool growsWithPairs(Array array) {
+    return typeOf(array).extent == Extent::Pair;
 }
 
 }  // namespace
 
 State inIdOrder(const SlotState& slots) {
-    const std::size_t spheres = slots.label.size();
-    const bool spins = slots.velocity.size() > spheres;
+    const std::size_t spheres = slots.idAndMaterial.size();
     State state;
     state.position.resize(spheres);
     state.velocity.resize(spheres);
     state.spin.resize(spheres);
     for (std::size_t slot = 0; slot < spheres; ++slot) {
-        const std::uint32_t id = slots.label[slot] & idMask;
+        const std::uint32_t id = slots.idAndMaterial[slot] & idMask;
         state.position[id] = slots.position[slot];
         state.velocity[id] = slots.velocity[slot];
-        if (spins) state.spin[id] = glm::vec4(glm::vec3(slots.velocity[spheres + slot]), 0);
+        if (!slots.angularVelocity.empty()) state.spin[id] = glm::vec4(glm::vec3(slots.angularVelocity[slot]), 0);
     }
     return state;
 }
@@ -76,6 +74,8 @@ Result<bool> Pipeline::makeNext() {
         done = makeArray(plan_.arrays[arraysMade_]);
     else if (kernels_.size() < kernelFiles_.size())
         done = makeKernel(kernelFiles_[kernels_.size()]);
+    else if (substep_.empty())
+        done = bindAll();
     else
         return false;
     if (!done) return tl::unexpected(done.error());
@@ -90,40 +90,74 @@ double Pipeline::shareMade() const {
 void Pipeline::adopt(Array array, std::unique_ptr<compute::Buffer> made) {
     const auto index = static_cast<std::size_t>(array);
     owned_[index] = std::move(made);
-    slots_[index] = owned_[index].get();
+    buffers_[index] = owned_[index].get();
 }
 
 Result<void> Pipeline::makeSmallArrays() {
-    auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters), layout::parameterWords);
+    auto parameters = device_.createBuffer("parameters", sizeof(layout::Parameters), layout::wordsOf("Parameters"));
     if (!parameters) return tl::unexpected(parameters.error());
     auto absent = device_.createBuffer("absent", 64);
     if (!absent) return tl::unexpected(absent.error());
     parameters_ = std::move(*parameters);
     absent_ = std::move(*absent);
-    slots_.fill(absent_.get());
+    buffers_.fill(absent_.get());
     return {};
 }
 
 Result<void> Pipeline::makeArray(const ArraySpec& spec) {
-    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, wordsOf(spec.array));
+    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
     if (!made) return tl::unexpected(withNeed(made.error(), plan_));
     adopt(spec.array, std::move(*made));
     ++arraysMade_;
-    if (spec.array == Array::FullLaunches) fillLaunches();
+    if (spec.array == Array::DispatchSizes) fillLaunches();
     return {};
 }
 
 void Pipeline::fillLaunches() {
     std::vector<glm::uvec4> rows;
     for (const std::uint32_t invocations : plan_.fullLaunches) rows.push_back(groupsFor(invocations));
-    write<glm::uvec4>(Array::FullLaunches, rows);
+    write<glm::uvec4>(Array::DispatchSizes, rows);
 }
 
 Result<void> Pipeline::makeKernel(std::string_view file) {
     auto kernel = device_.createKernel(shaders(), file, definesFor(plan_.features));
     // Not the user's scene but the device is at fault.
     if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
-    kernels_.emplace_back(file, std::move(*kernel));
+    kernels_.push_back(std::move(*kernel));
+    return {};
+}
+
+// The arrays by the names of the buffers that the kernel declares.
+Result<Pipeline::BoundLaunch> Pipeline::bind(const LaunchSpec& spec, const compute::Kernel& kernel) {
+    const auto wrong = [&](const std::string& message) {
+        return fail(ErrorKind::NoDevice, std::string(spec.kernel), message);
+    };
+    BoundLaunch bound{.spec = &spec, .kernel = &kernel, .arrays = {}};
+    std::size_t aliases = 0;
+    for (const auto& [type, name] : kernel.buffers()) {
+        const auto alias = std::ranges::find(spec.aliases, name, &Alias::buffer);
+        const bool renamed = alias != spec.aliases.end();
+        const auto array = renamed ? std::optional(alias->array) : arrayNamed(name);
+        if (!array)
+            return wrong(fmt::format("declares the buffer {}, but sim/arrays.def has no array of that name", name));
+        if (typeOf(*array).type != type)
+            return wrong(fmt::format("declares the buffer {} as {}; the array {} has elements of type {}", name, type,
+                                     nameOf(*array), typeOf(*array).type));
+        aliases += renamed ? 1 : 0;
+        bound.arrays.push_back(*array);
+    }
+    if (aliases != spec.aliases.size()) return wrong("is launched with an alias for a buffer that it does not declare");
+    return bound;
+}
+
+Result<void> Pipeline::bindAll() {
+    for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_), {&plan_.statistics, &statistics_}})
+        for (const LaunchSpec& spec : *launches) {
+            const auto place = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
+            auto made = bind(spec, *kernels_[static_cast<std::size_t>(place)]);
+            if (!made) return tl::unexpected(made.error());
+            bound->push_back(std::move(*made));
+        }
     return {};
 }
 
@@ -133,17 +167,16 @@ void Pipeline::setParameters(const layout::Parameters& parameters) {
 
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
     // Whatever else there is of the spheres that were in these slots goes.
-    for (const Array array : {Array::Position, Array::Velocity, Array::Before, Array::Woken, Array::Span, Array::Anchor,
-                              Array::Stirred, Array::History, Array::WallHistory, Array::Work, Array::Impacts})
-        if (plan_.has(array)) device_.fill(buffer(array), 0);
+    for (const ArraySpec& spec : plan_.arrays)
+        if (typeOf(spec.array).cleared) device_.fill(buffer(spec.array), 0);
     write<glm::vec4>(Array::Position, state.position);
     write<glm::vec4>(Array::Velocity, state.velocity);
-    if (plan_.features.friction) write<glm::vec4>(Array::Velocity, state.spin, state.count());
+    if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, state.spin);
     std::vector<std::uint32_t> ids(state.count());
     std::iota(ids.begin(), ids.end(), 0U);
     if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
     for (std::uint32_t id = 0; id < state.count(); ++id) ids[id] |= std::uint32_t{materials[id]} << idBits;
-    write<std::uint32_t>(Array::Label, ids);
+    write<std::uint32_t>(Array::IdAndMaterial, ids);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
     write<std::uint32_t>(Array::Counters, counters);
@@ -157,9 +190,10 @@ SlotState Pipeline::download() {
 }
 
 void Pipeline::download(SlotState& slots) {
-    readInto(slots.position, Array::Position, plan_.spheres);
-    readInto(slots.velocity, Array::Velocity, (plan_.features.friction ? 2 : 1) * std::size_t{plan_.spheres});
-    readInto(slots.label, Array::Label, plan_.spheres);
+    readInto(slots.position, Array::Position);
+    readInto(slots.velocity, Array::Velocity);
+    readInto(slots.angularVelocity, Array::AngularVelocity);
+    readInto(slots.idAndMaterial, Array::IdAndMaterial);
 }
 
 std::uint32_t Pipeline::slotOf(std::uint32_t id) {
@@ -182,16 +216,15 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
     velocity.w = std::abs(velocity.w);
     velocity += glm::vec4(impulse * velocity.w, 0);
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
-    if (!plan_.features.sleep) return;
+    if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must reach the sleepers that it touches, too.
     constexpr glm::vec4 crept(0, 0, 0, CREPT);
-    write<glm::vec4>(Array::Before, std::span<const glm::vec4>(&crept, 1), slot);
+    write<glm::vec4>(Array::VelocityBefore, std::span<const glm::vec4>(&crept, 1), slot);
 }
 
 void Pipeline::wakeAll() {
-    if (!plan_.features.sleep) return;
+    if (!plan_.features.has(Feature::Sleep)) return;
     auto velocity = read<glm::vec4>(Array::Velocity);
-    velocity.resize(plan_.spheres);
     for (glm::vec4& one : velocity) one.w = std::abs(one.w);
     write<glm::vec4>(Array::Velocity, velocity);
 }
@@ -211,13 +244,13 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
     const auto grownBytes = [&](const ArraySpec& spec) { return spec.bytes / plan_.pairCapacity * capacity; };
     std::uint64_t onHost = 0;
     for (const ArraySpec& spec : plan_.arrays)
-        if (holdsPairs(spec.array)) onHost += device_.hostBytes(grownBytes(spec), wordsOf(spec.array));
+        if (growsWithPairs(spec.array)) onHost += device_.hostBytes(grownBytes(spec), typeOf(spec.array).words);
     const auto claim = memory::Claim::make("", fmt::format("lists of {} pairs", capacity), onHost);
     if (!claim) return tl::unexpected(claim.error());
     std::vector<std::unique_ptr<compute::Buffer>> grown;
     for (ArraySpec& spec : plan_.arrays) {
-        if (!holdsPairs(spec.array)) continue;
-        auto made = device_.createBuffer(nameOf(spec.array), grownBytes(spec), wordsOf(spec.array));
+        if (!growsWithPairs(spec.array)) continue;
+        auto made = device_.createBuffer(nameOf(spec.array), grownBytes(spec), typeOf(spec.array).words);
         if (!made) return tl::unexpected(made.error());
         // The old lists are read once more as the new ones are made.
         copy(buffer(spec.array), **made);
@@ -225,7 +258,7 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
     }
     auto next = grown.begin();
     for (ArraySpec& spec : plan_.arrays) {
-        if (!holdsPairs(spec.array)) continue;
+        if (!growsWithPairs(spec.array)) continue;
         spec.bytes = (*next)->bytes();
         adopt(spec.array, std::move(*next++));
     }
@@ -237,7 +270,7 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
 }
 
 void Pipeline::substep(bool observed) {
-    run(plan_.substep, observed);
+    run(substep_, observed ? Which::ObservedSubstep : Which::Substep);
     listsPending_ = false;
     impactsPending_ = impactsPending_ || observed;
 }
@@ -252,40 +285,39 @@ std::vector<glm::vec4> Pipeline::takeImpacts() {
 
 void Pipeline::runStatistics() {
     if (listsPending_) {
-        std::vector<LaunchSpec> rebuild;
-        std::ranges::copy_if(plan_.substep, std::back_inserter(rebuild), [](const LaunchSpec& launch) {
-            return launch.pass == Pass::Grid || launch.pass == Pass::Lists || launch.pass == Pass::History;
-        });
-        // Who only looks takes no turn: a crowd's next lists depend on how many there have been.
+        // A reader must not use up a turn: the next lists of a crowd depend on how many there have been.
         const auto before = read<std::uint32_t>(Array::Counters);
-        run(rebuild);
+        run(substep_, Which::Rebuild);
         for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
             write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
         listsPending_ = false;
     }
-    run(plan_.statistics);
+    run(statistics_, Which::Substep);
 }
 
-void Pipeline::run(const std::vector<LaunchSpec>& launches, bool observed) {
+void Pipeline::run(const std::vector<BoundLaunch>& launches, Which which) {
+    const auto left = [which](const LaunchSpec& spec) {
+        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::History;
+        return which == Which::Rebuild ? !rebuild : spec.observing && which != Which::ObservedSubstep;
+    };
     std::optional<Pass> timed;
-    std::array<compute::Buffer*, 8> bound{};
-    for (const LaunchSpec& spec : launches) {
-        if (spec.observing && !observed) continue;
+    std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};
+    for (const BoundLaunch& one : launches) {
+        const LaunchSpec& spec = *one.spec;
+        if (left(spec)) continue;
         if (timed != spec.pass) {
             if (timed) device_.endTimer();
             device_.beginTimer(static_cast<unsigned>(spec.pass));
             timed = spec.pass;
         }
-        for (std::size_t slot = 0; slot < spec.slots.size(); ++slot) bound[slot] = &buffer(spec.slots[slot]);
-        const auto kernel =
-            std::ranges::find_if(kernels_, [&](const auto& known) { return known.first == spec.kernel; });
-        compute::Launch launch{.kernel = kernel->second.get(),
-                               .buffers = std::span(bound.data(), spec.slots.size()),
+        for (std::size_t slot = 0; slot < one.arrays.size(); ++slot) bound[slot] = &buffer(one.arrays[slot]);
+        compute::Launch launch{.kernel = one.kernel,
+                               .buffers = std::span(bound.data(), one.arrays.size()),
                                .parameters = parameters_.get(),
                                .phase = spec.phase,
                                .count = spec.count};
         if (spec.launchRow) {
-            launch.arguments = &buffer(Array::Launches);
+            launch.arguments = &buffer(Array::DispatchArgs);
             launch.argumentsOffset = *spec.launchRow * sizeof(glm::uvec4);
         }
         device_.launch(launch);

@@ -17,8 +17,9 @@ namespace spherule::sim {
 // What the device holds of the spheres, as it lies there.
 struct SlotState {
     std::vector<glm::vec4> position;
-    std::vector<glm::vec4> velocity;  // with friction, then angular velocities
-    std::vector<std::uint32_t> label;
+    std::vector<glm::vec4> velocity;
+    std::vector<glm::vec4> angularVelocity;  // with friction, else empty
+    std::vector<std::uint32_t> idAndMaterial;
 };
 
 State inIdOrder(const SlotState& slots);
@@ -74,7 +75,7 @@ class Pipeline {
     Result<void> growPairs(std::uint32_t capacity);
 
     [[nodiscard]] const Plan& plan() const { return plan_; }
-    [[nodiscard]] compute::Buffer& buffer(Array array) { return *slots_[static_cast<std::size_t>(array)]; }
+    [[nodiscard]] compute::Buffer& buffer(Array array) { return *buffers_[static_cast<std::size_t>(array)]; }
 
   private:
     Result<void> makeSmallArrays();
@@ -84,7 +85,16 @@ class Pipeline {
     void copy(compute::Buffer& from, compute::Buffer& to);
     std::uint32_t slotOf(std::uint32_t id);
     void adopt(Array array, std::unique_ptr<compute::Buffer> made);
-    void run(const std::vector<LaunchSpec>& launches, bool observed = false);
+    // A launch of the plan, with its kernel and the arrays to bind, by slot.
+    struct BoundLaunch {
+        const LaunchSpec* spec = nullptr;
+        const compute::Kernel* kernel = nullptr;
+        std::vector<Array> arrays;
+    };
+    static Result<BoundLaunch> bind(const LaunchSpec& spec, const compute::Kernel& kernel);
+    Result<void> bindAll();
+    enum class Which : std::uint8_t { Substep, ObservedSubstep, Rebuild };
+    void run(const std::vector<BoundLaunch>& launches, Which which);
 
     compute::Device& device_;
     Plan plan_;
@@ -93,10 +103,11 @@ class Pipeline {
     bool listsPending_ = false;
     bool impactsPending_ = false;
     std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;
-    std::array<compute::Buffer*, arrayCount> slots_{};  // where the plan has none: a small one that nothing touches
+    std::array<compute::Buffer*, arrayCount> buffers_{};  // where the plan has none: a small one that nothing touches
     std::unique_ptr<compute::Buffer> absent_;
     std::unique_ptr<compute::Buffer> parameters_;
-    std::vector<std::pair<std::string_view, std::unique_ptr<compute::Kernel>>> kernels_;
+    std::vector<std::unique_ptr<compute::Kernel>> kernels_;
+    std::vector<BoundLaunch> substep_, statistics_;
 };
 
 }  // namespace spherule::sim

@@ -33,14 +33,6 @@ std::vector<Row> rowsOf(const Plan& plan) {
     return rows;
 }
 
-std::vector<std::pair<std::string_view, bool>> featureList(const scene::Features& has) {
-    return {{"gravity", has.gravity},   {"contacts", has.contacts},       {"radii", has.radii},
-            {"levels", has.levels},     {"restitution", has.restitution}, {"materials", has.materials},
-            {"friction", has.friction}, {"rolling", has.rolling},         {"hertz", has.hertz},
-            {"walls", has.walls},       {"planes", has.planes},           {"boxes", has.boxes},
-            {"sleep", has.sleep}};
-}
-
 std::string gridText(const Grid& grid) {
     std::string text;
     for (const Level& level : grid.levels) {
@@ -76,27 +68,20 @@ std::string whenOf(const Row& row) {
 
 }  // namespace
 
-std::string_view nameOf(Array array) {
-    static constexpr std::array<std::string_view, arrayCount> names = {
-        "position",   "velocity",     "before",       "label",   "laws",  "obstacles",   "cell-start",
-        "block-sums", "super-sums",   "place",        "order",   "saved", "saved-label", "anchor",
-        "resting",    "woken",        "stirred",      "slot-of", "pairs", "history",     "kept-start",
-        "kept",       "pressed",      "wall-history", "work",    "span",  "counters",    "full-launches",
-        "launches",   "sphere-parts", "overlaps",     "impacts",
-    };
-    return names.at(static_cast<std::size_t>(array));
-}
-
 std::string planText(const scene::Scene& scene, const Plan& plan) {
     std::string text =
         fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    {}\n", scene.name,
-                    plan.spheres, scene.step, scene.quality.substeps, scene::nameOf(plan.features.model));
+                    plan.spheres, scene.step, scene.quality.substeps, scene::nameOf(plan.model));
     text += "features  ";
-    for (const auto& [name, on] : featureList(plan.features))
-        if (on) text += fmt::format(" {}", name);
+    std::string_view comma = " ";
+    for (const Feature feature : allFeatures()) {
+        if (!plan.features.has(feature)) continue;
+        text += fmt::format("{}{}", comma, nameOf(feature));
+        comma = ", ";
+    }
     text += "\n";
-    if (plan.features.contacts) text += gridText(plan.grid);
-    if (plan.features.model == scene::Model::Accurate) text += contactText(scene);
+    if (plan.features.has(Feature::Contacts)) text += gridText(plan.grid);
+    if (plan.model == scene::Model::Accurate) text += contactText(scene);
     text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
     for (const ArraySpec& spec : plan.arrays)
         text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));
@@ -117,8 +102,9 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
     json["spheres"] = plan.spheres;
     json["step"] = scene.step;
     json["substepsPerStep"] = scene.quality.substeps;
-    json["quality"] = scene::nameOf(plan.features.model);
-    for (const auto& [name, on] : featureList(plan.features)) json["features"][std::string(name)] = on;
+    json["quality"] = scene::nameOf(plan.model);
+    for (const Feature feature : allFeatures())
+        json["features"][std::string(nameOf(feature))] = plan.features.has(feature);
     const Level& coarsest = plan.grid.coarsest();
     json["cells"] = {coarsest.cells.x, coarsest.cells.y, coarsest.cells.z};
     json["cellSize"] = static_cast<double>(coarsest.cellSize);
@@ -128,7 +114,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
                                   {"cellSize", static_cast<double>(level.cellSize)},
                                   {"spheres", level.spheres}});
     json["margin"] = static_cast<double>(plan.grid.margin);
-    if (plan.features.model == scene::Model::Accurate) {
+    if (plan.model == scene::Model::Accurate) {
         const scene::ContactTime time = scene::contactTimeOf(scene);
         json["contact"] = {{"seconds", time.contact},
                            {"speed", time.speed},

@@ -9,7 +9,6 @@
 
 #include "core/log.h"
 #include "core/pulse.h"
-#include "scene/features.h"
 #include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/statistics.h"
@@ -98,7 +97,7 @@ Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
 Result<void> Preparation::makePlan() {
     progress_.at("planning", 0);
     radii_ = radiiOf(built_.scene);
-    Plan plan = planFor(built_.scene, scene::featuresOf(built_.scene), built_.state.count(), radii_);
+    Plan plan = planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
     auto claim = claimFor(device_, plan);
     if (!claim) return tl::unexpected(claim.error());
     claim_ = std::move(*claim);

@@ -22,25 +22,4 @@ const compute::SourceSet& shaders() {
     return sources;
 }
 
-std::vector<compute::Define> definesFor(const scene::Features& features) {
-    auto define = [](const char* name, bool on) { return compute::Define{name, on ? "true" : "false"}; };
-    return {
-        define("GRAVITY", features.gravity),
-        define("CONTACTS", features.contacts),
-        define("RADII", features.radii),
-        define("LEVELS", features.levels),
-        define("RESTITUTION", features.restitution),
-        define("MATERIALS", features.materials),
-        define("FRICTION", features.friction),
-        define("ROLLING", features.rolling),
-        define("HERTZ", features.hertz),
-        define("RESIDUAL", features.model == scene::Model::Accurate),
-        define("BEFORE", features.needBefore()),
-        define("WALLS", features.walls),
-        define("PLANES", features.planes),
-        define("BOXES", features.boxes),
-        define("SLEEP", features.sleep),
-    };
-}
-
 }  // namespace spherule::sim

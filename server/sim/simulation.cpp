@@ -201,7 +201,7 @@ Result<void> Simulation::guard() {
     }
     // In time: once there is too little, contacts forget what they remember, and go without friction for a step.
     const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
-    if ((counters_.unlisted > 0 || nearlyFull) && plan().features.contacts && !full_) makeRoom();
+    if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !full_) makeRoom();
     fitToMotion(counters_.farthest);
     const double since = static_cast<double>(steps_ - goodStep_) * scene_.step;
     if (!counters_.nonFinite && since > keepEvery - 0.5 * scene_.step) keep();

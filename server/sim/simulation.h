@@ -9,7 +9,6 @@
 
 #include "compute/device.h"
 #include "core/memory.h"
-#include "scene/features.h"
 #include "scene/scene.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"

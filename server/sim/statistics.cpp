@@ -54,7 +54,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     double squares = 0;
     double heights = 0;
     double fastest = 0;
-    for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereParts)) {
+    for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereSums)) {
         weighted += glm::dvec4(part.weighted);
         sum.momentum += glm::dvec3(part.momentum);
         sum.angularMomentum += glm::dvec3(part.angular);
@@ -69,7 +69,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
         sum.outside += part.outside;
         sum.nonFinite += part.nonFinite;
     }
-    for (const float work : pipeline.read<float>(Array::Work)) sum.pushWork += static_cast<double>(work);
+    for (const float work : pipeline.read<float>(Array::WallWork)) sum.pushWork += static_cast<double>(work);
     addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
     sum.potentialEnergy = potentialEnergy(scene, weighted);
     sum.speedMax = std::sqrt(fastest);

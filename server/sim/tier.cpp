@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "compute/check.h"
 #include "sim/layout.h"
 #include "sim/shaders.h"
 
@@ -82,13 +83,14 @@ Result<std::unique_ptr<TierTools>> TierTools::create(compute::Device& device, st
         std::string_view kinds = "u";
     };
     const std::size_t blocks = tools->blocks_;
-    for (const Wanted& wanted : {Wanted{tools->order_, "codec order", spheres},
-                                 Wanted{tools->blockWords_, "codec blocks", blocks * CODEC_PACKED},
-                                 Wanted{tools->scratch_, "codec scratch", blocks * CODEC_SCRATCH},
-                                 Wanted{tools->groupWords_, "codec groups", tools->groups_},
-                                 Wanted{tools->sums_, "codec sums", over(tools->groups_, SCAN_BLOCK)},
-                                 Wanted{tools->parameters_, "codec parameters", codec_layout::parameterWords.size(),
-                                        codec_layout::parameterWords}}) {
+    const std::string parameterWords = layout::wordsOf("Parameters", "codec_layout.h");
+    for (const Wanted& wanted :
+         {Wanted{tools->order_, "codec order", spheres},
+          Wanted{tools->blockWords_, "codec blocks", blocks * CODEC_PACKED},
+          Wanted{tools->scratch_, "codec scratch", blocks * CODEC_SCRATCH},
+          Wanted{tools->groupWords_, "codec groups", tools->groups_},
+          Wanted{tools->sums_, "codec sums", over(tools->groups_, SCAN_BLOCK)},
+          Wanted{tools->parameters_, "codec parameters", parameterWords.size(), parameterWords}}) {
         auto made = device.createBuffer(wanted.label, word * wanted.words, wanted.kinds);
         if (!made) return tl::unexpected(made.error());
         wanted.buffer = std::move(*made);
@@ -104,10 +106,18 @@ void TierTools::setOrder(std::span<const std::uint32_t> order) {
     device_.upload(*order_, 0, std::as_bytes(order));
 }
 
-void TierTools::run(Kernel kernel, std::initializer_list<compute::Buffer*> buffers, std::uint32_t count,
-                    std::uint32_t phase) {
-    device_.launch({.kernel = kernels_[kernel].get(),
-                    .buffers = std::span(buffers.begin(), buffers.size()),
+void TierTools::run(Kernel kernel, std::initializer_list<Binding> bindings, std::uint32_t count, std::uint32_t phase) {
+    const compute::Kernel& code = *kernels_[kernel];
+    std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};
+    std::size_t slot = 0;
+    for (const auto& declared : code.buffers()) {
+        const auto* const found = std::ranges::find(bindings, declared.name, &Binding::name);
+        if (found == bindings.end())
+            compute::programError(fmt::format("{} is launched without its buffer {}", code.name(), declared.name));
+        bound[slot++] = found->buffer;
+    }
+    device_.launch({.kernel = &code,
+                    .buffers = std::span(bound.data(), slot),
                     .parameters = parameters_.get(),
                     .phase = phase,
                     .count = count});
@@ -173,18 +183,26 @@ void Tier::encode(Kind kind, const TierSource& source, bool hash) {
     auto& t = tools_;
     compute::Buffer* const slotOf = source.slotOf == nullptr ? t.order_.get() : source.slotOf;
     const std::uint32_t sums = over(t.groups_, SCAN_BLOCK);
-    t.run(
-        T::Choose,
-        {source.position, slotOf, t.order_.get(), newest_.get(), before_.get(), t.blockWords_.get(), t.scratch_.get()},
-        t.blocks_);
+    t.run(T::Choose,
+          {{"position", source.position},
+           {"slotOf", slotOf},
+           {"order", t.order_.get()},
+           {"newest", newest_.get()},
+           {"before", before_.get()},
+           {"blockWords", t.blockWords_.get()},
+           {"scratch", t.scratch_.get()}},
+          t.blocks_);
     if (kind != Kind::Join) std::swap(newest_, before_);
-    t.run(T::Sum, {t.scratch_.get(), t.groupWords_.get()}, t.groups_);
-    t.run(T::Reduce, {t.groupWords_.get(), t.sums_.get()}, sums, t.groups_);
-    t.run(T::Top, {t.sums_.get()}, 1, sums);
-    t.run(T::Spread, {t.groupWords_.get(), t.sums_.get()}, sums, t.groups_);
-    t.run(T::Layout, {t.scratch_.get(), t.groupWords_.get(), frame_.get()}, t.groups_);
-    t.run(T::Place, {t.blockWords_.get(), t.scratch_.get(), frame_.get()}, t.blocks_);
-    if (hash) t.run(T::Hash, {newest_.get(), frame_.get()}, t.blocks_);
+    compute::Buffer* const groupWords = t.groupWords_.get();
+    compute::Buffer* const scratch = t.scratch_.get();
+    compute::Buffer* const frame = frame_.get();
+    t.run(T::Sum, {{"scratch", scratch}, {"groupWords", groupWords}}, t.groups_);
+    t.run(T::Reduce, {{"values", groupWords}, {"sums", t.sums_.get()}}, sums, t.groups_);
+    t.run(T::Top, {{"sums", t.sums_.get()}}, 1, sums);
+    t.run(T::Spread, {{"values", groupWords}, {"sums", t.sums_.get()}}, sums, t.groups_);
+    t.run(T::Layout, {{"scratch", scratch}, {"groupStart", groupWords}, {"frame", frame}}, t.groups_);
+    t.run(T::Place, {{"blockWords", t.blockWords_.get()}, {"scratch", scratch}, {"frame", frame}}, t.blocks_);
+    if (hash) t.run(T::Hash, {{"newest", newest_.get()}, {"frame", frame}}, t.blocks_);
 }
 
 std::size_t Tier::headBytes() const {

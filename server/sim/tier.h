@@ -44,8 +44,11 @@ class TierTools {
     enum Kernel : std::uint8_t { Choose, Sum, Reduce, Top, Spread, Layout, Place, Hash, KernelCount };
 
     TierTools(compute::Device& device, std::uint32_t spheres);
-    void run(Kernel kernel, std::initializer_list<compute::Buffer*> buffers, std::uint32_t count,
-             std::uint32_t phase = 0);
+    struct Binding {
+        std::string_view name;  // of the kernel's buffer
+        compute::Buffer* buffer;
+    };
+    void run(Kernel kernel, std::initializer_list<Binding> bindings, std::uint32_t count, std::uint32_t phase = 0);
 
     compute::Device& device_;
     memory::Claim claim_;

@@ -1,7 +1,8 @@
 // Makes a .comp file both a GLSL compute shader and the body of a C++ struct.
 //
-//   BUFFER(slot, access, type, name, block)  storage buffer `name[]`; access: readonly, writeonly, restrict (both),
-//                                            coherent (atomics); `block` is a second, unused name that GLSL asks for
+//   BUFFER(access, type, name)  on a line of its own, in a .comp file: storage buffer `name[]`; access: readonly,
+//                               writeonly, restrict (both), coherent (atomics). The host writes the GLSL for it
+//                               (compute/source.h): the macro language of GLSL cannot make the name of its block
 //   KERNEL(count) { ... }                    the body; `invocation` runs over 0 .. count - 1
 //   HAS(FEATURE)                             whether the scene requires it: a constant in GLSL, a value in C++
 //   PREFETCH(element)                        of a buffer: it will be read soon; means something to processors only
@@ -17,8 +18,6 @@ layout(location = 0) uniform uint phase;
 #define PRIVATE(type, name) type name;
 #define PREFETCH(element)
 #define HAS(feature) (feature)
-#define BUFFER(slot, access, type, name, block) \
-    layout(std430, binding = slot) access buffer block { type name[]; };
 #define PARAMETERS layout(std140, binding = 0) uniform ParameterBlock { Parameters params; };
 #define KERNEL(count)                                                                            \
     void kernelBody(uint invocation);                                                            \

@@ -1,13 +1,13 @@
-// What holds between two spheres. The includer binds `label` and `laws`.
+// What holds between two spheres. The includer binds `idAndMaterial` and `contactParams`.
 
 uint lawIndex(uint a, uint b) {
-    return materialOf(label[a]) * params.materials + materialOf(label[b]);
+    return materialOf(idAndMaterial[a]) * params.materials + materialOf(idAndMaterial[b]);
 }
 
 vec4 contactLaw(uint a, uint b) {
-    return HAS(MATERIALS) ? laws[lawIndex(a, b)].contact : params.law;
+    return HAS(MATERIALS) ? contactParams[lawIndex(a, b)].contact : params.law;
 }
 
 vec4 stiffnessLaw(uint a, uint b) {
-    return HAS(MATERIALS) ? laws[lawIndex(a, b)].stiffness : params.stiffness;
+    return HAS(MATERIALS) ? contactParams[lawIndex(a, b)].stiffness : params.stiffness;
 }

@@ -44,7 +44,7 @@ struct Parameters {
     uint levels;
 };
 
-// What holds between two materials. Row a, column b of the `laws`.
+// What holds between two materials. Row a, column b of the `contactParams`.
 struct Law {
     vec4 contact;        // restitution, friction, rolling resistance, spinning resistance
     vec4 stiffness;      // of the model `accurate`: normal (Pa), damping ratio, tangential (Pa), 0

@@ -6,7 +6,7 @@
 // anchor is in a frame that moves: on a ballistic arc, as fast as the fastest sphere outside, so that those that fall
 // together hold still in it. Near the bounds, where it may meet spheres inside, both hold.
 
-// What `anchor` holds in w: 0 inside; outside the room, negative where a list pairs the sphere with another one outside.
+// What `listReference` holds in w: 0 inside; outside the room, negative where a list pairs the sphere with another one outside.
 #define UNLIMITED_ROOM 1.0e18f
 
 // Of its room, what a sphere may use up before there are new lists: two do so at a time, and each looks ahead as far.

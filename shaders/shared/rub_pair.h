@@ -5,8 +5,8 @@
 void rubPair(uint a, uint b, vec3 n, float ra, float rb, float pressing, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    vec4 sa = velocity[params.spheres + a];
-    vec4 sb = velocity[params.spheres + b];
+    vec4 sa = angularVelocity[a];
+    vec4 sb = angularVelocity[b];
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
     vec3 difference = vec3(va) - vec3(vb);
@@ -25,10 +25,10 @@ void rubPair(uint a, uint b, vec3 n, float ra, float rb, float pressing, vec4 la
     }
     if (ma > 0.0f) {
         velocity[a] = vec4(vec3(va) + got.impulse * ma, va.w);
-        velocity[params.spheres + a] = vec4(vec3(sa) + moment * (ma / (ra * ra)) - twist * (ma / ra), sa.w);
+        angularVelocity[a] = vec4(vec3(sa) + moment * (ma / (ra * ra)) - twist * (ma / ra), sa.w);
     }
     if (mb > 0.0f) {
         velocity[b] = vec4(vec3(vb) - got.impulse * mb, vb.w);
-        velocity[params.spheres + b] = vec4(vec3(sb) - moment * (mb / (rb * rb)) - twist * (mb / rb), sb.w);
+        angularVelocity[b] = vec4(vec3(sb) - moment * (mb / (rb * rb)) - twist * (mb / rb), sb.w);
     }
 }

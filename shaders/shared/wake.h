@@ -1,7 +1,7 @@
 // What wakes a sleeping neighbour: a sphere that has moved away from where it was, or is faster than what the solver
 // itself makes of a support under load.
 
-// Takes what `before` holds of it: the velocity before the substep, because the present one holds the kicks of
+// Takes what `velocityBefore` holds of it: the velocity before the substep, because the present one holds the kicks of
 // unfinished pushes, and CREPT in place of the quiet time.
 bool wakes(vec4 v) {
     return v.w == CREPT || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;

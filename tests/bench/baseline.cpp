@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "embedded/benchKernels.h"
-#include "scene/features.h"
+#include "sim/features.h"
 #include "sim/parameters.h"
 #include "sim/shaders.h"
 

@@ -1,28 +1,59 @@
-# Generates, from the text of shaders/: compute/cpu/all_kernels.h, one struct per .comp file and a table of them, and
-# compute/cpu/features.h, one bit for each feature that any of them asks for.
-file(GLOB kernel_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.comp)
-file(GLOB shared_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/shared/*.h)
-list(REMOVE_ITEM shared_files ${PROJECT_SOURCE_DIR}/shaders/shared/kernel.h)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${kernel_files} ${shared_files})
+# Checks the kernels of shaders/ and generates compute/cpu/all_kernels.h from their text: one struct per .comp file and a
+# table of them.
+#
+# In script mode, `cmake -D SPHERULE_SHADERS=FOLDER -P Kernels.cmake` only checks the kernels of FOLDER.
+set(most_buffers 16)  # maxKernelBuffers of compute/device.h
+if(CMAKE_SCRIPT_MODE_FILE)
+  set(shader_folder ${SPHERULE_SHADERS})
+  file(GLOB kernel_files ${shader_folder}/*.comp)
+  file(GLOB shared_files ${shader_folder}/shared/*.h)
+else()
+  set(shader_folder ${PROJECT_SOURCE_DIR}/shaders)
+  file(GLOB kernel_files CONFIGURE_DEPENDS ${shader_folder}/*.comp)
+  file(GLOB shared_files CONFIGURE_DEPENDS ${shader_folder}/shared/*.h)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+    ${kernel_files} ${shared_files} ${shader_folder}/features.def)
+endif()
+list(REMOVE_ITEM shared_files ${shader_folder}/shared/kernel.h)
+
+file(STRINGS ${shader_folder}/features.def features REGEX "^FEATURE\\(")
+list(TRANSFORM features REPLACE "^FEATURE\\(([A-Z_]+),.*" "\\1")
+list(LENGTH features count)
+if(count GREATER 64)
+  message(FATAL_ERROR "shaders/features.def defines ${count} features; the bits of a launch hold 64")
+endif()
+
 set(structs)
 set(entries)
-set(features)
 foreach(file ${kernel_files} ${shared_files})
   file(READ ${file} text)
+  file(RELATIVE_PATH path ${shader_folder}/.. ${file})
   string(REGEX MATCHALL "HAS\\([A-Z_]+\\)" uses "${text}")
-  list(APPEND features ${uses})
-  get_filename_component(kernel ${file} NAME_WE)
+  foreach(use ${uses})
+    string(REGEX REPLACE "HAS\\((.*)\\)" "\\1" feature ${use})
+    if(NOT feature IN_LIST features)
+      message(FATAL_ERROR "${path} asks ${use}, but shaders/features.def defines no feature ${feature}")
+    endif()
+  endforeach()
+  string(REGEX MATCHALL "\nBUFFER\\([^)]*\\)" buffers "${text}")
+  list(LENGTH buffers count)
   if(NOT file MATCHES "\\.comp$")
+    if(count GREATER 0)
+      message(FATAL_ERROR "${path} declares a buffer; only .comp files do")
+    endif()
     continue()
   endif()
-  set(slots 0)
-  string(REGEX MATCHALL "BUFFER\\([0-9]+" buffers "${text}")
+  if(count GREATER most_buffers)
+    message(FATAL_ERROR "${path} declares ${count} buffers; a kernel has at most ${most_buffers}")
+  endif()
+  get_filename_component(kernel ${file} NAME_WE)
+  set(declared)
   foreach(buffer ${buffers})
-    string(REGEX REPLACE "[^0-9]" "" number ${buffer})
-    math(EXPR next "${number} + 1")
-    if(next GREATER slots)
-      set(slots ${next})
+    if(NOT buffer MATCHES "BUFFER\\((readonly|writeonly|restrict|coherent), ([A-Za-z0-9]+), ([A-Za-z0-9]+)\\)")
+      string(STRIP "${buffer}" buffer)
+      message(FATAL_ERROR "${path}: ${buffer} is not of the form BUFFER(access, type, name)")
     endif()
+    string(APPEND declared "{\"${CMAKE_MATCH_2}\", \"${CMAKE_MATCH_3}\"}, ")
   endforeach()
   string(FIND "${text}" "\nPARAMETERS" at)
   set(parameters true)
@@ -30,43 +61,16 @@ foreach(file ${kernel_files} ${shared_files})
     set(parameters false)
   endif()
   string(APPEND structs
-    "struct ${kernel} : KernelBase {\n    using KernelBase::KernelBase;\n#include \"${kernel}.comp\"\n};\n\n")
+    "struct ${kernel} : KernelBase {\n    using KernelBase::KernelBase;\n"
+    "    static constexpr BufferDeclaration declared[] = {${declared}};\n#include \"${kernel}.comp\"\n};\n\n")
   string(APPEND entries
-    "    {\"${kernel}.comp\", ${slots}, ${parameters}, &countOf<${kernel}>, &run<${kernel}>},\n")
+    "    {\"${kernel}.comp\", ${kernel}::declared, ${parameters}, &countOf<${kernel}>, &run<${kernel}>},\n")
 endforeach()
-list(REMOVE_DUPLICATES features)
-list(SORT features)
-set(bits)
-set(names)
-set(bit 0)
-foreach(feature ${features})
-  string(REGEX REPLACE "HAS\\((.*)\\)" "\\1" feature ${feature})
-  string(APPEND bits "        ${feature} = 1U << ${bit}U,\n")
-  string(APPEND names "    \"${feature}\",\n")
-  math(EXPR bit "${bit} + 1")
-endforeach()
+if(CMAKE_SCRIPT_MODE_FILE)
+  return()
+endif()
 
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
-file(CONFIGURE OUTPUT ${generated}/compute/cpu/features.h CONTENT
-"// Generated from the uses of HAS in shaders/.
-#pragma once
-
-#include <cstdint>
-#include <string_view>
-
-namespace spherule::compute::cpu {
-
-struct Features {
-    enum Bit : std::uint32_t {
-@bits@    };
-};
-
-// By bit.
-constexpr std::string_view featureNames[] = {
-@names@};
-
-}  // namespace spherule::compute::cpu
-" @ONLY)
 file(CONFIGURE OUTPUT ${generated}/compute/cpu/all_kernels.h CONTENT
 "// Generated from the list of shaders/*.comp.
 namespace spherule::compute::cpu::SPHERULE_PRECISION {

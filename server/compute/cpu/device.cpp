@@ -16,7 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t maxSlots = 8;
 constexpr int maxReadBacks = 2;
 // Ranges that a thread takes at a time: few enough that taking them costs little, many enough that the threads end
 // together.
@@ -29,15 +28,16 @@ const CpuBuffer& cpuBuffer(const Buffer& buffer) {
 
 class CpuKernel final : public Kernel {
   public:
-    CpuKernel(const Entry& entry, std::uint32_t features)
+    CpuKernel(const Entry& entry, std::uint64_t features)
         : entry_(entry), features_(features), name_(std::string(entry.name)) {}
     [[nodiscard]] const std::string& name() const override { return name_; }
     [[nodiscard]] const Entry& entry() const { return entry_; }
-    [[nodiscard]] std::uint32_t features() const { return features_; }
+    [[nodiscard]] std::span<const BufferDeclaration> buffers() const override { return entry_.buffers; }
+    [[nodiscard]] std::uint64_t features() const { return features_; }
 
   private:
     const Entry& entry_;
-    std::uint32_t features_;
+    std::uint64_t features_;
     std::string name_;
 };
 
@@ -57,12 +57,12 @@ class CpuReadBack final : public ReadBack {
     std::shared_ptr<int> underWay_;
 };
 
-std::uint32_t featuresOf(std::span<const Define> defines) {
-    std::uint32_t features = 0;
+std::uint64_t featuresOf(std::span<const Define> defines) {
+    std::uint64_t features = 0;
     for (const Define& define : defines) {
         const auto* const found = std::ranges::find(featureNames, define.name);
         if (found != std::end(featureNames) && define.value == "true")
-            features |= 1U << static_cast<unsigned>(found - std::begin(featureNames));
+            features |= std::uint64_t{1} << static_cast<unsigned>(found - std::begin(featureNames));
     }
     return features;
 }
@@ -146,17 +146,17 @@ void CpuDevice::launch(const Launch& launch) {
     if (launch.kernel == nullptr) programError("a launch without a kernel");
     const auto& kernel = static_cast<const CpuKernel&>(*launch.kernel);
     const Entry& entry = kernel.entry();
-    std::array<void*, maxSlots> slots{};
-    for (std::uint32_t slot = 0; slot < entry.slots; ++slot) {
+    std::array<void*, maxKernelBuffers> slots{};
+    for (std::size_t slot = 0; slot < entry.buffers.size(); ++slot) {
         const Buffer* const buffer = slot < launch.buffers.size() ? launch.buffers[slot] : nullptr;
         if (buffer == nullptr)
-            programError(fmt::format("{} is launched without a buffer at slot {}", kernel.name(), slot));
+            programError(fmt::format("{} is launched without its buffer {}", kernel.name(), entry.buffers[slot].name));
         slots[slot] = cpuBuffer(*buffer).data();
     }
     if (entry.wantsParameters && launch.parameters == nullptr)
         programError(kernel.name() + " is launched without its parameters");
     const Work work{.entry = entry,
-                    .binding = {.slots = std::span(slots.data(), entry.slots),
+                    .binding = {.slots = std::span(slots.data(), entry.buffers.size()),
                                 .parameters = entry.wantsParameters ? cpuBuffer(*launch.parameters).data() : nullptr,
                                 .phase = launch.phase,
                                 .features = kernel.features()}};

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -102,6 +103,14 @@ struct KernelBase : Features {
         return number < binding.slots.size() ? static_cast<T*>(binding.slots[number]) : nullptr;
     }
 
+    // The place of a buffer among those that the kernel declares.
+    template <std::size_t count>
+    static consteval std::size_t placeAmong(const BufferDeclaration (&declared)[count], std::string_view name) {
+        std::size_t slot = 0;
+        while (declared[slot].name != name) ++slot;
+        return slot;
+    }
+
     // A copy: compilers then know that no buffer overlaps it.
     template <class T>
     [[nodiscard]] T copyOfParameters() const {
@@ -144,7 +153,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define PRIVATE(type, name) type name;
 #define PREFETCH(element) __builtin_prefetch(&(element));
 #define HAS(feature) ((binding.features & (feature)) != 0U)
-#define BUFFER(number, access, type, name, block) SPHERULE_ACCESS_##access(type) name = slot<type>(number);
+#define BUFFER(access, type, name) SPHERULE_ACCESS_##access(type) name = slot<type>(placeAmong(declared, #name));
 #define PARAMETERS const Parameters params = copyOfParameters<Parameters>();
 #define KERNEL(count)                  \
     [[nodiscard]] uint kernelCount() { \

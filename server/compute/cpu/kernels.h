@@ -3,20 +3,22 @@
 #include <cstdint>
 #include <span>
 
+#include "compute/device.h"
+
 // The kernels of shaders/, compiled as C++.
 namespace spherule::compute::cpu {
 
 // One launch. A slot that the scene's features leave unused may be null.
 struct Binding {
-    std::span<void* const> slots;
+    std::span<void* const> slots;      // by the index of the declaration
     const void* parameters = nullptr;  // null for kernels without them
     std::uint32_t phase = 0;
-    std::uint32_t features = 0;  // bits of Features
+    std::uint64_t features = 0;  // bits of Features
 };
 
 struct Entry {
-    const char* name;     // file
-    std::uint32_t slots;  // one past the last buffer that it declares
+    const char* name;  // file
+    std::span<const BufferDeclaration> buffers;
     bool wantsParameters;
     std::uint32_t (*count)(const Binding&);  // invocations
     // Invocations begin .. end - 1. Any number of threads, each with a range of its own.

@@ -94,6 +94,11 @@ Result<void> Context::start() {
                     fmt::format("its context cannot be made current: {}", eglErrorName(eglGetError())));
     }
     if (!loadGl()) return fail(ErrorKind::NoDevice, display_->name(), "OpenGL's functions cannot be loaded");
+    GLint buffers = 0;
+    glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &buffers);
+    if (static_cast<std::size_t>(buffers) < maxKernelBuffers)
+        return fail(ErrorKind::NoDevice, display_->name(),
+                    fmt::format("allows a kernel {} storage buffers; {} are needed", buffers, maxKernelBuffers));
     renderer_ = glString(GL_RENDERER);
     vendor_ = glString(GL_VENDOR);
     version_ = glString(GL_VERSION);

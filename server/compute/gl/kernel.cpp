@@ -5,7 +5,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "compute/source.h"
 #include "core/log.h"
 
 namespace spherule::compute::gl {
@@ -55,9 +54,11 @@ GLuint bindingOf(GLuint program, GLenum interface, GLuint index) {
 Result<std::unique_ptr<Kernel>> GlKernel::create(const std::shared_ptr<Context>& context, const SourceSet& sources,
                                                  std::string_view file, std::span<const Define> defines) {
     context->use();
-    const auto source = expandSource(sources, file, defines);
+    auto source = expandSource(sources, file, defines);
     if (!source) return tl::unexpected(source.error());
     std::unique_ptr<GlKernel> kernel(new GlKernel(context, std::string(file)));
+    kernel->declared_ = std::move(source->buffers);
+    for (const auto& [type, name] : kernel->declared_) kernel->buffers_.push_back({type, name});
     if (auto built = kernel->build(source->text, source->files); !built) return tl::unexpected(built.error());
     if (auto reflected = kernel->reflect(); !reflected) return tl::unexpected(reflected.error());
     return kernel;
@@ -120,10 +121,10 @@ Result<void> GlKernel::reflectSlots() {
     const auto blocks = static_cast<GLuint>(activeCount(program_, GL_SHADER_STORAGE_BLOCK));
     for (GLuint index = 0; index < blocks; ++index) {
         Slot slot{bindingOf(program_, GL_SHADER_STORAGE_BLOCK, index), blockName(program_, index)};
-        if (slot.binding >= maxSlots) {
-            return fail(
-                ErrorKind::Input, name_,
-                fmt::format("has buffer {} at slot {}; slots end at {}", slot.block, slot.binding, maxSlots - 1));
+        if (slot.binding >= maxKernelBuffers) {
+            return fail(ErrorKind::Input, name_,
+                        fmt::format("has buffer {} at slot {}; slots end at {}", slot.block, slot.binding,
+                                    maxKernelBuffers - 1));
         }
         for (const auto& other : slots_) {
             if (other.binding == slot.binding) {

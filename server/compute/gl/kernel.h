@@ -7,6 +7,7 @@
 
 #include "compute/device.h"
 #include "compute/gl/context.h"
+#include "compute/source.h"
 
 namespace spherule::compute::gl {
 
@@ -26,6 +27,7 @@ class GlKernel final : public Kernel {
     GlKernel& operator=(const GlKernel&) = delete;
 
     [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] std::span<const BufferDeclaration> buffers() const override { return buffers_; }
     [[nodiscard]] GLuint program() const { return program_; }
     [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
     [[nodiscard]] bool wantsParameters() const { return wantsParameters_; }
@@ -53,6 +55,8 @@ class GlKernel final : public Kernel {
 
     std::shared_ptr<Context> context_;
     std::string name_;
+    std::vector<ExpandedSource::Buffer> declared_;
+    std::vector<BufferDeclaration> buffers_;  // views of declared_
     GLuint program_ = 0;
     std::vector<Slot> slots_;
     bool wantsParameters_ = false;

@@ -5,9 +5,9 @@
 
 #include <glad/gl.h>
 
-namespace spherule::compute::gl {
+#include "compute/device.h"
 
-constexpr std::size_t maxSlots = 16;  // storage buffers that one kernel can name
+namespace spherule::compute::gl {
 
 // What a context is set to, so that a launch sets only what differs from the launch before. Its context is current in
 // every call.
@@ -31,7 +31,7 @@ class State {
     GLuint program_ = 0;
     GLuint uniforms_ = 0;
     GLuint arguments_ = 0;
-    std::array<GLuint, maxSlots> storage_{};
+    std::array<GLuint, maxKernelBuffers> storage_{};
     bool launched_ = false;
 };
 

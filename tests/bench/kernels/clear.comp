@@ -1,7 +1,7 @@
 // Zeros the first `phase` words.
 #include "shared/kernel.h"
 
-BUFFER(0, writeonly, uint, words, WordBlock)
+BUFFER(writeonly, uint, words)
 
 KERNEL(phase) {
     words[invocation] = 0u;

@@ -2,11 +2,11 @@
 // pairs bounce, then gravity, motion and walls. A sphere gathers for itself from the state before the substep (Jacobi),
 // so one kernel does it all. Equal radii and masses. The includer binds nothing else at slots 0 to 4.
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, writeonly, vec4, newPosition, NewPositionBlock)
-BUFFER(3, writeonly, vec4, newVelocity, NewVelocityBlock)
-BUFFER(4, coherent, uint, tally, TallyBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
+BUFFER(writeonly, vec4, newPosition)
+BUFFER(writeonly, vec4, newVelocity)
+BUFFER(coherent, uint, tally)
 
 PRIVATE(uint, self)
 PRIVATE(vec3, here)

@@ -5,10 +5,10 @@ PARAMETERS
 #include "tally.h"
 #include "slots.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, coherent, uint, occupied, OccupiedBlock)
-BUFFER(2, writeonly, uint, cells, CellBlock)
-BUFFER(3, coherent, uint, tally, TallyBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(coherent, uint, occupied)
+BUFFER(writeonly, uint, cells)
+BUFFER(coherent, uint, tally)
 
 KERNEL(params.spheres) {
     uvec3 place = cellAt(vec3(position[invocation]));

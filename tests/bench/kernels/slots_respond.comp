@@ -8,8 +8,8 @@ PARAMETERS
 #include "response.h"
 #include "slots.h"
 
-BUFFER(5, readonly, uint, occupied, OccupiedBlock)
-BUFFER(6, readonly, uint, cells, CellBlock)
+BUFFER(readonly, uint, occupied)
+BUFFER(readonly, uint, cells)
 
 void meetCell(uint cell) {
     uint count = min(occupied[cell], SLOTS);

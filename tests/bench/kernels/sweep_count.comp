@@ -4,9 +4,9 @@
 PARAMETERS
 #include "sweep.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, coherent, uint, keyStart, KeyBlock)
-BUFFER(2, writeonly, uint, place, PlaceBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(coherent, uint, keyStart)
+BUFFER(writeonly, uint, place)
 
 KERNEL(params.spheres) {
     place[invocation] = atomicAdd(keyStart[keyOf(position[invocation].x)], 1u);

@@ -4,12 +4,12 @@
 PARAMETERS
 #include "sweep.h"
 
-BUFFER(0, readonly, vec4, position, PositionBlock)
-BUFFER(1, readonly, vec4, velocity, VelocityBlock)
-BUFFER(2, readonly, uint, keyStart, KeyBlock)
-BUFFER(3, readonly, uint, place, PlaceBlock)
-BUFFER(4, writeonly, vec4, sortedPosition, SortedPositionBlock)
-BUFFER(5, writeonly, vec4, sortedVelocity, SortedVelocityBlock)
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, uint, keyStart)
+BUFFER(readonly, uint, place)
+BUFFER(writeonly, vec4, sortedPosition)
+BUFFER(writeonly, vec4, sortedVelocity)
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];

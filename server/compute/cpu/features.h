@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+// The features that kernels may ask for, one bit each, in the order of shaders/features.def.
+namespace spherule::compute::cpu {
+
+enum class FeatureIndex : std::uint8_t {
+#define FEATURE(flag, Name, text) flag,
+#include "features.def"
+#undef FEATURE
+};
+
+struct Features {
+    enum Bit : std::uint64_t {
+#define FEATURE(flag, Name, text) flag = std::uint64_t{1} << static_cast<unsigned>(FeatureIndex::flag),
+#include "features.def"
+#undef FEATURE
+    };
+};
+
+// By bit.
+constexpr std::string_view featureNames[] = {
+#define FEATURE(flag, Name, text) #flag,
+#include "features.def"
+#undef FEATURE
+};
+
+}  // namespace spherule::compute::cpu

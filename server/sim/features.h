@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "compute/device.h"
+#include "scene/scene.h"
+
+namespace spherule::sim {
+
+// What a scene may require: the rows of shaders/features.def. What it does not require is neither compiled, allocated
+// nor launched.
+enum class Feature : std::uint8_t {
+#define FEATURE(flag, Name, text) Name,
+#include "features.def"
+#undef FEATURE
+};
+
+constexpr std::size_t featureCount = 0
+#define FEATURE(flag, Name, text) +1
+#include "features.def"
+#undef FEATURE
+    ;
+static_assert(featureCount <= 64, "Features has 64 bits");
+
+std::string_view nameOf(Feature feature);
+std::vector<Feature> allFeatures();
+
+class Features {
+  public:
+    [[nodiscard]] bool has(Feature feature) const { return (bits_ & bitOf(feature)) != 0; }
+    void set(Feature feature, bool on = true) { bits_ = on ? bits_ | bitOf(feature) : bits_ & ~bitOf(feature); }
+
+    // Whether there is any surface that a sphere may hit.
+    [[nodiscard]] bool obstructed() const { return has(Feature::Walls) || has(Feature::Planes) || has(Feature::Boxes); }
+
+    bool operator==(const Features&) const = default;
+
+  private:
+    static std::uint64_t bitOf(Feature feature) { return std::uint64_t{1} << static_cast<unsigned>(feature); }
+
+    std::uint64_t bits_ = 0;
+};
+
+// Of a scene with its spheres. Levels is a matter of the grid: planFor() sets it.
+Features featuresOf(const scene::Scene& scene);
+
+// Of all features, for the kernels.
+std::vector<compute::Define> definesFor(const Features& features);
+
+}  // namespace spherule::sim

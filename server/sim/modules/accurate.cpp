@@ -1,0 +1,40 @@
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+namespace {
+
+void declareForces(PlanBuilder& plan) {
+    const bool contacts = plan.has(Feature::Contacts);
+    if (!contacts && !plan.obstructed()) return;
+    plan.arrays({Array::DeltaVelocity});
+    if (plan.has(Feature::Friction)) {
+        plan.arrays({Array::DeltaOmega});
+        if (plan.obstructed()) plan.arrays({Array::WallSlip});
+    }
+    plan.overPairs(Stage::Solve, Pass::Forces, "solve_forces.comp");
+    if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallForces, "walls_forces.comp");
+    plan.overSpheres(Stage::Solve, Pass::Forces, "apply_forces.comp");
+    if (contacts) plan.statistics("statistics_springs.comp", plan.plan().groups());
+}
+
+}  // namespace
+
+// The model `accurate`: soft spheres, whose forces are added up before any acts.
+const Module moduleAccurate{
+    .feature = Feature::Accurate,
+    .required = [](const scene::Scene& scene,
+                   const Features& /*others*/) { return scene.quality.model == scene::Model::Accurate; },
+    .declare = declareForces,
+    .upload = [](const ParameterSource& from, layout::Parameters& p) { p.wallContacts = from.plan.wallContacts; },
+};
+
+// What float32 cannot hold of a position: the substeps of `accurate` are so short that they would not move a slow
+// sphere.
+const Module moduleLowBits{
+    .feature = Feature::LowBits,
+    .required = [](const scene::Scene& /*scene*/, const Features& others) { return others.has(Feature::Accurate); },
+    .declare = [](PlanBuilder& plan) { plan.arrays({Array::PositionLow}); },
+};
+
+}  // namespace spherule::sim

@@ -1,0 +1,32 @@
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+// The model `balanced`: overlaps resolved by positions, then the velocities that impacts justify. The module of
+// friction adds its two passes.
+const Module moduleBalanced{
+    .feature = Feature::Balanced,
+    .required = [](const scene::Scene& scene,
+                   const Features& /*others*/) { return scene.quality.model == scene::Model::Balanced; },
+    .declare =
+        [](PlanBuilder& plan) {
+            if (plan.has(Feature::Contacts)) plan.arrays({Array::Touching});
+            plan.overPairs(Stage::Solve, Pass::Positions, "solve_positions.comp");
+            if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallPositions, "walls_positions.comp");
+            plan.overPairs(Stage::Solve, Pass::Velocities, "solve_velocities.comp");
+            if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
+        },
+};
+
+// The velocity before the substep, from which impacts and sleep are told.
+const Module moduleVelocityBefore{
+    .feature = Feature::VelocityBefore,
+    .required =
+        [](const scene::Scene& /*scene*/, const Features& others) {
+            const bool impacts = others.has(Feature::Contacts) || others.has(Feature::Restitution);
+            return others.has(Feature::Sleep) || (others.has(Feature::Balanced) && impacts);
+        },
+    .declare = [](PlanBuilder& plan) { plan.arrays({Array::VelocityBefore}); },
+};
+
+}  // namespace spherule::sim

@@ -1,0 +1,87 @@
+#include <algorithm>
+
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+namespace {
+
+// Lists hold until a sphere has moved this share of the margin: two may approach each other, and the position pass
+// moves them a little further before the next check.
+constexpr double rebuildShare = 0.45;
+
+bool differ(const std::vector<scene::Sphere>& spheres) {
+    return std::ranges::any_of(spheres, [&](const scene::Sphere& s) { return s.radius != spheres.front().radius; });
+}
+
+void declareLists(PlanBuilder& plan) {
+    using enum Array;
+    plan.arrays({CellStart, BlockSums, SuperSums, RankInCell, CellOrder, SortScratch, SortScratchWords, SlotOf,
+                 ListReference, Pairs, GroupRange, DispatchSizes, DispatchArgs, Overlaps});
+    plan.once(Stage::Rebuild, Pass::Grid, "rebuild_plan.comp");
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_clear.comp", LAUNCH_CELLS);
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_count.comp", LAUNCH_SPHERES);
+    plan.prefixSumOnRebuild(Stage::SortCells, Pass::Grid, CellStart, {LAUNCH_BLOCKS, LAUNCH_SUPERBLOCKS},
+                            plan.plan().grid.all() + 1);
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES);
+    plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELLS);
+    plan.onRebuild(Stage::Reference, Pass::Grid, "state_anchor.comp", LAUNCH_SPHERES);
+    plan.onRebuild(Stage::Lists, Pass::Lists, "list_build.comp", LAUNCH_GROUPS);
+    plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_GROUPS);
+    plan.statistics("statistics_contacts.comp", plan.plan().groups());
+}
+
+void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
+    const Grid& grid = from.plan.grid;
+    const auto inverse = [](const Level& level) { return level.cellSize > 0 ? 1 / level.cellSize : 0.0F; };
+    p.cells = glm::uvec4(grid.coarsest().cells, grid.all());
+    p.inverseCell = inverse(grid.coarsest());
+    p.levels = static_cast<std::uint32_t>(grid.levels.size());
+    for (std::size_t k = 0; k < grid.levels.size(); ++k) {
+        const Level& level = grid.levels[k];
+        p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.crowd, 0);
+        p.levelCells[k] = glm::uvec4(level.cells, level.first);
+    }
+    p.margin = grid.margin;
+    p.rebuildMove = static_cast<float>(rebuildShare) * grid.margin;
+    p.groups = from.plan.groups() / 8;
+    p.pairCapacity = from.plan.pairCapacity;
+}
+
+}  // namespace
+
+// Spheres meet each other: a cell grid and, from it, lists of the pairs that are near each other.
+const Module moduleContacts{
+    .feature = Feature::Contacts,
+    .required = [](const scene::Scene& scene, const Features& /*others*/) { return scene.sphereContacts; },
+    .declare = declareLists,
+    .upload = uploadGrid,
+};
+
+// Radii differ.
+const Module moduleRadii{
+    .feature = Feature::Radii,
+    .required = [](const scene::Scene& scene, const Features& /*others*/) { return differ(scene.spheres); },
+};
+
+// Radii differ so much that each class of sizes has a grid of its own. Set by planFor(), which makes the grid.
+const Module moduleLevels{
+    .feature = Feature::Levels,
+    .required = [](const scene::Scene& /*scene*/, const Features& /*others*/) { return false; },
+};
+
+// A face of the bounds is open: spheres may leave.
+const Module moduleOpenFaces{
+    .feature = Feature::OpenFaces,
+    .required =
+        [](const scene::Scene& scene, const Features& /*others*/) {
+            return std::ranges::find(scene.bounds.open, true) != scene.bounds.open.end();
+        },
+    .declare =
+        [](PlanBuilder& plan) {
+            if (plan.has(Feature::Contacts))
+                plan.onRebuild(Stage::Outside, Pass::Lists, "list_outside.comp", LAUNCH_OUTSIDE);
+        },
+};
+
+}  // namespace spherule::sim

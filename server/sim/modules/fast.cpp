@@ -1,0 +1,19 @@
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+// The model `fast`: impulses with restitution, positions corrected.
+const Module moduleFast{
+    .feature = Feature::Fast,
+    .required = [](const scene::Scene& scene,
+                   const Features& /*others*/) { return scene.quality.model == scene::Model::Fast; },
+    .declare =
+        [](PlanBuilder& plan) {
+            plan.overPairs(Stage::Solve, Pass::Impulses, "solve_impulses.comp");
+            if (!plan.obstructed()) return;
+            if (plan.has(Feature::Gravity)) plan.arrays({Array::WallWork});
+            plan.overSpheres(Stage::Solve, Pass::WallImpulses, "walls_impulses.comp");
+        },
+};
+
+}  // namespace spherule::sim

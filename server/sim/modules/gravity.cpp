@@ -1,0 +1,18 @@
+#include <glm/geometric.hpp>
+
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+// A uniform acceleration.
+const Module moduleGravity{
+    .feature = Feature::Gravity,
+    .required = [](const scene::Scene& scene, const Features& /*others*/) { return glm::length(scene.gravity) > 0; },
+    .upload =
+        [](const ParameterSource& from, layout::Parameters& p) {
+            p.gravity = glm::vec4(glm::vec3(from.scene.gravity), 0);
+            p.deadBand = static_cast<float>(2 * glm::length(from.scene.gravity) * from.substep);
+        },
+};
+
+}  // namespace spherule::sim

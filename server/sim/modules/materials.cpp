@@ -1,0 +1,79 @@
+#include <algorithm>
+
+#include "scene/materials.h"
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+namespace {
+
+bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::PairLaw&)) {
+    return std::ranges::any_of(scene::actingLaws(scene), holds);
+}
+
+}  // namespace
+
+// Something bounces.
+const Module moduleRestitution{
+    .feature = Feature::Restitution,
+    .required =
+        [](const scene::Scene& scene, const Features& /*others*/) {
+            return anyContact(scene, [](const auto& law) { return law.restitution > 0; });
+        },
+};
+
+// Spheres are of more than one material: what holds in a contact is looked up.
+const Module moduleMaterials{
+    .feature = Feature::Materials,
+    .required =
+        [](const scene::Scene& scene, const Features& /*others*/) {
+            return std::ranges::any_of(
+                scene.spheres, [&](const scene::Sphere& s) { return s.material != scene.spheres.front().material; });
+        },
+    .declare = [](PlanBuilder& plan) { plan.arrays({Array::ContactParams}); },
+};
+
+// A contact of `accurate` follows Hertz and Mindlin in place of linear springs.
+const Module moduleHertz{
+    .feature = Feature::Hertz,
+    .required =
+        [](const scene::Scene& scene, const Features& others) {
+            return others.has(Feature::Accurate) &&
+                   std::ranges::any_of(scene.materials, [](const scene::Material& m) { return m.young > 0; });
+        },
+};
+
+// Something rubs: spheres turn.
+const Module moduleFriction{
+    .feature = Feature::Friction,
+    .required =
+        [](const scene::Scene& scene, const Features& /*others*/) {
+            return anyContact(scene, [](const auto& law) { return law.friction > 0; });
+        },
+    .declare =
+        [](PlanBuilder& plan) {
+            plan.arrays({Array::AngularVelocity});
+            if (!plan.has(Feature::Balanced)) return;
+            if (plan.has(Feature::Contacts)) {
+                plan.arrays({Array::NormalImpulses});
+                plan.overPairs(Stage::Friction, Pass::Friction, "solve_friction.comp");
+            }
+            if (plan.obstructed()) {
+                plan.arrays({Array::WallImpulse});
+                plan.overSpheres(Stage::Friction, Pass::WallFriction, "walls_friction.comp");
+            }
+        },
+};
+
+// Something resists rolling or spinning.
+const Module moduleRolling{
+    .feature = Feature::Rolling,
+    .required =
+        [](const scene::Scene& scene, const Features& others) {
+            return others.has(Feature::Friction) && anyContact(scene, [](const scene::PairLaw& law) {
+                       return law.rollingResistance > 0 || law.spinningResistance > 0;
+                   });
+        },
+};
+
+}  // namespace spherule::sim

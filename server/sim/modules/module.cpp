@@ -1,0 +1,104 @@
+#include "sim/modules/module.h"
+
+#include <algorithm>
+
+namespace spherule::sim {
+
+const std::array<const Module*, featureCount>& modules() {
+    static const std::array<const Module*, featureCount> all = {
+#define FEATURE(flag, Name, text) &module##Name,
+#include "features.def"
+#undef FEATURE
+    };
+    return all;
+}
+
+void PlanBuilder::arrays(std::initializer_list<Array> wanted) {
+    for (const Array array : wanted)
+        if (!plan_.has(array)) plan_.arrays.push_back({array, plan_.bytesFor(array, scene_)});
+}
+
+void PlanBuilder::overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases) {
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.spheres, .aliases = std::move(aliases)}});
+}
+
+void PlanBuilder::overGroups(Stage stage, Pass pass, std::string_view kernel) {
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.groups()}});
+}
+
+void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel) {
+    if (!has(Feature::Contacts)) return;
+    for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level)
+        for (std::uint32_t colour = 0; colour < 8; ++colour)
+            staged_.push_back({stage,
+                               {.pass = pass,
+                                .kernel = kernel,
+                                .count = plan_.grid.levels[level].all() / 64,
+                                .phase = 8 * level + colour}});
+}
+
+void PlanBuilder::once(Stage stage, Pass pass, std::string_view kernel) {
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = 1}});
+}
+
+void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row,
+                            std::vector<Alias> aliases) {
+    staged_.push_back({stage,
+                       {.pass = pass,
+                        .kernel = kernel,
+                        .count = plan_.fullLaunches.at(row),
+                        .launchRow = row,
+                        .aliases = std::move(aliases)}});
+}
+
+void PlanBuilder::prefixSumOnRebuild(Stage stage, Pass pass, Array values, std::array<std::uint32_t, 2> rows,
+                                     std::uint32_t count) {
+    const auto scan = [&](std::string_view kernel, std::vector<Alias> of, std::uint32_t row, std::uint32_t phase) {
+        onRebuild(stage, pass, kernel, row, std::move(of));
+        staged_.back().launch.phase = phase;
+    };
+    const std::vector<Alias> low{{"values", values}, {"sums", Array::BlockSums}};
+    const std::vector<Alias> high{{"values", Array::BlockSums}, {"sums", Array::SuperSums}};
+    const std::uint32_t blocks = blocksOf(count, SCAN_BLOCK);
+    const std::uint32_t superBlocks = blocksOf(blocks, SCAN_BLOCK);
+    scan("scan_reduce.comp", low, rows[0], count);
+    scan("scan_reduce.comp", high, rows[1], blocks);
+    scan("scan_top.comp", {{"sums", Array::SuperSums}}, LAUNCH_ONE, superBlocks);
+    scan("scan_spread.comp", high, rows[1], blocks);
+    scan("scan_spread.comp", low, rows[0], count);
+}
+
+void PlanBuilder::observeSpheres(Stage stage, std::string_view kernel, std::vector<Alias> aliases) {
+    overSpheres(stage, Pass::Statistics, kernel, std::move(aliases));
+    staged_.back().launch.observing = true;
+}
+
+void PlanBuilder::observeGroups(Stage stage, std::string_view kernel, std::vector<Alias> aliases) {
+    overGroups(stage, Pass::Statistics, kernel);
+    staged_.back().launch.observing = true;
+    staged_.back().launch.aliases = std::move(aliases);
+}
+
+void PlanBuilder::statistics(std::string_view kernel, std::uint32_t count) {
+    staged_.push_back({Stage::Statistics, {.pass = Pass::Statistics, .kernel = kernel, .count = count}});
+}
+
+void PlanBuilder::finish() {
+    std::ranges::sort(plan_.arrays, {}, &ArraySpec::array);
+    if (has(Feature::Contacts))
+        for (const ArraySpec& spec : plan_.arrays) {
+            if (!typeOf(spec.array).sorted) continue;
+            const bool words = typeOf(spec.array).type == "uint";
+            const std::vector<Alias> column{{"column", spec.array}};
+            onRebuild(Stage::SortColumns, Pass::Grid, words ? "sort_words.comp" : "sort_vectors.comp", LAUNCH_SPHERES,
+                      column);
+            onRebuild(Stage::SortColumns, Pass::Grid, words ? "copy_words.comp" : "copy_vectors.comp", LAUNCH_SPHERES,
+                      column);
+        }
+    std::ranges::stable_sort(staged_, {}, &Staged::stage);
+    for (Staged& staged : staged_)
+        (staged.stage == Stage::Statistics ? plan_.statistics : plan_.substep).push_back(std::move(staged.launch));
+    staged_.clear();
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+namespace {
+
+void declareSleep(PlanBuilder& plan) {
+    using enum Array;
+    plan.arrays({RestReference, WakeFlags, ActiveGroup});
+    plan.onRebuild(Stage::Wake, Pass::Grid, "wake.comp", LAUNCH_GROUPS);
+    plan.onRebuild(Stage::Wake, Pass::Grid, "wake_flagged.comp", LAUNCH_SPHERES);
+    plan.overSpheres(Stage::Activity, Pass::Sleep, "stir.comp");
+    plan.overGroups(Stage::Activity, Pass::Sleep, "stir_spread.comp");
+    plan.overSpheres(Stage::Sleep, Pass::Sleep, "sleep.comp");
+}
+
+void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
+    const scene::Scene& scene = from.scene;
+    const double g = glm::length(scene.gravity);
+    // Well above what lets a sphere fall asleep, or the two would take turns; and above what the solver's pushes make
+    // of a sphere squeezed between others: up to some 15 g h in a bed 20 deep. A sphere that moves away more slowly
+    // creeps.
+    constexpr double kicks = 20;
+    p.sleepSpeed = static_cast<float>(scene.sleep.speed);
+    p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, kicks * g * from.substep));
+    // A sphere that stays within this distance of one place for the sleep time has not crossed it faster than the sleep
+    // speed.
+    const double creep =
+        std::min(static_cast<double>(from.plan.grid.margin) / 3, 0.5 * scene.sleep.speed * scene.sleep.time);
+    p.creep = static_cast<float>(creep);
+    // In weak gravity, a free flight stays within that distance of its top for up to 3.4 sqrt(creep / g).
+    p.sleepTime = static_cast<float>(std::max(scene.sleep.time, g > 0 ? 4 * std::sqrt(creep / g) : 0.0));
+}
+
+}  // namespace
+
+// Spheres at rest fall asleep: until something wakes them they are passed over.
+const Module moduleSleep{
+    .feature = Feature::Sleep,
+    // Without gravity nothing rests: what is slow only drifts. Without contacts there is nothing that sleep saves.
+    // Under forces nothing is put to sleep: `accurate` is for those who want to see them.
+    .required =
+        [](const scene::Scene& scene, const Features& others) {
+            return scene.sleep.enabled && others.has(Feature::Contacts) && others.has(Feature::Gravity) &&
+                   !others.has(Feature::Accurate);
+        },
+    .declare = declareSleep,
+    .upload = uploadSleep,
+};
+
+}  // namespace spherule::sim

@@ -1,0 +1,26 @@
+#include "sim/modules/module.h"
+
+namespace spherule::sim {
+
+// The tangential springs of contacts between spheres, which must outlast the lists: while those are rebuilt, what each
+// contact remembers is kept by the id of one of its spheres.
+const Module moduleSlipMemory{
+    .feature = Feature::SlipMemory,
+    .required =
+        [](const scene::Scene& /*scene*/, const Features& others) {
+            return others.has(Feature::Accurate) && others.has(Feature::Contacts) && others.has(Feature::Friction);
+        },
+    .declare =
+        [](PlanBuilder& plan) {
+            using enum Array;
+            plan.arrays({TangentialSlip, CarriedOffsets, CarriedSlip});
+            plan.onRebuild(Stage::CarryContacts, Pass::History, "history_clear.comp", LAUNCH_OWNERS);
+            plan.onRebuild(Stage::CarryContacts, Pass::History, "history_count.comp", LAUNCH_GROUPS);
+            plan.prefixSumOnRebuild(Stage::CarryContacts, Pass::History, CarriedOffsets,
+                                    {LAUNCH_OWNER_BLOCKS, LAUNCH_OWNER_SUPERBLOCKS}, plan.plan().spheres + 1);
+            plan.onRebuild(Stage::CarryContacts, Pass::History, "history_keep.comp", LAUNCH_GROUPS);
+            plan.onRebuild(Stage::RestoreContacts, Pass::History, "history_fetch.comp", LAUNCH_GROUPS);
+        },
+};
+
+}  // namespace spherule::sim
