@@ -25,6 +25,14 @@ PRIVATE(bool, met)
 #include "shared/wall_laws.h"
 #include "shared/rub_wall.h"
 
+// Change of the speed along the normal in an impact, m/s. `speed` is that before it (m/s, negative), `pull` gravity along the
+// normal (m/s^2), `depth` how far the sphere is in the wall (m). A function of its own: what is precise ends here.
+float impactChange(float speed, float pull, float depth, float restitution) {
+    precise float impact = sqrt(max(speed * speed + 2.0f * pull * depth, 0.0f));
+    precise float change = restitution * impact - speed;
+    return change;
+}
+
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     met = true;
     vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
@@ -33,8 +41,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float speed = dot3(corrected, normal);
     if (speed >= 0.0f) return;
     float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
-    precise float impact = sqrt(max(speed * speed + 2.0f * pull * push, 0.0f));
-    precise float load = law.x * impact - speed;
+    float load = impactChange(speed, pull, push, law.x);
     corrected = corrected + normal * load;
     if (HAS(FRICTION)) rubWall(normal, wallRadius, load, law);
 }

@@ -59,6 +59,28 @@ State inIdOrder(const SlotState& slots) {
     return state;
 }
 
+Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Kernel& kernel) {
+    const auto wrong = [&](const std::string& message) {
+        return fail(ErrorKind::NoDevice, std::string(launch.kernel), message);
+    };
+    const auto declared = kernel.buffers();
+    for (const Alias& alias : launch.aliases)
+        if (std::ranges::find(declared, alias.buffer, &compute::BufferDeclaration::name) == declared.end())
+            return wrong(fmt::format("is launched with an alias for {}, which it does not declare", alias.buffer));
+    std::vector<Array> arrays;
+    for (const auto& [type, name] : declared) {
+        const auto alias = std::ranges::find(launch.aliases, name, &Alias::buffer);
+        const auto array = alias != launch.aliases.end() ? std::optional(alias->array) : arrayNamed(name);
+        if (!array)
+            return wrong(fmt::format("declares the buffer {}, but sim/arrays.def has no array of that name", name));
+        if (typeOf(*array).type != type)
+            return wrong(fmt::format("declares the buffer {} as {}; the array {} has elements of type {}", name, type,
+                                     nameOf(*array), typeOf(*array).type));
+        arrays.push_back(*array);
+    }
+    return arrays;
+}
+
 Pipeline::Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {
     for (const auto* launches : {&plan_.substep, &plan_.statistics})
         for (const LaunchSpec& launch : *launches)
@@ -127,36 +149,14 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
     return {};
 }
 
-// The arrays by the names of the buffers that the kernel declares.
-Result<Pipeline::BoundLaunch> Pipeline::bind(const LaunchSpec& spec, const compute::Kernel& kernel) {
-    const auto wrong = [&](const std::string& message) {
-        return fail(ErrorKind::NoDevice, std::string(spec.kernel), message);
-    };
-    BoundLaunch bound{.spec = &spec, .kernel = &kernel, .arrays = {}};
-    std::size_t aliases = 0;
-    for (const auto& [type, name] : kernel.buffers()) {
-        const auto alias = std::ranges::find(spec.aliases, name, &Alias::buffer);
-        const bool renamed = alias != spec.aliases.end();
-        const auto array = renamed ? std::optional(alias->array) : arrayNamed(name);
-        if (!array)
-            return wrong(fmt::format("declares the buffer {}, but sim/arrays.def has no array of that name", name));
-        if (typeOf(*array).type != type)
-            return wrong(fmt::format("declares the buffer {} as {}; the array {} has elements of type {}", name, type,
-                                     nameOf(*array), typeOf(*array).type));
-        aliases += renamed ? 1 : 0;
-        bound.arrays.push_back(*array);
-    }
-    if (aliases != spec.aliases.size()) return wrong("is launched with an alias for a buffer that it does not declare");
-    return bound;
-}
-
 Result<void> Pipeline::bindAll() {
     for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_), {&plan_.statistics, &statistics_}})
         for (const LaunchSpec& spec : *launches) {
             const auto place = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
-            auto made = bind(spec, *kernels_[static_cast<std::size_t>(place)]);
-            if (!made) return tl::unexpected(made.error());
-            bound->push_back(std::move(*made));
+            const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(place)];
+            auto arrays = arraysFor(spec, kernel);
+            if (!arrays) return tl::unexpected(arrays.error());
+            bound->push_back({.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)});
         }
     return {};
 }

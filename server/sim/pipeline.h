@@ -24,6 +24,10 @@ struct SlotState {
 
 State inIdOrder(const SlotState& slots);
 
+// The arrays to bind for a launch, in the order of the buffers that its kernel declares. NoDevice for a buffer without
+// an array, of another type than its array, and for an alias that the kernel does not declare.
+Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Kernel& kernel);
+
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
@@ -91,7 +95,6 @@ class Pipeline {
         const compute::Kernel* kernel = nullptr;
         std::vector<Array> arrays;
     };
-    static Result<BoundLaunch> bind(const LaunchSpec& spec, const compute::Kernel& kernel);
     Result<void> bindAll();
     enum class Which : std::uint8_t { Substep, ObservedSubstep, Rebuild };
     void run(const std::vector<BoundLaunch>& launches, Which which);

@@ -174,6 +174,14 @@ class Full(Faults):
     need = r"the device has no room for [0-9.]+ MiB \(out of memory\); use fewer spheres or a device with more memory \(the " \
            r"scene needs [0-9.]+ MiB in all\)"
 
+    def test_a_driver_that_allows_a_kernel_too_few_buffers_is_refused_at_the_start(self):
+        driver = self.driver("buffers")
+        driver.strike()
+        done = subprocess.run([BINARY, "run", "two-spheres", "--device", "software", "--for", "0.1s"],
+                              capture_output=True, text=True, timeout=120, check=False, env=driver.environment)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("allows a kernel 8 storage buffers; 16 are needed", done.stderr)
+
     def test_a_scene_that_has_no_room_is_refused_with_what_it_needs(self):
         driver = self.driver("memory")
         driver.strike()

@@ -3,6 +3,7 @@
 //   reset    the device is reset, and says so once; to take anything down then never ends
 //   hang     the device computes no more; nor does anything end that waits for it
 //   memory   there is no room for buffers of 1 MiB or more
+//   buffers  a kernel may have 8 storage buffers
 // Libglvnd loads it by a vendor file (tests/faults/faults.py writes it).
 #include <dlfcn.h>
 #include <stdio.h>
@@ -10,7 +11,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MIB = 1 << 20, GUILTY_CONTEXT_RESET = 0x8253, TIMEOUT_EXPIRED = 0x911B, OUT_OF_MEMORY = 0x0505 };
+enum {
+    MIB = 1 << 20,
+    GUILTY_CONTEXT_RESET = 0x8253,
+    TIMEOUT_EXPIRED = 0x911B,
+    OUT_OF_MEMORY = 0x0505,
+    MAX_COMPUTE_SHADER_STORAGE_BLOCKS = 0x90DB
+};
 
 typedef void (*Function)(void);
 typedef Function (*GetProcAddress)(const char*);
@@ -80,14 +87,23 @@ static unsigned getError(void) {
     return ((unsigned (*)(void))mesa("glGetError"))();
 }
 
+static void getIntegerv(unsigned name, int* value) {
+    ((void (*)(unsigned, int*))mesa("glGetIntegerv"))(name, value);
+    if (failsBy("buffers") && name == MAX_COMPUTE_SHADER_STORAGE_BLOCKS) *value = 8;
+}
+
 static const struct {
     const char* name;
     Function function;
 } ours[] = {
-    {"glGetGraphicsResetStatus", (Function)resetStatus}, {"glClientWaitSync", (Function)clientWaitSync},
-    {"glFinish", (Function)finish},                      {"glDeleteBuffers", (Function)deleteBuffers},
-    {"glDeleteProgram", (Function)deleteProgram},        {"glNamedBufferStorage", (Function)namedBufferStorage},
+    {"glGetGraphicsResetStatus", (Function)resetStatus},
+    {"glClientWaitSync", (Function)clientWaitSync},
+    {"glFinish", (Function)finish},
+    {"glDeleteBuffers", (Function)deleteBuffers},
+    {"glDeleteProgram", (Function)deleteProgram},
+    {"glNamedBufferStorage", (Function)namedBufferStorage},
     {"glGetError", (Function)getError},
+    {"glGetIntegerv", (Function)getIntegerv},
 };
 
 static Function getProcAddress(const char* name) {

@@ -51,6 +51,39 @@ TEST(KernelSources, MissingFileIsNamedWithTheLineThatAsksForIt) {
     EXPECT_FALSE(expandSource(sources, "lost.comp", {}).has_value());
 }
 
+TEST(KernelSources, BuffersAreDeclaredAtTheNextFreeBinding) {
+    const MapSources sources{{"a.comp", "BUFFER(readonly, vec4, position)  // m\n#include \"b.h\"\n"},
+                             {"b.h", "BUFFER(coherent, uint, counters)\n"}};
+    const auto expanded = expandSource(sources, "a.comp", {});
+    ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+    EXPECT_NE(
+        expanded->text.find("layout(std430, binding = 0) readonly buffer positionBlock { vec4 position[]; };  // m\n"),
+        std::string::npos)
+        << expanded->text;
+    EXPECT_NE(expanded->text.find("layout(std430, binding = 1) coherent buffer countersBlock { uint counters[]; };\n"),
+              std::string::npos);
+    ASSERT_EQ(expanded->buffers.size(), 2U);
+    EXPECT_EQ(expanded->buffers[0].type, "vec4");
+    EXPECT_EQ(expanded->buffers[1].name, "counters");
+}
+
+TEST(KernelSources, BuffersThatCannotBeDeclaredAreRefusedWithTheirLine) {
+    std::string many;
+    for (std::size_t k = 0; k <= maxKernelBuffers; ++k) many += "BUFFER(readonly, uint, b" + std::to_string(k) + ")\n";
+    const std::pair<std::string, const char*> cases[] = {
+        {many, "a.comp:17: declares b16 as buffer 17 of its kernel; a kernel has at most 16"},
+        {"BUFFER(readonly, uint, b)\nBUFFER(restrict, vec4, b)\n", "a.comp:2: declares the buffer b a second time"},
+        {"BUFFER(0, readonly, uint, b)\n", "a.comp:1: is not of the form BUFFER(access, type, name)"},
+        {"BUFFER(readonly, uint)\n", "a.comp:1: is not of the form BUFFER(access, type, name)"},
+        {"BUFFER(readonly, uint, b\n", "a.comp:1: is not of the form BUFFER(access, type, name)"}};
+    for (const auto& [text, message] : cases) {
+        const MapSources sources{{"a.comp", text}};
+        const auto expanded = expandSource(sources, "a.comp", {});
+        ASSERT_FALSE(expanded.has_value()) << text;
+        EXPECT_EQ(expanded.error().text(), message);
+    }
+}
+
 TEST(KernelSources, MessagesOfAllCompilersNameTheFile) {
     const std::vector<std::string> files{"<defines>", "a.comp", "shared/b.h"};
     EXPECT_EQ(nameFiles("0:200012(5): error: `x' undeclared\n", files), "shared/b.h:12(5): error: `x' undeclared\n");

@@ -79,9 +79,9 @@ TEST(BoxAgainstReference, OneSubstepFromEachOfAHundredStatesDiffersByLessThanThe
 // The pairs that the device has just gone through, by id, in its order: the groups of one colour after the other.
 std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simulation) {
     sim::Pipeline& pipeline = simulation.pipeline();
-    const auto span = pipeline.read<glm::uvec4>(sim::Array::Span);
+    const auto span = pipeline.read<glm::uvec4>(sim::Array::GroupRange);
     const auto pairs = pipeline.read<glm::uvec2>(sim::Array::Pairs);
-    const auto id = pipeline.read<std::uint32_t>(sim::Array::Label);  // all of one material
+    const auto id = pipeline.read<std::uint32_t>(sim::Array::IdAndMaterial);  // all of one material
     const glm::uvec3 groups = simulation.plan().grid.coarsest().cells / 2U;
     std::vector<std::pair<std::size_t, std::size_t>> order;
     for (unsigned colour = 0; colour < 8; ++colour) {

@@ -14,7 +14,7 @@ using sim::Array;
 using sim::Pass;
 
 sim::Plan planOf(const scene::Scene& scene) {
-    return sim::planFor(scene, scene::featuresOf(scene), static_cast<std::uint32_t>(scene.spheres.size()),
+    return sim::planFor(scene, sim::featuresOf(scene), static_cast<std::uint32_t>(scene.spheres.size()),
                         sim::radiiOf(scene));
 }
 
@@ -85,14 +85,14 @@ TEST(Plan, WithoutFrictionHasNoRotationAndNoMemoryOfContacts) {
         for (scene::Material& material : scene.materials) material.friction = 0;
         const sim::Plan without = planOf(scene);
         const sim::Plan with = planOf(everything(model));
-        EXPECT_EQ(2 * without.bytesOf(Array::Velocity), with.bytesOf(Array::Velocity));
-        EXPECT_LT(without.bytesOf(Array::Saved), with.bytesOf(Array::Saved));
-        for (const Array array : {Array::Pressed, Array::History, Array::Kept, Array::KeptStart, Array::WallHistory})
+        EXPECT_TRUE(with.has(Array::AngularVelocity));
+        for (const Array array : {Array::AngularVelocity, Array::DeltaOmega, Array::NormalImpulses, Array::WallImpulse,
+                                  Array::TangentialSlip, Array::CarriedSlip, Array::CarriedOffsets, Array::WallSlip})
             EXPECT_FALSE(without.has(array)) << nameOf(array);
         for (const Pass pass : {Pass::Friction, Pass::WallFriction, Pass::History})
             EXPECT_FALSE(dispatches(without, pass)) << nameOf(pass);
         EXPECT_LT(without.bytes(), with.bytes());
-        EXPECT_FALSE(without.features.rolling) << "nothing rolls";
+        EXPECT_FALSE(without.features.has(sim::Feature::Rolling)) << "nothing rolls";
     }
 }
 
@@ -100,7 +100,8 @@ TEST(Plan, OfDustInEmptySpaceIntegratesAndNothingElse) {
     const sim::Plan plan = planOf(dust());
     ASSERT_EQ(plan.substep.size(), 1U);
     EXPECT_EQ(plan.substep[0].pass, Pass::Integrate);
-    for (const Array needed : {Array::Position, Array::Velocity, Array::Label, Array::Counters, Array::SphereParts})
+    for (const Array needed :
+         {Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums})
         EXPECT_TRUE(plan.has(needed)) << nameOf(needed);
     EXPECT_EQ(plan.arrays.size(), 5U);
     EXPECT_LT(plan.bytes(), planOf(everything()).bytes() / 4);
@@ -112,7 +113,7 @@ TEST(Plan, WithoutContactsHasNoGridAndNoLists) {
     const sim::Plan plan = planOf(scene);
     for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::Positions, Pass::Velocities})
         EXPECT_FALSE(dispatches(plan, pass)) << nameOf(pass);
-    for (const Array array : {Array::CellStart, Array::Pairs, Array::Span, Array::Order, Array::Saved})
+    for (const Array array : {Array::CellStart, Array::Pairs, Array::GroupRange, Array::CellOrder, Array::SortScratch})
         EXPECT_FALSE(plan.has(array)) << nameOf(array);
     EXPECT_TRUE(dispatches(plan, Pass::WallPositions));
     EXPECT_LT(plan.bytes(), planOf(everything()).bytes());
@@ -124,7 +125,7 @@ TEST(Plan, WithoutSleepHasNoSleepPass) {
     EXPECT_FALSE(dispatches(planOf(scene), Pass::Sleep));
     setRestitution(scene, 0);
     scene.sphereContacts = false;
-    EXPECT_FALSE(planOf(scene).has(Array::Before)) << "only impacts and sleep ask for the velocity before";
+    EXPECT_FALSE(planOf(scene).has(Array::VelocityBefore)) << "only impacts and sleep ask for the velocity before";
     EXPECT_LT(planOf(scene).bytes(), planOf(everything()).bytes());
 }
 
@@ -132,9 +133,9 @@ TEST(Plan, OfOneMaterialInEmptySpaceHasNoTableOfLaws) {
     scene::Scene scene = everything();
     scene.bounds.open.fill(true);
     scene.obstacles.clear();
-    EXPECT_TRUE(planOf(scene).has(Array::Laws));
+    EXPECT_TRUE(planOf(scene).has(Array::ContactParams));
     for (scene::Sphere& sphere : scene.spheres) sphere.material = 0;
-    EXPECT_FALSE(planOf(scene).has(Array::Laws));
+    EXPECT_FALSE(planOf(scene).has(Array::ContactParams));
 }
 
 TEST(Plan, WithoutWallsHasNoWallPass) {
@@ -151,10 +152,10 @@ TEST(Plan, WithoutWallsHasNoWallPass) {
 }
 
 TEST(Plan, SaysWhichKernelsNeedNotKnowOfGravityOrRadii) {
-    EXPECT_TRUE(planOf(everything()).features.gravity);
-    EXPECT_TRUE(planOf(everything()).features.radii);
-    EXPECT_FALSE(planOf(dust()).features.gravity);
-    EXPECT_FALSE(planOf(dust()).features.radii);
+    EXPECT_TRUE(planOf(everything()).features.has(sim::Feature::Gravity));
+    EXPECT_TRUE(planOf(everything()).features.has(sim::Feature::Radii));
+    EXPECT_FALSE(planOf(dust()).features.has(sim::Feature::Gravity));
+    EXPECT_FALSE(planOf(dust()).features.has(sim::Feature::Radii));
 }
 
 // The device holds what the plan says, and runs what it says.

@@ -19,7 +19,7 @@ namespace {
 
 // By slot. As floats, the way the kernel does it.
 std::vector<SlotPair> withinMargin(sim::Simulation& simulation) {
-    auto at = simulation.pipeline().read<glm::vec4>(sim::Array::Anchor);
+    auto at = simulation.pipeline().read<glm::vec4>(sim::Array::ListReference);
     const auto radii = simulation.pipeline().read<glm::vec4>(sim::Array::Position);
     for (std::size_t slot = 0; slot < at.size(); ++slot) at[slot].w = radii[slot].w;
     const float margin = simulation.plan().grid.margin;
@@ -67,7 +67,7 @@ TEST_P(Ratio, ListsAreWhatBruteForceFinds) {
     for (const double side : {3.0, 12.0}) {
         const scene::Scene scene = cluster(side, GetParam(), 0);
         const auto simulation = simulate(scene);
-        EXPECT_EQ(simulation->plan().features.levels, GetParam() > 2);
+        EXPECT_EQ(simulation->plan().features.has(sim::Feature::Levels), GetParam() > 2);
         run(*simulation, 2 * scene.step);  // the first of them may have to make room
         ASSERT_EQ(simulation->counters().unlisted, 0U);
         ASSERT_EQ(simulation->counters().sampled, 0U);
@@ -133,7 +133,7 @@ TEST(Levels, SleepersWakeWhenSpheresOfOtherSizesComeToThem) {
     const std::uint32_t small = 102;
     add(0.65, -0.5, 0.02);
     const auto simulation = simulate(scene);
-    ASSERT_TRUE(simulation->plan().features.levels);
+    ASSERT_TRUE(simulation->plan().features.has(sim::Feature::Levels));
     run(*simulation, 3);
     ASSERT_EQ(sleepers(simulation->snapshot()), simulation->count());
     v1::Command finer;

@@ -88,12 +88,12 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
 
 std::uint64_t touchingPairs(sim::Simulation& simulation) {
     std::uint64_t sum = 0;
-    for (const glm::uvec4& group : simulation.pipeline().read<glm::uvec4>(sim::Array::Span)) sum += group.z;
+    for (const glm::uvec4& group : simulation.pipeline().read<glm::uvec4>(sim::Array::GroupRange)) sum += group.z;
     return sum;
 }
 
 std::vector<SlotPair> listedPairs(sim::Simulation& simulation) {
-    const auto span = simulation.pipeline().read<glm::uvec4>(sim::Array::Span);
+    const auto span = simulation.pipeline().read<glm::uvec4>(sim::Array::GroupRange);
     const auto pairs = simulation.pipeline().read<glm::uvec2>(sim::Array::Pairs);
     std::vector<SlotPair> found;
     for (const glm::uvec4& group : span)

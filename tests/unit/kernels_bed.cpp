@@ -1,7 +1,6 @@
 #include "kernels_bed.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <stdexcept>
 
@@ -17,7 +16,7 @@ constexpr uint idMask = 0xffffff;
 
 }  // namespace
 
-Bed::Bed(std::vector<vec4> places, uint has)
+Bed::Bed(std::vector<vec4> places, std::uint64_t has)
     : count(static_cast<uint>(places.size())), features(has), position(std::move(places)) {
     parameters.spheres = count;
     parameters.cells = uvec4(cells, cells, cells, cells * cells * cells);
@@ -30,63 +29,85 @@ Bed::Bed(std::vector<vec4> places, uint has)
     parameters.perSubstep = 480;
     parameters.pairCapacity = capacity;
     parameters.materials = 1;
-    position.resize(std::size_t{2} * count);
-    velocity.assign(std::size_t{4} * count, vec4(0));
-    std::fill_n(velocity.begin(), count, vec4(0, 0, 0, 1));
-    before.assign(count, vec4(0));
-    label.resize(count);
-    std::iota(label.begin(), label.end(), 0U);
+    for (auto* column : {&positionLow, &angularVelocity, &velocityBefore, &deltaVelocity, &deltaOmega, &sortScratch_})
+        column->assign(count, vec4(0));
+    velocity.assign(count, vec4(0, 0, 0, 1));
+    for (auto* column : {&idAndMaterial, &rankInCell_, &cellOrder_, &wakeFlags_, &sortScratchWords_})
+        column->resize(count);
+    std::iota(idAndMaterial.begin(), idAndMaterial.end(), 0U);
     cellStart.resize(parameters.cells.w + 1);
-    pairs.resize(std::size_t{3} * capacity);
-    span.resize(parameters.cells.w / 8);
-    history.resize(capacity);
-    kept_.resize(capacity);
-    keptStart_.resize(count + 1);
+    pairs.resize(capacity);
+    touching.resize(capacity);
+    normalImpulses.resize(capacity);
+    groupRange.resize(parameters.cells.w / 8);
+    tangentialSlip.resize(capacity);
+    carriedSlip_.resize(capacity);
+    carriedOffsets_.resize(count + 1);
 }
 
-Launch Bed::launchOf(uint phase) const {
-    return {.parameters = &parameters, .phase = phase, .features = features};
+void Bed::run(std::string_view kernel, uint phase) {
+    const Slot slots[] = {{"position", position},
+                          {"positionLow", positionLow},
+                          {"velocity", velocity},
+                          {"angularVelocity", angularVelocity},
+                          {"velocityBefore", velocityBefore},
+                          {"deltaVelocity", deltaVelocity},
+                          {"deltaOmega", deltaOmega},
+                          {"idAndMaterial", idAndMaterial},
+                          {"contactParams", contactParams},
+                          {"cellStart", cellStart},
+                          {"rankInCell", rankInCell_},
+                          {"cellOrder", cellOrder_},
+                          {"wakeFlags", wakeFlags_},
+                          {"counters", counters},
+                          {"pairs", pairs},
+                          {"touching", touching},
+                          {"normalImpulses", normalImpulses},
+                          {"groupRange", groupRange},
+                          {"tangentialSlip", tangentialSlip},
+                          {"carriedOffsets", carriedOffsets_},
+                          {"carriedSlip", carriedSlip_}};
+    launch(kernel, slots, {.parameters = &parameters, .phase = phase, .features = features});
 }
 
 void Bed::rebuild() {
-    keepHistory();
-    sortState();
+    run("history_clear");
+    run("history_count");
+    prefixSum(carriedOffsets_);
+    run("history_keep");
+    run("cell_clear");
+    run("cell_count");
+    prefixSum(cellStart);
+    run("cell_scatter");
+    run("cell_order");
+    sortColumns();
     counters[COUNTER_PAIRS] = 0;
     counters[COUNTER_UNLISTED] = 0;
-    launch("list_build", {position, cellStart, counters, pairs, span}, launchOf());
-    launch("list_fit", {counters, span}, launchOf());
-    launch("history_fetch", {position, label, span, pairs, history, keptStart_, kept_}, launchOf());
+    run("list_build");
+    run("list_fit");
+    run("history_fetch");
 }
 
-void Bed::keepHistory() {
-    launch("history_clear", {keptStart_}, launchOf());
-    launch("history_count", {position, label, span, pairs, history, keptStart_}, launchOf());
-    prefixSum(keptStart_);
-    launch("history_keep", {position, label, span, pairs, history, keptStart_, kept_}, launchOf());
+void Bed::sortColumns() {
+    const Launch how{.parameters = &parameters, .phase = 0, .features = features};
+    for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore}) {
+        const Slot slots[] = {{"column", *column}, {"cellOrder", cellOrder_}, {"sortScratch", sortScratch_}};
+        launch("sort_vectors", slots, how);
+        launch("copy_vectors", slots, how);
+    }
+    const Slot slots[] = {
+        {"column", idAndMaterial}, {"cellOrder", cellOrder_}, {"sortScratchWords", sortScratchWords_}};
+    launch("sort_words", slots, how);
+    launch("copy_words", slots, how);
 }
 
-void Bed::sortState() {
-    std::vector<uint> place(count);
-    std::vector<uint> order(count);
-    std::vector<uint> savedLabel(count);
-    std::vector<uint> woken(count);
-    std::vector<vec4> saved(std::size_t{5} * count);
-    launch("state_save", {position, velocity, before, label, saved, savedLabel, woken}, launchOf());
-    launch("cell_clear", {cellStart}, launchOf());
-    launch("cell_count", {position, cellStart, place}, launchOf());
-    prefixSum(cellStart);
-    launch("cell_scatter", {position, cellStart, place, order}, launchOf());
-    launch("cell_order", {cellStart, order, label}, launchOf());
-    launch("state_gather", {position, velocity, before, label, saved, savedLabel, order}, launchOf());
-}
-
-void Bed::sweep(std::string_view kernel, std::initializer_list<Slot> slots) {
-    for (uint colour = 0; colour < 8; ++colour) launch(kernel, slots, launchOf(colour));
+void Bed::sweep(std::string_view kernel) {
+    for (uint colour = 0; colour < 8; ++colour) run(kernel, colour);
 }
 
 uint Bed::slotOf(uint id) const {
     for (uint slot = 0; slot < count; ++slot)
-        if ((label[slot] & idMask) == id) return slot;
+        if ((idAndMaterial[slot] & idMask) == id) return slot;
     throw std::out_of_range("id");
 }
 
@@ -131,31 +152,31 @@ float Bed::energy() const {
 
 std::vector<uint> Bed::listed() const {
     std::vector<uint> found;
-    for (const uvec4& group : span)
+    for (const uvec4& group : groupRange)
         for (uint k = group.x; group.y != UNLISTED && k < group.x + group.y; ++k) found.push_back(k);
     return found;
 }
 
-std::vector<uint> Bed::touching() const {
+uvec2 Bed::idsOf(uint pair) const {
+    return {idAndMaterial[pairs[pair].x] & idMask, idAndMaterial[pairs[pair].y] & idMask};
+}
+
+std::vector<uint> Bed::inTouch() const {
     std::vector<uint> found;
-    for (const uvec4& group : span)
-        for (uint k = 0; k < group.z; ++k) found.push_back(capacity + group.x + k);
+    for (const uvec4& group : groupRange)
+        for (uint k = 0; k < group.z; ++k) found.push_back(group.x + k);
     return found;
 }
 
-uvec2 Bed::idsOf(uint pair) const {
-    return {label[pairs[pair].x] & idMask, label[pairs[pair].y] & idMask};
-}
-
-float Bed::pressing(uint pair) const {
-    return std::bit_cast<float>(pairs[capacity + pair].x);
+uvec2 Bed::idsInTouch(uint pair) const {
+    return {idAndMaterial[touching[pair].x] & idMask, idAndMaterial[touching[pair].y] & idMask};
 }
 
 void Bed::pressAll(float impulse) {
-    for (uvec4& group : span) group.z = group.y;
+    for (uvec4& group : groupRange) group.z = group.y;
     for (const uint k : listed()) {
-        pairs[capacity + k] = pairs[k];
-        pairs[2 * capacity + k] = uvec2(std::bit_cast<uint>(impulse), 0);
+        touching[k] = pairs[k];
+        normalImpulses[k] = impulse;
     }
 }
 

@@ -12,24 +12,24 @@ using Feature = compute::cpu::Features;
 // Spheres of up to 0.5 m in cells of 1.1 m, each of 1 kg and the first material, with the lists and the state that the
 // pair kernels want. Slots change with every rebuild: tests speak of ids.
 struct Bed {
-    explicit Bed(std::vector<vec4> places, uint has = 0);
+    explicit Bed(std::vector<vec4> places, std::uint64_t has = 0);
 
     // With the contacts' history carried over, in the order of the simulation's plan.
     void rebuild();
 
     // A kernel over all groups, one colour after the other.
-    void sweep(std::string_view kernel, std::initializer_list<Slot> slots);
+    void sweep(std::string_view kernel);
 
     uint slotOf(uint id) const;
     float radiusOf(uint id) const;
     float massOf(uint id) const { return 1 / velocity[slotOf(id)].w; }
     vec3 at(uint id) const { return vec3(position[slotOf(id)]); }
     vec3 velocityOf(uint id) const { return vec3(velocity[slotOf(id)]); }
-    vec3 spinOf(uint id) const { return vec3(velocity[count + slotOf(id)]); }
+    vec3 spinOf(uint id) const { return vec3(angularVelocity[slotOf(id)]); }
     void setMass(uint id, float mass) { velocity[slotOf(id)].w = 1 / mass; }
     void setPlace(uint id, vec3 to) { position[slotOf(id)] = vec4(to, position[slotOf(id)].w); }
     void setVelocity(uint id, vec3 to) { velocity[slotOf(id)] = vec4(to, velocity[slotOf(id)].w); }
-    void setSpin(uint id, vec3 to) { velocity[count + slotOf(id)] = vec4(to, 0); }
+    void setSpin(uint id, vec3 to) { angularVelocity[slotOf(id)] = vec4(to, 0); }
 
     vec3 normal(uint a, uint b) const;  // from b to a
     vec3 slip(uint a, uint b) const;    // how fast the surface of `a` moves along that of `b`
@@ -38,37 +38,35 @@ struct Bed {
     vec3 angularMomentum() const;
     float energy() const;
 
-    // Indices into `pairs`.
+    // Indices into `pairs`, and the ids of one.
     std::vector<uint> listed() const;
-    std::vector<uint> touching() const;
     uvec2 idsOf(uint pair) const;
+    // Indices into `touching` and `normalImpulses`, and the ids of one.
+    std::vector<uint> inTouch() const;
+    uvec2 idsInTouch(uint pair) const;
 
-    // What presses a touching pair together, N s.
-    float pressing(uint pair) const;
     // Makes all listed pairs touch, pressed together by this.
     void pressAll(float impulse);
 
     uint count;
-    uint features;
+    std::uint64_t features;
     layout::Parameters parameters{};
-    std::vector<vec4> position;  // then what float32 cannot hold of it
-    std::vector<vec4> velocity;  // then spins, then what forces change of both
-    std::vector<vec4> before;
-    std::vector<uint> label;
-    std::vector<layout::Law> laws = std::vector<layout::Law>(1);
+    std::vector<vec4> position, positionLow, velocity, angularVelocity, velocityBefore, deltaVelocity, deltaOmega;
+    std::vector<uint> idAndMaterial;
+    std::vector<layout::Law> contactParams = std::vector<layout::Law>(1);
     std::vector<uint> cellStart;
     std::vector<uint> counters = std::vector<uint>(COUNTER_WORDS);
-    std::vector<uvec2> pairs;  // listed, touching, what presses those
-    std::vector<uvec4> span;
-    std::vector<vec4> history;
+    std::vector<uvec2> pairs, touching;
+    std::vector<float> normalImpulses;  // N s
+    std::vector<uvec4> groupRange;
+    std::vector<vec4> tangentialSlip;
 
   private:
-    Launch launchOf(uint phase = 0) const;
-    void keepHistory();
-    void sortState();
+    void run(std::string_view kernel, uint phase = 0);
+    void sortColumns();
 
-    std::vector<uint> keptStart_;
-    std::vector<vec4> kept_;
+    std::vector<uint> carriedOffsets_, rankInCell_, cellOrder_, wakeFlags_, sortScratchWords_;
+    std::vector<vec4> carriedSlip_, sortScratch_;
 };
 
 }  // namespace spherule::kernels

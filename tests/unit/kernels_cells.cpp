@@ -28,11 +28,16 @@ struct Cells {
 
     void sort() {
         const Launch how{.parameters = &parameters, .features = allFeatures};
-        launch("cell_clear", {start}, how);
-        launch("cell_count", {position, start, place}, how);
+        const Slot slots[] = {{"position", position},
+                              {"cellStart", start},
+                              {"rankInCell", place},
+                              {"cellOrder", order},
+                              {"idAndMaterial", id}};
+        launch("cell_clear", slots, how);
+        launch("cell_count", slots, how);
         prefixSum(start);
-        launch("cell_scatter", {position, start, place, order}, how);
-        launch("cell_order", {start, order, id}, how);
+        launch("cell_scatter", slots, how);
+        launch("cell_order", slots, how);
     }
 
     std::vector<uint> idsOf(uint cell) const {

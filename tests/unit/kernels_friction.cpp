@@ -13,7 +13,7 @@ constexpr float plenty = 1000;              // N s
 
 void rub(Bed& bed, float pressing) {
     bed.pressAll(pressing);
-    bed.sweep("solve_friction", {bed.position, bed.velocity, bed.label, bed.span, bed.pairs, bed.laws});
+    bed.sweep("solve_friction");
 }
 
 // Two equal spheres that touch, of 0.5 m and 1 kg each, with this law.
@@ -85,16 +85,16 @@ TEST(KernelsAsCpp, NothingRubsThatIsNotPressed) {
 }
 
 // Of different size, mass and material.
-Bed unequalPair(vec4 law, uint features) {
+Bed unequalPair(vec4 law, std::uint64_t features) {
     Bed bed({vec4(0.8F * across, 0.5F), vec4(0, 0, 0, 0.3F)},
             Feature::FRICTION | Feature::RADII | Feature::MATERIALS | features);
     bed.setMass(0, 2);
     bed.setMass(1, 0.3F);
-    bed.label[0] |= 1U << 24U;
+    bed.idAndMaterial[0] |= 1U << 24U;
     bed.parameters.materials = 2;
-    bed.laws.assign(4, layout::Law{});
-    bed.laws[1].contact = law;
-    bed.laws[2].contact = law;
+    bed.contactParams.assign(4, layout::Law{});
+    bed.contactParams[1].contact = law;
+    bed.contactParams[2].contact = law;
     bed.rebuild();
     bed.setVelocity(1, {1, -2, 0.5F});
     bed.setSpin(0, {3, 1, -2});

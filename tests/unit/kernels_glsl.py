@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 INCLUDE = re.compile(r'^#include "([^"]+)"$')
+BUFFER = re.compile(r"^BUFFER\((\w+), (\w+), (\w+)\)")
 FEATURE = re.compile(r"\bHAS\((?!feature\b|FEATURE\b)(\w+)\)")  # but for its definition and what explains it
 
 
@@ -19,6 +20,18 @@ def expand(root, name):
             yield from expand(root, included.group(1))
         else:
             yield f"{name}:{number}", line
+
+
+def declared(lines):
+    """The lines with each buffer declared in GLSL, as server/compute/source.cpp does it."""
+    binding = 0
+    for place, line in lines:
+        found = BUFFER.match(line)
+        if found:
+            access, kind, name = found.groups()
+            line = f"layout(std430, binding = {binding}) {access} buffer {name}Block {{ {kind} {name}[]; }};"
+            binding += 1
+        yield place, line
 
 
 def variants(lines):
@@ -47,7 +60,7 @@ def main():
     failures = []
     with tempfile.TemporaryDirectory() as folder:
         for kernel in kernels:
-            lines = list(expand(root, kernel))
+            lines = list(declared(expand(root, kernel)))
             for title, features in variants(lines):
                 head = ["#version 450 core"] + [f"#define {n} {str(on).lower()}" for n, on in features.items()]
                 path = Path(folder) / kernel

@@ -9,15 +9,14 @@ namespace spherule::kernels {
 namespace {
 
 constexpr vec3 across(0.6F, 0.64F, 0.48F);  // of length 1
-constexpr uint bouncing = Feature::RESTITUTION;
+constexpr std::uint64_t bouncing = Feature::RESTITUTION;
 
 void collide(Bed& bed) {
-    bed.sweep("solve_impulses",
-              {bed.position, bed.velocity, bed.label, bed.cellStart, bed.span, bed.pairs, bed.before, bed.laws});
+    bed.sweep("solve_impulses");
 }
 
 // Two spheres of 1 and 3 kg that overlap by a hundredth of a metre.
-Bed pairWith(vec4 law, uint features) {
+Bed pairWith(vec4 law, std::uint64_t features) {
     Bed bed({vec4(0.99F * across, 0.5F), vec4(0, 0, 0, 0.5F)}, features);
     bed.setMass(1, 3);
     bed.parameters.law = law;

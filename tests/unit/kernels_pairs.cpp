@@ -8,7 +8,7 @@ namespace spherule::kernels {
 namespace {
 
 void separate(Bed& bed) {
-    bed.sweep("solve_positions", {bed.position, bed.velocity, bed.cellStart, bed.span, bed.pairs, bed.before});
+    bed.sweep("solve_positions");
 }
 
 TEST(KernelsAsCpp, PairsWithinTheMarginAreListedOnce) {
@@ -37,10 +37,10 @@ TEST(KernelsAsCpp, OnlyPairsThatOverlapTouchWithTheImpulseThatPartsThem) {
     bed.rebuild();
     ASSERT_EQ(bed.listed().size(), 2U);
     separate(bed);
-    const std::vector<uint> touching = bed.touching();
+    const std::vector<uint> touching = bed.inTouch();
     ASSERT_EQ(touching.size(), 1U);
-    EXPECT_EQ(bed.idsOf(touching[0]), uvec2(0, 1));
-    EXPECT_NEAR(bed.pressing(touching[0]), 0.05F * 480, 1e-3F);
+    EXPECT_EQ(bed.idsInTouch(touching[0]), uvec2(0, 1));
+    EXPECT_NEAR(bed.normalImpulses[touching[0]], 0.05F * 480, 1e-3F);
 }
 
 TEST(KernelsAsCpp, GroupsWithoutRoomForTheirPairsArePushedApartAllTheSame) {

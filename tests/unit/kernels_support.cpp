@@ -14,12 +14,16 @@ uint blocksOf(std::size_t values) {
 
 }  // namespace
 
-void launch(std::string_view kernel, std::initializer_list<Slot> slots, const Launch& how) {
-    std::vector<void*> pointers;
-    for (const Slot& slot : slots) pointers.push_back(slot.data);
+void launch(std::string_view kernel, std::span<const Slot> slots, const Launch& how) {
     const auto kernels = compute::cpu::floatKernels();
     const auto found = std::ranges::find(kernels, std::string(kernel) + ".comp", &compute::cpu::Entry::name);
     if (found == kernels.end()) throw std::out_of_range(std::string(kernel));
+    std::vector<void*> pointers;
+    for (const auto& declared : found->buffers) {
+        const auto slot = std::ranges::find(slots, declared.name, &Slot::name);
+        if (slot == slots.end()) throw std::out_of_range(std::string(declared.name));
+        pointers.push_back(slot->data);
+    }
     const compute::cpu::Binding binding{
         .slots = pointers, .parameters = how.parameters, .phase = how.phase, .features = how.features};
     found->run(binding, 0, found->count(binding));
@@ -35,11 +39,11 @@ void prefixSum(std::vector<uint>& values) {
     std::vector<uint> sums(blocksOf(values.size()));
     std::vector<uint> superSums(blocksOf(sums.size()));
     const auto count = [](const std::vector<uint>& v) { return Launch{.phase = static_cast<uint>(v.size())}; };
-    launch("scan_reduce", {values, sums}, count(values));
-    launch("scan_reduce", {sums, superSums}, count(sums));
-    launch("scan_top", {superSums}, count(superSums));
-    launch("scan_spread", {sums, superSums}, count(sums));
-    launch("scan_spread", {values, sums}, count(values));
+    launch("scan_reduce", {{"values", values}, {"sums", sums}}, count(values));
+    launch("scan_reduce", {{"values", sums}, {"sums", superSums}}, count(sums));
+    launch("scan_top", {{"sums", superSums}}, count(superSums));
+    launch("scan_spread", {{"values", sums}, {"sums", superSums}}, count(sums));
+    launch("scan_spread", {{"values", values}, {"sums", sums}}, count(values));
 }
 
 }  // namespace spherule::kernels

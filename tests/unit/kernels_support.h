@@ -26,23 +26,28 @@ namespace layout {
 #include "shared/layout.h"
 }
 
-constexpr uint allFeatures = ~0U;
+constexpr std::uint64_t allFeatures = ~std::uint64_t{0};
 
-// Any vector is a buffer.
+// A buffer of a kernel: any vector.
 struct Slot {
     template <class T>
-    Slot(std::vector<T>& values) : data(values.data()) {}  // NOLINT(google-explicit-constructor)
+    Slot(std::string_view buffer, std::vector<T>& values) : name(buffer), data(values.data()) {}
+    std::string_view name;
     void* data;
 };
 
 struct Launch {
     const layout::Parameters* parameters = nullptr;
     uint phase = 0;
-    uint features = 0;
+    std::uint64_t features = 0;
 };
 
-// Throws std::out_of_range for a kernel that is not there.
-void launch(std::string_view kernel, std::initializer_list<Slot> slots, const Launch& how);
+// Binds the buffers that the kernel declares; there may be more. Throws std::out_of_range for a kernel or a buffer that
+// is not there.
+void launch(std::string_view kernel, std::span<const Slot> slots, const Launch& how);
+inline void launch(std::string_view kernel, std::initializer_list<Slot> slots, const Launch& how) {
+    launch(kernel, std::span(slots.begin(), slots.size()), how);
+}
 
 std::vector<std::string_view> kernelNames();
 

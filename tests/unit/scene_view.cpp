@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
-#include "scene/features.h"
+#include "scene/materials.h"
 #include "scene_support.h"
 
 namespace spherule::scene::testing {
@@ -72,7 +72,7 @@ Bounds contentsOf(const Scene& scene) {
         contents.min = glm::min(contents.min, s.position - static_cast<double>(s.radius));
         contents.max = glm::max(contents.max, s.position + static_cast<double>(s.radius));
     }
-    if (!featuresOf(scene).walls) return contents;
+    if (!hasWalls(scene)) return contents;
     const double top = contents.max.z;
     contents.min = scene.bounds.min;
     contents.max = scene.bounds.max;

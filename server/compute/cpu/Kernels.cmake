@@ -4,6 +4,7 @@
 # In script mode, `cmake -D SPHERULE_SHADERS=FOLDER -P Kernels.cmake` only checks the kernels of FOLDER.
 set(most_buffers 16)  # maxKernelBuffers of compute/device.h
 if(CMAKE_SCRIPT_MODE_FILE)
+  cmake_minimum_required(VERSION 3.25)
   set(shader_folder ${SPHERULE_SHADERS})
   file(GLOB kernel_files ${shader_folder}/*.comp)
   file(GLOB shared_files ${shader_folder}/shared/*.h)

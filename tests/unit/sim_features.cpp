@@ -1,14 +1,21 @@
-#include "scene/features.h"
+#include "sim/features.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "scene/quality.h"
 #include "scene_support.h"
+#include "sim/modules/module.h"
 
-namespace spherule::scene::testing {
+namespace spherule::sim {
 namespace {
+
+using scene::Model;
+using scene::testing::parsed;
+using enum Feature;
 
 // Nothing but two equal spheres that do not bounce.
 constexpr const char* bare =
@@ -20,7 +27,7 @@ constexpr const char* bare =
 Features featuresAfter(const std::function<void(v1::Scene&)>& change) {
     v1::Scene message = parsed(bare);
     change(message);
-    const auto scene = build(message);
+    const auto scene = scene::build(message);
     EXPECT_TRUE(scene) << scene.error().text();
     return featuresOf(*scene);
 }
@@ -45,36 +52,45 @@ void closeTop(v1::Scene& scene, const std::string& material) {
     scene.mutable_bounds()->set_material(material);
 }
 
-const Features onlyContacts{.contacts = true};
+using Names = std::vector<std::string>;
 
-Features with(bool Features::*feature) {
-    Features features = onlyContacts;
-    features.*feature = true;
+Names namesOf(const Features& features) {
+    Names names;
+    for (const Feature feature : allFeatures())
+        if (features.has(feature)) names.emplace_back(nameOf(feature));
+    return names;
+}
+
+// Those of the bare scene, and these.
+Features bareWith(std::initializer_list<Feature> more) {
+    Features features = featuresAfter([](v1::Scene&) {});
+    for (const Feature feature : more) features.set(feature);
     return features;
 }
 
-TEST(SceneFeatures, ABareSceneHasOnlyContacts) {
-    EXPECT_EQ(featuresAfter([](v1::Scene&) {}), onlyContacts);
+TEST(SimFeatures, ABareSceneHasOnlyContacts) {
+    EXPECT_EQ(namesOf(bareWith({})), Names({"contacts", "open faces", "balanced", "velocity before", "impacts"}));
 }
 
-TEST(SceneFeatures, ContactsAreKeptForSpheresToCome) {
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_groups(); }), onlyContacts);
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.set_sphere_contacts(false); }), Features{});
+TEST(SimFeatures, ContactsAreKeptForSpheresToCome) {
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_groups(); }), bareWith({}));
+    EXPECT_EQ(namesOf(featuresAfter([](v1::Scene& s) { s.set_sphere_contacts(false); })),
+              Names({"open faces", "balanced"}));
 }
 
-TEST(SceneFeatures, GravityIsWhatIsNotZero) {
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.set_gravity(1, 0.5); }), with(&Features::gravity));
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_gravity(); }), with(&Features::gravity));
+TEST(SimFeatures, GravityIsWhatIsNotZero) {
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.set_gravity(1, 0.5); }), bareWith({Gravity}));
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_gravity(); }), bareWith({Gravity}));
 }
 
-TEST(SceneFeatures, RadiiMayDiffer) {
+TEST(SimFeatures, RadiiMayDiffer) {
     EXPECT_EQ(
         featuresAfter([](v1::Scene& s) { s.mutable_groups(0)->mutable_list()->mutable_spheres(1)->set_radius(0.2); }),
-        with(&Features::radii));
+        bareWith({Radii}));
 }
 
-TEST(SceneFeatures, RestitutionIsAnythingThatBounces) {
-    const Features open = with(&Features::restitution);
+TEST(SimFeatures, RestitutionIsAnythingThatBounces) {
+    const Features open = bareWith({Restitution});
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.mutable_materials(0)->set_restitution(0.1); }), open);
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
                   add(s, "rubber").set_restitution(0.1);
@@ -82,7 +98,7 @@ TEST(SceneFeatures, RestitutionIsAnythingThatBounces) {
               }),
               open);
     Features walls = open;
-    walls.walls = true;
+    walls.set(Walls);
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
                   add(s, "rubber");
                   closeTop(s, "rubber");
@@ -91,16 +107,16 @@ TEST(SceneFeatures, RestitutionIsAnythingThatBounces) {
               walls);
 }
 
-TEST(SceneFeatures, NothingBouncesOffWhatDoesNot) {
+TEST(SimFeatures, NothingBouncesOffWhatDoesNot) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
                   add(s, "rubber").set_restitution(0.9);
                   closeTop(s, "rubber");
               }),
-              with(&Features::walls))
+              bareWith({Walls}))
         << "the smaller of the two counts";
 }
 
-TEST(SceneFeatures, OpenFacesAreOfNoMaterial) {
+TEST(SimFeatures, OpenFacesAreOfNoMaterial) {
     const auto rubber = [](v1::Scene& s) {
         add(s, "rubber");
         v1::MaterialPair& pair = addPair(s, "clay", "rubber");
@@ -108,16 +124,16 @@ TEST(SceneFeatures, OpenFacesAreOfNoMaterial) {
         pair.set_friction(0.1);
         s.mutable_bounds()->set_material("rubber");
     };
-    EXPECT_EQ(featuresAfter(rubber), onlyContacts);
+    EXPECT_EQ(featuresAfter(rubber), bareWith({}));
     EXPECT_TRUE(featuresAfter([&](v1::Scene& s) {
                     rubber(s);
                     s.mutable_bounds()->mutable_open()->RemoveLast();
-                }).friction);
+                }).has(Friction));
 }
 
-TEST(SceneFeatures, MaterialsDifferBetweenSpheresOnly) {
-    Features expected = with(&Features::restitution);
-    expected.materials = true;
+TEST(SimFeatures, MaterialsDifferBetweenSpheresOnly) {
+    Features expected = bareWith({Restitution});
+    expected.set(Materials);
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
                   *s.add_groups() = s.groups(0);
                   add(s, "rubber").set_restitution(0.7);
@@ -126,17 +142,16 @@ TEST(SceneFeatures, MaterialsDifferBetweenSpheresOnly) {
               expected);
 }
 
-TEST(SceneFeatures, OneClosedFaceMakesWalls) {
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.mutable_bounds()->mutable_open()->RemoveLast(); }),
-              with(&Features::walls));
+TEST(SimFeatures, OneClosedFaceMakesWalls) {
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.mutable_bounds()->mutable_open()->RemoveLast(); }), bareWith({Walls}));
 }
 
-TEST(SceneFeatures, ObstaclesAreOfTwoKinds) {
+TEST(SimFeatures, ObstaclesAreOfTwoKinds) {
     const v1::Scene donor = parsed(R"({"obstacles": [{"plane": {"point": [0,0,0], "normal": [0,0,1]}},
         {"box": {"min": [0.8, 0.8, 0.8], "max": [1, 1, 1]}, "material": "rubber"}]})");
-    EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(0); }), with(&Features::planes));
-    Features boxes = with(&Features::boxes);
-    boxes.restitution = true;
+    EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(0); }), bareWith({Planes}));
+    Features boxes = bareWith({Boxes});
+    boxes.set(Restitution);
     EXPECT_EQ(featuresAfter([&](v1::Scene& s) {
                   *s.add_obstacles() = donor.obstacles(1);
                   add(s, "rubber");
@@ -145,38 +160,46 @@ TEST(SceneFeatures, ObstaclesAreOfTwoKinds) {
               boxes);
 }
 
-TEST(SceneFeatures, NothingRestsWithoutGravity) {
-    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_sleep(); }), onlyContacts);
+TEST(SimFeatures, NothingRestsWithoutGravity) {
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_sleep(); }), bareWith({}));
 }
 
-TEST(SceneFeatures, TheModelIsTheScenes) {
-    for (const Model model : {Model::Fast, Model::Balanced, Model::Accurate}) {
-        Features expected = onlyContacts;
-        expected.model = model;
-        EXPECT_EQ(featuresAfter([&](v1::Scene& s) { s.mutable_quality()->set_model(messageOf(model)); }), expected);
-    }
+TEST(SimFeatures, TheModelIsTheScenes) {
+    const std::pair<Model, Names> cases[] = {
+        {Model::Fast, {"contacts", "open faces", "fast", "impacts"}},
+        {Model::Balanced, {"contacts", "open faces", "balanced", "velocity before", "impacts"}},
+        {Model::Accurate, {"contacts", "open faces", "accurate", "low bits"}}};
+    for (const auto& [model, names] : cases)
+        EXPECT_EQ(
+            namesOf(featuresAfter([&](v1::Scene& s) { s.mutable_quality()->set_model(scene::messageOf(model)); })),
+            names);
 }
 
-TEST(SceneFeatures, OnlyAccurateFollowsHertz) {
+TEST(SimFeatures, EachHasTheModuleOfItsName) {
+    for (const Feature feature : allFeatures())
+        EXPECT_EQ(modules().at(static_cast<std::size_t>(feature))->feature, feature) << nameOf(feature);
+}
+
+TEST(SimFeatures, OnlyAccurateFollowsHertz) {
     for (const Model model : {Model::Fast, Model::Balanced, Model::Accurate}) {
         const Features features = featuresAfter([&](v1::Scene& s) {
-            s.mutable_quality()->set_model(messageOf(model));
+            s.mutable_quality()->set_model(scene::messageOf(model));
             s.mutable_materials(0)->set_young(1e7);
         });
-        EXPECT_EQ(features.hertz, model == Model::Accurate) << nameOf(model);
+        EXPECT_EQ(features.has(Hertz), model == Model::Accurate) << scene::nameOf(model);
     }
 }
 
-TEST(SceneFeatures, NothingSleepsUnderAccurate) {
+TEST(SimFeatures, NothingSleepsUnderAccurate) {
     for (const Model model : {Model::Fast, Model::Balanced, Model::Accurate}) {
         const Features features = featuresAfter([&](v1::Scene& s) {
-            s.mutable_quality()->set_model(messageOf(model));
+            s.mutable_quality()->set_model(scene::messageOf(model));
             s.clear_gravity();
             s.clear_sleep();
         });
-        EXPECT_EQ(features.sleep, model != Model::Accurate) << nameOf(model);
+        EXPECT_EQ(features.has(Sleep), model != Model::Accurate) << scene::nameOf(model);
     }
 }
 
 }  // namespace
-}  // namespace spherule::scene::testing
+}  // namespace spherule::sim
