@@ -109,9 +109,9 @@ TEST(SimModules, AreAbsentFromAPlanThatDoesNotRequireThem) {
         const Features all = featuresOf(*scene);
         const Plan whole = planWith(all);
         for (const Module* module : modules()) {
-            const bool model = module->feature == Feature::Fast || module->feature == Feature::Balanced ||
-                               module->feature == Feature::Accurate;
-            if (!all.has(module->feature) || module->declare == nullptr || model) continue;
+            const bool isModel = module->feature == Feature::Fast || module->feature == Feature::Balanced ||
+                                 module->feature == Feature::Accurate;
+            if (!all.has(module->feature) || module->declare == nullptr || isModel) continue;
             Features fewer;
             for (const Module* other : modules())
                 fewer.set(other->feature, other != module && other->required(*scene, fewer));
