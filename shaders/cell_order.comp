@@ -3,7 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, cellOrder)

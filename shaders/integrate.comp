@@ -4,7 +4,7 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/outside.h"
 
 BUFFER(restrict, vec4, position)
@@ -17,7 +17,7 @@ BUFFER(coherent, uint, counters)
 BUFFER(restrict, vec4, restReference)
 BUFFER(readonly, Obstacle, obstacles)
 
-#include "shared/frame.h"
+#include "shared/falling_frame.h"
 
 // Substeps are fitted after each step, to what was seen in it: what may be met within two must be seen.
 #define LOOK_AHEAD 2.0f
@@ -138,7 +138,7 @@ KERNEL(params.spheres) {
             vec3 crept = to - vec3(restReference[id]);
             if (dot3(crept, crept) > params.creep * params.creep) {
                 restReference[id] = vec4(to, 0.0f);
-                velocityBefore[invocation] = vec4(vec3(v), CREPT);
+                velocityBefore[invocation] = vec4(vec3(v), MOVED_AWAY);
             }
         }
     }

@@ -39,8 +39,8 @@ void visitPair(uint a, uint b) {
 KERNEL(params.groups * 8u) {
     found = 0u;
     base = UNLISTED;
-    uint turn = counters[COUNTER_REBUILDS];
-    visitGroupNumber(invocation, turn);
+    uint sampleRound = counters[COUNTER_REBUILDS];
+    visitGroupNumber(invocation, sampleRound);
     uint count = found;
     if (crowded) {
         // With every new list, other pairs have their turn: so there is a new one in every substep.
@@ -63,6 +63,6 @@ KERNEL(params.groups * 8u) {
     } else {
         found = 0u;
         base = start;
-        visitGroupNumber(invocation, turn);
+        visitGroupNumber(invocation, sampleRound);
     }
 }

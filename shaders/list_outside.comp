@@ -4,7 +4,7 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)
@@ -14,7 +14,7 @@ BUFFER(readonly, uint, cellOrder)
 BUFFER(coherent, uint, counters)
 BUFFER(restrict, vec4, listReference)
 
-#include "shared/frame.h"
+#include "shared/falling_frame.h"
 
 // Of two as fast as each other, the lower id: they come in any order.
 bool faster(uint a, uint b) {

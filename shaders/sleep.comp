@@ -31,8 +31,8 @@ KERNEL(params.spheres) {
     if (HAS(FRICTION)) {
         vec3 spin = vec3(angularVelocity[invocation]) *
                     (HAS(RADII) ? position[invocation].w : params.radius);
-        float turning = params.sleepSpeed * min(spent / params.sleepTime, 4.0f);
-        asleep = asleep && dot3(spin, spin) < turning * turning;
+        float omega = params.sleepSpeed * min(spent / params.sleepTime, 4.0f);
+        asleep = asleep && dot3(spin, spin) < omega * omega;
     }
     if (!asleep) {
         velocityBefore[invocation] = vec4(vec3(u), spent);

@@ -6,9 +6,9 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/contact.h"
-#include "shared/rub.h"
+#include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -21,25 +21,25 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(restrict, vec4, tangentialSlip)  // per listed pair: stretch, of the first against the second, m; w: 1 in touch
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 
-PRIVATE(vec3, stretch)
+PRIVATE(vec3, displacement)
 PRIVATE(bool, touches)
 PRIVATE(bool, listed)     // the contact remembers; another is stretched in every substep as if it had just begun
 
-#include "shared/laws.h"
-#include "shared/kicks.h"
+#include "shared/contact_params.h"
+#include "shared/deltas.h"
 #include "shared/spring.h"
 
 // `lever`: distance over the sum of the radii. The centres share the distance to the point of contact in proportion to the radii.
-void rubSprings(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 law) {
+void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     vec4 sa = angularVelocity[a];
     vec4 sb = angularVelocity[b];
     vec3 difference = vec3(va) - vec3(vb);
     vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n) * lever;
-    stretch = turnedInto(stretch, n);
+    displacement = rotateToPlane(displacement, n);
     float mobility = (va.w + vb.w) * (1.0f + 2.5f * lever * lever);
     vec3 impulse = tangentialImpulse(slip, slip, mobility, spring, law.y);
     vec3 twist = cross3(n, impulse) * (2.5f * lever);
@@ -47,14 +47,14 @@ void rubSprings(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring 
     if (HAS(ROLLING)) {
         float c = 2.5f * (va.w / (ra * ra) + vb.w / (rb * rb));
         float most = ra * rb / (ra + rb) * spring.impulse;
-        vec3 turning = vec3(sa) - vec3(sb);
-        float about = dot3(turning, n);
-        moment = (rollingMoment(turning - n * about, c, law.z * most) + spinningMoment(n, about, c, law.w * most)) * 2.5f;
+        vec3 omega = vec3(sa) - vec3(sb);
+        float about = dot3(omega, n);
+        moment = (rollingMoment(omega - n * about, c, law.z * most) + spinningMoment(n, about, c, law.w * most)) * 2.5f;
     }
-    addKick(a, impulse * va.w);
-    addKick(b, impulse * -vb.w);
-    addTwist(a, moment * (va.w / (ra * ra)) - twist * (va.w / ra));
-    addTwist(b, moment * (-vb.w / (rb * rb)) - twist * (vb.w / rb));
+    addDeltaVelocity(a, impulse * va.w);
+    addDeltaVelocity(b, impulse * -vb.w);
+    addDeltaOmega(a, moment * (va.w / (ra * ra)) - twist * (va.w / ra));
+    addDeltaOmega(b, moment * (-vb.w / (rb * rb)) - twist * (vb.w / rb));
 }
 
 void visitPair(uint a, uint b) {
@@ -68,18 +68,18 @@ void visitPair(uint a, uint b) {
     float reach = ra + rb;
     touches = squared < reach * reach;
     if (!touches) return;
-    if (!listed) stretch = vec3(0.0f, 0.0f, 0.0f);
+    if (!listed) displacement = vec3(0.0f, 0.0f, 0.0f);
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     float inverse = va.w + vb.w;
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
     float speed = dot3(vec3(va) - vec3(vb), n);
-    Spring spring = springOf(reach - normal.w, speed, speed, ra * rb / reach, inverse, stiffnessLaw(a, b));
+    Spring spring = springOf(reach - normal.w, speed, speed, ra * rb / reach, inverse, stiffnessOf(a, b));
     vec3 impulse = n * spring.impulse;
-    addKick(a, impulse * va.w);
-    addKick(b, impulse * -vb.w);
-    if (HAS(FRICTION)) rubSprings(a, b, n, ra, rb, normal.w / reach, spring, contactLaw(a, b));
+    addDeltaVelocity(a, impulse * va.w);
+    addDeltaVelocity(b, impulse * -vb.w);
+    if (HAS(FRICTION)) applySpringFriction(a, b, n, ra, rb, normal.w / reach, spring, contactOf(a, b));
 }
 
 #include "shared/group.h"
@@ -95,12 +95,12 @@ KERNEL(groupsOfPhase()) {
     uint touched = 0u;
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
-        if (HAS(FRICTION)) stretch = vec3(tangentialSlip[k]);
+        if (HAS(FRICTION)) displacement = vec3(tangentialSlip[k]);
         visitPair(pair.x, pair.y);
         if (touches) touched = touched + 1u;
         if (HAS(FRICTION)) {
             if (touches)
-                tangentialSlip[k] = vec4(stretch, 1.0f);
+                tangentialSlip[k] = vec4(displacement, 1.0f);
             else if (tangentialSlip[k].w != 0.0f)
                 tangentialSlip[k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
         }

@@ -6,9 +6,9 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/contact.h"
-#include "shared/rub.h"
+#include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -17,10 +17,10 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, touching)
 BUFFER(readonly, float, normalImpulses)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 
-#include "shared/laws.h"
-#include "shared/rub_pair.h"
+#include "shared/contact_params.h"
+#include "shared/friction_pair.h"
 
 KERNEL(groupsOfPhase()) {
     uvec4 mine = groupRange[groupOfPhase(invocation)];
@@ -36,7 +36,7 @@ KERNEL(groupsOfPhase()) {
         vec4 pb = position[b];
         vec3 d = vec3(pa) - vec3(pb);
         vec3 n = vec3(normalAndDistance(d, dot3(d, d), a, b));
-        rubPair(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, pressing,
-                contactLaw(a, b));
+        applyPairFriction(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, pressing,
+                contactOf(a, b));
     }
 }

@@ -6,10 +6,10 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/contact.h"
 #include "shared/wake.h"
-#include "shared/rub.h"
+#include "shared/friction.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -19,11 +19,11 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, vec4, velocityBefore)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 
-#include "shared/laws.h"
-#include "shared/rub_pair.h"
-#include "shared/sleepers.h"
+#include "shared/contact_params.h"
+#include "shared/friction_pair.h"
+#include "shared/wake_pair.h"
 
 void visitPair(uint a, uint b) {
     vec4 va = velocity[a];
@@ -55,7 +55,7 @@ void visitPair(uint a, uint b) {
     if (mb > 0.0f) position[b] = vec4(vec3(pb) - push * mb, pb.w);
     float speed = dot3(vec3(va) - vec3(vb), n);
     if (speed >= 0.0f) return;
-    vec4 law = contactLaw(a, b);
+    vec4 law = contactOf(a, b);
     // What is slower than this is the weight of a pile, which one sweep does not balance.
     float e = HAS(RESTITUTION) && speed < -params.deadBand ? law.x : 0.0f;
     float load = -(1.0f + e) * speed * inverse;
@@ -63,7 +63,7 @@ void visitPair(uint a, uint b) {
     if (ma > 0.0f) velocity[a] = vec4(vec3(va) + impulse * ma, va.w);
     if (mb > 0.0f) velocity[b] = vec4(vec3(vb) - impulse * mb, vb.w);
     if (HAS(FRICTION))
-        rubPair(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, load, law);
+        applyPairFriction(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, load, law);
 }
 
 #include "shared/group.h"

@@ -19,7 +19,7 @@ BUFFER(writeonly, uvec2, touching)
 BUFFER(writeonly, float, normalImpulses)  // of the touching pairs, N s
 BUFFER(readonly, vec4, velocityBefore)
 
-#include "shared/sleepers.h"
+#include "shared/wake_pair.h"
 
 // Overlaps deeper than this share of the radius did not come about by impacts or weight: undoing them stops what
 // approaches, but throws nothing.

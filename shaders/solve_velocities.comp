@@ -7,7 +7,7 @@
 PARAMETERS
 #include "shared/math.h"
 #include "shared/grid.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
@@ -18,9 +18,9 @@ BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, touching)
 BUFFER(restrict, float, normalImpulses)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 
-#include "shared/laws.h"
+#include "shared/contact_params.h"
 
 // Returns the impulse along the normal, N s; negative where it takes from the push of the position pass.
 float collide(uint a, uint b, bool known) {
@@ -41,7 +41,7 @@ float collide(uint a, uint b, bool known) {
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
     vec4 ua = velocityBefore[a];
     vec4 ub = velocityBefore[b];
-    vec4 law = contactLaw(a, b);
+    vec4 law = contactOf(a, b);
     float approach = dot3(vec3(ua) - vec3(ub), n);
     float e = HAS(RESTITUTION) ? law.x : 0.0f;
     // Without a branch on the sign of `approach`, which is a toss-up between spheres at rest.

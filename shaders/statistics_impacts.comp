@@ -5,7 +5,7 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
@@ -14,11 +14,11 @@ BUFFER(readonly, vec4, velocityBeforeSolve)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, impacts)  // per group, until the host takes them: impacts, sums of the speeds of
                                                  // approach, of parting, and of the parting that was asked for
 
-#include "shared/laws.h"
+#include "shared/contact_params.h"
 
 // Of speeds in dead bands.
 #define WEIGHTLESS 10.0f
@@ -38,7 +38,7 @@ void visitPair(uint a, uint b) {
     float parting = dot3(vec3(velocity[a]) - vec3(velocity[b]), n);
     // One that goes on as it came has not met yet: it is within the tolerance only.
     if (!(parting > -0.5f * approach)) return;
-    sum = sum + vec4(1.0f, approach, parting, contactLaw(a, b).x * approach);
+    sum = sum + vec4(1.0f, approach, parting, contactOf(a, b).x * approach);
 }
 
 KERNEL(params.groups * 8u) {

@@ -3,7 +3,7 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -12,16 +12,16 @@ BUFFER(readonly, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(writeonly, SphereStatistics, sphereSums)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, vec4, wallSlip)
 
 PRIVATE(vec3, wallPoint)
 PRIVATE(float, deepest)
 PRIVATE(uint, wallSphere)
-PRIVATE(vec3, stretch)
+PRIVATE(vec3, displacement)
 PRIVATE(float, springs)
 
-#include "shared/wall_laws.h"
+#include "shared/wall_contact_params.h"
 #include "shared/spring.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
@@ -29,15 +29,15 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     if (!HAS(LOW_BITS)) return;
     float overlap = depth - dot3(vec3(positionLow[wallSphere]), normal);
     if (!(overlap > 0.0f)) return;
-    stretch = vec3(0.0f, 0.0f, 0.0f);
+    displacement = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) {
         uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
         for (uint k = first; k < first + params.wallContacts; ++k)
-            if (wallSlip[k].w == float(surface + 1u)) stretch = vec3(wallSlip[k]);
+            if (wallSlip[k].w == float(surface + 1u)) displacement = vec3(wallSlip[k]);
     }
     float radius = HAS(RADII) ? position[wallSphere].w : params.radius;
     float speed = dot3(vec3(velocity[wallSphere]), normal);
-    springs += springEnergy(overlapWithSpeed(overlap, speed), radius, contactParams[wallLawIndex(wallMaterial)].stiffness, stretch);
+    springs += springEnergy(overlapWithSpeed(overlap, speed), radius, contactParams[wallContactIndex(wallMaterial)].stiffness, displacement);
 }
 
 #include "shared/walls.h"

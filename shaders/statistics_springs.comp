@@ -4,7 +4,7 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
@@ -14,12 +14,12 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, vec4, tangentialSlip)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, overlaps)
 
-PRIVATE(vec3, stretch)
+PRIVATE(vec3, displacement)
 
-#include "shared/laws.h"
+#include "shared/contact_params.h"
 #include "shared/spring.h"
 
 float energyOf(uint a, uint b) {
@@ -34,17 +34,17 @@ float energyOf(uint a, uint b) {
     if (!(squared < reach * reach)) return 0.0f;
     vec4 normal = normalAndDistance(d, squared, a, b);
     float speed = dot3(vec3(velocity[a]) - vec3(velocity[b]), vec3(normal));
-    return springEnergy(overlapWithSpeed(reach - normal.w, speed), ra * rb / reach, stiffnessLaw(a, b), stretch);
+    return springEnergy(overlapWithSpeed(reach - normal.w, speed), ra * rb / reach, stiffnessOf(a, b), displacement);
 }
 
 KERNEL(params.groups * 8u) {
     uvec4 mine = groupRange[invocation];
     if (mine.y == UNLISTED) return;
     float energy = 0.0f;
-    stretch = vec3(0.0f, 0.0f, 0.0f);
+    displacement = vec3(0.0f, 0.0f, 0.0f);
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
-        if (HAS(FRICTION)) stretch = vec3(tangentialSlip[k]);
+        if (HAS(FRICTION)) displacement = vec3(tangentialSlip[k]);
         energy += energyOf(pair.x, pair.y);
     }
     vec4 row = overlaps[invocation];

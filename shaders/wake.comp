@@ -1,6 +1,6 @@
 // Before the lists are rebuilt: flags the sleepers whose neighbours leave so fast that they are out of reach after this
 // one substep. The new lists no longer hold such a pair; the old ones do. Run over all groups at once, so it only raises
-// flags; state_save acts on them.
+// flags; wake_flagged.comp acts on them.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -19,7 +19,7 @@ BUFFER(coherent, uint, wakeFlags)
 // Whether the one that moves was at the sleeper as the substep began.
 void leave(uint sleeper, uint mover) {
     vec4 u = velocityBefore[mover];
-    if (!wakes(u)) return;
+    if (!canWake(u)) return;
     vec4 pa = position[sleeper];
     vec4 pb = position[mover];
     vec3 d = vec3(pb) - vec3(u) * params.substep - vec3(pa);

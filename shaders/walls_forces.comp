@@ -4,8 +4,8 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
-#include "shared/rub.h"
+#include "shared/id_and_material.h"
+#include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -15,7 +15,7 @@ BUFFER(restrict, vec4, deltaVelocity)
 BUFFER(restrict, vec4, deltaOmega)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, wallSlip)  // by id, params.wallContacts each: stretch, m; w: surface + 1
 BUFFER(coherent, uint, counters)
 
@@ -26,15 +26,15 @@ PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, residual)   // what float32 cannot hold of the position
 PRIVATE(vec3, moving)     // m/s
-PRIVATE(vec3, turning)    // rad/s
+PRIVATE(vec3, omega)    // rad/s
 PRIVATE(vec3, push)       // of all walls together, N s
 PRIVATE(vec3, torque)     // times the substep, N s m
-PRIVATE(vec3, stretch)
+PRIVATE(vec3, displacement)
 PRIVATE(float, inverseMass)
 PRIVATE(uint, seen)       // bits of the remembered walls that it still touches
 
-#include "shared/wall_laws.h"
-#include "shared/kicks.h"
+#include "shared/wall_contact_params.h"
+#include "shared/deltas.h"
 #include "shared/spring.h"
 
 // Where the stretch at this surface is kept: where it was, or a place that nothing uses.
@@ -50,11 +50,11 @@ uint placeOf(uint surface) {
 }
 
 // `fall`: what gravity has added to the velocity since the middle of the last motion. `arm`: from the centre to the wall.
-void rubSprings(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 law) {
+void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 law) {
     uint place = placeOf(surface);
     bool known = place != NO_PLACE && wallSlip[place].w != 0.0f;
-    stretch = known ? turnedInto(vec3(wallSlip[place]), n) : vec3(0.0f, 0.0f, 0.0f);
-    vec3 slip = moving - n * dot3(moving, n) - cross3(turning, n) * arm;
+    displacement = known ? rotateToPlane(vec3(wallSlip[place]), n) : vec3(0.0f, 0.0f, 0.0f);
+    vec3 slip = moving - n * dot3(moving, n) - cross3(omega, n) * arm;
     vec3 path = slip;
     if (HAS(GRAVITY)) path = slip - (fall - n * dot3(fall, n));
     float lever = arm / wallRadius;
@@ -63,30 +63,30 @@ void rubSprings(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 
     torque = torque - cross3(n, impulse) * arm;
     if (HAS(ROLLING)) {
         float c = 2.5f * inverseMass / (wallRadius * wallRadius);
-        float about = dot3(turning, n);
+        float about = dot3(omega, n);
         float most = wallRadius * spring.impulse;
-        torque = torque + rollingMoment(turning - n * about, c, law.z * most) +
+        torque = torque + rollingMoment(omega - n * about, c, law.z * most) +
                  spinningMoment(n, about, c, law.w * most);
     }
     if (place == NO_PLACE) {
         atomicAdd(counters[COUNTER_FORGOTTEN], 1u);
         return;
     }
-    wallSlip[place] = vec4(stretch, float(surface + 1u));
+    wallSlip[place] = vec4(displacement, float(surface + 1u));
     seen = seen | (1u << (place - idOf(idAndMaterial[wallSphere]) * params.wallContacts));
 }
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float overlap = depth - dot3(residual, normal);
     if (!(overlap > 0.0f)) return;
-    uint index = wallLawIndex(wallMaterial);
+    uint index = wallContactIndex(wallMaterial);
     float speed = dot3(moving, normal);
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = vec3(params.gravity) * (0.5f * params.substep);
     Spring spring =
         springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, inverseMass, contactParams[index].stiffness);
     push = push + normal * spring.impulse;
-    if (HAS(FRICTION)) rubSprings(normal, surface, fall, wallRadius - overlap, spring, contactParams[index].contact);
+    if (HAS(FRICTION)) applySpringFriction(normal, surface, fall, wallRadius - overlap, spring, contactParams[index].contact);
 }
 
 #include "shared/walls.h"
@@ -112,13 +112,13 @@ KERNEL(params.spheres) {
     moving = vec3(v);
     push = vec3(0.0f, 0.0f, 0.0f);
     torque = vec3(0.0f, 0.0f, 0.0f);
-    turning = vec3(spin);
+    omega = vec3(spin);
     seen = 0u;
     visitWalls(wallRadius);
-    addKick(invocation, push * inverseMass);
+    addDeltaVelocity(invocation, push * inverseMass);
     if (HAS(FRICTION)) {
-        addTwist(invocation, torque * (2.5f * inverseMass / (wallRadius * wallRadius)));
-        angularVelocity[invocation] = vec4(turning, seen != 0u ? 1.0f : 0.0f);
+        addDeltaOmega(invocation, torque * (2.5f * inverseMass / (wallRadius * wallRadius)));
+        angularVelocity[invocation] = vec4(omega, seen != 0u ? 1.0f : 0.0f);
         if (spin.w != 0.0f) forget();
     }
 }

@@ -3,29 +3,29 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
-#include "shared/rub.h"
+#include "shared/id_and_material.h"
+#include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, vec4, wallImpulse)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
-PRIVATE(vec3, corrected)  // m/s
-PRIVATE(vec3, turning)    // rad/s
+PRIVATE(vec3, solvedVelocity)  // m/s
+PRIVATE(vec3, omega)    // rad/s
 
-#include "shared/wall_laws.h"
-#include "shared/rub_wall.h"
+#include "shared/wall_contact_params.h"
+#include "shared/friction_wall.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float pressing = dot3(vec3(wallImpulse[wallSphere]), normal);
-    if (pressing > 0.0f) rubWall(normal, wallRadius, pressing, contactParams[wallLawIndex(wallMaterial)].contact);
+    if (pressing > 0.0f) applyWallFriction(normal, wallRadius, pressing, contactParams[wallContactIndex(wallMaterial)].contact);
 }
 
 #include "shared/walls.h"
@@ -38,9 +38,9 @@ KERNEL(params.spheres) {
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
-    corrected = vec3(v);
-    turning = vec3(angularVelocity[invocation]);
+    solvedVelocity = vec3(v);
+    omega = vec3(angularVelocity[invocation]);
     visitWalls(wallRadius);
-    velocity[invocation] = vec4(corrected, v.w);
-    angularVelocity[invocation] = vec4(turning, 0.0f);
+    velocity[invocation] = vec4(solvedVelocity, v.w);
+    angularVelocity[invocation] = vec4(omega, 0.0f);
 }

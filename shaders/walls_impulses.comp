@@ -4,26 +4,26 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
-#include "shared/rub.h"
+#include "shared/id_and_material.h"
+#include "shared/friction.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, float, wallWork)  // by id: J that pushes out of walls have done against gravity
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
-PRIVATE(vec3, corrected)  // m/s
-PRIVATE(vec3, turning)    // rad/s
+PRIVATE(vec3, solvedVelocity)  // m/s
+PRIVATE(vec3, omega)    // rad/s
 PRIVATE(bool, met)
 
-#include "shared/wall_laws.h"
-#include "shared/rub_wall.h"
+#include "shared/wall_contact_params.h"
+#include "shared/friction_wall.h"
 
 // Change of the speed along the normal in an impact, m/s. `speed` is that before it (m/s, negative), `pull` gravity along the
 // normal (m/s^2), `depth` how far the sphere is in the wall (m). A function of its own: what is precise ends here.
@@ -35,15 +35,15 @@ float impactChange(float speed, float pull, float depth, float restitution) {
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     met = true;
-    vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
+    vec4 law = contactParams[wallContactIndex(wallMaterial)].contact;
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
-    float speed = dot3(corrected, normal);
+    float speed = dot3(solvedVelocity, normal);
     if (speed >= 0.0f) return;
     float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
     float load = impactChange(speed, pull, push, law.x);
-    corrected = corrected + normal * load;
-    if (HAS(FRICTION)) rubWall(normal, wallRadius, load, law);
+    solvedVelocity = solvedVelocity + normal * load;
+    if (HAS(FRICTION)) applyWallFriction(normal, wallRadius, load, law);
 }
 
 #include "shared/walls.h"
@@ -56,14 +56,14 @@ KERNEL(params.spheres) {
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
-    corrected = vec3(v);
+    solvedVelocity = vec3(v);
     met = false;
-    if (HAS(FRICTION)) turning = vec3(angularVelocity[invocation]);
+    if (HAS(FRICTION)) omega = vec3(angularVelocity[invocation]);
     visitWalls(wallRadius);
     if (!met) return;
     position[invocation] = vec4(wallPoint, x.w);
-    velocity[invocation] = vec4(corrected, v.w);
-    if (HAS(FRICTION)) angularVelocity[invocation] = vec4(turning, 0.0f);
+    velocity[invocation] = vec4(solvedVelocity, v.w);
+    if (HAS(FRICTION)) angularVelocity[invocation] = vec4(omega, 0.0f);
     if (HAS(GRAVITY)) {
         uint id = idOf(idAndMaterial[invocation]);
         wallWork[id] = wallWork[id] - dot3(vec3(params.gravity), wallPoint - vec3(x)) / abs(v.w);

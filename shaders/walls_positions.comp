@@ -5,25 +5,25 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, velocityBefore)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(writeonly, vec4, wallImpulse)  // sum of the pushes, m/s
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)  // where the sphere is, as the pushes go on
 PRIVATE(vec3, running)    // velocity before the substep, then after the bounces
-PRIVATE(vec3, corrected)  // velocity with the pushes
+PRIVATE(vec3, solvedVelocity)  // velocity with the pushes
 PRIVATE(vec3, pushes)
 PRIVATE(bool, met)
 
-#include "shared/wall_laws.h"
+#include "shared/wall_contact_params.h"
 
 // Static friction by position: gravity has moved the sphere along the wall, which the push would not have let it.
 // (Velocities are the business of walls_velocities.comp. Between spheres this is left out: in a pile, it feeds the
@@ -37,7 +37,7 @@ void hold(vec3 n, float most) {
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     met = true;
-    vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
+    vec4 law = contactParams[wallContactIndex(wallMaterial)].contact;
     if (HAS(RESTITUTION)) {
         float h = params.substep;
         float start = dot3(running, normal);
@@ -50,9 +50,9 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
     // A wall stops what comes; it does not throw.
-    float speed = dot3(corrected, normal);
+    float speed = dot3(solvedVelocity, normal);
     float stopped = max(speed, min(speed + push * params.perSubstep, 0.0f));
-    corrected = corrected + normal * (stopped - speed);
+    solvedVelocity = solvedVelocity + normal * (stopped - speed);
     if (HAS(FRICTION)) {
         pushes = pushes + normal * (stopped - speed);
         if (HAS(GRAVITY)) hold(normal, law.y * push);
@@ -69,7 +69,7 @@ KERNEL(params.spheres) {
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
-    corrected = vec3(v);
+    solvedVelocity = vec3(v);
     met = false;
     vec4 u = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     if (HAS(RESTITUTION)) {
@@ -83,6 +83,6 @@ KERNEL(params.spheres) {
     if (HAS(FRICTION)) wallImpulse[invocation] = vec4(pushes, 0.0f);
     if (!met) return;
     position[invocation] = vec4(wallPoint, x.w);
-    velocity[invocation] = vec4(corrected, v.w);
+    velocity[invocation] = vec4(solvedVelocity, v.w);
     if (HAS(RESTITUTION)) velocityBefore[invocation] = vec4(running, u.w);
 }

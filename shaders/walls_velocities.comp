@@ -3,28 +3,28 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(readonly, vec4, velocityBefore)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, Law, contactParams)
+BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, wallImpulse)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, running)
-PRIVATE(vec3, corrected)
+PRIVATE(vec3, solvedVelocity)
 PRIVATE(vec3, pushes)
 
-#include "shared/wall_laws.h"
+#include "shared/wall_contact_params.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    vec4 law = contactParams[wallLawIndex(wallMaterial)].contact;
-    float speed = dot3(corrected, normal);
+    vec4 law = contactParams[wallContactIndex(wallMaterial)].contact;
+    float speed = dot3(solvedVelocity, normal);
     precise float wanted = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {
         // Negative where neighbours have pushed the sphere at the wall since its bounce.
@@ -32,7 +32,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
         wanted = start < 0.0f ? -law.x * start : start;
         running = running + normal * (wanted - start);
     }
-    corrected = corrected + normal * (wanted - speed);
+    solvedVelocity = solvedVelocity + normal * (wanted - speed);
     if (HAS(FRICTION)) pushes = pushes + normal * (wanted - speed);
 }
 
@@ -46,10 +46,10 @@ KERNEL(params.spheres) {
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && v.w < 0.0f) return;
-    corrected = vec3(v);
+    solvedVelocity = vec3(v);
     if (HAS(RESTITUTION)) running = vec3(velocityBefore[invocation]);
     if (HAS(FRICTION)) pushes = vec3(wallImpulse[invocation]);
     visitWalls(wallRadius);
-    velocity[invocation] = vec4(corrected, v.w);
+    velocity[invocation] = vec4(solvedVelocity, v.w);
     if (HAS(FRICTION)) wallImpulse[invocation] = vec4(pushes, 0.0f);
 }

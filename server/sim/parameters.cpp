@@ -17,11 +17,11 @@ double springModulusOf(const scene::Scene& scene) {
     return scene.quality.model == scene::Model::Accurate ? scene::springModulus(scene) : 0;
 }
 
-layout::Law lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, double springModulus) {
+layout::ContactParams lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, double springModulus) {
     const scene::PairLaw contact = scene::lawBetween(scene, a, b);
-    layout::Law law{.contact = glm::vec4(contact.restitution, contact.friction, contact.rollingResistance,
-                                         contact.spinningResistance),
-                    .stiffness = {}};
+    layout::ContactParams law{.contact = glm::vec4(contact.restitution, contact.friction, contact.rollingResistance,
+                                                   contact.spinningResistance),
+                              .stiffness = {}};
     if (scene.quality.model == scene::Model::Accurate) {
         const scene::Stiffness stiffness = scene::stiffnessBetween(scene, a, b, springModulus);
         law.stiffness = glm::vec4(stiffness.normal, stiffness.damping, stiffness.tangential, 0);
@@ -46,8 +46,8 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.materials = static_cast<std::uint32_t>(scene.materials.size());
     p.material = scene.spheres.empty() ? 0U : scene.spheres.front().material;
     p.wallMaterial = scene.bounds.material;
-    const layout::Law law = lawFor(scene, static_cast<std::uint8_t>(p.material), static_cast<std::uint8_t>(p.material),
-                                   springModulusOf(scene));
+    const layout::ContactParams law = lawFor(scene, static_cast<std::uint8_t>(p.material),
+                                             static_cast<std::uint8_t>(p.material), springModulusOf(scene));
     p.law = law.contact;
     p.stiffness = law.stiffness;
     p.statisticBlocks = blocksOf(plan.spheres, STATISTIC_BLOCK);
@@ -57,8 +57,8 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     return p;
 }
 
-std::vector<layout::Law> lawsFor(const scene::Scene& scene) {
-    std::vector<layout::Law> laws;
+std::vector<layout::ContactParams> lawsFor(const scene::Scene& scene) {
+    std::vector<layout::ContactParams> laws;
     const std::size_t count = scene.materials.size();
     const double modulus = springModulusOf(scene);
     for (std::size_t a = 0; a < count; ++a)
@@ -89,7 +89,8 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
 
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
     if (pipeline.plan().has(Array::Obstacles)) pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
-    if (pipeline.plan().has(Array::ContactParams)) pipeline.write<layout::Law>(Array::ContactParams, lawsFor(scene));
+    if (pipeline.plan().has(Array::ContactParams))
+        pipeline.write<layout::ContactParams>(Array::ContactParams, lawsFor(scene));
 }
 
 }  // namespace spherule::sim

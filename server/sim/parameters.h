@@ -13,7 +13,7 @@ namespace spherule::sim {
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii, double substep);
 
 // Between all materials, row by row.
-std::vector<layout::Law> lawsFor(const scene::Scene& scene);
+std::vector<layout::ContactParams> lawsFor(const scene::Scene& scene);
 
 // Planes first, then boxes, relative to the bounds' centre.
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);

@@ -218,7 +218,7 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
     if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must reach the sleepers that it touches, too.
-    constexpr glm::vec4 crept(0, 0, 0, CREPT);
+    constexpr glm::vec4 crept(0, 0, 0, MOVED_AWAY);
     write<glm::vec4>(Array::VelocityBefore, std::span<const glm::vec4>(&crept, 1), slot);
 }
 

@@ -15,7 +15,7 @@ float inverseCellOf(uint level) {
 }
 
 // More spheres of a level than this in one of its cells: not all of their pairs are visited at once.
-uint crowdOf(uint level) {
+uint crowdLimit(uint level) {
     return uint(params.levelSize[level].z);
 }
 

@@ -6,7 +6,7 @@
 // two groups of one colour and level, whose cells are two or more apart, never touch the same sphere. (Without lists, they
 // may look at the same one; it is far away from one of them.)
 
-#include "shared/reach.h"
+#include "shared/cell_runs.h"
 
 // Of a crowd, each sphere meets so many others at a turn: fewer where there are very many, so that a cell's work is bounded.
 #define CROWD_MOST 32u
@@ -15,10 +15,10 @@
 
 PRIVATE(bool, crowded)  // some cells held so many spheres that not all of their pairs were visited
 PRIVATE(Reach, reached)
-PRIVATE(Stretch, chord)
+PRIVATE(CellRun, chord)
 
 // One call of visitPair in the text: GLSL compilers copy it to each place, which costs seconds.
-void visitCell(uint level, uint x, uint y, uint z, uint turn) {
+void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     uvec4 cells = cellsOf(level);
     uint cell = cellIndex(cells, x, y, z);
     uint first = cellStart[cell];
@@ -51,7 +51,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
             uint start = finer ? rowStart(reached, reachedY, reachedZ) : cellIndex(cells, 0u, ry, row < 2u ? z : above);
             uint parts = row == 0u ? 2u : (whole ? 1u : 3u);
             if (finer) {
-                chord = rowStretch(reached, reachedY, reachedZ);
+                chord = rowRun(reached, reachedY, reachedZ);
                 uint ends = chord.start + chord.count;
                 parts = chord.count == 0u ? 0u : (ends > reached.cells.x ? 2u : 1u);
             }
@@ -65,7 +65,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
                 }
                 uint begin = cellStart[start + from];
                 uint end = cellStart[start + to + 1u];
-                uint crowd = (to - from + 1u) * crowdOf(finer ? (pass - 1u) % level : level);
+                uint crowd = (to - from + 1u) * crowdLimit(finer ? (pass - 1u) % level : level);
                 uint until = finer ? one + 1u : last;
                 for (uint a = one; a < until; ++a) {
                     uint b = row + part == 0u && !finer ? a + 1u : begin;
@@ -73,7 +73,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
                     if (stop - b > crowd) {
                         // A share of the others; another one at the next turn.
                         uint shares = (stop - b + meets - 1u) / meets;
-                        b = b + turn % shares * meets;
+                        b = b + sampleRound % shares * meets;
                         stop = min(b + meets, stop);
                         crowded = true;
                     }
@@ -84,8 +84,8 @@ void visitCell(uint level, uint x, uint y, uint z, uint turn) {
     }
 }
 
-// `turn` says which of the pairs of a crowd are visited: all are, one share after the other.
-void visitGroupNumber(uint group, uint turn) {
+// `sampleRound` says which of the pairs of a crowd are visited: all are, one share after the other.
+void visitGroupNumber(uint group, uint sampleRound) {
     uint level = levelOfGroup(group);
     uvec4 cells = cellsOf(level);
     uint gx = cells.x / 2u;
@@ -96,5 +96,5 @@ void visitGroupNumber(uint group, uint turn) {
     uint z = (at / gx) % gz;
     crowded = false;
     for (uint k = 0u; k < 8u; ++k)
-        visitCell(level, 2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u), turn);
+        visitCell(level, 2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u), sampleRound);
 }

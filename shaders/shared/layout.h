@@ -7,8 +7,8 @@ struct Parameters {
     vec4 gravity;        // xyz in m/s^2; w = 0
     vec4 wallMin;        // domain walls
     vec4 wallMax;
-    vec4 law;            // of two spheres where all have one material: Law.contact
-    vec4 stiffness;      // the same: Law.stiffness
+    vec4 law;            // of two spheres where all have one material: ContactParams.contact
+    vec4 stiffness;      // the same: ContactParams.stiffness
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, crowdOf, 0; from the finest level to the coarsest
     uvec4 cells;         // per axis, multiples of 4; w = all cells, of all levels
     uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 4; w = the first of them among all cells
@@ -45,7 +45,7 @@ struct Parameters {
 };
 
 // What holds between two materials. Row a, column b of the `contactParams`.
-struct Law {
+struct ContactParams {
     vec4 contact;        // restitution, friction, rolling resistance, spinning resistance
     vec4 stiffness;      // of the model `accurate`: normal (Pa), damping ratio, tangential (Pa), 0
 };
@@ -74,7 +74,7 @@ struct SphereStatistics {
 };
 
 // In place of a quiet time: of a sphere that has crept so far that it may carry a sleeper no longer.
-#define CREPT (-1.0f)
+#define MOVED_AWAY (-1.0f)
 
 // Words of the `counters` buffer.
 #define COUNTER_REBUILD 0u      // lists are to be rebuilt

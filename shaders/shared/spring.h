@@ -1,4 +1,4 @@
-// The contact law of the model `accurate`: soft spheres. The includer has the PRIVATE `stretch`.
+// The contact law of the model `accurate`: soft spheres. The includer has the PRIVATE `displacement`.
 //
 // Normal force, with overlap d, effective radius R and mass m of the pair:
 //   linear spring-dashpot   F = k d - c v,           k = 2 Y R,              c = 2 z sqrt(k m)
@@ -86,11 +86,11 @@ Spring springOf(float overlap, float path, float speed, float radius, float mobi
 }
 
 // The tangential impulse over a substep. `path` is the slip in the substep's motion, `slip` that before the impulse, both in
-// m/s; `mobility` is how much an impulse changes it. `stretch` (m), turned into the plane of the contact, is brought up to
+// m/s; `mobility` is how much an impulse changes it. `displacement` (m), turned into the plane of the contact, is brought up to
 // date.
 vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, float friction) {
     float h = params.substep;
-    precise vec3 old = stretch * spring.closed;
+    precise vec3 old = displacement * spring.closed;
     precise vec3 grown = path * (h * (0.5f + 0.5f * spring.closed));
     if (spring.share < 1.0f) {
         old = vec3(0.0f, 0.0f, 0.0f);
@@ -105,7 +105,7 @@ vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, floa
             if (beyond > 0.0f) old = path * (-beyond / (spring.stiff * speed));
         }
     }
-    stretch = old + grown;
+    displacement = old + grown;
     // The dashpot sees the mean of the slips before and after.
     precise float weight = -h / (1.0f + 0.5f * h * spring.drag * spring.part * mobility);
     precise vec3 impulse = ((old * spring.part + grown) * spring.stiff + slip * (spring.drag * spring.part)) * weight;
@@ -115,7 +115,7 @@ vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, floa
     precise vec3 along = impulse * (1.0f / sqrt(squared));
     impulse = along * most;
     precise vec3 sliding = slip + impulse * (mobility * spring.acted);
-    stretch = (along * (friction * spring.now) + sliding * spring.drag) * (-1.0f / spring.stiff);
+    displacement = (along * (friction * spring.now) + sliding * spring.drag) * (-1.0f / spring.stiff);
     return impulse;
 }
 
@@ -132,7 +132,7 @@ float springEnergy(float overlap, float radius, vec4 law, vec3 path) {
 }
 
 // Into the plane across n, as long as before.
-vec3 turnedInto(vec3 path, vec3 n) {
+vec3 rotateToPlane(vec3 path, vec3 n) {
     precise vec3 within = path - n * dot3(path, n);
     float was = dot3(path, path);
     float is = dot3(within, within);

@@ -3,8 +3,8 @@
 
 // Takes what `velocityBefore` holds of it: the velocity before the substep, because the present one holds the kicks of
 // unfinished pushes, and CREPT in place of the quiet time.
-bool wakes(vec4 v) {
-    return v.w == CREPT || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
+bool canWake(vec4 v) {
+    return v.w == MOVED_AWAY || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
 // Up to this gap a sphere wakes its neighbour. It must be more than what may be crept before it is noticed, which is from

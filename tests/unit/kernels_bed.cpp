@@ -71,10 +71,10 @@ void Bed::run(std::string_view kernel, uint phase) {
 }
 
 void Bed::rebuild() {
-    run("history_clear");
-    run("history_count");
+    run("slip_clear");
+    run("slip_count");
     prefixSum(carriedOffsets_);
-    run("history_keep");
+    run("slip_carry");
     run("cell_clear");
     run("cell_count");
     prefixSum(cellStart);
@@ -85,7 +85,7 @@ void Bed::rebuild() {
     counters[COUNTER_UNLISTED] = 0;
     run("list_build");
     run("list_fit");
-    run("history_fetch");
+    run("slip_restore");
 }
 
 void Bed::sortColumns() {

@@ -53,7 +53,7 @@ struct Bed {
     layout::Parameters parameters{};
     std::vector<vec4> position, positionLow, velocity, angularVelocity, velocityBefore, deltaVelocity, deltaOmega;
     std::vector<uint> idAndMaterial;
-    std::vector<layout::Law> contactParams = std::vector<layout::Law>(1);
+    std::vector<layout::ContactParams> contactParams = std::vector<layout::ContactParams>(1);
     std::vector<uint> cellStart;
     std::vector<uint> counters = std::vector<uint>(COUNTER_WORDS);
     std::vector<uvec2> pairs, touching;

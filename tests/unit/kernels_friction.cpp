@@ -92,7 +92,7 @@ Bed unequalPair(vec4 law, std::uint64_t features) {
     bed.setMass(1, 0.3F);
     bed.idAndMaterial[0] |= 1U << 24U;
     bed.parameters.materials = 2;
-    bed.contactParams.assign(4, layout::Law{});
+    bed.contactParams.assign(4, layout::ContactParams{});
     bed.contactParams[1].contact = law;
     bed.contactParams[2].contact = law;
     bed.rebuild();

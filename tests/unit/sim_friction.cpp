@@ -52,10 +52,10 @@ TEST(SimFriction, OfAnObstacleCountsWithTheSpheres) {
 TEST(SimFriction, OfMaterialsThatNoSphereHasDoesNotCount) {
     EXPECT_FALSE(featuresWith(smooth, smooth, pairOf("wall", "wall", rough)).has(Feature::Friction))
         << "a wall meets no wall";
-    const Features features =
-        featuresOf(scene::testing::sceneWith(R"("materials": [{"restitution": 0},
+    const Features features = featuresOf(
+        scene::testing::sceneWith(R"("materials": [{"restitution": 0},
         {"name": "felt", "restitution": 0.9, "friction": 0.9, "rollingResistance": 0.9, "young": 1e7}], )" +
-                                             scene::testing::group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]},
+                                  scene::testing::group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]},
                                                             "radius": {"constant": 0.1})")));
     EXPECT_FALSE(features.has(Feature::Friction));
     EXPECT_FALSE(features.has(Feature::Rolling));

@@ -84,7 +84,7 @@ TEST(SimArrays, ThatCannotBeBoundAreRefusedWithASentence) {
 }
 
 TEST(SimLayout, WordsAreReadFromTheText) {
-    EXPECT_EQ(layout::wordsOf("Law"), "rrrrrrrr");
+    EXPECT_EQ(layout::wordsOf("ContactParams"), "rrrrrrrr");
     EXPECT_EQ(layout::wordsOf("Obstacle"), "rrrrrrrr");
     EXPECT_EQ(layout::wordsOf("Parameters").size() * 4, sizeof(layout::Parameters));
     EXPECT_EQ(layout::wordsOf("SphereStatistics").size() * 4, sizeof(layout::SphereStatistics));

@@ -18,14 +18,14 @@ void declareLists(PlanBuilder& plan) {
     using enum Array;
     plan.arrays({CellStart, BlockSums, SuperSums, RankInCell, CellOrder, SortScratch, SortScratchWords, SlotOf,
                  ListReference, Pairs, GroupRange, DispatchSizes, DispatchArgs, Overlaps});
-    plan.once(Stage::Rebuild, Pass::Grid, "rebuild_plan.comp");
+    plan.once(Stage::Rebuild, Pass::Grid, "rebuild_decide.comp");
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_clear.comp", LAUNCH_CELLS);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_count.comp", LAUNCH_SPHERES);
     plan.prefixSumOnRebuild(Stage::SortCells, Pass::Grid, CellStart, {LAUNCH_BLOCKS, LAUNCH_SUPERBLOCKS},
                             plan.plan().grid.all() + 1);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELLS);
-    plan.onRebuild(Stage::Reference, Pass::Grid, "state_anchor.comp", LAUNCH_SPHERES);
+    plan.onRebuild(Stage::Reference, Pass::Grid, "list_reference.comp", LAUNCH_SPHERES);
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_build.comp", LAUNCH_GROUPS);
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_GROUPS);
     plan.statistics("statistics_contacts.comp", plan.plan().groups());

@@ -13,7 +13,7 @@ const Module moduleImpacts{
             // Nothing else uses the scratch column between two rebuilds.
             const std::vector<Alias> aliases{{"velocityBeforeSolve", Array::SortScratch}};
             plan.arrays({Array::Impacts});
-            plan.observeSpheres(Stage::BeforeSolve, "velocity_keep.comp", aliases);
+            plan.observeSpheres(Stage::BeforeSolve, "velocity_before_solve.comp", aliases);
             plan.observeGroups(Stage::AfterSolve, "statistics_impacts.comp", aliases);
         },
 };

@@ -14,8 +14,8 @@ void declareSleep(PlanBuilder& plan) {
     plan.arrays({RestReference, WakeFlags, ActiveGroup});
     plan.onRebuild(Stage::Wake, Pass::Grid, "wake.comp", LAUNCH_GROUPS);
     plan.onRebuild(Stage::Wake, Pass::Grid, "wake_flagged.comp", LAUNCH_SPHERES);
-    plan.overSpheres(Stage::Activity, Pass::Sleep, "stir.comp");
-    plan.overGroups(Stage::Activity, Pass::Sleep, "stir_spread.comp");
+    plan.overSpheres(Stage::Activity, Pass::Sleep, "mark_active.comp");
+    plan.overGroups(Stage::Activity, Pass::Sleep, "dilate_active.comp");
     plan.overSpheres(Stage::Sleep, Pass::Sleep, "sleep.comp");
 }
 

@@ -14,12 +14,12 @@ const Module moduleSlipMemory{
         [](PlanBuilder& plan) {
             using enum Array;
             plan.arrays({TangentialSlip, CarriedOffsets, CarriedSlip});
-            plan.onRebuild(Stage::CarryContacts, Pass::History, "history_clear.comp", LAUNCH_OWNERS);
-            plan.onRebuild(Stage::CarryContacts, Pass::History, "history_count.comp", LAUNCH_GROUPS);
+            plan.onRebuild(Stage::CarryContacts, Pass::History, "slip_clear.comp", LAUNCH_OWNERS);
+            plan.onRebuild(Stage::CarryContacts, Pass::History, "slip_count.comp", LAUNCH_GROUPS);
             plan.prefixSumOnRebuild(Stage::CarryContacts, Pass::History, CarriedOffsets,
                                     {LAUNCH_OWNER_BLOCKS, LAUNCH_OWNER_SUPERBLOCKS}, plan.plan().spheres + 1);
-            plan.onRebuild(Stage::CarryContacts, Pass::History, "history_keep.comp", LAUNCH_GROUPS);
-            plan.onRebuild(Stage::RestoreContacts, Pass::History, "history_fetch.comp", LAUNCH_GROUPS);
+            plan.onRebuild(Stage::CarryContacts, Pass::History, "slip_carry.comp", LAUNCH_GROUPS);
+            plan.onRebuild(Stage::RestoreContacts, Pass::History, "slip_restore.comp", LAUNCH_GROUPS);
         },
 };
 

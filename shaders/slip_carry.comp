@@ -3,7 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, idAndMaterial)
@@ -13,7 +13,7 @@ BUFFER(readonly, vec4, tangentialSlip)
 BUFFER(coherent, uint, carriedOffsets)
 BUFFER(writeonly, vec4, carriedSlip)
 
-#include "shared/owner.h"
+#include "shared/slip_owner.h"
 
 KERNEL(params.groups * 8u) {
     uvec4 mine = groupRange[invocation];
@@ -22,7 +22,7 @@ KERNEL(params.groups * 8u) {
         vec4 one = tangentialSlip[k];
         if (one.w == 0.0f) continue;
         uvec2 pair = pairs[k];
-        bool first = firstOwns(pair.x, pair.y);
+        bool first = firstKeepsSlip(pair.x, pair.y);
         uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
         float other = float(idOf(idAndMaterial[first ? pair.y : pair.x]));  // ids are below 2^24: exact
         vec3 slip = first ? vec3(one) : -vec3(one);

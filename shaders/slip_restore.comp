@@ -2,7 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, idAndMaterial)
@@ -12,14 +12,14 @@ BUFFER(writeonly, vec4, tangentialSlip)
 BUFFER(readonly, uint, carriedOffsets)
 BUFFER(readonly, vec4, carriedSlip)
 
-#include "shared/owner.h"
+#include "shared/slip_owner.h"
 
 KERNEL(params.groups * 8u) {
     uvec4 mine = groupRange[invocation];
     if (mine.y == UNLISTED) return;
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         uvec2 pair = pairs[k];
-        bool first = firstOwns(pair.x, pair.y);
+        bool first = firstKeepsSlip(pair.x, pair.y);
         uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
         float other = float(idOf(idAndMaterial[first ? pair.y : pair.x]));
         vec4 found = vec4(0.0f, 0.0f, 0.0f, 0.0f);

@@ -4,7 +4,7 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/math.h"
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)

@@ -2,7 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
-#include "shared/label.h"
+#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, idAndMaterial)
@@ -11,7 +11,7 @@ BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, vec4, tangentialSlip)
 BUFFER(coherent, uint, carriedOffsets)  // by id
 
-#include "shared/owner.h"
+#include "shared/slip_owner.h"
 
 KERNEL(params.groups * 8u) {
     uvec4 mine = groupRange[invocation];
@@ -19,6 +19,6 @@ KERNEL(params.groups * 8u) {
     for (uint k = mine.x; k < mine.x + mine.y; ++k) {
         if (tangentialSlip[k].w == 0.0f) continue;
         uvec2 pair = pairs[k];
-        atomicAdd(carriedOffsets[idOf(idAndMaterial[firstOwns(pair.x, pair.y) ? pair.x : pair.y])], 1u);
+        atomicAdd(carriedOffsets[idOf(idAndMaterial[firstKeepsSlip(pair.x, pair.y) ? pair.x : pair.y])], 1u);
     }
 }

@@ -1,13 +1,13 @@
 // The cells of a finer level that a sphere reaches: rows along x, each of which is one stretch of a ring of cells.
 
-struct Stretch {
+struct CellRun {
     float from;  // the first cell, before it is wrapped
     uint start;  // the same on the ring
     uint count;  // at most all cells of the ring, so that none comes twice
 };
 
-Stretch stretchOf(float centre, float reach, uint cells) {
-    Stretch s;
+CellRun cellRunOf(float centre, float reach, uint cells) {
+    CellRun s;
     s.from = floor(centre - reach);
     s.count = uint(min(floor(centre + reach) - s.from, float(cells - 1u))) + 1u;
     s.start = s.count == cells ? 0u : wrapCell(s.from, cells);
@@ -16,7 +16,7 @@ Stretch stretchOf(float centre, float reach, uint cells) {
 
 // How far the centre is from the cells number `index` of the stretch; 0 where these are the whole ring, which lies around
 // it more than once.
-float distanceTo(Stretch s, uint index, float centre, uint cells) {
+float distanceTo(CellRun s, uint index, float centre, uint cells) {
     if (s.count == cells) return 0.0f;
     return max(abs(s.from + float(index) + 0.5f - centre) - 0.5f, 0.0f);
 }
@@ -29,8 +29,8 @@ struct Reach {
     uvec4 cells;  // of the finer level
     vec3 centre;  // in its cells, as is the radius
     float radius;
-    Stretch y;
-    Stretch z;
+    CellRun y;
+    CellRun z;
     uint rows;
 };
 
@@ -44,8 +44,8 @@ Reach reachOf(vec4 sphere, uint level) {
                farthest * 1.0e-6f;
     r.rows = 0u;
     if (!finite3(r.centre)) return r;
-    r.y = stretchOf(r.centre.y, r.radius, r.cells.y);
-    r.z = stretchOf(r.centre.z, r.radius, r.cells.z);
+    r.y = cellRunOf(r.centre.y, r.radius, r.cells.y);
+    r.z = cellRunOf(r.centre.z, r.radius, r.cells.z);
     r.rows = r.y.count * r.z.count;
     return r;
 }
@@ -56,14 +56,14 @@ uint rowStart(Reach r, uint y, uint z) {
     return cellIndex(r.cells, 0u, onRing(r.y.start + y, r.cells.y), onRing(r.z.start + z, r.cells.z));
 }
 
-Stretch rowStretch(Reach r, uint rowY, uint rowZ) {
+CellRun rowRun(Reach r, uint rowY, uint rowZ) {
     float y = distanceTo(r.y, rowY, r.centre.y, r.cells.y);
     float z = distanceTo(r.z, rowZ, r.centre.z, r.cells.z);
     precise float squared = r.radius * r.radius - y * y - z * z;
-    Stretch s;
+    CellRun s;
     s.from = 0.0f;
     s.start = 0u;
     s.count = 0u;
-    if (squared >= 0.0f) s = stretchOf(r.centre.x, sqrt(squared), r.cells.x);
+    if (squared >= 0.0f) s = cellRunOf(r.centre.x, sqrt(squared), r.cells.x);
     return s;
 }

@@ -5,7 +5,7 @@
 // an impulse J on a (and -J on b) changes slip by 7/2 (1/ma + 1/mb) J; a rolling moment T on a (and -T on b) changes
 // wa - wb by 5/2 (1/(ma ra^2) + 1/(mb rb^2)) T. A wall is a body b of infinite mass and radius.
 
-struct Rub {
+struct FrictionImpulse {
     vec3 impulse;   // J, N s
     vec3 moment;    // T x n, N s m
 };
@@ -25,8 +25,8 @@ vec3 rollingMoment(vec3 roll, float c, float most) {
 // With roll = (wa - wb) x n. Finds the impulse and the moment that stop slip and roll together, within `most` (N s) and `mostMoment` (N s m);
 // where that is too much, those that stop each by itself, cut to what they may be. `mobility` = 1/ma + 1/mb;
 // `coupling` = 1/(ma ra) - 1/(mb rb), `inertia` = 1/(ma ra^2) + 1/(mb rb^2).
-Rub rub(vec3 slip, vec3 roll, float mobility, float coupling, float inertia, float most, float mostMoment) {
-    Rub result;
+FrictionImpulse frictionImpulse(vec3 slip, vec3 roll, float mobility, float coupling, float inertia, float most, float mostMoment) {
+    FrictionImpulse result;
     float s = 3.5f * mobility;
     float c = 2.5f * inertia;
     if (HAS(ROLLING)) {

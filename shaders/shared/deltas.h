@@ -1,10 +1,10 @@
 // The changes of velocity and angular velocity that contacts ask for in this substep, added up until apply_forces.comp applies
 // them. The includer binds `deltaVelocity` and, with friction, `deltaOmega`.
 
-void addKick(uint sphere, vec3 change) {
+void addDeltaVelocity(uint sphere, vec3 change) {
     deltaVelocity[sphere] = vec4(vec3(deltaVelocity[sphere]) + change, 0.0f);
 }
 
-void addTwist(uint sphere, vec3 change) {
+void addDeltaOmega(uint sphere, vec3 change) {
     deltaOmega[sphere] = vec4(vec3(deltaOmega[sphere]) + change, 0.0f);
 }

@@ -7,7 +7,7 @@ BUFFER(coherent, uint, counters)
 BUFFER(readonly, uvec4, dispatchSizes)
 BUFFER(writeonly, uvec4, dispatchArgs)
 
-#include "shared/frame.h"
+#include "shared/falling_frame.h"
 
 void setFrame(vec3 velocity, vec3 path) {
     setFrameVector(COUNTER_FRAME_VELOCITY, velocity);
