@@ -2,7 +2,7 @@ import { slot } from "./program";
 import { vertexFloats } from "./shapes";
 import type { Vertices } from "./shapes";
 
-/** Vertices on the device. */
+/** A vertex buffer on the device, with its layout. */
 export class Mesh {
   private readonly array: WebGLVertexArrayObject;
   private readonly buffer: WebGLBuffer;

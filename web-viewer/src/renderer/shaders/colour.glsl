@@ -1,9 +1,9 @@
 in vec4 a_group;
 
-uniform int u_mode;             // as in colour/modes.ts
+uniform int u_mode;             // numbers of colour/modes.ts
 uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
-uniform float u_inverseTime;    // 1/s, of the time between the two states; 0: unknown
+uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
 uniform vec3 u_cellCentre;      // m
 uniform float u_cellSize;       // m; 0: no grid
 uniform ivec3 u_cells;
@@ -20,7 +20,7 @@ uint scrambled(uint x) {
     return x ^ (x >> 16);
 }
 
-// Neighbouring cells differ in hue at random and in lightness by parity.
+// The hue of a cell is random; its lightness alternates between neighbours.
 vec3 cellColour(vec3 place) {
     if (u_cellSize <= 0.0) return vec3(0.62, 0.66, 0.70);
     ivec3 cell = ivec3(floor((place - u_cellCentre) / u_cellSize));

@@ -1,4 +1,4 @@
-// The floor of the bounds with a faint ruler on it, and a surround that fades into the background.
+// The floor of the bounds with faint lines, and around it a floor that fades into the background.
 in vec3 v_place;
 in vec3 v_normal;
 in vec4 v_colour;
@@ -6,7 +6,7 @@ out vec4 o_colour;
 
 uniform vec4 u_bounds;    // x min, y min, x max, y max
 uniform float u_ruler;    // m between lines
-uniform float u_fade;     // m over which the surround fades
+uniform float u_fade;     // m over which the surrounding floor fades
 
 float ruled(vec2 at, float every) {
     vec2 width = max(fwidth(at), vec2(1e-6));
@@ -26,6 +26,5 @@ void main() {
     vec3 colour = albedo * (key.rgb * light.z * share + ambient);
     float line = inside * 0.10 * ruled(v_place.xy - 0.5 * (u_bounds.xy + u_bounds.zw), u_ruler);
     colour = mix(colour, ink.rgb, line);
-    // Around the bounds only the shade stays visible as the floor fades.
     o_colour = vec4(encode(colour), fade * fade);
 }

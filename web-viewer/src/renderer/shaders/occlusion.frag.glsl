@@ -1,15 +1,15 @@
-// How much of the sky near surfaces hide, from the depth picture (after the "Alchemy" estimator of McGuire et al. 2011:
-// the mean of how far neighbours rise above the tangent plane, over their squared distance).
+// Ambient occlusion from the depth buffer, after the "Alchemy" estimator of McGuire et al. 2011: the mean height of
+// neighbours above the tangent plane, over their squared distance.
 precision highp sampler2D;
 uniform sampler2D u_depth;
 uniform mat4 u_unproject;    // inverse of the projection
 uniform float u_reach;       // m
-uniform float u_scale;       // share of the picture's height that a metre takes at one metre's distance
+uniform float u_scale;       // share of the image height that 1 m covers at a distance of 1 m
 out vec4 o_share;
 
 const int samples = 10;
 
-// Of a texel's centre: a depth is only true there.
+// The place at the centre of a texel, where its depth is exact.
 vec3 placeAt(ivec2 texel, ivec2 size) {
     texel = clamp(texel, ivec2(0), size - 1);
     vec2 at = (vec2(texel) + 0.5) / vec2(size);
@@ -25,7 +25,7 @@ void main() {
         return;
     }
     vec3 place = placeAt(here, size);
-    // The normal from the nearer neighbour on each axis, so that it does not bend at outlines.
+    // The normal is taken from the nearer neighbour on each axis, so that it stays right at outlines.
     vec3 right = placeAt(here + ivec2(1, 0), size) - place;
     vec3 left = place - placeAt(here - ivec2(1, 0), size);
     vec3 above = placeAt(here + ivec2(0, 1), size) - place;

@@ -1,4 +1,4 @@
-// Where a sphere is: the mix of two states, in metres from the origin.
+// The position of a sphere (m): two states, interpolated.
 in vec3 a_from;
 in vec3 a_to;
 in float a_radius;
