@@ -55,8 +55,7 @@ export function createTestApi(viewer: Viewer): TestApi {
       return page.playback.seeking;
     },
     positions(ids) {
-      const { facts, states } = session;
-      const state = states.newest;
+      const { facts, newest: state } = session;
       if (!state || !facts) return undefined;
       return { step: state.step, quantum: state.quantum, positions: ids.map((id) => positionOf(facts, state, id)) };
     },

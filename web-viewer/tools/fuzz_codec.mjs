@@ -65,7 +65,7 @@ function check(pair, frame) {
   const { reason, took } = feed(one, first.view);
   const again = feed(other, placed(frame, 255 - around).view);
   if (again.reason !== reason) throw new Broken("depends on the bytes around the frame");
-  // Processor time may include that of a virtual machine's host. A slow frame is slow in both decoders.
+  // Processor time may include time of a virtual machine's host. A slow frame is slow in both decoders.
   const least = Math.min(took, again.took);
   seen.slowest = Math.max(seen.slowest, least);
   if (least > patience) throw new Broken(`takes ${least} ms`);

@@ -12,7 +12,7 @@ export class BlockReader {
   private readonly width = new Uint8Array(24); // bits per value, by axis and run
   private readonly changed = new Uint8Array(24); // mode mask: one bit per value, by axis and run
   private readonly base = new Int32Array(3);
-  /** What is wrong with the block after `read` has returned -1. */
+  /** Describes the fault of the block for which `read` returned -1. */
   fault = "";
 
   /**

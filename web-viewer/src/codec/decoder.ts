@@ -10,8 +10,8 @@ import type { FrameHead } from "./head";
  */
 export class Decoder {
   /**
-   * Positions in grid units, x y z, in the codec's order, filled up to whole blocks. `before`: those of the previous
-   * frame.
+   * Positions in grid units, x y z, in the codec's order, filled up to whole blocks. `before`: positions of the
+   * previous frame.
    */
   newest: Int32Array;
   before: Int32Array;
@@ -37,7 +37,7 @@ export class Decoder {
   /**
    * Decodes the next frame. Throws an Error, which says what is wrong and where, if the frame is malformed, has another
    * number of spheres, or does not follow the previous frame. The next frame must then be a keyframe. The positions are
-   * unchanged after an Error, except if the hash differs: then they are those of the frame.
+   * unchanged after an Error, except if the hash differs: then they are the new ones.
    */
   apply(frame: Uint8Array): FrameHead {
     const history = this.history;

@@ -55,7 +55,7 @@ export interface Received extends State {
   status: Status | undefined;
 }
 
-/** What the page asks the server to send. */
+/** The stream that the page requests. */
 export interface ViewRequest {
   tier: Tier;
   rate: number; // frames per second; 0: none

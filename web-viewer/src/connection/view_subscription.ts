@@ -2,7 +2,7 @@ import type { ViewRequest } from "./messages";
 
 const grace = 3000; // ms: a page that is shown again sooner keeps its stream, and needs no new keyframe
 
-/** What the page asks the server to send: the user's choice, but no frames while the page is hidden. */
+/** Requests the stream that the user has chosen, but no frames while the page is hidden. */
 export class ViewSubscription {
   private hidden = false;
   private timer: ReturnType<typeof setTimeout> | undefined;

@@ -11,7 +11,7 @@ export type ControlState =
   | { kind: "mine"; asking: DisplayName[] } // this page holds the control; `asking`: longest wait first
   | { kind: "taken"; holder: DisplayName; asked: boolean }; // `asked`: this page has asked for the control
 
-/** What the server reported about this page's role and about the control. */
+/** The server's reports from which the control state follows. */
 export interface ControlInfo {
   welcome: { role: Role; session: bigint } | undefined;
   control: Control | undefined;

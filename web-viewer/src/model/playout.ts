@@ -1,4 +1,4 @@
-/** What to draw: the states with the keys `from` and `to`, interpolated by `mix` in 0..1. */
+/** A sample of the motion: the states with the keys `from` and `to`, interpolated by `mix` in 0..1. */
 export interface PlayoutSample {
   from: number;
   to: number;

@@ -166,7 +166,12 @@ export class Session {
   /** Whether the first state of the scene is about to arrive, so that drawing without it is not worth while. */
   awaitsState(now: number): boolean {
     const spheres = this.facts?.count ?? 0;
-    return this.live && !this.states.newest && spheres > 0 && now - this.epochStart < firstStateTimeout;
+    return this.live && !this.newest && spheres > 0 && now - this.epochStart < firstStateTimeout;
+  }
+
+  /** The newest state of this epoch. */
+  get newest(): State | undefined {
+    return this.states.newest;
   }
 
   /** The state of the connection; "silent": it is open, but the server does not answer. */

@@ -4,7 +4,7 @@ import type { TimeAdvance } from "./playout";
 
 export type { State };
 
-/** What is drawn: two states, interpolated by `mix` in 0..1. */
+/** The states that are drawn, interpolated by `mix` in 0..1. */
 export interface Shown {
   from: State;
   to: State;

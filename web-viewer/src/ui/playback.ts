@@ -38,7 +38,7 @@ export class Playback {
     if (scrubber.setTimeline(session.timeline)) seeker.reset();
     if (!session.timeline) return;
     const speed = session.paused ? 0 : (session.settings?.speed ?? 1);
-    const newest = session.states.newest?.simTime;
+    const newest = session.newest?.simTime;
     seeker.update({ now, newest, speed, spacing: session.spacing });
     const { target } = seeker;
     scrubber.enable(session.link === "open" && !blockedReason, blockedReason);

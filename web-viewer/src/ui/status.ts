@@ -27,9 +27,9 @@ export class StatusLine {
 
   update(now: number, fps: number): void {
     const { session } = this;
-    const { facts, status, welcome, states } = session;
+    const { facts, status, welcome, newest } = session;
     this.set("spheres", facts ? count(facts.count) : "–");
-    this.set("time", states.newest ? seconds(states.newest.simTime) : "–");
+    this.set("time", newest ? seconds(newest.simTime) : "–");
     const plays = session.timeline !== undefined; // a recording: nothing is simulated
     const factor = plays ? session.settings?.speed : status?.realTimeFactor;
     this.set("factor", session.paused ? "paused" : factor === undefined ? "–" : `${figure(factor)} ×`);

@@ -1,4 +1,4 @@
-// Fake timers. Those of Node 18's own test runner lose some timers when others are cleared.
+// Fake timers. The fake timers of Node 18's test runner lose some timers when others are cleared.
 import FakeTimers from "@sinonjs/fake-timers";
 
 let clock: FakeTimers.InstalledClock | undefined;

@@ -54,7 +54,7 @@ function noise(frame) {
   return frame;
 }
 
-/** Sets the end of the chunk to that of the frame, so that the decoder reads beyond the table. */
+/** Makes the chunk end with the frame, so that the decoder reads beyond the table. */
 function repair(frame) {
   if (frame.length < 24) return frame;
   const whole = frame.slice(0, frame.length & ~3);
