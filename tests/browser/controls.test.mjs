@@ -14,8 +14,8 @@ browserSuite(async (browser) => {
 
 /** Waits for the result of a command; returns how the newest one with this name ended. */
 async function outcomeOf(what) {
-  await when(page, (name) => spherule.reports.some((report) => report.what === name), what);
-  return page.evaluate((name) => spherule.reports.filter((report) => report.what === name).at(-1).outcome.case, what);
+  await when(page, (name) => spherule.reports.some((report) => report.name === name), what);
+  return page.evaluate((name) => spherule.reports.filter((report) => report.name === name).at(-1).outcome.case, what);
 }
 
 async function type(id, value) {

@@ -26,7 +26,7 @@ async function turn(key) {
   const before = await page.evaluate(() => spherule.reports.length);
   await page.focus(control("dial"));
   await page.keyboard.press(key);
-  await when(page, (count) => spherule.reports.slice(count).some(({ what }) => what === "Quality"), before);
+  await when(page, (count) => spherule.reports.slice(count).some(({ name }) => name === "Quality"), before);
   const index = Number(await page.inputValue(control("dial")));
   const position = (await positions())[index];
   await when(

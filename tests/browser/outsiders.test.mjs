@@ -143,7 +143,7 @@ test("no action on the page violates its security policy", async () => {
   await page.selectOption(control("tier"), { index: 0 });
   await says(page, "stream-tier", /^Fine/);
   await page.click(control("reset"));
-  await when(page, () => spherule.reports.some(({ what }) => what === "Reset"));
+  await when(page, () => spherule.reports.some(({ name }) => name === "Reset"));
   await page.selectOption(control("scene"), "bounce");
   await when(page, () => spherule.session.facts?.name === "bounce");
   const asker = await join(server, "asker");

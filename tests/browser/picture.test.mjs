@@ -22,18 +22,18 @@ async function withPage(scene, options, body) {
   }
 }
 
-test("every sphere is where the server says", async () => {
+test("the page has the positions that the server sends", async () => {
   await withPage("pour", {}, async (page) => {
     await pause(page);
     await expectPositionsOfServer(page);
   });
 });
 
-test("a sphere is drawn where it is, as large as it is, in its group's colour", async () => {
+test("a sphere is drawn with its position, size and colour", async () => {
   await withPage("two-spheres", { colour: "group", picture: "full" }, async (page) => {
     await pause(page);
     await page.click(control("reset"));
-    await when(page, () => spherule.session.newest?.step === 0 && spherule.reports.at(-1).what === "Reset");
+    await when(page, () => spherule.session.newest?.step === 0 && spherule.reports.at(-1).name === "Reset");
     await settled(page);
     const state = await queryServer(page);
     const places = await page.evaluate(

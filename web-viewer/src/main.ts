@@ -20,8 +20,8 @@ function serverUrl(): string {
 
 function start(): void {
   const canvas = document.querySelector<HTMLCanvasElement>("#picture");
-  const place = document.querySelector<HTMLElement>("#page");
-  if (!canvas || !place) throw new Error("The page has no canvas.");
+  const container = document.querySelector<HTMLElement>("#page");
+  if (!canvas || !container) throw new Error("The page has no canvas.");
   const clean = withoutToken(location.href);
   if (clean !== undefined) history.replaceState(history.state, "", clean);
   const mode = chosen("colour", modeList);
@@ -34,7 +34,7 @@ function start(): void {
     impulse: 1,
     view: loadViewRequest(new URLSearchParams(location.search), () => localStorage),
   };
-  const viewer = new Viewer(canvas, place, choices, serverUrl());
+  const viewer = new Viewer(canvas, container, choices, serverUrl());
   window.spherule = createTestApi(viewer);
   viewer.start(clean !== undefined);
 }

@@ -45,7 +45,7 @@ export class Viewer {
 
   constructor(
     element: HTMLCanvasElement,
-    place: HTMLElement,
+    container: HTMLElement,
     private readonly choices: Choices,
     private readonly url: string, // of the server
   ) {
@@ -67,7 +67,7 @@ export class Viewer {
       (report) => this.report(report),
       () => this.page.steering.blocked(),
     );
-    this.page = new Page(place, this.session, this.commands, this.speeds, choices, {
+    this.page = new Page(container, this.session, this.commands, this.speeds, choices, {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
@@ -143,7 +143,7 @@ export class Viewer {
   private report(report: Report): void {
     this.reports.add(report);
     const applied = report.outcome.case === "applied";
-    if (!applied || !report.quiet) this.page.toasts.show(report.what, report.text, applied ? "good" : "bad");
+    if (!applied || !report.quiet) this.page.toasts.show(report.name, report.text, applied ? "good" : "bad");
   }
 
   private tick(now: number): void {

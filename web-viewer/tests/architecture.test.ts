@@ -22,7 +22,7 @@ const allowed: Record<string, string[]> = {
   main: ["colour", "connection", "test_api", "ui", "viewer"],
 };
 
-const longestLine = 120; // columns
+const maxColumns = 120;
 
 function filesBelow(folder: string, pattern: RegExp): string[] {
   return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
@@ -72,17 +72,18 @@ test("no imports form a cycle", () => {
   assert.deepEqual(cycles, []);
 });
 
-test("no line is longer than a screen is wide", () => {
+test("no line has more than 120 columns", () => {
   const files = [
     ...sources.filter((file) => moduleOf(file) !== "gen"),
     ...filesBelow("tests", /\.ts$/),
     ...filesBelow("tools", /\.(ts|mjs)$/),
-    ...filesBelow(path.join("..", "tests", "browser"), /\.mjs$/),
+    ...filesBelow(path.join("..", "tests", "browser"), /\.test\.mjs$/),
+    ...filesBelow(path.join("..", "tests", "browser", "support"), /\.mjs$/),
   ];
   const long = files.flatMap((file) =>
     readFileSync(file, "utf8")
       .split("\n")
-      .flatMap((line, i) => ([...line].length > longestLine ? [`${file}:${i + 1}: ${[...line].length} columns`] : [])),
+      .flatMap((line, i) => ([...line].length > maxColumns ? [`${file}:${i + 1}: ${[...line].length} columns`] : [])),
   );
   assert.deepEqual(long, []);
 });

@@ -18,7 +18,7 @@ import type { CommandKind, Link, Outcome } from "./link";
 
 /** The result of a command. */
 export interface Report {
-  what: string; // name of the command, for the user
+  name: string; // of the command, for the user
   outcome: Outcome;
   text: string; // the outcome, for the user
   quiet: boolean; // report only failures: a success is visible anyway
@@ -54,14 +54,14 @@ export class Commands {
     return this.send("Resume", { case: "resume", value: create(ResumeSchema) });
   }
 
-  /** `unit`: what the report calls a step. */
+  /** `unit`: the name of a step in the report. */
   step(count: number, unit = "step"): Promise<Outcome> {
-    const what = count === 1 ? `One ${unit}` : `${count} ${unit}s`;
-    return this.send(what, { case: "step", value: create(StepSchema, { count }) });
+    const name = count === 1 ? `One ${unit}` : `${count} ${unit}s`;
+    return this.send(name, { case: "step", value: create(StepSchema, { count }) });
   }
 
-  reset(what = "Reset"): Promise<Outcome> {
-    return this.send(what, { case: "reset", value: create(ResetSchema) });
+  reset(name = "Reset"): Promise<Outcome> {
+    return this.send(name, { case: "reset", value: create(ResetSchema) });
   }
 
   cancel(): Promise<Outcome> {
@@ -85,8 +85,8 @@ export class Commands {
     return this.send(`Scene ${name}`, { case: "load", value });
   }
 
-  set(what: string, settings: MessageInitShape<typeof SetSchema>): Promise<Outcome> {
-    return this.send(what, { case: "set", value: create(SetSchema, settings) });
+  set(name: string, settings: MessageInitShape<typeof SetSchema>): Promise<Outcome> {
+    return this.send(name, { case: "set", value: create(SetSchema, settings) });
   }
 
   drop({ min, max, count, radius }: Drop): Promise<Outcome> {
@@ -104,14 +104,14 @@ export class Commands {
     const impulse = ray.direction.map((part) => part * newtonSeconds);
     const target =
       sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: sphere };
-    const what = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
-    return this.send(what, { case: "push", value: create(PushSchema, { target, impulse }) });
+    const name = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
+    return this.send(name, { case: "push", value: create(PushSchema, { target, impulse }) });
   }
 
-  private async send(what: string, kind: CommandKind, quiet = false): Promise<Outcome> {
+  private async send(name: string, kind: CommandKind, quiet = false): Promise<Outcome> {
     if (this.blocked()) return { case: "lost" };
     const outcome = await this.link.send(kind);
-    this.report({ what, outcome, text: textFor(outcome), quiet });
+    this.report({ name, outcome, text: textFor(outcome), quiet });
     return outcome;
   }
 }

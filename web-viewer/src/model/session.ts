@@ -52,10 +52,10 @@ export class Session {
   status: Status | undefined;
   dial: Dial | undefined;
   diagnostics: Diagnostics | undefined;
-  stream: Stream | undefined; // what the server sends; undefined: unknown
+  stream: Stream | undefined; // that the server sends; undefined: unknown
   timeline: Timeline | undefined; // of the recording that is played; undefined: the server simulates
   control: Control | undefined; // undefined: every client may send commands, or the holder is unknown
-  recording: Recording | undefined; // what the server records; undefined: it cannot record
+  recording: Recording | undefined; // of the server; undefined: it cannot record
   change: Change | undefined; // a long command in progress
   frames = 0; // states received since the page was loaded
   lost = 0; // frames that could not be decoded since the page was loaded

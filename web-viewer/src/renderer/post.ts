@@ -39,7 +39,7 @@ export class PostPass {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, target.width, target.height);
     composite.use();
-    this.bind(0, target.colour, composite, "u_picture");
+    this.bind(0, target.colour, composite, "u_scene");
     if (this.openness) {
       this.bind(1, this.openness, composite, "u_occlusion");
       this.bind(2, target.depth, composite, "u_depth");

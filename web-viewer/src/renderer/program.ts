@@ -5,7 +5,7 @@ export interface Program {
 }
 
 /** Attribute slots are the same in all programs, so that programs can share vertex arrays. */
-const attributes = ["a_from", "a_to", "a_radius", "a_group", "a_place", "a_normal", "a_colour"] as const;
+const attributes = ["a_from", "a_to", "a_radius", "a_group", "a_position", "a_normal", "a_colour"] as const;
 export type Attribute = (typeof attributes)[number];
 
 export function slot(attribute: Attribute): number {

@@ -14,7 +14,7 @@ import floorFragment from "./shaders/floor.frag.glsl";
 import frame from "./shaders/frame.glsl";
 import light from "./shaders/light.glsl";
 import lineFragment from "./shaders/line.frag.glsl";
-import place from "./shaders/place.glsl";
+import position from "./shaders/position.glsl";
 import screen from "./shaders/screen.vert.glsl";
 import solidFragment from "./shaders/solid.frag.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
@@ -38,7 +38,7 @@ export class ScenePass {
     this.background = program(gl, [screen], [frame, light, background]);
     this.floor = program(gl, [solidVertex], [frame, light, floorFragment], soft);
     this.solids = program(gl, [solidVertex], [frame, light, solidFragment], soft);
-    const sphereVertexParts = [frame, place, colour, sphereVertex];
+    const sphereVertexParts = [frame, position, colour, sphereVertex];
     this.spheres = program(gl, sphereVertexParts, [frame, light, sphereFragment], [...soft, ...coverage]);
     this.lines = program(gl, [solidVertex], [frame, light, lineFragment]);
   }

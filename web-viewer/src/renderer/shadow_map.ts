@@ -5,7 +5,7 @@ import type { Program } from "./program";
 import type { SphereData } from "./spheres";
 import { texture } from "./scene_target";
 import emptyFragment from "./shaders/empty.frag.glsl";
-import place from "./shaders/place.glsl";
+import position from "./shaders/position.glsl";
 import shadowFragment from "./shaders/shadow.frag.glsl";
 import shadowVertex from "./shaders/shadow.vert.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
@@ -21,7 +21,7 @@ export class ShadowMap {
     private readonly gl: WebGL2RenderingContext,
     private readonly size: number,
   ) {
-    this.spheres = program(gl, [place, shadowVertex], [shadowFragment]);
+    this.spheres = program(gl, [position, shadowVertex], [shadowFragment]);
     this.solids = program(gl, [solidVertex], [emptyFragment]);
     this.texture = texture(gl, gl.DEPTH_COMPONENT24, size, size, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);

@@ -63,7 +63,7 @@ export class SphereData {
     gl.bindVertexArray(null);
   }
 
-  /** Draws all spheres in one instanced call, with a program that includes shaders/place.glsl. */
+  /** Draws all spheres in one instanced call, with a program that includes shaders/position.glsl. */
   draw(program: Program, mix: number): void {
     const { gl, facts } = this;
     if (!facts || this.count === 0) return;
@@ -77,15 +77,15 @@ export class SphereData {
 
   private resident(state: State): WebGLBuffer {
     this.turn += 1;
-    let place = this.residents.find((resident) => resident.state === state);
-    if (!place) {
-      place = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
-      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, place.buffer);
+    let found = this.residents.find((resident) => resident.state === state);
+    if (!found) {
+      found = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
+      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, found.buffer);
       this.gl.bufferData(this.gl.ARRAY_BUFFER, state.positions, this.gl.STREAM_DRAW);
-      place.state = state;
+      found.state = state;
     }
-    place.used = this.turn;
-    return place.buffer;
+    found.used = this.turn;
+    return found.buffer;
   }
 
   private perInstance(name: Attribute): void {

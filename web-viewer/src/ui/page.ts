@@ -58,7 +58,7 @@ export class Page {
   private lastFigures = 0; // ms
 
   constructor(
-    private readonly place: HTMLElement,
+    private readonly container: HTMLElement,
     private readonly session: Session,
     private readonly commands: Commands,
     speeds: AutoRange,
@@ -79,7 +79,7 @@ export class Page {
       toggle: () => this.toggle(),
       step: (count: number) => void commands.step(count, session.timeline ? "frame" : "step"),
       reset: () => void commands.reset(session.timeline ? "Go to the beginning" : "Reset"),
-      panel: () => this.showPanel(this.place.classList.contains("panel-closed")),
+      panel: () => this.showPanel(this.container.classList.contains("panel-closed")),
       help: () => this.help.toggle(),
     };
     const keyActions: KeyActions = {
@@ -112,7 +112,7 @@ export class Page {
     const controls = [this.change, steering, this.playback, this.transport].map(({ element }) => element);
     this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, ...controls));
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
-    place.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
+    container.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
     new ResizeObserver(() => this.measureDeck()).observe(this.deck);
     document.documentElement.dataset.theme = choices.theme;
     this.showPanel(!narrow.matches);
@@ -146,14 +146,14 @@ export class Page {
   /** The margins of the canvas that the page's elements cover (CSS pixels). */
   insets(): Insets {
     if (narrow.matches) return { top: 60, right: 0, bottom: this.deckHeight + 104, left: 0 };
-    const open = !this.place.classList.contains("panel-closed");
+    const open = !this.container.classList.contains("panel-closed");
     return { top: 24, right: open ? 304 : 0, bottom: this.deckHeight + 56, left: 0 };
   }
 
   private setPlaying(playing: boolean): void {
     if (playing === this.playing) return;
     this.playing = playing;
-    this.place.classList.toggle("playing", playing);
+    this.container.classList.toggle("playing", playing);
     this.transport.setPlaying(playing);
     this.panel.setPlaying(playing);
     this.help.describe(this.keys(), playing);
@@ -162,7 +162,7 @@ export class Page {
   /** On a narrow screen the panel lies above the deck: passes the deck's height to the style sheet. */
   private measureDeck(): void {
     this.deckHeight = this.deck.offsetHeight;
-    this.place.style.setProperty("--deck", `${this.deckHeight}px`);
+    this.container.style.setProperty("--deck", `${this.deckHeight}px`);
   }
 
   private toggle(): void {
@@ -170,6 +170,6 @@ export class Page {
   }
 
   private showPanel(open: boolean): void {
-    this.place.classList.toggle("panel-closed", !open);
+    this.container.classList.toggle("panel-closed", !open);
   }
 }

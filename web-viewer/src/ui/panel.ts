@@ -172,8 +172,8 @@ export class Panel {
   }
 
   /** Sends a change of settings. If the server refuses it, the control returns to the present setting. */
-  private async change(what: string, settings: Parameters<Commands["set"]>[1]): Promise<void> {
-    const outcome = await this.commands.set(what, settings);
+  private async change(name: string, settings: Parameters<Commands["set"]>[1]): Promise<void> {
+    const outcome = await this.commands.set(name, settings);
     if (outcome.case !== "applied" && this.settings) this.setSettings(this.settings);
   }
 

@@ -11,7 +11,7 @@ const fixedNames = { Automatic: false, Fixed: true };
 
 const period = 1000; // ms between updates of the figures
 
-/** The folder of the panel in which the user chooses the stream, and sees what the server sends. */
+/** The folder of the panel for the stream: the user's choice, and the stream that the server sends. */
 export class StreamFolder {
   private readonly table = h("table", { class: "statistics", hidden: true });
   private readonly note = h("p", { class: "note", "data-testid": "stream-note", hidden: true });

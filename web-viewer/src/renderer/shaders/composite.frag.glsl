@@ -1,7 +1,7 @@
 // Copies the scene to the canvas. Ambient occlusion is smoothed over its 4 x 4 sampling pattern where depths are
 // similar. Noise of less than one colour step avoids bands in the background.
 precision highp sampler2D;
-uniform sampler2D u_picture;
+uniform sampler2D u_scene;
 uniform float u_dim;        // 0..1: how stale the image is
 #ifdef OCCLUSION
 uniform sampler2D u_occlusion;
@@ -35,7 +35,7 @@ float openness() {
 #endif
 
 void main() {
-    vec3 colour = texture(u_picture, v_at).rgb;
+    vec3 colour = texture(u_scene, v_at).rgb;
 #ifdef OCCLUSION
     // Darkens towards a cool tint rather than to black.
     colour *= mix(vec3(0.30, 0.33, 0.40), vec3(1.0), openness());

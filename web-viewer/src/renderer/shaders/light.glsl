@@ -4,10 +4,10 @@ uniform float u_shadowTexel;
 // Light is linear in the shaders, and stored as its square root, which is close to sRGB and much cheaper.
 vec3 encode(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }
 
-// Share of the key light that reaches the place. The place is first moved by `lift` (m) along `normal`, off its own
-// surface.
-float lit(vec3 place, vec3 normal, float lift) {
-    vec3 at = (shadow * vec4(place + normal * lift, 1.0)).xyz;
+// Share of the key light that reaches a position. The position is first moved by `lift` (m) along `normal`, off its
+// own surface.
+float lit(vec3 position, vec3 normal, float lift) {
+    vec3 at = (shadow * vec4(position + normal * lift, 1.0)).xyz;
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
 #ifdef SOFT_SHADOW
     float sum = 0.0;
