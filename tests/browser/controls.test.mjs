@@ -13,9 +13,12 @@ browserSuite(async (browser) => {
 });
 
 /** Waits for the result of a command; returns how the newest one with this name ended. */
-async function outcomeOf(what) {
-  await when(page, (name) => spherule.reports.some((report) => report.name === name), what);
-  return page.evaluate((name) => spherule.reports.filter((report) => report.name === name).at(-1).outcome.case, what);
+async function outcomeOf(command) {
+  await when(page, (name) => spherule.reports.some((report) => report.name === name), command);
+  return page.evaluate((name) => {
+    const reports = spherule.reports.filter((report) => report.name === name);
+    return reports.at(-1).outcome.case;
+  }, command);
 }
 
 async function type(id, value) {

@@ -123,7 +123,7 @@ test("no action on the page violates its security policy", async () => {
   const server = await serve("billiards", { tokens });
   const context = await suite.browser.newContext({ viewport: { width: 1280, height: 900 } });
   const violations = [];
-  await context.exposeFunction("violated", (what) => violations.push(what));
+  await context.exposeFunction("violated", (violation) => violations.push(violation));
   await context.addInitScript(() => {
     document.addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI, sourceFile, lineNumber }) =>
       window.violated(`${violatedDirective} ${blockedURI} ${sourceFile}:${lineNumber}`),
