@@ -1,56 +1,61 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { control, launch, open, when } from "./support/browser.mjs";
-import { serverSays } from "./support/raw.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { test } from "node:test";
+import { control, open, says, when } from "./support/browser.mjs";
+import { queryServer } from "./support/raw.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
 let server;
-let browser;
 let page;
-before(async () => {
+browserSuite(async (browser) => {
   server = await serve("box-4k");
-  browser = await launch();
   page = await open(browser, server.url, { size: [1280, 900] });
-  await when(page, () => spherule.dial.length > 0 && spherule.diagnostics);
-});
-after(async () => {
-  await browser?.close();
-  await stopAll();
+  await when(page, () => spherule.session.dial?.positions.length > 0 && spherule.session.diagnostics);
 });
 
 const text = (id) => page.textContent(control(id));
 
-/** Turns the dial with the keyboard, as somebody without a mouse would, and waits until that holds. */
+/** The positions of the dial; `model` is a number of the enum. */
+const positions = () =>
+  page.evaluate(() =>
+    spherule.session.dial.positions.map(({ model, substeps, stepMs, own }) => ({ model, substeps, stepMs, own })),
+  );
+
+/** Turns the dial with a key, and waits until the settings match its position. */
 async function turn(key) {
-  const before = await page.evaluate(() => spherule.results.length);
+  const before = await page.evaluate(() => spherule.reports.length);
   await page.focus(control("dial"));
   await page.keyboard.press(key);
-  await when(page, (count) => spherule.results.slice(count).some(({ what }) => what === "Quality"), before);
+  await when(page, (count) => spherule.reports.slice(count).some(({ name }) => name === "Quality"), before);
   const index = Number(await page.inputValue(control("dial")));
-  const position = await page.evaluate((i) => spherule.dial[i], index);
-  await when(page, ({ model, substeps }) => spherule.settings.model === model && spherule.settings.substeps === substeps, position);
+  const position = (await positions())[index];
+  await when(
+    page,
+    ({ model, substeps }) =>
+      spherule.session.settings.model === model && spherule.session.settings.substeps === substeps,
+    position,
+  );
   return position;
 }
 
-test("the dial stands where the server is, and says what was measured there", async () => {
-  const { settings } = await serverSays(page);
+test("the dial shows the present settings, with the measured errors", async () => {
+  const { settings } = await queryServer(page);
   assert.deepEqual([settings.model, settings.substeps], ["BALANCED", 8]);
   assert.equal(await text("dial-model"), "Balanced");
   assert.equal(await text("dial-substeps"), "8 substeps a step");
   assert.match(await text("dial-bed-overlap"), /^0\.\d+ %$/);
   assert.match(await text("dial-bounce-apex"), /0\.001 %$/);
-  await when(page, () => /^about \S+ ms$/.test(document.querySelector('[data-testid="dial-cost"]').textContent));
+  await says(page, "dial-cost", /^about \S+ ms$/);
   assert.match(await text("dial-pace"), /^holds real time$|^runs at \S+ × real time$/);
   const spoken = await page.getAttribute(control("dial"), "aria-valuetext");
-  assert.match(spoken, /^Balanced, 8 substeps: Pile overlaps 0\.\d+ %, .*A step here about \S+ ms, So the world /);
+  assert.match(spoken, /^Balanced, 8 substeps: Overlap in piles 0\.\d+ %, .*Step time about \S+ ms, Speed /);
 });
 
-test("every turn of the dial reaches the world, and its ends are the fastest and the most accurate", async () => {
-  const all = await page.evaluate(() => spherule.dial);
+test("each turn of the dial changes the settings, from the fastest to the most accurate", async () => {
+  const all = await positions();
   const fastest = await turn("Home");
   assert.deepEqual([fastest.model, fastest.substeps], [all[0].model, all[0].substeps]);
-  assert.equal(fastest.model, "fast");
-  const { settings } = await serverSays(page);
+  const { settings } = await queryServer(page);
   assert.deepEqual([settings.model, settings.substeps], ["FAST", fastest.substeps]);
   assert.equal(await text("dial-model"), "Fast");
   const sunk = parseFloat(await text("dial-bed-overlap"));
@@ -61,66 +66,81 @@ test("every turn of the dial reaches the world, and its ends are the fastest and
   assert.ok(better < sunk, `${better} % of overlap after ${sunk} %`);
 
   const best = await turn("End");
-  assert.equal(best.model, "accurate");
-  assert.ok(best.stepMs > 4 * fastest.stepMs, "what is accurate costs more");
-  assert.equal((await serverSays(page)).settings.model, "ACCURATE");
+  assert.deepEqual([best.model, best.substeps], [all.at(-1).model, all.at(-1).substeps]);
+  assert.ok(best.stepMs > 4 * fastest.stepMs, "accuracy costs time");
+  assert.equal((await queryServer(page)).settings.model, "ACCURATE");
+  assert.equal(await text("dial-model"), "Accurate");
   assert.match(await text("dial-pace"), /× real time$/);
 });
 
-test("what another client sets shows on the dial, between two positions too", async () => {
+test("settings of another client are shown on the dial, also between two positions", async () => {
   await server.ctl("set", "model", "balanced");
   await server.ctl("set", "substeps", "9");
-  await when(page, () => document.querySelector('[data-testid="dial-substeps"]').textContent === "9 substeps a step");
+  await says(page, "dial-substeps", /^9 substeps a step$/);
   assert.equal(await text("dial-model"), "Balanced");
-  assert.equal(await text("dial-note"), "Errors as measured with 8 substeps.");
+  assert.equal(await text("dial-note"), "Errors are those measured with 8 substeps.");
 });
 
-test("a time per step that is too short brings the substeps down, and says so", async () => {
-  await server.ctl("reset"); // what was squeezed in a fast model flies apart in an accurate one
+/** Waits until the server holds this step time (ms). */
+async function goalIs(budgetMs) {
+  await when(
+    page,
+    (wanted) => {
+      const goal = spherule.session.settings.auto?.goal;
+      return goal?.case === "budgetMs" && goal.value === wanted;
+    },
+    budgetMs,
+  );
+}
+
+test("a step time that is too short reduces the substeps, with a message", async () => {
+  await server.ctl("reset"); // overlaps of the fast model make spheres fly apart in the accurate one
   await server.ctl("set", "substeps", "30");
-  await page.selectOption(control("auto"), "Holds a step time");
-  await when(page, () => spherule.auto?.budgetMs === 16);
+  await page.selectOption(control("auto"), "Hold step time");
+  await goalIs(16);
   await page.fill(control("goal"), "0.02");
   await page.press(control("goal"), "Enter");
-  await when(page, () => spherule.auto?.budgetMs === 0.02);
-  await when(page, () => spherule.settings.substeps < 30);
-  await when(page, () => /substeps per step in place of|out of reach/.test(document.querySelector('[data-testid="toasts"]').textContent));
-  await when(page, () => spherule.diagnostics.substeps < 30);
-  assert.equal((await serverSays(page)).settings.auto.budgetMs, 0.02);
+  await goalIs(0.02);
+  await when(page, () => spherule.session.settings.substeps < 30);
+  await says(page, "toasts", /substeps per step in place of|out of reach/);
+  await when(page, () => spherule.session.diagnostics.substeps < 30);
+  assert.equal((await queryServer(page)).settings.auto.budgetMs, 0.02);
 });
 
-test("turning the dial ends auto", async () => {
+test("turning the dial ends the automatic mode", async () => {
   await turn("ArrowLeft");
-  await when(page, () => spherule.auto === undefined);
+  await when(page, () => !spherule.session.settings.auto?.goal.case);
   await when(page, () => document.querySelector('[data-testid="auto"]').value === "Off");
   assert.equal(await page.isVisible(control("goal")), false);
-  assert.equal((await serverSays(page)).settings.auto, undefined);
+  assert.equal((await queryServer(page)).settings.auto, undefined);
 });
 
-test("where a model has its own substeps they are chosen anew when gravity changes, elsewhere they stay", async () => {
-  const own = await page.evaluate(() => spherule.dial.findIndex((position) => position.model === "balanced" && position.own));
+test("a model's own substeps follow gravity, and others are kept", async () => {
+  const [fast, ...others] = await positions();
+  const own = 1 + others.findIndex((position) => position.model !== fast.model && position.own);
   await turn("Home");
   for (let i = 0; i < own; i++) await turn("ArrowRight");
-  await server.ctl("set", "gravity", "0", "0", "-39.24"); // substeps go with its root
-  await when(page, () => spherule.settings.substeps === 16);
+  await server.ctl("set", "gravity", "0", "0", "-39.24"); // substeps are proportional to its square root
+  await when(page, () => spherule.session.settings.substeps === 16);
   const next = await turn("ArrowRight");
   await server.ctl("set", "gravity", "0", "0", "-9.81");
-  await when(page, () => spherule.settings.gravity[2] === -9.81);
-  assert.equal((await serverSays(page)).settings.substeps, next.substeps);
+  await when(page, () => spherule.session.settings.gravity[2] === -9.81);
+  assert.equal((await queryServer(page)).settings.substeps, next.substeps);
 });
 
-test("the figures of the world come by themselves", async () => {
-  const step = await page.evaluate(() => spherule.diagnostics.step);
-  await when(page, (then) => spherule.diagnostics.step > then, step);
+test("diagnostics are updated regularly", async () => {
+  const step = await page.evaluate(() => Number(spherule.session.diagnostics.statistics.step));
+  await when(page, (then) => spherule.session.diagnostics.statistics.step > then, step);
   assert.match(await text("statistics-energy"), / J$/);
   assert.match(await text("statistics-overlap-mean"), / %$/);
   assert.match(await text("statistics-step-time"), / ms$/);
-  assert.match(await text("statistics-restitution"), /^not observed$|^\S+ of 0\.\d+$|^–$/);
+  assert.match(await text("statistics-restitution"), /^not measured$|^\S+ of 0\.\d+$|^–$/);
   assert.match(await text("statistics-impacts"), /^[\d\u202f]+$|^–$/);
-  assert.equal(Number(await text("statistics-substeps")), await page.evaluate(() => spherule.diagnostics.substeps));
+  const shownSubsteps = Number(await text("statistics-substeps"));
+  assert.equal(shownSubsteps, await page.evaluate(() => spherule.session.diagnostics.substeps));
 });
 
-test("a model that the scene has no numbers for is not on the dial, which says why", async () => {
+test("a model that the scene does not support is missing on the dial, with a reason", async () => {
   const half = {
     name: "half",
     bounds: { min: [0, 0, 0], max: [1, 1, 1] },
@@ -128,9 +148,9 @@ test("a model that the scene has no numbers for is not on the dial, which says w
     groups: [{ name: "one", list: { spheres: [{ position: [0.5, 0.5, 0.5] }] }, radius: { constant: 0.1 } }],
   };
   await server.ctl(JSON.stringify({ load: { scene: half } }));
-  await when(page, () => spherule.scene === "half" && spherule.dial.every(({ model }) => model !== "accurate"));
-  assert.match(await text("dial-note"), /Accurate is not for this scene: materials\[1\]\.young/);
-  const last = await turn("End");
-  assert.equal(last.model, "balanced");
+  await when(page, () => spherule.session.facts.name === "half");
+  await says(page, "dial-note", /Accurate is not available: materials\[1\]\.young/);
+  await turn("End");
+  assert.equal(await text("dial-model"), "Balanced");
   assert.deepEqual(page.faults, []);
 });

@@ -1,26 +1,24 @@
-// The server ends: the page says why for as long as nothing comes, and goes on by itself with the next one.
+// When the server ends, the page shows the reason until it has reconnected to the next server by itself.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { after, before, test } from "node:test";
-import { control, launch, open, when } from "./support/browser.mjs";
+import { after, test } from "node:test";
+import { control, open, says, when } from "./support/browser.mjs";
 import { collisions } from "./support/layout.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
-let browser;
 let folder;
-before(async () => {
-  browser = await launch();
+const suite = browserSuite(() => {
   folder = mkdtempSync(path.join(tmpdir(), "spherule-failure-"));
 });
-after(async () => {
-  await browser?.close();
-  await stopAll();
-  rmSync(folder, { recursive: true });
-});
+after(() => rmSync(folder, { recursive: true }));
 
-/** Mesa's renderer until `strike` is called: then the device is lost. See tests/faults/faulty_driver.c. */
+/**
+ * A driver that passes all calls to Mesa until `strike` is called: then the device is lost. See
+ * tests/faults/faulty_driver.c.
+ */
 function faultyDriver() {
   const vendor = path.join(folder, "faulty.json");
   const library = path.resolve(process.env.FAULTY_DRIVER ?? "build/release/tests/faults/libfaulty_driver.so");
@@ -34,41 +32,37 @@ function faultyDriver() {
 
 const farewell = (page) => page.textContent(control("farewell"));
 
-/** The page says why it hears nothing, until the next server answers; and nothing lies over it. */
-async function expectSaid(page, port, pattern) {
-  await when(page, () => /^offline, trying again in \d+ s$/.test(document.querySelector('[data-testid="connection"]').textContent));
+/** Checks that the page shows the reason until the next server answers, and that no element covers it. */
+async function expectFarewell(page, port, pattern) {
+  await says(page, "connection", /^offline, trying again in \d+ s$/);
   assert.match(await farewell(page), pattern);
-  await settledToasts(page);
+  await when(page, () => document.querySelector('[data-testid="toast"]') === null);
   assert.deepEqual(await collisions(page, 10), []);
   assert.match(await farewell(page), pattern);
-  if (process.env.SCREENSHOTS) await page.screenshot({ path: path.join(process.env.SCREENSHOTS, `farewell-${port}.png`) });
-  const frames = await page.evaluate(() => spherule.frames);
+  const { SCREENSHOTS } = process.env;
+  if (SCREENSHOTS) await page.screenshot({ path: path.join(SCREENSHOTS, `farewell-${port}.png`) });
+  const frames = await page.evaluate(() => spherule.session.frames);
   const next = await serve("pour", { port });
-  await when(page, (then) => spherule.connection === "open" && spherule.frames > then + 3, frames);
-  // What stands in the header is renewed five times a second.
-  await when(page, () => document.querySelector('[data-testid="farewell"]').textContent === "");
+  await when(page, (then) => spherule.session.connection === "open" && spherule.session.frames > then + 3, frames);
+  await says(page, "farewell", /^$/); // the header is updated five times a second
   await next.stop();
 }
 
-/** Messages of before are gone. */
-async function settledToasts(page) {
-  await when(page, () => document.querySelector('[data-testid="toast"]') === null);
-}
-
-test("a device that is lost is told, and the page goes on with the server that is started again", async () => {
+test("after the loss of the device, the page shows the reason and reconnects to the next server", async () => {
   const driver = faultyDriver();
   const server = await serve("two-spheres", { device: "software", settings: driver.settings });
-  const page = await open(browser, server.url, { size: [360, 640] });
+  const page = await open(suite.browser, server.url, { size: [360, 640] });
   driver.strike();
   assert.equal(await server.ended(), 75);
-  await expectSaid(page, server.port, /The simulation has ended \(llvmpipe.*was reset.*\): this page goes on by itself/);
+  const reason = /The simulation has ended \(llvmpipe.*was reset.*\): this page goes on by itself/;
+  await expectFarewell(page, server.port, reason);
   await page.close();
 });
 
-test("a server that is stopped says so", async () => {
+test("the page shows that the server was stopped", async () => {
   const server = await serve("two-spheres");
-  const page = await open(browser, server.url);
+  const page = await open(suite.browser, server.url);
   await server.stop();
-  await expectSaid(page, server.port, /The server is stopping\./);
+  await expectFarewell(page, server.port, /The server is stopping\./);
   await page.close();
 });

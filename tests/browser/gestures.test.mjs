@@ -1,17 +1,12 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { control, launch, open, when } from "./support/browser.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { test } from "node:test";
+import { control, open, when } from "./support/browser.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
 let server;
-let browser;
-before(async () => {
+const suite = browserSuite(async () => {
   server = await serve("two-spheres");
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await stopAll();
 });
 
 const camera = (page) => page.evaluate(() => spherule.camera);
@@ -23,14 +18,23 @@ async function drag(page, from, to, button = "left") {
   await page.mouse.up({ button });
 }
 
-test("the mouse orbits, moves and zooms, and the view can be reset", async () => {
-  const page = await open(browser, server.url);
+test("the mouse orbits, pans and zooms, and the view can be reset", async () => {
+  const page = await open(suite.browser, server.url);
   const start = await camera(page);
   await drag(page, [300, 200], [400, 240]);
-  await when(page, (then) => Math.abs(spherule.camera.azimuth - then.azimuth) > 0.3 && spherule.camera.elevation > then.elevation, start);
+  await when(
+    page,
+    ({ azimuth, elevation }) =>
+      Math.abs(spherule.camera.azimuth - azimuth) > 0.3 && spherule.camera.elevation > elevation,
+    start,
+  );
   const orbited = await camera(page);
   await drag(page, [300, 200], [360, 200], "right");
-  await when(page, (then) => spherule.camera.target.some((value, axis) => Math.abs(value - then.target[axis]) > 0.01), orbited);
+  await when(
+    page,
+    ({ target }) => spherule.camera.target.some((value, axis) => Math.abs(value - target[axis]) > 0.01),
+    orbited,
+  );
   await page.mouse.move(300, 250);
   await page.mouse.wheel(0, -300);
   await when(page, (then) => spherule.camera.distance < 0.9 * then.distance, start);
@@ -39,8 +43,8 @@ test("the mouse orbits, moves and zooms, and the view can be reset", async () =>
   await page.close();
 });
 
-test("one finger orbits, two fingers pinch", async () => {
-  const page = await open(browser, server.url, { size: [390, 844], hasTouch: true, isMobile: true });
+test("one finger orbits, and two fingers zoom", async () => {
+  const page = await open(suite.browser, server.url, { size: [390, 844], hasTouch: true, isMobile: true });
   const touch = await page.context().newCDPSession(page);
   const send = (type, ...points) =>
     touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });

@@ -1,24 +1,19 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { control, launch, open, pause, settled, when } from "./support/browser.mjs";
+import { test } from "node:test";
 import { expectPositionsOfServer } from "./support/agreement.mjs";
+import { control, open, pause, settled, when } from "./support/browser.mjs";
 import { pictureOf, vividness } from "./support/picture.mjs";
-import { serverSays } from "./support/raw.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { queryServer } from "./support/raw.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await stopAll();
-});
+const suite = browserSuite();
 
-async function shown(scene, options, body) {
+/** Runs `body` with a page that shows the scene. */
+async function withPage(scene, options, body) {
   const server = await serve(scene);
   try {
-    const page = await open(browser, server.url, options);
+    const page = await open(suite.browser, server.url, options);
     await body(page, server);
     assert.deepEqual(page.faults, []);
     await page.close();
@@ -27,33 +22,36 @@ async function shown(scene, options, body) {
   }
 }
 
-test("every sphere is where the server says", async () => {
-  await shown("pour", {}, async (page) => {
+test("the page has the positions that the server sends", async () => {
+  await withPage("pour", {}, async (page) => {
     await pause(page);
     await expectPositionsOfServer(page);
   });
 });
 
-test("a sphere is drawn where it is, as large as it is, in its group's colour", async () => {
-  await shown("two-spheres", { colour: "group", picture: "full" }, async (page) => {
+test("a sphere is drawn with its position, size and colour", async () => {
+  await withPage("two-spheres", { colour: "group", picture: "full" }, async (page) => {
     await pause(page);
     await page.click(control("reset"));
-    await when(page, () => spherule.step === 0 && spherule.results.at(-1).what === "Reset");
+    await when(page, () => spherule.session.newest?.step === 0 && spherule.reports.at(-1).name === "Reset");
     await settled(page);
-    const said = await serverSays(page);
+    const state = await queryServer(page);
     const places = await page.evaluate(
       ({ positions, radius }) => {
         const { eye } = spherule.camera;
         return positions.map((centre) => {
-          // Beside the centre as seen from the eye: across the line of sight and level.
+          // Points beside the centre as seen from the eye: horizontal, and perpendicular to the line of sight.
           const sight = centre.map((value, axis) => value - eye[axis]);
           const across = [sight[1], -sight[0], 0];
           const length = Math.hypot(...across);
-          const beside = (radii) => spherule.project(centre.map((value, axis) => value + (radii * radius * across[axis]) / length));
+          const beside = (radii) => {
+            const offset = (radii * radius) / length;
+            return spherule.project(centre.map((value, axis) => value + offset * across[axis]));
+          };
           return { centre: beside(0), inside: [beside(0.9), beside(-0.9)], outside: [beside(1.15), beside(-1.15)] };
         });
       },
-      { positions: said.positions, radius: said.facts.radius },
+      { positions: state.positions, radius: state.facts.radius },
     );
     const picture = await pictureOf(page);
     places.forEach(({ centre, inside, outside }, id) => {
@@ -66,15 +64,15 @@ test("a sphere is drawn where it is, as large as it is, in its group's colour", 
   });
 });
 
-test("what is nearer hides what is behind it", async () => {
-  await shown("box-4k", { colour: "id" }, async (page) => {
-    await when(page, () => spherule.simTime > 0.8);
+test("near spheres hide those behind them", async () => {
+  await withPage("box-4k", { colour: "id" }, async (page) => {
+    await when(page, () => spherule.session.newest?.simTime > 0.8);
     await pause(page);
-    // From below, where the first layers hide the later ones, against the order in which they are drawn.
+    // From below, the first layers hide the later ones, against the order of drawing.
     for (let i = 0; i < 6; i++) await page.keyboard.press("ArrowDown");
     await when(page, () => spherule.camera.elevation < -0.8);
     await settled(page);
-    // Ids run from the first to the last layer, and so do the colours: blue over green to red.
+    // Ids rise from the first layer to the last, and colours with them: from blue over green to red.
     const seen = await page.evaluate(() => {
       const found = [];
       const { innerWidth: width, innerHeight: height } = window;
@@ -98,13 +96,14 @@ test("what is nearer hides what is behind it", async () => {
   });
 });
 
-test("the picture moves between states", async () => {
-  await shown("two-spheres", {}, async (page, server) => {
+test("images are drawn while states arrive", async () => {
+  await withPage("two-spheres", {}, async (page, server) => {
     await page.click(control("reset"));
-    await server.ctl("set", "speed", "0.05"); // so that ten frames take seconds, in which even a busy machine draws some pictures
-    const drawnBefore = await page.evaluate(() => spherule.picture.drawn);
-    const framesBefore = await page.evaluate(() => spherule.frames);
-    await when(page, (then) => spherule.frames > then + 10, framesBefore);
-    assert.ok((await page.evaluate(() => spherule.picture.drawn)) > drawnBefore + 5);
+    // Ten frames then take seconds, in which even a busy machine draws some images.
+    await server.ctl("set", "speed", "0.05");
+    const drawnBefore = await page.evaluate(() => spherule.drawn);
+    const framesBefore = await page.evaluate(() => spherule.session.frames);
+    await when(page, (then) => spherule.session.frames > then + 10, framesBefore);
+    assert.ok((await page.evaluate(() => spherule.drawn)) > drawnBefore + 5);
   });
 });

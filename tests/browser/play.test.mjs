@@ -2,151 +2,179 @@ import assert from "node:assert/strict";
 import { mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { after, before, test } from "node:test";
-import { control, launch, open, when } from "./support/browser.mjs";
+import { after, test } from "node:test";
+import { control, open, says, when } from "./support/browser.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
-import { serverSays } from "./support/raw.mjs";
-import { play, serve, spherule, stopAll } from "./support/server.mjs";
+import { queryServer } from "./support/raw.mjs";
+import { play, serve, spherule } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
-const lasts = 3.9; // s
-const frame = 1 / 30;
+const duration = 3.9; // s
+const frame = 1 / 30; // s
 
 let folder;
 let file;
-let browser;
-let page; // of a recording that is played
-before(async () => {
+let page; // of a server that plays a recording
+const suite = browserSuite(async (browser) => {
   folder = await mkdtemp(path.join(tmpdir(), "spherule-play-"));
   file = path.join(folder, "cradle.sph");
-  await spherule("run", "cradle", "--for", `${lasts}s`, "--record", file, "--device", "cpu");
-  browser = await launch();
+  await spherule("run", "cradle", "--for", `${duration}s`, "--record", file, "--device", "cpu");
   page = await open(browser, (await play(file, { options: ["--paused"] })).url, { size: [1280, 900] });
 });
-after(async () => {
-  await browser?.close();
-  await stopAll();
-  await rm(folder, { recursive: true, force: true });
-});
+after(() => rm(folder, { recursive: true, force: true }));
 
 const slider = control("timeline");
 
-/** Where on the page the handle stands for that share of the timeline. */
+/** The point of the page at which the handle is for this share of the timeline. */
 async function placeOf(share) {
   const { x, y, width, height } = await page.locator(slider).boundingBox();
   return [x + 8 + share * (width - 16), y + height / 2];
 }
 
-/** Waits until the page has the moment, to within `off` s, and picture and handle show it. */
-async function at(time, off = 2 * frame) {
+/** The time at the handle (s). */
+const handleTime = () => page.locator(slider).evaluate((element) => element.valueAsNumber);
+
+/** The simulated time of the newest state (s). */
+const newestTime = () => page.evaluate(() => spherule.session.newest.simTime);
+
+/** Waits until the newest state has this time (s), to within `tolerance`, and image and handle show it. */
+async function at(time, tolerance = 2 * frame) {
   await when(
     page,
-    ([wanted, most]) =>
-      !spherule.timeline.seeking &&
-      Math.abs(spherule.simTime - wanted) <= most &&
-      spherule.shown.time === spherule.simTime &&
-      Math.abs(spherule.timeline.time - spherule.simTime) < 1e-9,
-    [time, off],
+    ([wanted, most, selector]) => {
+      const { simTime } = spherule.session.newest;
+      const handle = document.querySelector(selector).valueAsNumber;
+      return (
+        !spherule.seeking &&
+        Math.abs(simTime - wanted) <= most &&
+        spherule.shown.time === simTime &&
+        Math.abs(handle - simTime) < 1e-9
+      );
+    },
+    [time, tolerance, slider],
   ).catch(async (error) => {
-    const is = await page.evaluate(() => ({ timeline: spherule.timeline, simTime: spherule.simTime, shown: spherule.shown }));
-    throw new Error(`not at ${time}: ${JSON.stringify(is)}`, { cause: error });
+    const { seeking, shown } = await page.evaluate(() => ({ seeking: spherule.seeking, shown: spherule.shown }));
+    const state = { seeking, shown, newest: await newestTime(), handle: await handleTime() };
+    throw new Error(`not at ${time}: ${JSON.stringify(state)}`, { cause: error });
   });
 }
 
-async function setPaused(wanted) {
-  if ((await page.evaluate(() => spherule.paused)) !== wanted) await page.click(control("pause"));
-  await when(page, (paused) => spherule.paused === paused, wanted);
+/** Waits until playback is between these times (s), and no seek is in progress. */
+async function playsBetween(low, high) {
+  await when(
+    page,
+    ([from, to]) => {
+      const { simTime } = spherule.session.newest;
+      return simTime > from && simTime < to && !spherule.seeking && !spherule.session.paused;
+    },
+    [low, high],
+  );
 }
 
-test("the page says what is played and offers only what works", async () => {
-  const { timeline, recording, drawn } = await page.evaluate(() => ({ ...spherule, drawn: spherule.picture.drawn }));
+async function setPaused(wanted) {
+  if ((await page.evaluate(() => spherule.session.paused)) !== wanted) await page.click(control("pause"));
+  await when(page, (paused) => spherule.session.paused === paused, wanted);
+}
+
+test("the page shows the recording, and hides controls without effect", async () => {
+  const { timeline, recording, drawn } = await page.evaluate(() => {
+    const { file, begin, end, frames, flaw } = spherule.session.timeline;
+    const timeline = { file, begin, end, frames: Number(frames), flaw };
+    return { timeline, recording: spherule.session.recording, drawn: spherule.drawn };
+  });
   assert.deepEqual([timeline.file, timeline.begin, timeline.frames, timeline.flaw], ["cradle.sph", 0, 118, ""]);
-  assert.ok(Math.abs(timeline.end - lasts) < 1e-6);
+  assert.ok(Math.abs(timeline.end - duration) < 1e-6);
   assert.equal(recording, undefined);
   assert.ok(drawn > 0);
-  for (const id of ["pause", "step", "step-many", "reset", "speed", "colour", "tier", "rate", "timeline"])
+  for (const id of ["pause", "step", "step-many", "reset", "speed", "colour", "tier", "rate", "timeline"]) {
     assert.equal(await page.isVisible(control(id)), true, id);
-  for (const id of ["scene", "dial", "auto", "gravity-preset", "restitution", "friction", "drop", "push", "record", "timeline-flaw"])
-    assert.equal(await page.isVisible(control(id)), false, id);
+  }
+  const world = ["scene", "dial", "auto", "gravity-preset", "restitution", "friction", "drop", "push"];
+  for (const id of [...world, "record", "timeline-flaw"]) assert.equal(await page.isVisible(control(id)), false, id);
   assert.match(await page.textContent(control("help-overlay")), /to the beginning/);
   assert.doesNotMatch(await page.textContent(control("help-overlay")), /drop|push/);
 });
 
-test("a click on the timeline goes there at once, and nothing is shown in between", async () => {
+test("a click on the timeline seeks at once, and no state in between is shown", async () => {
   await setPaused(true);
   await page.click(control("reset"));
   await at(0);
-  await page.keyboard.press("3"); // no speeds are shown
-  await page.evaluate(() => {
+  await page.keyboard.press("3"); // a colour mode without speeds
+  await page.evaluate((selector) => {
     window.seen = [];
-    const look = () => {
-      window.seen.push({ handle: spherule.timeline.time, picture: spherule.shown.time });
-      requestAnimationFrame(look);
+    const sample = () => {
+      const handle = document.querySelector(selector).valueAsNumber;
+      window.seen.push({ handle, image: spherule.shown.time });
+      requestAnimationFrame(sample);
     };
-    look();
-  });
+    sample();
+  }, slider);
   await page.mouse.click(...(await placeOf(0.75)));
-  await at(0.75 * lasts);
+  await at(0.75 * duration);
   const seen = await page.evaluate(() => window.seen);
-  assert.deepEqual(seen.filter(({ picture }) => picture > 3 * frame && picture < 0.75 * lasts - 3 * frame), []);
-  const gone = seen.findIndex(({ handle }) => handle > 0.7 * lasts);
-  assert.deepEqual(seen.slice(gone).filter(({ handle }) => handle < 0.7 * lasts), []);
+  assert.deepEqual(seen.filter(({ image }) => image > 3 * frame && image < 0.75 * duration - 3 * frame), []);
+  const moved = seen.findIndex(({ handle }) => handle > 0.7 * duration);
+  assert.deepEqual(seen.slice(moved).filter(({ handle }) => handle < 0.7 * duration), []);
   const { from, to } = await page.evaluate(() => spherule.shown);
-  assert.equal(from, to); // nothing has moved from where it was before
-  const { step, positions, quantum } = await serverSays(page);
+  assert.equal(from, to); // no motion from the earlier state
+  const { step, positions, quantum } = await queryServer(page);
   const shown = await page.evaluate((ids) => spherule.positions(ids), [...positions.keys()]);
   assert.equal(shown.step, step);
-  shown.positions.forEach((place, id) => place.forEach((x, axis) => assert.ok(Math.abs(x - positions[id][axis]) <= quantum, `sphere ${id}`)));
+  shown.positions.forEach((position, id) => {
+    position.forEach((x, axis) => assert.ok(Math.abs(x - positions[id][axis]) <= quantum, `sphere ${id}`));
+  });
 });
 
-test("where speeds are shown, a moment that stands still comes with the one before it", async () => {
+test("with speeds shown, a seek while paused also brings the previous frame", async () => {
   await setPaused(true);
   await page.keyboard.press("1");
   await page.mouse.click(...(await placeOf(0.25)));
-  await at(0.25 * lasts);
+  await at(0.25 * duration);
   const { from, to } = await page.evaluate(() => spherule.shown);
   assert.ok(Math.abs(to - from - frame) < 1e-6, `${from} ${to}`);
 });
 
-test("the handle stays under the pointer while it is dragged, and the picture follows", async () => {
+test("the handle stays under the pointer while it is dragged, and the image follows", async () => {
   await setPaused(true);
   await page.mouse.move(...(await placeOf(0.5)));
   await page.mouse.down();
   for (let share = 0.5; share > 0.2; share -= 0.01) {
     await page.mouse.move(...(await placeOf(share)));
-    const { time } = await page.evaluate(() => spherule.timeline);
-    assert.ok(Math.abs(time - share * lasts) < 0.05, `${time} for ${share * lasts}`);
+    const time = await handleTime();
+    assert.ok(Math.abs(time - share * duration) < 0.05, `${time} for ${share * duration}`);
   }
-  const between = Math.floor((0.2 * lasts) / frame) + 0.5; // of two frames: the picture shows the first, the handle stays
-  await page.mouse.move(...(await placeOf((between * frame) / lasts)));
-  await when(page, (then) => !spherule.timeline.seeking && Math.abs(spherule.simTime - then) < 1e-6, (between - 0.5) * frame);
-  const { time } = await page.evaluate(() => spherule.timeline);
+  const between = Math.floor((0.2 * duration) / frame) + 0.5; // frames: the image shows the earlier one
+  await page.mouse.move(...(await placeOf((between * frame) / duration)));
+  await when(
+    page,
+    (wanted) => !spherule.seeking && Math.abs(spherule.session.newest.simTime - wanted) < 1e-6,
+    (between - 0.5) * frame,
+  );
+  const time = await handleTime();
   assert.ok(Math.abs(time - between * frame) < 0.4 * frame, `${time} for ${between * frame}`);
   const [x, y] = await placeOf(0.2);
-  await page.mouse.move(x, y + 60); // the pointer may leave the bar
-  await when(page, (most) => spherule.simTime < most, 0.3 * lasts);
+  await page.mouse.move(x, y + 60); // the pointer may leave the timeline
+  await when(page, (most) => spherule.session.newest.simTime < most, 0.3 * duration);
   await page.mouse.up();
-  await at(0.2 * lasts);
-  assert.ok(Math.abs((await page.evaluate(() => spherule.timeline.time)) - 0.2 * lasts) <= 2 * frame);
+  await at(0.2 * duration);
+  assert.ok(Math.abs((await handleTime()) - 0.2 * duration) <= 2 * frame);
 });
 
-test("while it plays, what is dragged to is where it goes on", async () => {
+test("playback continues where the handle is released", async () => {
   await setPaused(false);
   await page.mouse.move(...(await placeOf(0.9)));
   await page.mouse.down();
   await page.mouse.move(...(await placeOf(0.1)), { steps: 20 });
   await page.mouse.up();
-  await when(page, ([low, high]) => spherule.simTime > low && spherule.simTime < high && !spherule.timeline.seeking, [
-    0.1 * lasts + 2 * frame,
-    0.8 * lasts,
-  ]);
-  assert.equal(await page.evaluate(() => spherule.paused), false);
+  await playsBetween(0.1 * duration + 2 * frame, 0.8 * duration);
+  assert.equal(await page.evaluate(() => spherule.session.paused), false);
 });
 
-test("pause, frames and resume", async () => {
+test("pause, single frames and resume", async () => {
   await setPaused(true);
   await page.mouse.click(...(await placeOf(0.5)));
-  await at(0.5 * lasts);
-  const before = await page.evaluate(() => spherule.simTime);
+  await at(0.5 * duration);
+  const before = await newestTime();
   await page.click(control("step"));
   await at(before + frame, 1e-6);
   await page.click(control("step-many"));
@@ -154,80 +182,92 @@ test("pause, frames and resume", async () => {
   await page.waitForTimeout(300);
   await at(before + 11 * frame, 1e-6);
   await page.click(control("pause"));
-  await when(page, (then) => spherule.simTime > then, before + 12 * frame);
+  await when(page, (then) => spherule.session.newest.simTime > then, before + 12 * frame);
 });
 
-test("reset goes to the beginning, from the bar and from the keyboard", async () => {
+test("reset goes to the beginning, by button and by key", async () => {
   await setPaused(true);
   for (const press of [() => page.click(control("reset")), () => page.keyboard.press("r")]) {
     await page.mouse.click(...(await placeOf(0.6)));
-    await at(0.6 * lasts);
+    await at(0.6 * duration);
     await press();
     await at(0, 1e-9);
   }
 });
 
-test("the keyboard moves the handle that has the focus", async () => {
+test("keys move the focused handle", async () => {
   await setPaused(true);
   const { azimuth } = await page.evaluate(() => spherule.camera);
   await page.focus(slider);
   await page.keyboard.press("End");
-  await at(lasts, 1e-6);
+  await at(duration, 1e-6);
   await page.keyboard.press("Home");
   await at(0, 1e-9);
-  for (const [key, time] of [["ArrowRight", 1], ["ArrowRight", 2], ["ArrowRight", 3], ["ArrowLeft", 2], ["ArrowLeft", 1]]) {
-    await page.keyboard.press(key);
-    await at(time * frame, 1e-6);
+  for (const [key, frames] of [["ArrowRight", [1, 2, 3]], ["ArrowLeft", [2, 1]]]) {
+    for (const number of frames) {
+      await page.keyboard.press(key);
+      await at(number * frame, 1e-6);
+    }
   }
   await page.keyboard.press("PageUp");
-  await at(0.1 * lasts + frame, frame);
+  await at(0.1 * duration + frame, frame);
   assert.match(await page.getAttribute(slider, "aria-valuetext"), /^0\.4\d s of 3\.90 s$/);
   assert.equal((await page.evaluate(() => spherule.camera)).azimuth, azimuth);
   await page.keyboard.press(" ");
-  await when(page, () => !spherule.paused);
+  await when(page, () => !spherule.session.paused);
 });
 
-test("at the end it pauses, and goes on from the beginning", async () => {
+test("playback pauses at the end, and resumes from the beginning", async () => {
   await setPaused(false);
   await page.mouse.click(...(await placeOf(0.9)));
-  await when(page, (end) => spherule.paused && Math.abs(spherule.simTime - end) < 1e-6, lasts);
+  await when(
+    page,
+    (end) => spherule.session.paused && Math.abs(spherule.session.newest.simTime - end) < 1e-6,
+    duration,
+  );
   await page.click(control("pause"));
-  await when(page, ([low, high]) => spherule.simTime > low && spherule.simTime < high && !spherule.paused, [2 * frame, 0.9 * lasts]);
+  await playsBetween(2 * frame, 0.9 * duration);
 });
 
-test("the speed of the panel is that of the player", async () => {
+test("the speed set on the panel is the speed of playback", async () => {
   await page.fill(control("speed"), "0.5");
   await page.press(control("speed"), "Enter");
-  await when(page, () => spherule.settings.speed === 0.5);
-  assert.equal((await serverSays(page)).settings.speed, 0.5);
+  await when(page, () => spherule.session.settings.speed === 0.5);
+  assert.equal((await queryServer(page)).settings.speed, 0.5);
   assert.deepEqual(page.faults, []);
 });
 
-test("a recording that was cut off says so, and nothing covers anything else", async () => {
+test("an incomplete recording is marked, and no element covers another one", async () => {
   const cut = path.join(folder, "cut.sph");
   const whole = await readFile(file);
   await writeFile(cut, whole.subarray(0, Math.round(0.6 * whole.length)));
-  const other = await open(browser, (await play(cut, { options: ["--paused"] })).url, { size: [1280, 900] });
-  const { end, flaw } = await other.evaluate(() => spherule.timeline);
-  assert.ok(end > 0 && end < lasts && flaw);
+  const other = await open(suite.browser, (await play(cut, { options: ["--paused"] })).url, { size: [1280, 900] });
+  const { end, flaw } = await other.evaluate(() => {
+    const { end, flaw } = spherule.session.timeline;
+    return { end, flaw };
+  });
+  assert.ok(end > 0 && end < duration && flaw);
   await other.waitForSelector(control("timeline-flaw"));
   assert.ok((await other.textContent(control("timeline-flaw"))).includes(flaw));
   for (const { width, faults } of await collisionsByWidth(other, 6)) assert.deepEqual(faults, [], `${width} px`);
   await other.close();
 });
 
-test("the record button records what a server simulates, in a file that can be read", async () => {
+test("the record button records the simulation to a readable file", async () => {
   const server = await serve("cradle", { folder });
-  const live = await open(browser, server.url, { size: [1280, 900] });
+  const live = await open(suite.browser, server.url, { size: [1280, 900] });
   assert.equal(await live.isVisible(slider), false);
   await live.click(control("record"));
-  await when(live, () => spherule.recording.active && spherule.recording.duration > 0.5 && spherule.recording.bytes > 0);
+  await when(live, () => {
+    const { active, duration, bytes } = spherule.session.recording;
+    return active && duration > 0.5 && bytes > 0;
+  });
   await live.waitForSelector(`${control("record")}[aria-pressed="true"]`);
-  await when(live, () => /^0:\d\d · [\d.]+ [kM]B$/.test(document.querySelector('[data-testid="record-words"]').textContent));
+  await says(live, "record-words", /^0:\d\d · [\d.]+ [kM]B$/);
   for (const { width, faults } of await collisionsByWidth(live, 5)) assert.deepEqual(faults, [], `${width} px`);
   await live.click(control("record"));
-  await when(live, () => !spherule.recording.active);
-  const recorded = await live.evaluate(() => spherule.recording.file);
+  await when(live, () => !spherule.session.recording.active);
+  const recorded = await live.evaluate(() => spherule.session.recording.file);
   const toast = live.locator(control("toast")).filter({ hasText: "Recorded" });
   assert.ok((await toast.textContent()).includes(`spherule play ${recorded}`));
   assert.deepEqual(await readdir(path.join(folder, "recordings")), [path.basename(recorded)]);

@@ -1,43 +1,36 @@
-// What goes wrong between page and server, or with either: the page says so, comes back by itself, and is right again.
+// Faults of the connection, the server and the browser: the page shows them, recovers by itself, and is correct again.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { expectPositionsOfServer } from "./support/agreement.mjs";
-import { control, launch, open, pause, when } from "./support/browser.mjs";
+import { control, launch, open, pause, says, when } from "./support/browser.mjs";
 import { proxyTo } from "./support/proxy.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await stopAll();
-});
+const suite = browserSuite();
 
-/** What the page says of its connection becomes this. */
-async function says(page, pattern) {
-  await when(page, (source) => new RegExp(source).test(document.querySelector('[data-testid="connection"]').textContent), pattern.source);
-}
+/** Waits until the header shows this state of the connection. */
+const connectionSays = (page, pattern) => says(page, "connection", pattern);
 
-/** The page is connected, is sent moving states, and has the positions that the server has. */
-async function expectRight(page, server) {
-  const frames = await page.evaluate(() => spherule.frames);
-  await when(page, (then) => spherule.connection === "open" && spherule.frames > then + 3, frames);
-  await says(page, /^connected$/);
+/** Checks that the page is connected, receives moving states, and has the positions of the server. */
+async function expectRecovered(page, server) {
+  const frames = await page.evaluate(() => spherule.session.frames);
+  await when(page, (then) => spherule.session.connection === "open" && spherule.session.frames > then + 3, frames);
+  await connectionSays(page, /^connected$/);
   await pause(page);
   await expectPositionsOfServer(page);
   await server.ctl("resume");
-  await when(page, (step) => !spherule.paused && spherule.step > step, await page.evaluate(() => spherule.step));
+  const step = await page.evaluate(() => spherule.session.newest.step);
+  await when(page, (then) => !spherule.session.paused && spherule.session.newest?.step > then, step);
 }
 
-/** A page that hears of the server through a proxy. */
+/** Runs `body` with a page that is connected through a proxy. */
 async function behindProxy(body) {
   const server = await serve("pour");
   const proxy = await proxyTo(server.port);
   try {
-    const page = await open(browser, proxy.url);
-    await expectRight(page, server);
+    const page = await open(suite.browser, proxy.url);
+    await expectRecovered(page, server);
     await body(page, proxy, server);
     await page.close();
   } finally {
@@ -46,72 +39,72 @@ async function behindProxy(body) {
   }
 }
 
-test("after resets of its connection the page goes on where the server is", async () => {
+test("after connection resets, the page continues with the server's present state", async () => {
   await behindProxy(async (page, proxy, server) => {
     for (let round = 0; round < 3; round++) {
       proxy.reset();
-      await says(page, /^offline/);
-      await when(page, () => spherule.connection === "waiting");
+      await connectionSays(page, /^offline/);
+      await when(page, () => spherule.session.connection === "waiting");
       proxy.restore();
-      await expectRight(page, server);
+      await expectRecovered(page, server);
     }
   });
 });
 
-test("a network that vanishes silently is noticed within seconds, and the page comes back with it", async () => {
+test("a silent network loss is reported within seconds, and the page recovers", async () => {
   await behindProxy(async (page, proxy, server) => {
     const begun = performance.now();
     proxy.cut();
-    await says(page, /^no answer for \d+ s$/);
-    const told = performance.now() - begun;
-    assert.ok(told < 10_000, `told after ${told} ms`);
-    assert.equal(await page.evaluate(() => spherule.connection), "silent");
+    await connectionSays(page, /^no answer for \d+ s$/);
+    const reported = performance.now() - begun;
+    assert.ok(reported < 10_000, `reported after ${reported} ms`);
+    assert.equal(await page.evaluate(() => spherule.session.connection), "silent");
     assert.equal(await page.textContent(control("status-stream")), "–");
-    // Connections that were cut never end by themselves; new ones get no answer.
-    await says(page, /^offline/);
-    await says(page, /^connecting$/);
-    await says(page, /^offline/);
+    // Cut connections never end by themselves, and new ones get no answer.
+    await connectionSays(page, /^offline/);
+    await connectionSays(page, /^connecting$/);
+    await connectionSays(page, /^offline/);
     proxy.restore();
-    await expectRight(page, server);
+    await expectRecovered(page, server);
   });
 });
 
-test("a cut that ends before the page gives up is told as over", async () => {
+test("a silence that ends before the page gives up is no longer reported", async () => {
   const server = await serve("pour");
-  const page = await open(browser, server.url);
-  // The server stands still as its machine might: connections stay as they are.
+  const page = await open(suite.browser, server.url);
+  // A frozen server keeps its connections open.
   server.freeze();
-  await says(page, /^no answer/);
+  await connectionSays(page, /^no answer/);
   server.thaw();
-  await says(page, /^connected$/);
-  await expectRight(page, server);
+  await connectionSays(page, /^connected$/);
+  await expectRecovered(page, server);
   assert.deepEqual(page.faults, []);
   await page.close();
   await server.stop();
 });
 
-test("a killed server that is started again is found, and its world shown", async () => {
+test("the page reconnects to a server that was killed and started again", async () => {
   const first = await serve("pour");
-  const page = await open(browser, first.url);
-  await when(page, () => spherule.simTime > 1);
+  const page = await open(suite.browser, first.url);
+  await when(page, () => spherule.session.newest?.simTime > 1);
   await first.kill();
-  await says(page, /^offline/);
+  await connectionSays(page, /^offline/);
   const second = await serve("pour", { port: first.port });
-  await expectRight(page, second);
+  await expectRecovered(page, second);
   await page.close();
   await second.stop();
 });
 
-test("a killed browser is forgotten, and another page goes on undisturbed", async () => {
+test("a killed browser's session ends, and another page is not affected", async () => {
   const server = await serve("pour");
-  const page = await open(browser, server.url);
+  const page = await open(suite.browser, server.url);
   const other = await launch();
   await open(other, server.url);
   assert.equal(await server.metric("spherule_sessions"), 2);
   const left = await server.metric('spherule_sessions_closed_total{cause="left"}');
   await page.evaluate(() => {
     window.states = new Set();
-    window.watch = setInterval(() => window.states.add(spherule.connection), 20);
+    window.watch = setInterval(() => window.states.add(spherule.session.connection), 20);
   });
 
   const system = await other.newBrowserCDPSession();
@@ -124,9 +117,9 @@ test("a killed browser is forgotten, and another page goes on undisturbed", asyn
   }
   assert.equal(await server.metric('spherule_sessions_closed_total{cause="left"}'), left + 1);
 
-  await expectRight(page, server);
+  await expectRecovered(page, server);
   assert.deepEqual(await page.evaluate(() => [...window.states]), ["open"]);
-  assert.equal(await page.evaluate(() => spherule.stream().lost), 0);
+  assert.equal(await page.evaluate(() => spherule.session.lost), 0);
   assert.deepEqual(page.faults, []);
   await page.close();
   await server.stop();

@@ -1,4 +1,5 @@
-// Takes the pictures of docs/images: node tests/browser/screenshots.mjs OUT (SPHERULE names the binary). Not a test.
+// Not a test: node tests/browser/screenshots.mjs OUT takes the screenshots of docs/images. SPHERULE is the path of the
+// binary.
 import { launch, open, settled, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 
@@ -15,7 +16,7 @@ for (const { file, scene, steps, colour } of shots) {
   await server.ctl("reset");
   const page = await open(browser, server.url, { size: [1440, 810], picture: "full", colour });
   await server.ctl("step", String(steps));
-  await when(page, (wanted) => window.spherule.step === wanted, steps);
+  await when(page, (wanted) => spherule.session.newest?.step === wanted, steps);
   await settled(page);
   await page.screenshot({ path: `${out}/${file}`, timeout: 120_000 });
   console.log(file);

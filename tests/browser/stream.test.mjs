@@ -1,22 +1,18 @@
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { control, launch, open, when } from "./support/browser.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { test } from "node:test";
+import { control, open, says, when } from "./support/browser.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
 let server;
-let browser;
-before(async () => {
+const suite = browserSuite(async () => {
   server = await serve("pour");
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await stopAll();
 });
 
-const sent = (page) => page.evaluate(() => spherule.stream());
+const fine = "Fine, 1/500 r";
+const lostFrames = (page) => page.evaluate(() => spherule.session.lost);
 
-/** Makes the page believe that its tab is hidden, or shown again. */
+/** Makes the page believe that its tab is hidden or shown. */
 async function hide(page, hidden) {
   await page.evaluate((value) => {
     Object.defineProperty(document, "hidden", { get: () => value, configurable: true });
@@ -24,43 +20,52 @@ async function hide(page, hidden) {
   }, hidden);
 }
 
-test("the page is sent what it usually asks for, and says so", async () => {
-  const page = await open(browser, server.url, { size: [1280, 900] });
-  await when(page, () => spherule.stream()?.bytesPerSphere > 0);
-  const { tier, rate, reduced, decodeMs, lost } = await sent(page);
-  assert.deepEqual([tier, rate, reduced, lost], ["normal", 30, false, 0]);
-  assert.ok(decodeMs > 0);
-  await when(page, () => document.querySelector('[data-testid="stream-tier"]')?.textContent === "Normal, 1/50 r");
+test("the server sends the default stream, and the page shows it", async () => {
+  const page = await open(suite.browser, server.url, { size: [1280, 900] });
+  await says(page, "stream-tier", /^Normal, 1\/50 r$/);
+  await says(page, "stream-bytes", /^\S+ B$/);
+  const { rate, reduced } = await page.evaluate(() => spherule.session.stream);
+  assert.deepEqual([rate, reduced, await lostFrames(page)], [30, false, 0]);
+  assert.equal(await page.isVisible(control("stream-note")), false);
+  for (const id of ["stream-bytes", "stream-decode"]) {
+    assert.ok(parseFloat(await page.textContent(control(id))) > 0, id);
+  }
   assert.match(await page.textContent(control("stream-bandwidth")), /^\S+ Mb\/s$/);
   assert.deepEqual(page.faults, []);
   await page.close();
 });
 
-test("another error and rate are sent when they are chosen, and the wish is kept", async () => {
-  const page = await open(browser, server.url, { size: [1280, 900] });
-  await when(page, () => spherule.stream()?.tier === "normal");
+test("the server sends the chosen precision and rate, and the choice is saved", async () => {
+  const page = await open(suite.browser, server.url, { size: [1280, 900] });
+  await says(page, "stream-tier", /^Normal/);
   const coarse = await page.evaluate(() => spherule.positions([0]).quantum);
-  await page.selectOption(control("tier"), { label: "Fine, 1/500 r" });
-  await when(page, (quantum) => spherule.stream().tier === "fine" && spherule.positions([0])?.quantum < quantum / 9, coarse);
+  await page.selectOption(control("tier"), { label: fine });
+  await says(page, "stream-tier", /^Fine/);
+  await when(page, (quantum) => spherule.positions([0])?.quantum < quantum / 9, coarse);
   await page.selectOption(control("rate"), { label: "10" });
-  const frames = await page.evaluate(() => spherule.frames);
-  await when(page, (then) => spherule.stream().rate === 10 && spherule.frames > then + 5, frames);
+  const frames = await page.evaluate(() => spherule.session.frames);
+  await when(page, (then) => spherule.session.stream.rate === 10 && spherule.session.frames > then + 5, frames);
   await page.reload();
-  await when(page, () => window.spherule?.stream()?.tier === "fine" && spherule.stream().rate === 10 && spherule.frames > 2);
-  assert.equal((await sent(page)).lost, 0);
+  await says(page, "stream-tier", /^Fine/);
+  await when(page, () => spherule.session.stream.rate === 10 && spherule.session.frames > 2);
+  assert.equal(await lostFrames(page), 0);
   assert.deepEqual(page.faults, []);
   await page.close();
 });
 
-test("a hidden page is sent nothing, and goes on when it is shown", async () => {
-  const page = await open(browser, server.url);
+test("a hidden page receives no frames, and continues when it is shown", async () => {
+  const page = await open(suite.browser, server.url);
   await hide(page, true);
-  await when(page, () => spherule.stream().rate === 0);
-  const { frames, step } = await page.evaluate(() => ({ frames: spherule.frames, step: spherule.step }));
+  await when(page, () => spherule.session.stream.rate === 0);
+  const before = await page.evaluate(() => ({ frames: spherule.session.frames, step: spherule.session.newest.step }));
   await page.waitForTimeout(1000);
-  assert.ok((await page.evaluate(() => spherule.frames)) <= frames + 1);
+  assert.ok((await page.evaluate(() => spherule.session.frames)) <= before.frames + 1);
   await hide(page, false);
-  await when(page, (then) => spherule.frames > then.frames + 5 && spherule.step > then.step, { frames, step });
-  assert.equal((await sent(page)).lost, 0);
+  await when(
+    page,
+    ({ frames, step }) => spherule.session.frames > frames + 5 && spherule.session.newest.step > step,
+    before,
+  );
+  assert.equal(await lostFrames(page), 0);
   await page.close();
 });

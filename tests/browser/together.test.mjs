@@ -2,28 +2,27 @@ import assert from "node:assert/strict";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import os from "node:os";
 import path from "node:path";
-import { after, before, test } from "node:test";
-import { control, launch, open, pause, when } from "./support/browser.mjs";
-import { serve, stopAll } from "./support/server.mjs";
+import { test } from "node:test";
+import { control, open, pause, says, when } from "./support/browser.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
 
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await stopAll();
-});
+const suite = browserSuite();
 
 for (const device of ["cpu", "software"]) {
-  test(`two pages see the same world, computed by ${device}`, async () => {
+  test(`two pages show the same positions, simulated on ${device}`, async () => {
     const server = await serve("billiards", { device });
-    const one = await open(browser, server.url);
-    const two = await open(browser, server.url);
+    const one = await open(suite.browser, server.url);
+    const two = await open(suite.browser, server.url);
     await pause(one);
     await when(two, () => document.querySelector('[data-testid="pause"]').dataset.paused === "true");
-    const state = (page) => page.evaluate(() => JSON.stringify([spherule.epoch, spherule.positions([...Array(spherule.count).keys()])]));
-    await when(two, (step) => spherule.step === step, await one.evaluate(() => spherule.step));
+    const state = (page) =>
+      page.evaluate(() => {
+        const { epoch, count } = spherule.session.facts;
+        return JSON.stringify([epoch, spherule.positions([...Array(count).keys()])]);
+      });
+    const step = await one.evaluate(() => spherule.session.newest.step);
+    await when(two, (wanted) => spherule.session.newest?.step === wanted, step);
     assert.equal(await state(two), await state(one));
     await two.selectOption(control("gravity-preset"), "Sideways");
     await when(one, () => document.querySelector('[data-testid="gravity-preset"]').value === "Sideways");
@@ -33,48 +32,60 @@ for (const device of ["cpu", "software"]) {
   });
 }
 
-test("the page finds a restarted server by itself and shows its world", async () => {
+test("the page reconnects to a restarted server, and shows its scene", async () => {
   const first = await serve("billiards");
-  const page = await open(browser, first.url);
+  const page = await open(suite.browser, first.url);
   await first.stop();
-  await when(page, () => spherule.connection === "waiting");
+  await when(page, () => spherule.session.connection === "waiting");
   await when(page, () => /offline/.test(document.querySelector('[data-testid="connection"]').textContent));
-  const frames = await page.evaluate(() => spherule.frames);
+  const frames = await page.evaluate(() => spherule.session.frames);
   const second = await serve("bounce", { port: first.port });
-  await when(page, (then) => spherule.connection === "open" && spherule.scene === "bounce" && spherule.frames > then + 2, frames);
-  assert.equal(await page.evaluate(() => spherule.count), 1);
+  await when(
+    page,
+    (then) => {
+      const { connection, facts, frames } = spherule.session;
+      return connection === "open" && facts?.name === "bounce" && frames > then + 2;
+    },
+    frames,
+  );
+  assert.equal(await page.evaluate(() => spherule.session.facts.count), 1);
   await page.click(control("pause"));
-  await when(page, () => spherule.paused);
+  await when(page, () => spherule.session.paused);
   await page.close();
   await second.stop();
 });
 
-test("a command given without a connection is said to be lost", async () => {
+test("a command without a connection is reported as lost", async () => {
   const server = await serve("bounce");
-  const page = await open(browser, server.url);
+  const page = await open(suite.browser, server.url);
   await server.stop();
-  await when(page, () => spherule.connection !== "open");
+  await when(page, () => spherule.session.connection !== "open");
   await page.click(control("reset"));
-  await when(page, () => spherule.results.at(-1)?.outcome === "lost");
+  await when(page, () => spherule.reports.at(-1)?.outcome.case === "lost");
   await page.close();
 });
 
-test("a long load shows how far it has come, and the world goes on until it is cancelled", async () => {
+test("a long load shows its progress and can be cancelled, and the simulation continues", async () => {
   const folder = await mkdtemp(path.join(os.tmpdir(), "spherule-"));
-  // Random places without overlaps are hard to find so close together: looking for them takes many seconds.
+  // In such a dense scene, the search for random places without overlaps takes many seconds.
   const fill = { min: [-1, -1, -1], max: [1, 1, 1], count: 700000 };
-  const scene = { name: "packed", bounds: { min: [-1, -1, -1], max: [1, 1, 1] }, groups: [{ radius: { constant: 0.01 }, fill }] };
+  const bounds = { min: [-1, -1, -1], max: [1, 1, 1] };
+  const scene = { name: "packed", bounds, groups: [{ radius: { constant: 0.01 }, fill }] };
   const file = path.join(folder, "packed.json");
   await writeFile(file, JSON.stringify(scene));
   const server = await serve("billiards");
-  const page = await open(browser, server.url);
+  const page = await open(suite.browser, server.url);
   const load = server.ctl("load", file).then(
     () => "loaded",
     (error) => error.message,
   );
-  await when(page, () => /^load packed: placing spheres, [1-9]\d* %$/.test(document.querySelector('[data-testid="change"] p').textContent));
-  const time = await page.evaluate(() => spherule.simTime);
-  await when(page, (then) => spherule.simTime > then && spherule.scene === "billiards", time);
+  await says(page, "change", /^load packed: placing spheres, [1-9]\d* %/);
+  const time = await page.evaluate(() => spherule.session.newest?.simTime);
+  await when(
+    page,
+    (then) => spherule.session.newest?.simTime > then && spherule.session.facts.name === "billiards",
+    time,
+  );
   if (process.env.SCREENSHOTS) await page.screenshot({ path: path.join(process.env.SCREENSHOTS, "change.png") });
   await page.click(control("change-cancel"));
   await when(page, () => document.querySelector('[data-testid="change"]').hidden);

@@ -54,8 +54,8 @@ function shake(options) {
 
 test("the page loads over https and states come over wss", async () => {
   const page = await open(browser, nginx.url);
-  const before = await page.evaluate(() => spherule.frames);
-  await when(page, (then) => spherule.frames > then + 10, before);
+  const before = await page.evaluate(() => spherule.session.frames);
+  await when(page, (then) => spherule.session.frames > then + 10, before);
   // A browser lets no page of https open a WebSocket that is not of wss.
   assert.equal(await page.evaluate(() => location.protocol), "https:");
   assert.deepEqual(page.faults, []);
@@ -69,8 +69,8 @@ test("a server that ends says so through the proxy, and the page finds the next 
   assert.equal((await ask("/readyz")).statusCode, 502);
   server = await serveBehind();
   await when(page, (where) => document.querySelector(where).textContent === "connected", control("connection"));
-  const before = await page.evaluate(() => spherule.frames);
-  await when(page, (then) => spherule.frames > then + 3, before);
+  const before = await page.evaluate(() => spherule.session.frames);
+  await when(page, (then) => spherule.session.frames > then + 3, before);
   await page.close();
 });
 

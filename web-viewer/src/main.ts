@@ -1,17 +1,17 @@
 import { modeList } from "./colour/modes";
-import { withoutToken } from "./connection/address";
-import { wishFrom } from "./connection/wish";
-import { hookFor } from "./hook";
+import { withoutToken } from "./connection/admission";
+import { loadViewRequest } from "./connection/view_request";
+import { createTestApi } from "./test_api";
 import type { Choices } from "./ui/panel";
 import { Viewer } from "./viewer";
 
-/** Starting choices may be given in the address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
+/** Reads a choice from the address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
 function chosen<T extends string>(name: string, allowed: readonly T[]): T | undefined {
-  const asked = new URLSearchParams(location.search).get(name);
-  return allowed.find((value) => value === asked);
+  const value = new URLSearchParams(location.search).get(name);
+  return allowed.find((candidate) => candidate === value);
 }
 
-function server(): string {
+function serverUrl(): string {
   const url = new URL("ws", location.href);
   url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
   url.search = url.hash = "";
@@ -20,8 +20,8 @@ function server(): string {
 
 function start(): void {
   const canvas = document.querySelector<HTMLCanvasElement>("#picture");
-  const place = document.querySelector<HTMLElement>("#page");
-  if (!canvas || !place) throw new Error("The page lacks its canvas.");
+  const container = document.querySelector<HTMLElement>("#page");
+  if (!canvas || !container) throw new Error("The page has no canvas.");
   const clean = withoutToken(location.href);
   if (clean !== undefined) history.replaceState(history.state, "", clean);
   const mode = chosen("colour", modeList);
@@ -32,10 +32,10 @@ function start(): void {
     theme: chosen("theme", ["light", "dark"]) ?? "light",
     push: false,
     impulse: 1,
-    view: wishFrom(new URLSearchParams(location.search), () => localStorage),
+    view: loadViewRequest(new URLSearchParams(location.search), () => localStorage),
   };
-  const viewer = new Viewer(canvas, place, choices, server());
-  window.spherule = hookFor(viewer);
+  const viewer = new Viewer(canvas, container, choices, serverUrl());
+  window.spherule = createTestApi(viewer);
   viewer.start(clean !== undefined);
 }
 

@@ -1,124 +1,106 @@
 import { Camera } from "./camera/camera";
 import { listen } from "./camera/gestures";
 import { pick, rayThrough } from "./camera/ray";
+import { DrawClock, sharedNow } from "./clock";
 import { AutoRange } from "./colour/range";
 import { Admission } from "./connection/admission";
-import { Commands } from "./connection/commands";
+import { Commands, ReportLog } from "./connection/commands";
 import type { Report } from "./connection/commands";
 import { Link } from "./connection/link";
 import { TokenStore } from "./connection/token_store";
-import { Watch } from "./connection/watch";
-import { keep } from "./connection/wish";
-import { Reports } from "./hook";
-import { markFirst } from "./marks";
-import { paletteFor } from "./renderer/palette";
-import { Stage } from "./renderer/stage";
-import { highSpeed } from "./scene/positions";
-import { Session } from "./scene/session";
-import type { Shown } from "./scene/states";
-import { Clock, sharedNow } from "./clock";
+import { saveViewRequest } from "./connection/view_request";
+import { ViewSubscription } from "./connection/view_subscription";
+import { highSpeed } from "./model/positions";
+import { Session } from "./model/session";
+import type { Shown } from "./model/states";
+import { markFirst } from "./perf_marks";
+import { Canvas } from "./renderer/canvas";
+import { colouringFor } from "./renderer/draw_state";
 import { sentence } from "./ui/format";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
 import { longStay } from "./ui/toasts";
 
-/** Joins the parts: what comes from the server goes to the picture and the page, what the person does goes back. */
+const reportPeriod = 1000; // ms between reports of the draw rate to the worker
+
+/**
+ * Connects the parts: messages of the server go to the canvas and the page, and the user's actions go to the server.
+ */
 export class Viewer {
   readonly camera = new Camera();
-  readonly reports = new Reports();
+  readonly reports = new ReportLog();
   readonly session: Session;
-  readonly stage: Stage;
-  private readonly commands: Commands;
+  readonly canvas: Canvas;
   readonly page: Page;
+  private readonly commands: Commands;
   private readonly link: Link;
   private readonly admission: Admission;
   private readonly speeds = new AutoRange(0.1);
-  private readonly clock = new Clock();
-  private readonly watch: Watch;
-  private note = ""; // for who is asked for a token
-  private told = 0; // ms: when the worker heard of the drawing
-  private drawn = ""; // what the canvas shows
-  private measured = -1; // step whose speeds the range knows
+  private readonly clock = new DrawClock();
+  private readonly subscription: ViewSubscription;
+  private tokenNote = ""; // message of the next token dialog
+  private lastReport = 0; // ms: when the worker was last given the draw rate
+  private drawn = ""; // identifies the image on the canvas
+  private measured = -1; // sequence number of the state whose speeds the range knows
 
   constructor(
-    canvas: HTMLCanvasElement,
-    place: HTMLElement,
+    element: HTMLCanvasElement,
+    container: HTMLElement,
     private readonly choices: Choices,
     private readonly url: string, // of the server
   ) {
-    this.stage = new Stage(canvas, choices.quality, () => (this.drawn = ""));
-    this.link = new Link(new Worker("worker.js"), (message) => this.session.take(message));
-    this.watch = new Watch({ ...choices.view }, (view) => this.link.watch(view));
-    this.session = new Session((state) => this.link.recycle(state.positions), {
-      linked: (change) => this.admission.changed(change),
-      welcomed: (welcome) => {
-        this.admission.welcomed();
-        this.page.panel.offer(welcome);
-      },
-      sceneChanged: (facts, before) => {
-        const same = facts.name === before?.name;
-        this.camera.look(facts, same);
-        this.stage.setFacts(facts);
-        if (!same) this.speeds.reset();
-        if (!same || facts.count < before.count) this.page.inspector.select(undefined);
-        this.page.panel.setFacts(facts);
-        this.drawn = "";
-      },
-      settled: (settings) => this.page.panel.settle(settings),
-      dialled: (dial) => this.page.panel.setDial(dial),
-      diagnosed: (diagnostics) => this.page.panel.diagnose(diagnostics),
-      recorded: (recording, before) => this.page.recorded(recording, before),
-      happened: ({ text }) => this.page.toasts.show("Server", text, "plain"),
-      broken: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
-    });
+    this.canvas = new Canvas(element, choices.quality, () => (this.drawn = ""));
+    this.link = new Link(new Worker("worker.js"), (message) => this.session.handle(message));
+    this.subscription = new ViewSubscription({ ...choices.view }, (view) => this.link.requestView(view));
+    this.session = this.createSession();
     this.admission = new Admission(new TokenStore(url, () => sessionStorage), {
-      ask: (wrong) => {
-        this.page.prompt.ask(wrong ? sentence(wrong) : this.note);
-        this.note = "";
+      tokenRequired: (error) => {
+        this.page.prompt.ask(error ? sentence(error) : this.tokenNote);
+        this.tokenNote = "";
       },
-      done: () => this.page.prompt.close(),
-      identify: (token) => this.link.identify(token),
-      held: (held) => this.page.panel.holdToken(held),
+      tokenSettled: () => this.page.prompt.close(),
+      reconnect: (token) => this.link.reconnect(token),
+      tokenHeld: (held) => this.page.panel.setTokenHeld(held),
     });
-    const report = (report: Report): void => {
-      this.reports.add(report);
-      const applied = report.outcome.case === "applied";
-      if (!applied || !report.quiet) this.page.toasts.show(report.what, report.words, applied ? "good" : "bad");
-    };
-    this.commands = new Commands(this.link, report, () => this.page.steering.hindered());
-    this.page = new Page(place, this.session, this.commands, this.speeds, choices, {
+    this.commands = new Commands(
+      this.link,
+      (report) => this.report(report),
+      () => this.page.steering.blocked(),
+    );
+    this.page = new Page(container, this.session, this.commands, this.speeds, choices, {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
-      aboutControl: (wish) => this.link.aboutControl(wish),
-      themed: (theme) => this.stage.setTheme(theme),
-      qualityChosen: (quality) => this.stage.choose(quality),
-      viewWished: (view) => {
-        keep(view, () => localStorage);
-        this.watch.want(view);
+      sendControl: (message) => this.link.sendControl(message),
+      themeChanged: (theme) => this.canvas.setTheme(theme),
+      qualityChanged: (quality) => this.canvas.choose(quality),
+      viewRequested: (view) => {
+        saveViewRequest(view, () => localStorage);
+        this.subscription.request(view);
       },
       camera: this.camera,
     });
-    this.stage.setTheme(choices.theme);
-    this.listen(canvas);
+    this.canvas.setTheme(choices.theme);
+    this.listenToGestures(element);
   }
 
-  /** `strayed`: there was a token in the page's address. */
-  start(strayed: boolean): void {
-    if (strayed) {
-      this.note = "The one in the address was not used: tokens do not belong where others may see them.";
-      this.page.toasts.show("Token ignored", "Tokens do not belong in addresses, which others may see.", "bad", longStay);
+  /** `tokenInAddress`: the page's address had a token, which was removed. */
+  start(tokenInAddress: boolean): void {
+    if (tokenInAddress) {
+      this.tokenNote = "The token in the address was ignored, because others can see addresses.";
+      const text = "Do not put tokens in addresses: others can see them.";
+      this.page.toasts.show("Token ignored", text, "bad", longStay);
     }
-    this.link.connect(this.url, this.watch.view, this.admission.begin());
-    const resized = (): void => {
+    this.link.connect(this.url, this.subscription.view, this.admission.begin());
+    const resize = (): void => {
       this.camera.resize(window.innerWidth, window.innerHeight);
-      this.stage.resize(window.innerWidth, window.innerHeight);
+      this.canvas.resize(window.innerWidth, window.innerHeight);
       this.drawn = "";
     };
-    window.addEventListener("resize", resized);
-    resized();
-    document.addEventListener("visibilitychange", () => this.turned(!document.hidden));
-    this.turned(!document.hidden);
+    window.addEventListener("resize", resize);
+    resize();
+    document.addEventListener("visibilitychange", () => this.setVisible(!document.hidden));
+    this.setVisible(!document.hidden);
     const tick = (now: number): void => {
       this.tick(now);
       requestAnimationFrame(tick);
@@ -126,65 +108,98 @@ export class Viewer {
     requestAnimationFrame(tick);
   }
 
-  /** The sphere that is seen at a place of the page. */
-  readonly seenAt = (x: number, y: number): number | undefined => {
+  /** The sphere that is drawn at a point of the canvas (CSS pixels). */
+  sphereAt(x: number, y: number): number | undefined {
     const { facts, states } = this.session;
     const shown = states.shown(sharedNow());
     return facts && shown && pick(facts, shown, rayThrough(this.camera.last, x, y));
-  };
+  }
+
+  private createSession(): Session {
+    return new Session((state) => this.link.recycle(state.positions), {
+      linkChanged: (change) => this.admission.linkChanged(change),
+      welcomed: (welcome) => {
+        this.admission.welcomed();
+        this.page.panel.setScenes(welcome);
+      },
+      sceneChanged: (facts, before) => {
+        const same = facts.name === before?.name;
+        this.camera.look(facts, same);
+        this.canvas.setFacts(facts);
+        if (!same) this.speeds.reset();
+        if (!same || facts.count < before.count) this.page.inspector.select(undefined);
+        this.page.panel.setFacts(facts);
+        this.drawn = "";
+      },
+      settingsChanged: (settings) => this.page.panel.setSettings(settings),
+      dialChanged: (dial) => this.page.panel.setDial(dial),
+      diagnosticsReceived: (diagnostics) => this.page.panel.setDiagnostics(diagnostics),
+      recordingChanged: (recording, before) => this.page.recordingChanged(recording, before),
+      eventReceived: ({ text }) => this.page.toasts.show("Server", text, "plain"),
+      messageUnreadable: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
+    });
+  }
+
+  private report(report: Report): void {
+    this.reports.add(report);
+    const applied = report.outcome.case === "applied";
+    if (!applied || !report.quiet) this.page.toasts.show(report.name, report.text, applied ? "good" : "bad");
+  }
 
   private tick(now: number): void {
     const { session, camera, choices } = this;
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
     const shown = session.states.shown(wall);
-    this.measure(shown, now);
+    this.updateSpeeds(shown, now);
     camera.insets = this.page.insets();
     camera.advance(this.clock.elapsed);
-    const paint = {
+    const state = {
       view: camera.view(),
-      ...paletteFor(choices.mode, session.facts, this.speeds.high),
+      ...colouringFor(choices.mode, session.facts, this.speeds.high),
       selected: this.page.inspector.selected,
       dim: session.staleness(wall),
     };
-    const looks = [...paint.view.viewProjection, paint.mode, paint.range, paint.selected, paint.dim, choices.theme, choices.quality];
-    const wanted = `${shown?.from.sequence} ${shown?.to.sequence} ${shown?.mix} ${looks.join(" ")}`;
-    if (wanted !== this.drawn && !session.awaitsState(wall) && this.stage.draw(shown, paint, this.clock.sinceDrawn)) {
-      this.drawn = wanted;
+    const look = [state.mode, state.range, state.selected, state.dim, choices.theme, choices.quality];
+    const content = [shown?.from.sequence, shown?.to.sequence, shown?.mix];
+    const image = [...content, ...state.view.viewProjection, ...look].join(" ");
+    const draws = image !== this.drawn && !session.awaitsState(wall);
+    if (draws && this.canvas.draw(shown, state, this.clock.sinceDrawn)) {
+      this.drawn = image;
       this.clock.drew();
       if (shown) markFirst("drawn");
     }
-    this.tellDrawing(now);
-    this.page.update(wall, shown, this.clock.picturesPerSecond, this.stage.contextLost);
+    this.reportDrawRate(now);
+    this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.contextLost);
   }
 
-  /** The page was hidden, or is shown again. */
-  private turned(shown: boolean): void {
-    this.watch.show(shown);
-    if (shown) this.session.resume(sharedNow());
-    else this.link.draws(0);
+  /** Call when the page is hidden or shown. */
+  private setVisible(visible: boolean): void {
+    this.subscription.setVisible(visible);
+    if (visible) this.session.resume(sharedNow());
+    else this.link.reportDrawRate(0);
   }
 
-  private tellDrawing(now: number): void {
-    if (now - this.told < 1000) return;
-    this.told = now;
-    this.link.draws(this.clock.drawRate);
+  private reportDrawRate(now: number): void {
+    if (now - this.lastReport < reportPeriod) return;
+    this.lastReport = now;
+    this.link.reportDrawRate(this.clock.drawRate);
   }
 
-  private measure(shown: Shown | undefined, now: number): void {
+  private updateSpeeds(shown: Shown | undefined, now: number): void {
     if (!shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
     this.measured = shown.to.sequence;
     this.speeds.update(highSpeed(shown.from, shown.to), now);
   }
 
-  private listen(canvas: HTMLCanvasElement): void {
+  private listenToGestures(element: HTMLCanvasElement): void {
     const { camera, choices } = this;
-    listen(canvas, {
+    listen(element, {
       orbit: (dx, dy) => camera.orbit(dx, dy),
       pan: (dx, dy) => camera.pan(dx, dy),
       zoom: (factor, x, y) => camera.zoom(factor, x, y),
       click: (x, y) => {
-        const sphere = this.seenAt(x, y);
+        const sphere = this.sphereAt(x, y);
         if (choices.push) void this.commands.push(rayThrough(camera.last, x, y), sphere, choices.impulse);
         else this.page.inspector.select(sphere);
       },

@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Admission } from "../src/connection/admission";
-import { withoutToken } from "../src/connection/address";
+import { Admission, withoutToken } from "../src/connection/admission";
 import { TokenStore } from "../src/connection/token_store";
 
 class Memory {
@@ -14,102 +13,103 @@ class Memory {
 const here = "ws://here/ws";
 const unknown = { state: "locked", reason: "this token is not known here" } as const;
 
-/** An admission with all that it says. */
+/** An admission that logs its events. */
 function admission(memory = new Memory()) {
-  const said: string[] = [];
+  const events: string[] = [];
   const one = new Admission(new TokenStore(here, () => memory), {
-    ask: (wrong) => void said.push(`ask ${wrong}`.trim()),
-    done: () => void said.push("done"),
-    identify: (token) => void said.push(`identify ${token}`.trim()),
-    held: (held) => void said.push(held ? "held" : "none"),
+    tokenRequired: (error) => void events.push(`required ${error}`.trim()),
+    tokenSettled: () => void events.push("settled"),
+    reconnect: (token) => void events.push(`reconnect ${token}`.trim()),
+    tokenHeld: (held) => void events.push(held ? "held" : "none"),
   });
   const token = one.begin();
-  return { one, said, memory, token };
+  return { one, events, memory, token };
 }
 
-test("a token is kept for its server alone, until it is forgotten", () => {
+test("a token is stored for one server, until it is removed", () => {
   const memory = new Memory();
-  new TokenStore(here, () => memory).keep("abc");
+  new TokenStore(here, () => memory).save("abc");
   assert.equal(new TokenStore(here, () => memory).token, "abc");
   assert.equal(new TokenStore("ws://here/other/ws", () => memory).token, "");
-  new TokenStore(here, () => memory).keep("");
+  new TokenStore(here, () => memory).save("");
   assert.equal(new TokenStore(here, () => memory).token, "");
   assert.equal(memory.kept.size, 0);
 });
 
-test("a browser that keeps nothing still knows the token until the page is loaded again", () => {
+test("without storage, a token is kept until the page is reloaded", () => {
   const store = new TokenStore(here, () => {
     throw new Error("forbidden");
   });
   assert.equal(store.token, "");
-  store.keep("abc");
+  store.save("abc");
   assert.equal(store.token, "abc");
-  store.keep("");
+  store.save("");
   assert.equal(store.token, "");
 });
 
-test("a server that asks for nothing is told nothing and shows nothing", () => {
-  const { one, said, token } = admission();
-  one.changed({ state: "connecting" });
-  one.changed({ state: "open" });
+test("a server that requires no token is sent none, and no dialog opens", () => {
+  const { one, events, token } = admission();
+  one.linkChanged({ state: "connecting" });
+  one.linkChanged({ state: "open" });
   one.welcomed();
   assert.equal(token, "");
-  assert.deepEqual(said, ["none", "done"]);
+  assert.deepEqual(events, ["none", "settled"]);
 });
 
-test("who has no token is asked for one, without a reproach", () => {
-  const { one, said } = admission();
-  one.changed({ state: "locked", reason: "this server asks for a token" });
-  assert.deepEqual(said, ["none", "none", "ask"]);
+test("without a token, the dialog opens without an error", () => {
+  const { one, events } = admission();
+  one.linkChanged({ state: "locked", reason: "this server asks for a token" });
+  assert.deepEqual(events, ["none", "none", "required"]);
 });
 
-test("a token is handed over without the space around it, and remembered", () => {
-  const { one, said, memory } = admission();
+test("a submitted token is trimmed and remembered", () => {
+  const { one, events, memory } = admission();
   assert.equal(one.submit(" \n abc\t"), true);
-  assert.deepEqual(said, ["none", "held", "identify abc"]);
+  assert.deepEqual(events, ["none", "held", "reconnect abc"]);
   assert.deepEqual([...memory.kept.values()], ["abc"]);
   assert.equal(admission(memory).token, "abc");
 });
 
-test("space alone is no token", () => {
-  const { one, said } = admission();
+test("white space is no token", () => {
+  const { one, events } = admission();
   assert.equal(one.submit(" \n"), false);
-  assert.deepEqual(said, ["none"]);
+  assert.deepEqual(events, ["none"]);
 });
 
-test("a token that is refused is forgotten, whether it was typed or remembered", () => {
+test("a rejected token is forgotten, whether it was typed or remembered", () => {
   const typed = admission();
   typed.one.submit("abc");
-  typed.one.changed(unknown);
-  assert.deepEqual(typed.said.slice(3), ["none", "ask this token is not known here"]);
+  typed.one.linkChanged(unknown);
+  assert.deepEqual(typed.events.slice(3), ["none", "required this token is not known here"]);
   assert.equal(typed.memory.kept.size, 0);
 
   const memory = new Memory();
-  new TokenStore(here, () => memory).keep("old");
+  new TokenStore(here, () => memory).save("old");
   const remembered = admission(memory);
-  remembered.one.changed(unknown);
-  assert.deepEqual(remembered.said, ["held", "none", "ask this token is not known here"]);
+  remembered.one.linkChanged(unknown);
+  assert.deepEqual(remembered.events, ["held", "none", "required this token is not known here"]);
   assert.equal(memory.kept.size, 0);
 });
 
 test("a connection that fails for another reason keeps the token", () => {
-  const { one, said, memory } = admission();
+  const { one, events, memory } = admission();
   one.submit("abc");
-  one.changed({ state: "waiting", reason: "the server is full" });
-  assert.equal(said.at(-1), "done");
+  one.linkChanged({ state: "waiting", reason: "the server is full" });
+  assert.equal(events.at(-1), "settled");
   assert.equal(memory.kept.size, 1);
 });
 
-test("to forget the token is to connect without", () => {
-  const { one, said, memory } = admission();
+test("forgetting the token reconnects without one", () => {
+  const { one, events, memory } = admission();
   one.submit("abc");
   one.forget();
-  assert.deepEqual(said.slice(3), ["none", "identify"]);
+  assert.deepEqual(events.slice(3), ["none", "reconnect"]);
   assert.equal(memory.kept.size, 0);
 });
 
-test("a token is taken out of an address, and nothing else is", () => {
+test("only the token is removed from an address", () => {
   assert.equal(withoutToken("http://here/?token=abc"), "http://here/");
-  assert.equal(withoutToken("http://here/a/?rate=10&Token=abc&theme=dark&token=#part"), "http://here/a/?rate=10&theme=dark#part");
+  const clean = withoutToken("http://here/a/?rate=10&Token=abc&theme=dark&token=#part");
+  assert.equal(clean, "http://here/a/?rate=10&theme=dark#part");
   assert.equal(withoutToken("http://here/?rate=10"), undefined);
 });

@@ -3,13 +3,15 @@ import { test } from "node:test";
 import { approached, eyeOf, framing, orbited, panned, poseFrom, zoomed } from "../src/camera/orbit";
 import { enter, project, rayThrough } from "../src/camera/ray";
 import { viewOf } from "../src/camera/view";
-import type { Vec3 } from "../src/scene/facts";
+import type { Vec3 } from "../src/model/facts";
 
 const none = { top: 0, right: 0, bottom: 0, left: 0 };
 
 function close(actual: readonly number[], expected: readonly number[], within = 1e-6): void {
   assert.equal(actual.length, expected.length);
-  actual.forEach((value, i) => assert.ok(Math.abs(value - (expected[i] ?? NaN)) < within, `${actual} is not ${expected}`));
+  actual.forEach((value, i) => {
+    assert.ok(Math.abs(value - (expected[i] ?? NaN)) < within, `${actual} is not ${expected}`);
+  });
 }
 
 test("a pose made from an eye has that eye", () => {
@@ -17,7 +19,7 @@ test("a pose made from an eye has that eye", () => {
   close(eyeOf(poseFrom(eye, [1, 1, 0.5])), eye);
 });
 
-test("looking straight down still has an up", () => {
+test("a view straight down has a defined up direction", () => {
   const pose = poseFrom([0, 0, 5], [0, 0, 0]);
   const view = viewOf(pose, 45, 100, 100, none, 20);
   for (const value of view.viewProjection) assert.ok(Number.isFinite(value));
@@ -29,12 +31,12 @@ test("orbiting keeps the distance and stops at the poles", () => {
   assert.ok(pose.elevation < Math.PI / 2);
 });
 
-test("panning moves the target across the picture", () => {
+test("panning moves the target in the image plane", () => {
   const pose = poseFrom([0, -5, 0], [0, 0, 0]);
   close(panned(pose, 2, 3).target, [2, 0, 3]);
 });
 
-test("zooming keeps the place under the pointer", () => {
+test("zooming keeps the point under the pointer in its place", () => {
   const pose = poseFrom([0, -10, 0], [0, 0, 0]);
   const before = viewOf(pose, 45, 800, 600, none, 40);
   const [x, y] = project(before, [2, 0, 1]) ?? [0, 0];
@@ -48,7 +50,7 @@ test("zooming stops at its limits", () => {
   assert.equal(zoomed(pose, 1e9, 0, 0, [0.5, 100]).distance, 100);
 });
 
-test("a ray through a projected point meets it", () => {
+test("a ray through a projected point meets the point", () => {
   const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), 45, 1280, 720, { top: 0, right: 300, bottom: 80, left: 0 }, 30);
   const point: Vec3 = [0.5, 0.7, 0.2];
   const [x, y] = project(view, point) ?? [0, 0];
@@ -57,12 +59,13 @@ test("a ray through a projected point meets it", () => {
   close(ray.direction.map((part, i) => (view.eye[i] ?? 0) + part * distance), point, 1e-4);
 });
 
-test("the target lands in the middle of what the page leaves free", () => {
-  const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), 45, 1280, 720, { top: 20, right: 300, bottom: 100, left: 0 }, 30);
+test("the target lies in the middle of the part that the page does not cover", () => {
+  const insets = { top: 20, right: 300, bottom: 100, left: 0 };
+  const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), 45, 1280, 720, insets, 30);
   close(project(view, [0, 0, 1]) ?? [], [490, 320], 1e-2);
 });
 
-test("an upright picture sees as much to the sides as a wide one does up and down", () => {
+test("an upright canvas shows as much horizontally as a wide one does vertically", () => {
   const pose = poseFrom([0, -10, 0], [0, 0, 0]);
   const wide = viewOf(pose, 45, 900, 400, none, 40);
   const upright = viewOf(pose, 45, 400, 900, none, 40);
@@ -71,7 +74,7 @@ test("an upright picture sees as much to the sides as a wide one does up and dow
   assert.ok(Math.abs(up - aside) < 1e-3, `${up} ${aside}`);
 });
 
-test("what is behind the eye is nowhere in the picture", () => {
+test("a point behind the eye has no projection", () => {
   const view = viewOf(poseFrom([0, -10, 0], [0, 0, 0]), 45, 100, 100, none, 40);
   assert.equal(project(view, [0, -20, 0]), undefined);
 });
@@ -85,14 +88,14 @@ test("framing shows every corner of the bounds", () => {
   }
 });
 
-test("a ray enters a sphere at its near side and misses what is beside or behind it", () => {
+test("a ray enters a sphere at its near side, and misses spheres beside and behind it", () => {
   const ray = { origin: [0, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
   assert.equal(enter(ray, [5, 0, 0], 1), 4);
   assert.equal(enter(ray, [5, 1.01, 0], 1), Infinity);
   assert.equal(enter(ray, [-5, 0, 0], 1), Infinity);
 });
 
-test("approaching takes the short way around", () => {
+test("approaching turns the shorter way", () => {
   const [from, to] = [poseFrom([-5, 1, 0], [0, 0, 0]), poseFrom([-5, -1, 0], [0, 0, 0])];
   assert.ok(eyeOf(approached(from, to, 0.5))[0] < -5);
 });

@@ -29,7 +29,7 @@ test("the golden frames give the golden positions", () => {
   assert.deepEqual(positionsOf(decoder), expected);
 });
 
-test("who joins at a keyframe has the same positions as who was there", () => {
+test("a decoder that starts at a later keyframe has the same positions", () => {
   const decoder = new Decoder(spheres);
   for (let k = 5; k < 8; k++) decoder.apply(frame(k));
   assert.deepEqual(positionsOf(decoder), expected);
@@ -45,7 +45,7 @@ test("a frame may lie anywhere in a message", () => {
   assert.deepEqual(positionsOf(decoder), expected);
 });
 
-test("a missed frame is found, and a keyframe helps", () => {
+test("a missing frame is detected, and a keyframe restores the chain", () => {
   const decoder = new Decoder(spheres);
   assert.throws(() => decoder.apply(frame(1)), /is no keyframe, and none came before/);
   decoder.apply(frame(0));
@@ -65,7 +65,7 @@ test("a velocity right after a keyframe is refused", () => {
   assert.throws(() => decoder.apply(next), /block \d+: is predicted from a velocity right after a keyframe/);
 });
 
-/** One block of 64 spheres at (5, 6, -7); then a delta frame of these words of its group. */
+/** Decodes one block of 64 spheres at (5, 6, -7), then a delta frame with these words in its group. */
 const still = Uint32Array.of(0x01015053, 64, 1, 0, 6, 1, 0x000f, 0, 5, 6, 0xfffffff9);
 function after(group: number[]): Int32Array {
   const decoder = new Decoder(64);
@@ -74,14 +74,14 @@ function after(group: number[]): Int32Array {
   return decoder.newest;
 }
 
-test("frames by hand mean what the document says", () => {
+test("frames made by hand decode as docs/codec.md specifies", () => {
   assert.deepEqual([...after([0]).subarray(0, 3)], [5, 6, -7]);
   const masked = after([1, 0x20212011, 0x01010220, 0x00000a01]);
   assert.deepEqual([...masked.subarray(0, 6)], [5, 6, -7, 4, 6, -7]);
   assert.deepEqual([...masked.subarray(120, 123)], [6, 5, -9]);
 });
 
-test("what is wrong and where is said", () => {
+test("errors say what is wrong, and where", () => {
   const refused = (words: number[], reason: RegExp) =>
     assert.throws(() => new Decoder(64).apply(new Uint8Array(Uint32Array.from(words).buffer)), reason);
   const key = 0x01015053;
@@ -103,7 +103,7 @@ test("what is wrong and where is said", () => {
   assert.throws(() => after([1, 0, 0]), /chunk 0: does not end where its groups do/);
 });
 
-test("garbled frames are refused or mean something", () => {
+test("corrupted frames are refused or decoded", () => {
   let random = 1;
   const draw = (below: number): number => {
     random = (Math.imul(random, 1664525) + 1013904223) >>> 0;
@@ -113,13 +113,13 @@ test("garbled frames are refused or mean something", () => {
   for (let round = 0; round < 300; round++) {
     const decoder = new Decoder(spheres);
     for (const bytes of frames) {
-      const garbled = bytes.slice(0, draw(4) === 0 ? draw(bytes.length) : bytes.length);
+      const corrupted = bytes.slice(0, draw(4) === 0 ? draw(bytes.length) : bytes.length);
       for (let k = draw(3); k > 0; k--) {
-        const at = draw(garbled.length);
-        garbled[at] = (garbled[at] ?? 0) ^ (1 << draw(8));
+        const at = draw(corrupted.length);
+        corrupted[at] = (corrupted[at] ?? 0) ^ (1 << draw(8));
       }
       try {
-        decoder.apply(garbled);
+        decoder.apply(corrupted);
       } catch (error) {
         assert.match(String(error), /^Error: frame, /);
         refused++;
@@ -129,7 +129,7 @@ test("garbled frames are refused or mean something", () => {
   assert.ok(refused > 300);
 });
 
-/** Words of some bits, and the field of `width` bits from `at` on. */
+/** Words with pseudo-random bits, and a plain reader of the field of `width` bits at `at`. */
 const words = new Uint32Array(220).map((_, k) => Math.imul(k + 1, 0x9e3779b1));
 const view = new DataView(words.buffer);
 const bits = [...words].flatMap((word) => Array.from({ length: 32 }, (_, k) => (word >>> k) & 1));
@@ -142,7 +142,7 @@ test("fields of every width are read at every bit", () => {
   }
 });
 
-test("runs of every width move their spheres, from whatever is predicted", () => {
+test("runs of every width move their spheres, with every predictor", () => {
   const newest = Int32Array.from({ length: 195 }, (_, k) => Math.imul(k + 3, 0x85ebca77));
   const last = Int32Array.from({ length: 195 }, (_, k) => Math.imul(k + 5, 0xc2b2ae3d));
   const base = Int32Array.of(-7, 0x7ffffff0, 512);

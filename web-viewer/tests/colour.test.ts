@@ -1,22 +1,21 @@
-import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { groupColours } from "../src/colour/groups";
+import { groupColour } from "../src/colour/groups";
 import { modeFor } from "../src/colour/modes";
 import { AutoRange, niceAbove } from "../src/colour/range";
 import { rampColour, speedRamp } from "../src/colour/ramp";
 import { css, hexToRgb } from "../src/colour/rgb";
-import { GroupFactsSchema } from "../src/gen/spherule/v1/control_pb";
 
-test("a nice figure is the next of 1, 2, 3, 5 times a power of ten", () => {
-  for (const [value, nice] of [[0.9, 1], [1, 1], [1.1, 2], [2.5, 3], [4, 5], [7, 10], [0.031, 0.05], [1234, 2000]] as const) {
+test("values are rounded up to 1, 2, 3 or 5 times a power of ten", () => {
+  const cases = [[0.9, 1], [1, 1], [1.1, 2], [2.5, 3], [4, 5], [7, 10], [0.031, 0.05], [1234, 2000]] as const;
+  for (const [value, nice] of cases) {
     assert.ok(Math.abs(niceAbove(value) / nice - 1) < 1e-9, `${value}: ${niceAbove(value)}`);
   }
   assert.equal(niceAbove(0), 0);
   assert.equal(niceAbove(NaN), 0);
 });
 
-test("a range widens at once and narrows only after a calm time, to what was seen meanwhile", () => {
+test("a range rises at once, and falls only after a time of smaller values, to their maximum", () => {
   const range = new AutoRange(0.1, 1000);
   range.update(4, 0);
   assert.equal(range.high, 5);
@@ -27,7 +26,7 @@ test("a range widens at once and narrows only after a calm time, to what was see
   assert.equal(range.high, 2);
 });
 
-test("a burst ends the calm time", () => {
+test("a large value restarts that time", () => {
   const range = new AutoRange(0.1, 1000);
   range.update(4, 0);
   range.update(0.3, 100);
@@ -36,7 +35,7 @@ test("a burst ends the calm time", () => {
   assert.equal(range.high, 5);
 });
 
-test("a locked range stays, and a range never falls below its least", () => {
+test("a locked range does not change, and a range never falls below its minimum", () => {
   const range = new AutoRange(0.1, 0);
   range.locked = true;
   range.update(50, 0);
@@ -47,7 +46,7 @@ test("a locked range stays, and a range never falls below its least", () => {
   assert.equal(range.high, 0.1);
 });
 
-test("a ramp gives its stops, mixes between them and ends at its ends", () => {
+test("a ramp interpolates between its stops, and is constant beyond its ends", () => {
   assert.equal(css(rampColour(speedRamp, 0)), css(speedRamp[0]));
   assert.equal(css(rampColour(speedRamp, 0.2)), css(speedRamp[1]));
   assert.equal(css(rampColour(speedRamp, 7)), css(speedRamp[5]));
@@ -55,20 +54,20 @@ test("a ramp gives its stops, mixes between them and ends at its ends", () => {
   assert.ok(Math.abs(between[0] - (speedRamp[0][0] + speedRamp[1][0]) / 2) < 1e-9);
 });
 
-test("colours are read from six hex digits and nothing else", () => {
+test("colours are parsed from six hexadecimal digits only", () => {
   assert.deepEqual(hexToRgb("#ff0080"), [1, 0, 128 / 255]);
   for (const wrong of ["", "red", "#fff", "#12345g", "#1234567"]) assert.equal(hexToRgb(wrong), undefined);
 });
 
-test("a scene whose groups have colours is coloured by them, another by speed", () => {
+test("a scene whose groups have colours is coloured by group, others by speed", () => {
   assert.equal(modeFor([{ own: true }, { own: true }]), "group");
   assert.equal(modeFor([{ own: true }]), "speed");
   assert.equal(modeFor([{ own: false }, { own: false }]), "speed");
 });
 
 test("a group keeps its own colour; others get different ones", () => {
-  const group = (colour: string) => create(GroupFactsSchema, { colour, count: 1 });
-  const [own, one, two] = groupColours([group("#ff0000"), group(""), group("")]);
-  assert.deepEqual(own?.colour, [1, 0, 0]);
-  assert.notDeepEqual(one?.colour, two?.colour);
+  assert.deepEqual(groupColour("#ff0000", 0), { colour: [1, 0, 0], own: true });
+  const [one, two] = [groupColour("", 1), groupColour("", 2)];
+  assert.deepEqual([one.own, two.own], [false, false]);
+  assert.notDeepEqual(one.colour, two.colour);
 });

@@ -2,9 +2,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { Buffers } from "../src/connection/buffers";
+import { BufferPool } from "../src/connection/buffer_pool";
 import { Frames } from "../src/connection/frames";
-import { placesOf } from "../src/connection/order";
+import { positionOffsets } from "../src/connection/order";
 import { Tier } from "../src/gen/spherule/v1/frame_pb";
 import type { Frame } from "../src/gen/spherule/v1/frame_pb";
 import { frameOf, keyframe, orderOf, still } from "./support/chain";
@@ -17,7 +17,7 @@ const ends: [number, number, number][] = [
 const first = (fields = {}): Frame => frameOf(keyframe(1, ends), { count: 3, ...fields });
 const next = (number: number, fields = {}): Frame => frameOf(still(number, 3), { count: 3, ...fields });
 
-function begun(buffers = new Buffers()): Frames {
+function begun(buffers = new BufferPool()): Frames {
   const frames = new Frames(buffers);
   frames.setScene(3, 3);
   frames.setOrder(orderOf([2, 0, 1]));
@@ -30,22 +30,24 @@ function positionsOf(frames: Frames, frame: Frame): Float32Array {
   return decoded.positions;
 }
 
-test("a frame gives metres in id order", () => {
+test("a frame is decoded to metres in id order", () => {
   const frames = begun();
   const metres = [-2, 2.5, 300, 3.5, 4, -4.5, 0.5, 1, 1.5];
   assert.deepEqual([...positionsOf(frames, first())], metres);
   assert.deepEqual([...positionsOf(frames, next(2))], metres);
 });
 
-test("the golden frames come out in the order's places", () => {
+test("the golden frames are decoded in the given order", () => {
   const golden = (name: string) => new Uint8Array(readFileSync(path.join("..", "tests", "golden", "codec", name)));
   const count = 583;
   const ids = Array.from({ length: count }, (_, k) => (k * 100) % count);
-  const frames = new Frames(new Buffers());
+  const frames = new Frames(new BufferPool());
   frames.setScene(3, count);
   frames.setOrder(orderOf(ids));
   let positions: Float32Array = new Float32Array(0);
-  for (let k = 0; k < 8; k++) positions = positionsOf(frames, frameOf(golden(`frame-${k}.spb`), { count, quantum: 0.25 }));
+  for (let k = 0; k < 8; k++) {
+    positions = positionsOf(frames, frameOf(golden(`frame-${k}.spb`), { count, quantum: 0.25 }));
+  }
   const units = new Int32Array(golden("positions.i32").buffer);
   ids.forEach((id, k) => {
     for (let axis = 0; axis < 3; axis++) {
@@ -54,26 +56,26 @@ test("the golden frames come out in the order's places", () => {
   });
 });
 
-test("a larger used buffer is taken without showing what it held", () => {
-  const buffers = new Buffers();
-  buffers.giveBack(new Uint8Array(600).fill(255).buffer);
+test("a larger used buffer is reused, and its old content is not visible", () => {
+  const buffers = new BufferPool();
+  buffers.release(new Uint8Array(600).fill(255).buffer);
   const positions = positionsOf(begun(buffers), first());
   assert.deepEqual([positions.length, positions.buffer.byteLength, positions[0]], [9, 600, -2]);
 });
 
-test("frames of another epoch or order are left alone", () => {
+test("frames of another epoch or order are ignored", () => {
   const frames = begun();
   assert.equal(frames.decode(first({ epoch: 2 })).kind, "foreign");
   assert.equal(frames.decode(first({ order: 2 })).kind, "foreign");
   positionsOf(frames, first());
   assert.equal(frames.decode(next(2, { order: 2 })).kind, "foreign");
   frames.setScene(4, 3);
-  assert.equal(frames.decode(first({ epoch: 4 })).kind, "foreign", "the order was that of the epoch before");
+  assert.equal(frames.decode(first({ epoch: 4 })).kind, "foreign", "the order is of the previous epoch");
   frames.setOrder(orderOf([0, 1, 2]));
   assert.equal(frames.decode(first({ epoch: 4 })).kind, "foreign", "an order of another epoch");
 });
 
-test("a keyframe begins another chain, and the one before does not go on", () => {
+test("a keyframe starts another chain, and ends the previous one", () => {
   const frames = begun();
   positionsOf(frames, first());
   assert.equal(frames.decode(next(2, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind");
@@ -81,10 +83,10 @@ test("a keyframe begins another chain, and the one before does not go on", () =>
   assert.equal(fine[0], -0.5);
   positionsOf(frames, next(2, { tier: Tier.FINE, quantum: 0.125 }));
   assert.equal(frames.decode(next(3)).kind, "behind");
-  assert.equal(frames.decode(next(3, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind", "what was lost stays lost");
+  assert.equal(frames.decode(next(3, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind", "a lost chain stays lost");
 });
 
-test("another order goes on with a keyframe of it", () => {
+test("a new order starts with a keyframe", () => {
   const frames = begun();
   positionsOf(frames, first());
   frames.setOrder(orderOf([0, 1, 2], { number: 2 }));
@@ -92,7 +94,7 @@ test("another order goes on with a keyframe of it", () => {
   assert.deepEqual([...positionsOf(frames, first({ order: 2 }))].slice(0, 3), [0.5, 1, 1.5]);
 });
 
-test("after another connection only a keyframe helps", () => {
+test("a new connection starts with a keyframe", () => {
   const frames = begun();
   positionsOf(frames, first());
   frames.reset();
@@ -102,7 +104,7 @@ test("after another connection only a keyframe helps", () => {
   positionsOf(frames, first());
 });
 
-test("more spheres in a new epoch get a decoder of their own", () => {
+test("a new epoch with more spheres gets a new decoder", () => {
   const frames = begun();
   positionsOf(frames, first());
   frames.setScene(4, 4);
@@ -111,13 +113,13 @@ test("more spheres in a new epoch get a decoder of their own", () => {
   assert.deepEqual([...positionsOf(frames, more)].slice(0, 3), [0.5, 0.5, 0.5]);
 });
 
-test("a broken frame loses the chain, and a keyframe brings it back", () => {
+test("a malformed frame ends the chain, and a keyframe restores it", () => {
   const frames = begun();
   positionsOf(frames, first());
   assert.throws(() => frames.decode(next(3)), /is number 3, which does not follow 1/);
   assert.equal(frames.decode(next(2)).kind, "behind");
   positionsOf(frames, first());
-  assert.throws(() => frames.decode(first({ count: 4 })), /frame 7: 4 spheres, of 3/);
+  assert.throws(() => frames.decode(first({ count: 4 })), /frame 7: has 4 spheres, expected 3/);
   assert.throws(() => frames.decode(first({ quantum: 0 })), /frame 7: has no quantum/);
   assert.throws(() => frames.decode(first({ quantum: Infinity })), /frame 7: has no quantum/);
   assert.throws(() => frames.decode(frameOf(keyframe(1, ends).subarray(0, 40), { count: 3 })), /frame, /);
@@ -126,17 +128,17 @@ test("a broken frame loses the chain, and a keyframe brings it back", () => {
 });
 
 test("an order that is no permutation of the ids is refused", () => {
-  const refused = (ids: number[], reason: RegExp) => assert.throws(() => placesOf(orderOf(ids).ids, 3), reason);
-  assert.deepEqual([...placesOf(orderOf([2, 0, 1]).ids, 3)], [6, 0, 3]);
-  refused([0, 1], /order: 6 bytes for 3 spheres, which take 9/);
-  refused([0, 1, 2, 3], /order: 12 bytes for 3 spheres/);
-  refused([0, 3, 1], /order: sphere 1 has id 3, of 3 spheres/);
+  const refused = (ids: number[], reason: RegExp) => assert.throws(() => positionOffsets(orderOf(ids).ids, 3), reason);
+  assert.deepEqual([...positionOffsets(orderOf([2, 0, 1]).ids, 3)], [6, 0, 3]);
+  refused([0, 1], /order: has 6 bytes, expected 9 for 3 spheres/);
+  refused([0, 1, 2, 3], /order: has 12 bytes, expected 9 for 3 spheres/);
+  refused([0, 3, 1], /order: sphere 1 has id 3, but there are only 3 spheres/);
   refused([0, 1, 0x010002], /order: sphere 2 has id 65538/);
-  refused([2, 0, 2], /order: id 2 is there twice/);
-  assert.throws(() => placesOf(new Uint8Array(8), 3), /order: 8 bytes/);
+  refused([2, 0, 2], /order: id 2 occurs twice/);
+  assert.throws(() => positionOffsets(new Uint8Array(8), 3), /order: has 8 bytes/);
 });
 
-test("after a refused order no frame is taken until a good one comes", () => {
+test("after a refused order, frames are ignored until a valid order arrives", () => {
   const frames = begun();
   positionsOf(frames, first());
   assert.throws(() => frames.setOrder(orderOf([0, 0, 0], { number: 2 })));

@@ -1,10 +1,10 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { State } from "../src/connection/messages";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
-import { factsOf, radiusOf } from "../src/scene/facts";
-import { highSpeed, leastSpeed, positionOf, speedOf } from "../src/scene/positions";
+import { factsOf, radiusOf } from "../src/model/facts";
+import { highSpeed, leastSpeed, positionOf, speedOf } from "../src/model/positions";
+import type { State } from "../src/model/states";
 
 const facts = factsOf(
   create(SceneFactsSchema, {
@@ -22,17 +22,17 @@ function state(simTime: number, metres: number[]): State {
   return { sequence: 1, epoch: 3, step: 1, simTime, count: metres.length / 3, positions, quantum: 0.25 };
 }
 
-test("a place is the centre of the bounds and the metres of the state", () => {
+test("a position is relative to the centre of the bounds", () => {
   assert.deepEqual(positionOf(facts, state(2, [0, 0, 0, 1, 2, 3]), 1), [0.5, 2.5, 5]);
 });
 
-test("radii of their own come as float32; normals become unit vectors", () => {
+test("radii are read as float32, and normals become unit vectors", () => {
   assert.deepEqual([radiusOf(facts, 0), radiusOf(facts, 1)], [0.5, 0.25]);
   assert.deepEqual(facts.radiusRange, [0.25, 0.5]);
   assert.deepEqual(facts.planes[0]?.normal, [0, 0.6, 0.8]);
 });
 
-test("speed is the way between two states over their time", () => {
+test("speed is the distance between two states over their time", () => {
   const from = state(2, [0, 0, 0, 0, 0, 0]);
   const to = state(4, [0, 0, 0, 3, 4, 0]);
   assert.equal(speedOf(from, to, 1), 2.5);
@@ -40,13 +40,13 @@ test("speed is the way between two states over their time", () => {
   assert.equal(speedOf(from, from, 1), 0);
 });
 
-test("speeds below a quantum in the time between the states cannot be told from rest", () => {
+test("the least speed is one quantum in the time between two states", () => {
   const from = state(2, [0, 0, 0]);
   assert.equal(leastSpeed(from, state(2.5, [0, 0, 0])), 0.5);
   assert.equal(leastSpeed(from, from), 0);
 });
 
-test("the high speed leaves the fastest few out", () => {
+test("the high speed ignores the fastest spheres", () => {
   const many = Array.from({ length: 64 }, (_, id) => [0, 0, id === 63 ? 1000 : id]).flat();
   const from = state(2, many.map(() => 0));
   assert.equal(highSpeed(from, state(2.5, many)), 122);

@@ -5,21 +5,21 @@ import { Seeker } from "../src/connection/seeker";
 
 const spacing = 1 / 30;
 
-/** A server that answers when it is told to. */
-class Far {
+/** A server that answers when the test says so. */
+class FakeServer {
   now = 0; // ms
   newest = 0; // s
-  readonly asked: number[] = [];
+  readonly seeks: number[] = [];
   private readonly waiting: ((outcome: Outcome) => void)[] = [];
   readonly seeker = new Seeker(
     (time) => {
-      this.asked.push(time);
+      this.seeks.push(time);
       return new Promise((resolve) => this.waiting.push(resolve));
     },
     () => this.now,
   );
 
-  get underWay(): number {
+  get pending(): number {
     return this.waiting.length;
   }
 
@@ -28,115 +28,115 @@ class Far {
     await new Promise((resolve) => setImmediate(resolve));
   }
 
-  heed(newest: number, speed = 0): void {
+  update(newest: number, speed = 0): void {
     this.newest = newest;
-    this.seeker.heed({ now: this.now, newest, speed, spacing });
+    this.seeker.update({ now: this.now, newest, speed, spacing });
   }
 }
 
-test("one seek is under way at a time, and of what waits only the latest goes out", async () => {
-  const far = new Far();
-  for (const time of [1, 2, 3, 4]) far.seeker.want(time);
-  assert.deepEqual([far.asked, far.underWay], [[1], 1]);
-  await far.answer();
-  assert.deepEqual([far.asked, far.underWay], [[1, 4], 1]);
-  await far.answer();
-  assert.deepEqual([far.asked, far.underWay], [[1, 4], 0]);
-  far.seeker.want(5);
-  assert.deepEqual(far.asked, [1, 4, 5]);
+test("one seek is in progress at a time, and only the latest waiting target is sent", async () => {
+  const server = new FakeServer();
+  for (const time of [1, 2, 3, 4]) server.seeker.seek(time);
+  assert.deepEqual([server.seeks, server.pending], [[1], 1]);
+  await server.answer();
+  assert.deepEqual([server.seeks, server.pending], [[1, 4], 1]);
+  await server.answer();
+  assert.deepEqual([server.seeks, server.pending], [[1, 4], 0]);
+  server.seeker.seek(5);
+  assert.deepEqual(server.seeks, [1, 4, 5]);
 });
 
-test("the moment that is wanted holds until a state of it has come, whatever comes before", async () => {
-  const far = new Far();
-  far.heed(1);
-  far.seeker.want(7);
-  far.heed(1);
-  assert.equal(far.seeker.wanted, 7);
-  await far.answer();
-  far.heed(1.02); // was on its way when the answer came
-  assert.equal(far.seeker.wanted, 7);
-  far.heed(7 - 0.9 * spacing);
-  assert.equal(far.seeker.wanted, undefined);
+test("the target holds until its state has arrived, whatever arrives before", async () => {
+  const server = new FakeServer();
+  server.update(1);
+  server.seeker.seek(7);
+  server.update(1);
+  assert.equal(server.seeker.target, 7);
+  await server.answer();
+  server.update(1.02); // it was in transit when the answer arrived
+  assert.equal(server.seeker.target, 7);
+  server.update(7 - 0.9 * spacing);
+  assert.equal(server.seeker.target, undefined);
 });
 
-test("while it plays, the state that comes may be as far ahead as has been played since", async () => {
-  const far = new Far();
-  far.seeker.want(7);
-  await far.answer();
-  far.now += 300;
-  far.heed(7.3, 0);
-  assert.equal(far.seeker.wanted, 7);
-  far.heed(7.3, 1);
-  assert.equal(far.seeker.wanted, undefined);
+test("during playback, the state may be ahead by the time played since", async () => {
+  const server = new FakeServer();
+  server.seeker.seek(7);
+  await server.answer();
+  server.now += 300;
+  server.update(7.3, 0);
+  assert.equal(server.seeker.target, 7);
+  server.update(7.3, 1);
+  assert.equal(server.seeker.target, undefined);
 });
 
-test("a moment of which no state comes is let go in the end", async () => {
-  const far = new Far();
-  far.seeker.want(7);
-  await far.answer();
-  far.now += 500;
-  far.heed(2);
-  assert.equal(far.seeker.wanted, 7);
-  far.now += 600;
-  far.heed(2);
-  assert.equal(far.seeker.wanted, undefined);
+test("a target whose state does not arrive is dropped after a timeout", async () => {
+  const server = new FakeServer();
+  server.seeker.seek(7);
+  await server.answer();
+  server.now += 500;
+  server.update(2);
+  assert.equal(server.seeker.target, 7);
+  server.now += 600;
+  server.update(2);
+  assert.equal(server.seeker.target, undefined);
 });
 
-test("before an answer nothing is let go, and a refusal lets go at once", async () => {
-  const far = new Far();
-  far.seeker.want(7);
-  far.now += 10_000;
-  far.heed(7);
-  assert.equal(far.seeker.wanted, 7);
-  await far.answer("refused");
-  assert.equal(far.seeker.wanted, undefined);
-  far.seeker.want(8);
-  assert.deepEqual(far.asked, [7, 8]);
+test("a target is kept until its answer, and dropped at once by a refusal", async () => {
+  const server = new FakeServer();
+  server.seeker.seek(7);
+  server.now += 10_000;
+  server.update(7);
+  assert.equal(server.seeker.target, 7);
+  await server.answer("refused");
+  assert.equal(server.seeker.target, undefined);
+  server.seeker.seek(8);
+  assert.deepEqual(server.seeks, [7, 8]);
 });
 
-test("a lead shows the moment before first, and goes on once that is there", async () => {
-  const far = new Far();
-  far.seeker.want(7, spacing);
-  assert.deepEqual(far.asked, [7 - spacing]);
-  assert.equal(far.seeker.wanted, 7);
-  await far.answer();
-  for (const before of [1, 7]) far.heed(before);
-  assert.equal(far.asked.length, 1);
-  far.heed(7 - spacing);
-  assert.deepEqual(far.asked, [7 - spacing, 7]);
-  await far.answer();
-  far.heed(7);
-  assert.equal(far.seeker.wanted, undefined);
+test("a lead seeks to the earlier state first, and continues once that has arrived", async () => {
+  const server = new FakeServer();
+  server.seeker.seek(7, spacing);
+  assert.deepEqual(server.seeks, [7 - spacing]);
+  assert.equal(server.seeker.target, 7);
+  await server.answer();
+  for (const before of [1, 7]) server.update(before);
+  assert.equal(server.seeks.length, 1);
+  server.update(7 - spacing);
+  assert.deepEqual(server.seeks, [7 - spacing, 7]);
+  await server.answer();
+  server.update(7);
+  assert.equal(server.seeker.target, undefined);
 });
 
-test("a lead of which no state comes holds nobody up, and another wish ends it", async () => {
-  const far = new Far();
-  far.seeker.want(7, spacing);
-  await far.answer();
-  far.now += 200;
-  far.heed(1);
-  assert.deepEqual(far.asked, [7 - spacing, 7]);
-  await far.answer();
-  far.seeker.want(5, spacing);
-  await far.answer();
-  far.seeker.want(3);
-  assert.equal(far.asked.at(-1), 3);
-  assert.equal(far.seeker.wanted, 3);
-  assert.equal(far.underWay, 1);
+test("a lead whose state does not arrive times out, and another target replaces it", async () => {
+  const server = new FakeServer();
+  server.seeker.seek(7, spacing);
+  await server.answer();
+  server.now += 200;
+  server.update(1);
+  assert.deepEqual(server.seeks, [7 - spacing, 7]);
+  await server.answer();
+  server.seeker.seek(5, spacing);
+  await server.answer();
+  server.seeker.seek(3);
+  assert.equal(server.seeks.at(-1), 3);
+  assert.equal(server.seeker.target, 3);
+  assert.equal(server.pending, 1);
 });
 
-test("what was forgotten does not come back with its answer", async () => {
-  const far = new Far();
-  far.seeker.want(1);
-  far.seeker.want(2);
-  far.seeker.forget();
-  await far.answer();
-  assert.deepEqual([far.asked, far.seeker.wanted], [[1], undefined]);
-  far.seeker.want(3);
-  far.seeker.forget();
-  far.seeker.want(4);
-  await far.answer("refused"); // of 3
-  assert.equal(far.seeker.wanted, 4);
-  far.seeker.want(5);
-  assert.equal(far.underWay, 1);
+test("a late answer does not restore targets after a reset", async () => {
+  const server = new FakeServer();
+  server.seeker.seek(1);
+  server.seeker.seek(2);
+  server.seeker.reset();
+  await server.answer();
+  assert.deepEqual([server.seeks, server.seeker.target], [[1], undefined]);
+  server.seeker.seek(3);
+  server.seeker.reset();
+  server.seeker.seek(4);
+  await server.answer("refused"); // of 3
+  assert.equal(server.seeker.target, 4);
+  server.seeker.seek(5);
+  assert.equal(server.pending, 1);
 });

@@ -3,7 +3,7 @@ import { afterEach, beforeEach, test } from "node:test";
 import { Socket } from "../src/connection/socket";
 import { timers } from "./support/timers";
 
-/** What the browser gives a page, in the test's hands. */
+/** A WebSocket that the test controls. */
 class FakeSocket {
   static readonly OPEN = 1;
   static made: FakeSocket[] = [];
@@ -21,8 +21,8 @@ class FakeSocket {
     this.closed = true;
   }
 
-  /** The server speaks. */
-  say(): void {
+  /** Delivers a message of the server. */
+  receive(): void {
     this.onmessage({ data: new ArrayBuffer(1) });
   }
 
@@ -43,41 +43,43 @@ afterEach(() => {
 });
 
 function connected() {
-  const said: string[] = [];
+  const events: string[] = [];
   const socket = new Socket("ws://here/ws", {
-    opened: () => void said.push("opened"),
+    opened: () => void events.push("opened"),
     received: () => {},
-    changed: ({ state, reason, refused }) => void said.push([state, refused ? "refused" : "", reason].filter(Boolean).join(" ")),
-    ask: () => {},
+    changed: ({ state, reason, refused }) => {
+      events.push([state, refused ? "refused" : "", reason].filter(Boolean).join(" "));
+    },
+    probe: () => {},
     silent: () => {},
   });
-  return { socket, said, newest: () => FakeSocket.made.at(-1) as FakeSocket };
+  return { socket, events, newest: () => FakeSocket.made.at(-1) as FakeSocket };
 }
 
-test("a server that asks for a token is left alone until there is one", () => {
-  const { socket, said, newest } = connected();
+test("after a server has required a token, nothing is tried until there is one", () => {
+  const { socket, events, newest } = connected();
   newest().onopen();
   newest().end(4401, "this server asks for a token");
-  assert.deepEqual(said, ["connecting", "opened", "locked this server asks for a token"]);
+  assert.deepEqual(events, ["connecting", "opened", "locked this server asks for a token"]);
   timers.tick(600_000);
   assert.equal(FakeSocket.made.length, 1);
-  socket.renew();
+  socket.reconnect();
   assert.equal(FakeSocket.made.length, 2);
-  assert.equal(said.at(-1), "connecting");
+  assert.equal(events.at(-1), "connecting");
   newest().end(4401, "this token is not known here");
   timers.tick(600_000);
   assert.equal(FakeSocket.made.length, 2);
 });
 
-test("a server that turns the page away is asked again, ever more rarely, and its reason told", () => {
-  const { said, newest } = connected();
+test("after a refusal the waits grow, and the reason is reported", () => {
+  const { events, newest } = connected();
   for (const [code, reason] of [
     [1013, "the server is full"],
     [1008, "too many from your address"],
   ] as const) {
     const before = FakeSocket.made.length;
     newest().end(code, reason);
-    assert.equal(said.at(-1), `waiting refused ${reason}`);
+    assert.equal(events.at(-1), `waiting refused ${reason}`);
     timers.tick(8000);
     assert.equal(FakeSocket.made.length, before + 1);
   }
@@ -91,32 +93,32 @@ test("a server that turns the page away is asked again, ever more rarely, and it
   assert.equal(FakeSocket.made.length, before);
 });
 
-test("a restart is no refusal", () => {
-  const { said, newest } = connected();
-  newest().say();
+test("a restart is not a refusal", () => {
+  const { events, newest } = connected();
+  newest().receive();
   newest().end(1012, "the server is stopping");
-  assert.equal(said.at(-1), "waiting the server is stopping");
+  assert.equal(events.at(-1), "waiting the server is stopping");
   timers.tick(250);
   assert.equal(FakeSocket.made.length, 2);
   newest().end(1006, "");
 });
 
-test("to begin anew ends the connection that there is", () => {
+test("a reconnect closes the present connection", () => {
   const { socket, newest } = connected();
   const first = newest();
-  first.say();
-  socket.renew();
+  first.receive();
+  socket.reconnect();
   assert.equal(first.closed, true);
   assert.equal(FakeSocket.made.length, 2);
-  first.end(1000, ""); // late, and of no interest
+  first.end(1000, ""); // late: ignored
   timers.tick(5000);
   assert.equal(FakeSocket.made.length, 2);
   newest().end(4401, "");
 });
 
-test("a connection that works is not begun anew by asking for it", () => {
+test("a retry does not close a working connection", () => {
   const { socket, newest } = connected();
-  newest().say();
+  newest().receive();
   socket.retry();
   assert.equal(FakeSocket.made.length, 1);
   newest().end(1013, "full");

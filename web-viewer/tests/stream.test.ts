@@ -1,47 +1,47 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Buffers } from "../src/connection/buffers";
+import { BufferPool } from "../src/connection/buffer_pool";
 import { Frames } from "../src/connection/frames";
-import { KeyframeWish } from "../src/connection/keyframe_wish";
+import { KeyframeRequester } from "../src/connection/keyframe_request";
 import type { Received } from "../src/connection/messages";
 import { Stream } from "../src/connection/stream";
 import { frameOf, keyframe, orderOf, still } from "./support/chain";
 import { timers } from "./support/timers";
 
-interface Said {
+interface SentAck {
   sequence?: bigint;
   decodeMs?: number;
   drawRate?: number;
   lost?: boolean;
 }
 
-/** A stream of one sphere, with all that it says. */
-function listening() {
-  const acks: Said[] = [];
+/** A stream of one sphere that logs its events. */
+function createStream() {
+  const acks: SentAck[] = [];
   const states: Received[] = [];
   const faults: string[] = [];
   let lost = 0;
-  const frames = new Frames(new Buffers());
+  const frames = new Frames(new BufferPool());
   const stream = new Stream(frames, {
     ack: (ack) => void acks.push(ack),
     decoded: (frame) => void states.push(frame),
-    broken: (reason) => void faults.push(reason),
+    malformed: (reason) => void faults.push(reason),
     lost: (count) => (lost = count),
   });
   frames.setScene(3, 1);
   frames.setOrder(orderOf([0]));
-  const take = (sequence: number, spb: Uint8Array, fields = {}): void =>
-    stream.take(frameOf(spb, { sequence: BigInt(sequence), count: 1, stampUs: 5_000_000n, ...fields }), 1234, 99);
-  const asked = (): number[] => acks.filter((ack) => ack.lost).map((ack) => Number(ack.sequence));
-  const close = (): void => stream.reset(); // forgets its timer
-  return { acks, states, faults, frames, stream, take, asked, close, lost: () => lost };
+  const receive = (sequence: number, spb: Uint8Array, fields = {}): void =>
+    stream.receive(frameOf(spb, { sequence: BigInt(sequence), count: 1, stampUs: 5_000_000n, ...fields }), 1234, 99);
+  const requests = (): number[] => acks.filter((ack) => ack.lost).map((ack) => Number(ack.sequence));
+  const close = (): void => stream.reset(); // cancels its timer
+  return { acks, states, faults, frames, stream, receive, requests, close, lost: () => lost };
 }
 
-test("each decoded frame is handed on and acked with what it took", () => {
-  const { acks, states, stream, take } = listening();
+test("each decoded frame is passed on, and acknowledged with its decode time", () => {
+  const { acks, states, stream, receive } = createStream();
   stream.drawRate = 48;
-  take(10, keyframe(1, [[2, 4, 6]]));
-  take(12, still(2, 1));
+  receive(10, keyframe(1, [[2, 4, 6]]));
+  receive(12, still(2, 1));
   assert.deepEqual(acks.map(({ sequence, drawRate, lost }) => [sequence, drawRate, lost]), [
     [10n, 48, false],
     [12n, 48, false],
@@ -53,45 +53,45 @@ test("each decoded frame is handed on and acked with what it took", () => {
   assert.deepEqual([state?.arrival, state?.ready, state?.bytes], [1234, 5000, 99]);
 });
 
-test("a lost chain is said once and asked for once, then the rest is quiet until a keyframe", () => {
-  const { acks, states, faults, take, asked, lost, close } = listening();
-  take(1, keyframe(1, [[0, 0, 0]]));
-  take(2, still(3, 1));
-  take(3, still(4, 1));
-  take(4, still(5, 1));
-  assert.deepEqual(asked(), [2]);
+test("a lost chain is reported once, and one keyframe is requested", () => {
+  const { acks, states, faults, receive, requests, lost, close } = createStream();
+  receive(1, keyframe(1, [[0, 0, 0]]));
+  receive(2, still(3, 1));
+  receive(3, still(4, 1));
+  receive(4, still(5, 1));
+  assert.deepEqual(requests(), [2]);
   assert.equal(faults.length, 1);
   assert.equal(lost(), 3);
-  assert.deepEqual(acks.map((ack) => Number(ack.sequence)), [1, 2, 3, 4], "the server hears of every frame");
-  take(5, keyframe(6, [[0, 0, 0]]));
-  take(6, still(7, 1));
+  assert.deepEqual(acks.map((ack) => Number(ack.sequence)), [1, 2, 3, 4], "every frame is acknowledged");
+  receive(5, keyframe(6, [[0, 0, 0]]));
+  receive(6, still(7, 1));
   assert.equal(states.length, 3);
   close();
 });
 
-test("frames of another epoch are acked and nothing else", () => {
-  const { acks, states, faults, take, lost } = listening();
-  take(1, still(9, 1), { epoch: 2 });
+test("frames of another epoch are acknowledged and ignored", () => {
+  const { acks, states, faults, receive, lost } = createStream();
+  receive(1, still(9, 1), { epoch: 2 });
   assert.deepEqual([acks.length, acks[0]?.lost, states.length, faults.length, lost()], [1, false, 0, 0, 0]);
 });
 
-test("keyframes that cannot be decoded do not make a loop", () => {
-  const { faults, take, asked, lost, close } = listening();
+test("malformed keyframes cause no flood of requests", () => {
+  const { faults, receive, requests, lost, close } = createStream();
   const broken = keyframe(1, [[0, 0, 0]]).subarray(0, 60);
-  for (let sequence = 1; sequence <= 50; sequence++) take(sequence, broken);
-  assert.deepEqual(asked(), [1]);
+  for (let sequence = 1; sequence <= 50; sequence++) receive(sequence, broken);
+  assert.deepEqual(requests(), [1]);
   assert.equal(faults.length, 1);
   assert.equal(lost(), 50);
   close();
 });
 
-test("keyframes are asked for ever more rarely while none helps", () => {
+test("the waits between requests grow while no keyframe helps", () => {
   timers.enable();
   let now = 0;
   const asked: [number, bigint][] = [];
-  const wish = new KeyframeWish((sequence) => void asked.push([now, sequence]), () => now);
+  const keyframe = new KeyframeRequester((sequence) => void asked.push([now, sequence]), () => now);
   for (now = 0; now <= 40_000; now += 500) {
-    wish.want(BigInt(now));
+    keyframe.request(BigInt(now));
     timers.tick(500);
   }
   const times = asked.map(([at]) => at);
@@ -102,12 +102,12 @@ test("keyframes are asked for ever more rarely while none helps", () => {
   timers.reset();
 });
 
-test("a keyframe that came ends the plan to ask again", () => {
+test("a decoded keyframe cancels the next request", () => {
   timers.enable();
   let asked = 0;
-  const wish = new KeyframeWish(() => void (asked += 1), () => 0);
-  assert.deepEqual([wish.want(1n), wish.want(2n), wish.want(3n)], [true, false, false]);
-  wish.forget();
+  const keyframe = new KeyframeRequester(() => void (asked += 1), () => 0);
+  assert.deepEqual([keyframe.request(1n), keyframe.request(2n), keyframe.request(3n)], [true, false, false]);
+  keyframe.cancel();
   timers.tick(60_000);
   assert.equal(asked, 1);
   timers.reset();

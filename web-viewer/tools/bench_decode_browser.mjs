@@ -1,5 +1,6 @@
-// node tools/bench_decode_browser.mjs FOLDER...: times the page's decoder in a worker of headless Chromium, on a page that draws
-// nothing. Each FOLDER has what `spherule_codec_bench --frames FOLDER` writes. Needs what tests/browser installs.
+// node tools/bench_decode_browser.mjs FOLDER...: times the page's decoder in a worker of headless Chromium, on a page
+// that draws nothing. Each FOLDER is an output of `spherule_codec_bench --frames FOLDER`. Requires the packages of
+// tests/browser.
 import * as esbuild from "esbuild";
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
@@ -9,7 +10,7 @@ import { root } from "./options.mjs";
 
 const rounds = 10;
 const folders = process.argv.slice(2);
-if (folders.length === 0) throw new Error("which folders?");
+if (folders.length === 0) throw new Error("no folders given");
 
 const { outputFiles } = await esbuild.build({
   entryPoints: [path.join(root, "tools/bench_worker.ts")],
@@ -20,7 +21,7 @@ const { outputFiles } = await esbuild.build({
   write: false,
 });
 
-/** Page, worker and frames; isolated, which makes the browser's clock fine. */
+/** Serves page, worker and frames. Its pages are isolated, which gives them a clock of high resolution. */
 const server = createServer((request, response) => {
   response.setHeader("Cross-Origin-Opener-Policy", "same-origin");
   response.setHeader("Cross-Origin-Embedder-Policy", "require-corp");
@@ -38,7 +39,9 @@ try {
   await page.goto(`http://127.0.0.1:${server.address().port}/`);
   for (const [index, folder] of folders.entries()) {
     const frames = [];
-    while (existsSync(path.join(folder, `frame-${frames.length}.spb`))) frames.push(`${index}/frame-${frames.length}.spb`);
+    while (existsSync(path.join(folder, `frame-${frames.length}.spb`))) {
+      frames.push(`${index}/frame-${frames.length}.spb`);
+    }
     const spheres = readFileSync(path.join(folder, "frame-0.spb")).readUInt32LE(4);
     const times = await page.evaluate(
       (task) =>
@@ -53,9 +56,8 @@ try {
     for (const [what, all] of Object.entries(times)) {
       all.sort((a, b) => a - b);
       const at = (share) => (all[Math.floor(share * (all.length - 1))] ?? NaN).toFixed(1);
-      console.log(
-        `${folder}: ${spheres} spheres, ${what}: median ${at(0.5)} ms, p10 ${at(0.1)}, p90 ${at(0.9)}, fastest ${at(0)}; ${all.length} frames`,
-      );
+      const figures = `median ${at(0.5)} ms, p10 ${at(0.1)}, p90 ${at(0.9)}, fastest ${at(0)}`;
+      console.log(`${folder}: ${spheres} spheres, ${what}: ${figures}; ${all.length} frames`);
     }
   }
 } finally {

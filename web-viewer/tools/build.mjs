@@ -1,18 +1,18 @@
-// Bundles the page: index.html, viewer.js, worker.js, style.css, favicon.svg, and nothing fetched from elsewhere.
+// Bundles the page: index.html, viewer.js, worker.js, style.css, favicon.svg. The page fetches nothing from elsewhere.
 import * as esbuild from "esbuild";
 import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { generate } from "./generate.mjs";
 import { options, root } from "./options.mjs";
 
-/** lil-gui's style sheet holds a font for its arrows, which the page's security policy forbids; the page draws its own. */
+/** Removes the font from lil-gui's style sheet: the security policy forbids it, and the page draws its own arrows. */
 const withoutFont = {
   name: "without font",
   setup(build) {
     build.onLoad({ filter: /lil-gui\.css$/ }, ({ path: file }) => {
       const whole = readFileSync(file, "utf8");
       const contents = whole.replace(/@font-face\s*\{[^}]*\}/, "");
-      if (contents === whole) throw new Error("lil-gui's style sheet has no font any more: build.mjs need not take it out");
+      if (contents === whole) throw new Error("the style sheet of lil-gui has no font any more: remove this plugin");
       return { contents, loader: "css" };
     });
   },

@@ -1,6 +1,6 @@
-// node tools/compare_codec.mjs PROGRAM [--seed N]: whether the page's decoder makes of frames what the server's makes of them,
-// bit by bit: all positions, and what is refused and why. PROGRAM is the test program `codec_chains`; the seed is drawn where
-// none is given.
+// node tools/compare_codec.mjs PROGRAM [--seed N]: checks that the page's decoder and the server's agree bit by bit: on
+// all positions, and on the frames that they refuse. PROGRAM is the test program `codec_chains`. The seed is random by
+// default.
 import { execFileSync } from "node:child_process";
 import { randomInt } from "node:crypto";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -11,11 +11,11 @@ import { loadDecoder } from "./decoder.mjs";
 
 const { values, positionals } = parseArgs({ allowPositionals: true, options: { seed: { type: "string" } } });
 const [program] = positionals;
-if (!program) throw new Error("which program makes the chains?");
+if (!program) throw new Error("no program given");
 const seed = values.seed ?? String(randomInt(2 ** 47));
 console.log(`seed ${seed}`);
 
-/** Takes numbers and bytes off a file, one after another. */
+/** Reads numbers and bytes from a buffer, one after another. */
 class Reader {
   constructor(bytes) {
     this.bytes = bytes;
@@ -68,9 +68,11 @@ function compareFrame(decoder, name) {
     thrown = error.message;
   }
   if (thrown !== reason) throw new Error(`${name}: "${thrown}" here, "${reason}" there`);
-  if ((thrown === "") !== taken || decoder.wantsKeyframe === taken) throw new Error(`${name}: taken by one, refused by the other`);
+  if ((thrown === "") !== taken || decoder.wantsKeyframe === taken) {
+    throw new Error(`${name}: decoded by one decoder, refused by the other`);
+  }
   compare(name, decoder.newest, reader.take(12 * spheres), spheres);
-  if (reader.number() === 1) compare(`${name}, the frame before`, decoder.before, reader.take(12 * spheres), spheres);
+  if (reader.number() === 1) compare(`${name}, the previous frame`, decoder.before, reader.take(12 * spheres), spheres);
   seen[taken ? "taken" : "refused"] += 1;
 }
 
@@ -82,5 +84,6 @@ while (!reader.done) {
   seen.chains += 1;
 }
 const { chains, taken, refused, positions } = seen;
-console.log(`${chains} chains, ${taken} frames taken, ${refused} refused, ${positions} positions: the same on both sides`);
-if (!(chains > 0 && taken > 500 && refused > 100)) throw new Error("that is too little to mean anything");
+const counts = `${chains} chains, ${taken} frames taken, ${refused} refused, ${positions} positions`;
+console.log(`${counts}: the same in both decoders`);
+if (!(chains > 0 && taken > 500 && refused > 100)) throw new Error("too few frames were compared");

@@ -1,4 +1,4 @@
-// Makes src/gen from the protocol's files, with protoc and the es plugin.
+// Generates src/gen from the .proto files, with protoc and its plugin for ES modules.
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readdirSync } from "node:fs";
 import path from "node:path";

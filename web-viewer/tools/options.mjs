@@ -4,7 +4,7 @@ import path from "node:path";
 
 export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "..");
 
-/** What the build takes: where the page goes, which protoc makes the message code, whether to keep it readable. */
+/** Options of the build: the output folder, the protoc to use, and whether to keep the output readable. */
 export function options() {
   const { values } = parseArgs({
     options: {

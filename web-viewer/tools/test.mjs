@@ -19,7 +19,7 @@ try {
     format: "esm",
     target: "node18",
     sourcemap: "inline",
-    // Packages of the older kind ask for Node's own modules in this way.
+    // CommonJS packages import Node's modules with require().
     banner: { js: 'import { createRequire } from "node:module"; const require = createRequire(import.meta.url);' },
     logLevel: "warning",
   });

@@ -1,24 +1,24 @@
-// Whether a page has what the server has.
+// Compares a page with the server.
 import assert from "node:assert/strict";
 import { when } from "./browser.mjs";
-import { serverSays } from "./raw.mjs";
+import { queryServer } from "./raw.mjs";
 
 /**
- * In a paused world: all positions of the page are those of the frames that the server sends for what the page asks for, bit by
- * bit but for rounding, and are within the tier's error of what it sends at its finest, which is itself off by a tenth of that.
+ * For a paused simulation: checks all positions of the page against the frames that the server sends for the same view,
+ * up to rounding. Also checks them against the finest tier, within the errors of both tiers.
  */
 export async function expectPositionsOfServer(page) {
-  const said = await serverSays(page);
-  const fine = await serverSays(page, { tier: "FINE" });
-  await when(page, (step) => spherule.step === step, said.step);
-  const seen = await page.evaluate((count) => spherule.positions([...Array(count).keys()]), said.positions.length);
-  assert.equal(await page.evaluate(() => spherule.count), said.positions.length);
-  assert.deepEqual([seen.step, seen.quantum, fine.step], [said.step, said.quantum, said.step]);
-  assert.ok(fine.quantum < said.quantum / 9);
-  const error = (said.quantum + fine.quantum) / 2 + said.quantum / 1000;
+  const sent = await queryServer(page);
+  const fine = await queryServer(page, { tier: "FINE" });
+  await when(page, (step) => spherule.session.newest?.step === step, sent.step);
+  const seen = await page.evaluate((count) => spherule.positions([...Array(count).keys()]), sent.positions.length);
+  assert.equal(await page.evaluate(() => spherule.session.facts.count), sent.positions.length);
+  assert.deepEqual([seen.step, seen.quantum, fine.step], [sent.step, sent.quantum, sent.step]);
+  assert.ok(fine.quantum < sent.quantum / 9);
+  const error = (sent.quantum + fine.quantum) / 2 + sent.quantum / 1000;
   seen.positions.forEach((place, id) => {
     place.forEach((value, axis) => {
-      assert.ok(Math.abs(value - said.positions[id][axis]) < said.quantum / 1000, `sphere ${id}`);
+      assert.ok(Math.abs(value - sent.positions[id][axis]) < sent.quantum / 1000, `sphere ${id}`);
       assert.ok(Math.abs(value - fine.positions[id][axis]) < error, `sphere ${id}, against the finest tier`);
     });
   });

@@ -1,22 +1,29 @@
-// Chromium with WebGL in software, and pages of it that remember what went wrong in them.
+// Chromium with WebGL in software, whose pages log their errors and requests.
 import { chromium } from "playwright-core";
-import { serverSays } from "./raw.mjs";
+import { queryServer } from "./raw.mjs";
 
 export const patience = 90_000; // ms; software rendering on a busy machine takes its time
 
-/** `more`: switches of Chromium. */
+/** `more`: further switches of Chromium. */
 export async function launch(...more) {
   return chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--disable-background-networking", ...more],
+    args: [
+      "--no-sandbox",
+      "--enable-unsafe-swiftshader",
+      "--use-angle=swiftshader",
+      "--disable-background-networking",
+      ...more,
+    ],
   });
 }
 
 /**
- * Goes to the page. `picture`: what it calls the quality of its picture; `fixed`: it is sent what it asks for, however slowly it
- * draws here.
+ * Opens the page. `picture`: its choice of image quality; `fixed`: the server does not reduce the stream, however
+ * slowly the page draws here.
  */
-export async function visit(browser, url, { size = [960, 540], picture = "light", colour = "", fixed = true, ...context } = {}) {
+export async function visit(browser, url, options = {}) {
+  const { size = [960, 540], picture = "light", colour = "", fixed = true, ...context } = options;
   const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, ...context });
   page.setDefaultTimeout(patience);
   page.faults = [];
@@ -32,43 +39,50 @@ export async function visit(browser, url, { size = [960, 540], picture = "light"
   return page;
 }
 
-/** Opens the page and waits until it has a state and says what it shows. */
+/** Opens the page, and waits until it shows a state with its legend. */
 export async function open(browser, url, options) {
   const page = await visit(browser, url, options);
   await shows(page);
   return page;
 }
 
-/** Waits until the page has a state and says what it shows. */
+/** Waits until the page shows a state with its legend. */
 export async function shows(page) {
   await when(page, () => {
     const title = document.querySelector('[data-testid="scene-name"]');
     const legend = document.querySelector('[data-testid="legend"]');
-    return window.spherule?.frames > 0 && title.textContent === spherule.scene && !legend.hidden;
+    const { frames, facts } = window.spherule?.session ?? {};
+    return frames > 0 && title.textContent === facts.name && !legend.hidden;
   });
 }
 
 export const control = (id) => `[data-testid="${id}"]`;
 
-/** Waits until the function is true in the page; it sees `argument`. */
+/** Waits until the function, which runs in the page with `argument`, returns true. */
 export async function when(page, condition, argument) {
   await page.waitForFunction(condition, argument, { timeout: patience, polling: 100 });
 }
 
-/** Pauses from the page and waits until it has the state at which the world stands. */
-export async function pause(page) {
-  if (!(await page.evaluate(() => spherule.paused))) await page.click(control("pause"));
-  await when(page, () => spherule.paused);
-  const { step } = await serverSays(page);
-  await when(page, (stands) => spherule.step === stands, step);
+/** Waits until the text of the element matches. */
+export async function says(page, id, pattern) {
+  const matches = ([selector, source]) => new RegExp(source).test(document.querySelector(selector)?.textContent);
+  await when(page, matches, [control(id), pattern.source]);
 }
 
-/** Waits until the picture shows the newest state: two pictures later nothing is drawn any more. */
+/** Pauses the simulation from the page, and waits until the page has its newest state. */
+export async function pause(page) {
+  if (!(await page.evaluate(() => spherule.session.paused))) await page.click(control("pause"));
+  await when(page, () => spherule.session.paused);
+  const { step } = await queryServer(page);
+  await when(page, (newest) => spherule.session.newest?.step === newest, step);
+}
+
+/** Waits until nothing is drawn any more: the image then shows the newest state. */
 export async function settled(page) {
   await page.evaluate(async () => {
     let drawn = -1;
-    while (drawn !== spherule.picture.drawn) {
-      drawn = spherule.picture.drawn;
+    while (drawn !== spherule.drawn) {
+      drawn = spherule.drawn;
       await new Promise((resolve) => setTimeout(resolve, 1500));
     }
   });

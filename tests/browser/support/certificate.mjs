@@ -1,4 +1,4 @@
-// A certificate that nobody trusts who does not know the test's root.
+// A certificate from an authority of the test, which browsers do not trust.
 import { execFileSync } from "node:child_process";
 import { fileURLToPath } from "node:url";
 
@@ -8,7 +8,7 @@ from authorities import Authorities
 print(*Authorities(sys.argv[1]).certify("page"), sep="\\n")
 `;
 
-/** Options of a server with a new certificate for 127.0.0.1, whose files are in the folder. */
+/** Creates a certificate for 127.0.0.1 in the folder; returns the options of a server that uses it. */
 export function tlsOptions(folder) {
   const modules = fileURLToPath(new URL("../../program", import.meta.url));
   const env = { ...process.env, PYTHONPATH: modules };

@@ -1,18 +1,18 @@
-// Coming into a server that asks for a token: by the page, and as a client that has only a name.
+// Access to a server that requires a token: through the page, and as a minimal client.
 import { WebSocket } from "ws";
-import { control, shows, visit, when } from "./browser.mjs";
+import { control, shows, visit } from "./browser.mjs";
 
 export const tokens = { viewer: "the-viewers-token-of-a-test", controller: "the-controllers-token-of-a-test" };
 export const prompt = `${control("token-prompt")}[open]`;
 
-/** Types the token and presses Enter. */
+/** Enters the token in the dialog. */
 export async function give(page, token) {
   await page.waitForSelector(prompt);
   await page.fill(control("token-field"), token);
   await page.press(control("token-field"), "Enter");
 }
 
-/** A page that has been let in with the token. */
+/** Opens the page, and enters the token. */
 export async function enter(browser, server, token, options) {
   const page = await visit(browser, server.url, options);
   await give(page, token);
@@ -20,18 +20,13 @@ export async function enter(browser, server, token, options) {
   return page;
 }
 
-/** Waits until what the element says is like that. */
-export async function says(page, id, pattern) {
-  await when(page, ([name, source]) => new RegExp(source).test(document.querySelector(`[data-testid="${name}"]`)?.textContent), [id, pattern.source]);
-}
-
-/** A controller that asks for the controls, and gets them if nobody has them. */
+/** Connects a controller with this name that requests control. */
 export async function join(server, name) {
   const socket = new WebSocket(`${server.url.replace("http", "ws")}ws`, "spherule.v1");
-  const say = (message) => socket.send(JSON.stringify(message));
+  const send = (message) => socket.send(JSON.stringify(message));
   await new Promise((resolve, reject) => socket.once("open", resolve).once("error", reject));
-  say({ hello: { client: name, token: tokens.controller, view: { rate: 0 } } });
+  send({ hello: { client: name, token: tokens.controller, view: { rate: 0 } } });
   await new Promise((resolve) => socket.once("message", resolve));
-  say({ askControl: {} });
+  send({ askControl: {} });
   return socket;
 }

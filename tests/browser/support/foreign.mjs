@@ -1,11 +1,13 @@
-// Another site, whose pages try to use a server that their visitor's browser reaches.
+// A foreign site, whose pages try to use a server that the visitor's browser can reach.
 import http from "node:http";
 
-/** A site of empty pages, on a free port of 127.0.0.1. */
+/** Starts a site of empty pages on a free port of 127.0.0.1. */
 export async function foreignSite() {
-  const server = http.createServer((_, response) => response.writeHead(200, { "Content-Type": "text/html" }).end("<!doctype html><title>Foreign</title>"));
+  const server = http.createServer((_, response) => {
+    response.writeHead(200, { "Content-Type": "text/html" }).end("<!doctype html><title>Foreign</title>");
+  });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  server.unref(); // a failed test may leave it behind
+  server.unref(); // a failed test may not close it
   const { port } = server.address();
   return {
     url: `http://127.0.0.1:${port}/`,
@@ -19,8 +21,8 @@ export async function foreignSite() {
 }
 
 /**
- * What becomes of it when a page wants to command and to read there. `stream`: "commanded", or how the WebSocket ended; of the rest
- * the status, "opaque", or "nothing".
+ * Tries to use the server from a page. `stream` is "commanded", or says how the WebSocket ended. The other results are
+ * an HTTP status, "opaque", or "nothing".
  */
 export function reach(page, url) {
   return page.evaluate(async (target) => {

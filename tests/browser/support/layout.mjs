@@ -1,8 +1,8 @@
-// What on a page lies over something else, or is cut off.
+// Finds elements of the page that overlap or are cut off.
 
-const narrow = 720; // px: there the controls are a sheet over the rest
+const narrow = 720; // px: up to this width the panel covers the page
 
-/** In words; `least`: so many parts there are to see. */
+/** Returns the faults as text. It is a fault if fewer than `least` elements are visible. */
 export async function collisions(page, least) {
   const { width, height, boxes } = await page.evaluate(() => ({
     width: innerWidth,
@@ -30,7 +30,7 @@ export async function collisions(page, least) {
   return faults;
 }
 
-/** The same at widths from a phone's to a large screen's, with controls and without. */
+/** Returns the faults at widths from a phone to a large screen, with the panel shown and hidden. */
 export async function collisionsByWidth(page, least) {
   const found = [];
   for (const width of [360, 390, 480, narrow, narrow + 1, 800, 960, 1079, 1080, 1100, 1280, 1440, 1920]) {

@@ -1,10 +1,14 @@
-// What can be seen on a page, pixel by pixel.
+// Pixels of the page's canvas.
 
-/** The page's picture without the controls that lie over it. `at(x, y)` gives sRGB, 0..255, at CSS pixels. */
+/**
+ * Takes a screenshot of the canvas without the elements over it. `at(x, y)` returns the sRGB colour (0..255) at a CSS
+ * pixel.
+ */
 export async function pictureOf(page) {
-  // What the page's security policy allows: no style sheets, no requests, but images that are in their own address.
-  const cover = (visibility) => page.evaluate((value) => (document.getElementById("page").style.visibility = value), visibility);
-  await cover("hidden");
+  // The page's security policy forbids style sheets and requests, but allows images in data addresses.
+  const setVisibility = (visibility) =>
+    page.evaluate((value) => (document.getElementById("page").style.visibility = value), visibility);
+  await setVisibility("hidden");
   const shot = await page.screenshot({ scale: "css", timeout: 120_000 });
   const { width, data } = await page.evaluate(async (encoded) => {
     const image = new Image();
@@ -15,7 +19,7 @@ export async function pictureOf(page) {
     context.drawImage(image, 0, 0);
     return { width: image.width, data: Array.from(context.getImageData(0, 0, image.width, image.height).data) };
   }, shot.toString("base64"));
-  await cover("");
+  await setVisibility("");
   return {
     at(x, y) {
       const start = 4 * (Math.round(y) * width + Math.round(x));
@@ -24,7 +28,7 @@ export async function pictureOf(page) {
   };
 }
 
-/** How far a colour is from grey, 0..1. */
+/** The distance of a colour from grey, 0..1. */
 export function vividness([r, g, b]) {
   return (Math.max(r, g, b) - Math.min(r, g, b)) / 255;
 }

@@ -1,7 +1,7 @@
-// A TCP proxy between page and server, whose network can fail in ways that a server on the same machine cannot show.
+// A TCP proxy between page and server that simulates network failures.
 import net from "node:net";
 
-/** Listens on a free port of 127.0.0.1 and passes all on to `target` there. */
+/** Starts a proxy on a free port of 127.0.0.1. `target`: port of the server there. */
 export async function proxyTo(target) {
   const pairs = new Set();
   let swallowing = false;
@@ -14,14 +14,14 @@ export async function proxyTo(target) {
     }
     const pair = { from, to: net.connect(target, "127.0.0.1"), cut: swallowing };
     pairs.add(pair);
-    let asked = false; // for the page, or for the stream
+    let requested = false; // the first bytes, which are an HTTP request, have passed
     const pass = (into) => (bytes) => {
       if (pair.cut) return;
       into.write(bytes);
-      if (stuttering && asked && into === pair.to) into.write(bytes);
-      asked = true;
+      if (stuttering && requested && into === pair.to) into.write(bytes);
+      requested = true;
     };
-    // Who is cut off does not hear that the other has left.
+    // An end that is cut off does not notice that the other has closed.
     const end = (other) => () => void (pair.cut || other.destroy());
     for (const [one, other] of [
       [pair.from, pair.to],
@@ -35,7 +35,7 @@ export async function proxyTo(target) {
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
-    /** Ends all connections as a router does that has forgotten them: both sides get a reset; so does who comes anew. */
+    /** Resets all connections on both sides, and every new one, as a router does that has lost its state. */
     reset() {
       refusing = true;
       for (const { from, to } of pairs) {
@@ -43,18 +43,16 @@ export async function proxyTo(target) {
         to.resetAndDestroy();
       }
     },
-    /**
-     * From now on, bytes vanish both ways and nobody is told: connections stay open, and new ones are taken and stay silent.
-     */
+    /** Drops all bytes from now on, without closing a connection. New connections are accepted and stay silent. */
     cut() {
       swallowing = true;
       for (const pair of pairs) pair.cut = true;
     },
-    /** Whatever a page says after its first request comes twice, or no longer does. */
+    /** Whether all bytes from the page are sent twice, except its first request. */
     stutter(on) {
       stuttering = on;
     },
-    /** New connections work again. What was cut stays so: bytes are missing in it. */
+    /** Lets new connections work again. Connections that were cut stay so, because bytes are missing in them. */
     restore() {
       refusing = swallowing = false;
     },

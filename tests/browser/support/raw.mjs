@@ -1,27 +1,27 @@
-// A second client that shares no code with the page: protobuf's JSON form over a WebSocket of its own.
+// A client that shares no code with the page. It uses the JSON form of the messages.
 import { readKeyframe } from "./keyframe.mjs";
 
 /**
- * The scene's facts and the newest frame as the server tells them now, positions in metres by id. It asks for what the page
- * asks for, unless `view` says otherwise, so that both are sent the same quantised state.
+ * Queries the server's scene facts, settings and newest frame. Returns positions in m, by id. It requests the page's
+ * default view unless `view` overrides it, so that both receive the same quantised state.
  */
-export async function serverSays(page, view = {}) {
+export async function queryServer(page, view = {}) {
   const { facts, settings, order, frame } = await page.evaluate(
     (wanted) =>
       new Promise((resolve, reject) => {
         const socket = new WebSocket(`ws://${location.host}/ws`, "spherule.v1");
-        const heard = {};
+        const received = {};
         socket.onopen = () => socket.send(JSON.stringify({ hello: { client: "test", view: wanted } }));
         socket.onerror = () => reject(new Error("no connection"));
         socket.onmessage = ({ data }) => {
           const message = JSON.parse(data);
-          if (message.scene) heard.facts = message.scene;
-          if (message.settings) heard.settings = message.settings;
-          if (message.order) heard.order = message.order;
+          if (message.scene) received.facts = message.scene;
+          if (message.settings) received.settings = message.settings;
+          if (message.order) received.order = message.order;
           if (!message.frame) return;
-          heard.frame = message.frame;
+          received.frame = message.frame;
           socket.close();
-          resolve(heard);
+          resolve(received);
         };
       }),
     { fixed: true, ...view },

@@ -1,4 +1,4 @@
-// The real server, started for a test on a port of its own.
+// The real server, started by a test on a port of its own.
 import { spawn, execFile } from "node:child_process";
 import path from "node:path";
 
@@ -6,23 +6,24 @@ const binary = path.resolve(process.env.SPHERULE ?? "build/release/spherule");
 
 const running = new Set();
 
-/** Ends what a failed test left behind; its file would wait for it otherwise. */
+/** Stops the servers that a failed test has left running: its file would otherwise not end. */
 export async function stopAll() {
   await Promise.all([...running].map((server) => server.stop()));
 }
 
-/** Runs the program to its end; returns what it printed, or throws with what it complained about. */
+/** Runs the program to its end. Returns its output, or throws an Error with its error output. */
 export function spherule(...words) {
   return run(words, {});
 }
 
 function run(words, more) {
   return new Promise((resolve, reject) => {
-    execFile(binary, words, { env: { ...process.env, ...more } }, (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
+    const env = { ...process.env, ...more };
+    execFile(binary, words, { env }, (error, out, err) => (error ? reject(new Error(err)) : resolve(out)));
   });
 }
 
-/** Serves the scene; `port` 0 takes a free one. `more`: as for start(). */
+/** Serves the scene. `port`: 0 for a free one; `more`: as for start(). */
 export function serve(scene, { port = 0, device = "cpu", ...more } = {}) {
   return start(["serve", scene, "--device", device, "--listen", `127.0.0.1:${port}`], more);
 }
@@ -33,47 +34,47 @@ export function play(file, more = {}) {
 }
 
 /**
- * `folder`: where it runs. `options`: more of the command line. `tokens`: { viewer, controller }; without, everybody steers.
- * `settings`: more environment variables.
+ * `folder`: working directory. `options`: further options of the command line. `tokens`: { viewer, controller };
+ * without them, every client may send commands. `settings`: further environment variables.
  */
 async function start(words, { folder, options = [], tokens = {}, settings = {} }) {
   const { viewer = "", controller = "" } = tokens;
   const env = { ...process.env, SPHERULE_VIEWER_TOKEN: viewer, SPHERULE_CONTROLLER_TOKEN: controller, ...settings };
   const child = spawn(binary, [...words, ...options], { cwd: folder, env, stdio: ["ignore", "pipe", "pipe"] });
-  let said = "";
-  child.stderr.on("data", (data) => (said += data));
+  let output = "";
+  child.stderr.on("data", (data) => (output += data));
   const ended = new Promise((resolve) => child.once("exit", resolve));
   const url = await new Promise((resolve, reject) => {
     child.stdout.on("data", (data) => {
-      said += data;
-      const address = /open (https?:\S+)/.exec(said)?.[1];
+      output += data;
+      const address = /open (https?:\S+)/.exec(output)?.[1];
       if (address) resolve(address);
     });
-    void ended.then((code) => reject(new Error(`the server ended with ${code}:\n${said}`)));
+    void ended.then((code) => reject(new Error(`the server ended with ${code}:\n${output}`)));
   });
   const server = {
     url,
     port: Number(new URL(url).port),
-    /** Gives a command as a shell would; returns what ctl printed, or throws when it was refused. */
+    /** Sends a command with `spherule ctl`. Returns its output, or throws an Error if the command was refused. */
     ctl(...words) {
       return run(["ctl", `${url.replace("http", "ws")}ws`, ...words], { SPHERULE_TOKEN: controller });
     },
-    /** Its exit code, once it has ended by itself. */
+    /** Waits until the server has ended by itself; returns its exit code. */
     async ended() {
       const code = await ended;
       running.delete(server);
       return code;
     },
-    /** Ends it as the kernel does that needs memory: it can do nothing more. */
+    /** Kills the server with SIGKILL. */
     async kill() {
       running.delete(server);
       child.kill("SIGKILL");
       await ended;
     },
-    /** It stands still, with all its connections open, until it is thawed. */
+    /** Suspends the server, with its connections open, until thaw() is called. */
     freeze: () => child.kill("SIGSTOP"),
     thaw: () => child.kill("SIGCONT"),
-    /** The value of a metric, as `name` or `name{label="value"}`; undefined: there is none. */
+    /** Returns the value of a metric, given as `name` or `name{label="value"}`; undefined if it does not exist. */
     async metric(name) {
       const headers = { Authorization: `Bearer ${controller || viewer}` };
       const text = await (await fetch(`${url}metrics`, { headers })).text();
@@ -85,7 +86,7 @@ async function start(words, { folder, options = [], tokens = {}, settings = {} }
       child.kill("SIGTERM");
       child.kill("SIGCONT"); // a failed test may have left it frozen
       const code = await ended;
-      if (code !== 0) throw new Error(`the server ended with ${code}:\n${said}`);
+      if (code !== 0) throw new Error(`the server ended with ${code}:\n${output}`);
     },
   };
   running.add(server);

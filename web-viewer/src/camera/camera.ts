@@ -1,24 +1,24 @@
-import type { Facts } from "../scene/facts";
+import type { Facts } from "../model/facts";
 import { approached, framing, near, orbited, panned, poseFrom, zoomed } from "./orbit";
 import type { Pose } from "./orbit";
 import { viewOf } from "./view";
 import type { Insets, View } from "./view";
 
-const turn = 0.006; // radians per pixel
-const ease = 70; // ms to close most of the gap to where the hand has led
+const orbitSpeed = 0.006; // radians per pixel
+const ease = 70; // ms, time constant with which the pose approaches the goal
 
-/** The camera that the hand leads: movements go to a goal, the picture follows smoothly. */
+/** A camera whose movements set a goal pose, which the shown pose approaches smoothly. */
 export class Camera {
   pose: Pose = { target: [0, 0, 0], distance: 5, azimuth: -1, elevation: 0.4 };
   insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
   private goal: Pose = this.pose;
   private home: Pose = this.pose;
   private fieldOfView = 45;
-  private extent = 10; // m: no place of the scene is farther from another
+  private extent = 10; // m, diagonal of the bounds
   private size: [number, number] = [1, 1];
   private current: View = viewOf(this.pose, 45, 1, 1, this.insets, 10);
 
-  /** Takes the scene's camera, or one that sees its bounds; stays where it is when the scene only changed a little. */
+  /** Takes the scene's camera, or one that sees all of its bounds. `stay`: keeps the present pose. */
   look(facts: Facts, stay: boolean): void {
     this.fieldOfView = facts.fieldOfView;
     this.extent = Math.hypot(facts.max[0] - facts.min[0], facts.max[1] - facts.min[1], facts.max[2] - facts.min[2]);
@@ -31,7 +31,7 @@ export class Camera {
     this.goal = this.home;
   }
 
-  /** Looks along an axis, from as far as now. */
+  /** Looks in a direction (radians), from the present distance. */
   along(azimuth: number, elevation: number): void {
     this.goal = { ...this.home, distance: this.goal.distance, azimuth, elevation };
   }
@@ -41,7 +41,7 @@ export class Camera {
   }
 
   orbit(dx: number, dy: number): void {
-    this.goal = orbited(this.goal, -dx * turn, dy * turn);
+    this.goal = orbited(this.goal, -dx * orbitSpeed, dy * orbitSpeed);
   }
 
   pan(dx: number, dy: number): void {
@@ -49,7 +49,7 @@ export class Camera {
     this.goal = panned(this.goal, -dx * metres, dy * metres);
   }
 
-  /** Zooms towards a place of the picture; without one, towards the target. */
+  /** Zooms towards a point of the canvas (CSS pixels); towards the target if there is none. */
   zoom(factor: number, x?: number, y?: number): void {
     const metres = this.metresPerPixel();
     const { top, right, bottom, left } = this.insets;
@@ -58,10 +58,11 @@ export class Camera {
     this.goal = zoomed(this.goal, factor, dx * metres, -dy * metres, [0.01 * this.extent, 8 * this.extent]);
   }
 
-  /** Moves on by `elapsed` ms; false when it stands still. */
+  /** Moves the pose by `elapsed` ms. Returns false if it has reached its goal. */
   advance(elapsed: number): boolean {
     if (this.pose === this.goal) return false;
-    this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, 1 - Math.exp(-elapsed / ease));
+    const share = 1 - Math.exp(-elapsed / ease);
+    this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, share);
     return true;
   }
 
@@ -71,7 +72,7 @@ export class Camera {
     return this.current;
   }
 
-  /** The view that was drawn last. */
+  /** The view of the last image. */
   get last(): View {
     return this.current;
   }

@@ -1,4 +1,4 @@
-/** What a hand does on the picture, in CSS pixels. */
+/** Actions of mouse and touch on the canvas; lengths in CSS pixels. */
 export interface Gestures {
   orbit(dx: number, dy: number): void;
   pan(dx: number, dy: number): void;
@@ -11,20 +11,23 @@ interface Finger {
   y: number;
 }
 
-const slack = 6; // px that a click may wander
-const wheelLine = 16; // px in a line, for wheels that count lines
+const slack = 6; // px by which the pointer may move during a click
+const wheelLine = 16; // px per line, for wheels that count lines
 
-/** Mouse: drag orbits, right, middle or shift-drag pans, wheel zooms. Touch: one finger orbits, two pan and pinch. */
+/**
+ * Mouse: drag to orbit; right, middle or shift-drag to pan; wheel to zoom. Touch: one finger to orbit, two to pan and
+ * zoom.
+ */
 export function listen(element: HTMLElement, gestures: Gestures): void {
   const fingers = new Map<number, Finger>();
   let pans = false;
-  let wandered = 0;
+  let moved = 0; // px
   let several = false;
 
   element.addEventListener("pointerdown", (event) => {
     element.setPointerCapture(event.pointerId);
     if (fingers.size === 0) {
-      wandered = 0;
+      moved = 0;
       several = false;
     }
     fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
@@ -40,12 +43,12 @@ export function listen(element: HTMLElement, gestures: Gestures): void {
     const [dx, dy] = [event.offsetX - finger.x, event.offsetY - finger.y];
     finger.x = event.offsetX;
     finger.y = event.offsetY;
-    wandered += Math.hypot(dx, dy);
+    moved += Math.hypot(dx, dy);
     if (fingers.size > 1) {
       const after = spread([...fingers.values()]);
       gestures.pan(after.x - before.x, after.y - before.y);
       if (before.size > 0 && after.size > 0) gestures.zoom(before.size / after.size, after.x, after.y);
-    } else if (wandered > slack) {
+    } else if (moved > slack) {
       if (pans) gestures.pan(dx, dy);
       else gestures.orbit(dx, dy);
     }
@@ -53,7 +56,7 @@ export function listen(element: HTMLElement, gestures: Gestures): void {
 
   const lift = (event: PointerEvent): void => {
     if (!fingers.delete(event.pointerId)) return;
-    const clicked = event.type === "pointerup" && event.button === 0 && wandered <= slack && !several;
+    const clicked = event.type === "pointerup" && event.button === 0 && moved <= slack && !several;
     if (clicked) gestures.click(event.offsetX, event.offsetY);
   };
   element.addEventListener("pointerup", lift);
@@ -71,7 +74,7 @@ export function listen(element: HTMLElement, gestures: Gestures): void {
   element.addEventListener("contextmenu", (event) => event.preventDefault());
 }
 
-/** Middle of the first two fingers, and how far they are apart. */
+/** The middle of the first two fingers, and their distance as `size`. */
 function spread(fingers: Finger[]): { x: number; y: number; size: number } {
   const [a, b] = fingers;
   if (!a) return { x: 0, y: 0, size: 0 };

@@ -1,7 +1,7 @@
 import { mat4, vec3 } from "gl-matrix";
-import type { Vec3 } from "../scene/facts";
+import type { Vec3 } from "../model/facts";
 
-/** Looks at `target` from `distance`; angles in radians, z is up. */
+/** A camera that looks at `target` from `distance` (m). Angles in radians; z is up. */
 export interface Pose {
   target: Vec3;
   distance: number;
@@ -9,7 +9,7 @@ export interface Pose {
   elevation: number; // of the eye above the target's horizontal plane
 }
 
-const steepest = Math.PI / 2 - 0.01; // straight down would leave no up
+const steepest = Math.PI / 2 - 0.01; // at 90 degrees the up direction is undefined
 
 export function eyeOf(pose: Pose): Vec3 {
   const flat = pose.distance * Math.cos(pose.elevation);
@@ -39,7 +39,7 @@ export function orbited(pose: Pose, byAzimuth: number, byElevation: number): Pos
   };
 }
 
-/** Moves across the picture by metres to its right and up. */
+/** Moves the target in the image plane, by metres to the right and up. */
 export function panned(pose: Pose, right: number, up: number): Pose {
   const { azimuth, elevation } = pose;
   const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
@@ -53,14 +53,17 @@ export function panned(pose: Pose, right: number, up: number): Pose {
   };
 }
 
-/** Comes closer (factor below 1) or goes away, keeping the place that is `right`, `up` metres off the target in view. */
+/**
+ * Multiplies the distance by `factor`. The point that lies `right` and `up` metres off the target stays in its place on
+ * the canvas.
+ */
 export function zoomed(pose: Pose, factor: number, right: number, up: number, limits: [number, number]): Pose {
   const distance = Math.min(limits[1], Math.max(limits[0], pose.distance * factor));
   const keep = 1 - distance / pose.distance;
   return { ...panned(pose, right * keep, up * keep), distance };
 }
 
-/** Sees all of the box from a little above and beside. */
+/** A pose that sees all of the box, from slightly above and beside it. */
 export function framing(min: Vec3, max: Vec3, fieldOfView: number): Pose {
   const target: Vec3 = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   const radius = 0.5 * Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
@@ -68,7 +71,7 @@ export function framing(min: Vec3, max: Vec3, fieldOfView: number): Pose {
   return { target, distance: Math.max(1e-3, (0.92 * radius) / Math.sin(half)), azimuth: -1.05, elevation: 0.38 };
 }
 
-/** A step from one pose towards another; `share` in 0..1. */
+/** Moves a pose towards another by `share` in 0..1. */
 export function approached(from: Pose, to: Pose, share: number): Pose {
   const turn = Math.atan2(Math.sin(to.azimuth - from.azimuth), Math.cos(to.azimuth - from.azimuth));
   return {

@@ -1,8 +1,8 @@
 import { vec3, vec4 } from "gl-matrix";
-import { shownPosition } from "../scene/positions";
-import { radiusOf } from "../scene/facts";
-import type { Facts, Vec3 } from "../scene/facts";
-import type { Shown } from "../scene/states";
+import { shownPosition } from "../model/positions";
+import { radiusOf } from "../model/facts";
+import type { Facts, Vec3 } from "../model/facts";
+import type { Shown } from "../model/states";
 import type { View } from "./view";
 
 export interface Ray {
@@ -10,7 +10,7 @@ export interface Ray {
   direction: Vec3; // unit length
 }
 
-/** The ray from the eye through a place of the picture, in CSS pixels from its upper left corner. */
+/** The ray from the eye through a point of the canvas, in CSS pixels from its upper left corner. */
 export function rayThrough(view: View, x: number, y: number): Ray {
   const clip = vec4.fromValues((2 * x) / view.width - 1, 1 - (2 * y) / view.height, 1, 1);
   vec4.transformMat4(clip, clip, view.inverse);
@@ -19,14 +19,14 @@ export function rayThrough(view: View, x: number, y: number): Ray {
   return { origin: view.eye, direction };
 }
 
-/** Where a point lies in the picture, in CSS pixels; undefined behind the eye. */
+/** Projects a point (m) to the canvas (CSS pixels); undefined if it lies behind the eye. */
 export function project(view: View, point: Vec3): [number, number] | undefined {
   const clip = vec4.transformMat4(vec4.create(), [...point, 1], view.viewProjection);
   if (clip[3] <= 0) return undefined;
   return [(0.5 + (0.5 * clip[0]) / clip[3]) * view.width, (0.5 - (0.5 * clip[1]) / clip[3]) * view.height];
 }
 
-/** The distance along the ray at which it enters the sphere; Infinity where it does not. */
+/** The distance along the ray at which it enters the sphere; Infinity if it misses the sphere. */
 export function enter(ray: Ray, centre: Vec3, radius: number): number {
   const to = vec3.subtract([0, 0, 0], centre, ray.origin);
   const along = vec3.dot(to, ray.direction);
@@ -35,7 +35,7 @@ export function enter(ray: Ray, centre: Vec3, radius: number): number {
   return along - Math.sqrt(half);
 }
 
-/** The id of the first sphere that the ray meets, as drawn. */
+/** The id of the first sphere that the ray meets, in the positions that are drawn. */
 export function pick(facts: Facts, shown: Shown, ray: Ray): number | undefined {
   let nearest = Infinity;
   let found: number | undefined;

@@ -1,9 +1,9 @@
 import { mat4 } from "gl-matrix";
 import { eyeOf, viewMatrix } from "./orbit";
 import type { Pose } from "./orbit";
-import type { Vec3 } from "../scene/facts";
+import type { Vec3 } from "../model/facts";
 
-/** Parts of the picture that the page's own elements cover, in CSS pixels. */
+/** Margins of the canvas that the page's elements cover, in CSS pixels. */
 export interface Insets {
   top: number;
   right: number;
@@ -24,13 +24,23 @@ export interface View {
   far: number;
 }
 
-/** Makes the matrices. The pose's target lands in the middle of what the insets leave free. */
-export function viewOf(pose: Pose, fieldOfView: number, width: number, height: number, insets: Insets, reach: number): View {
+/**
+ * Computes the matrices. The pose's target lies in the middle of the part of the canvas that is not covered. `reach`: m
+ * around the target that are visible.
+ */
+export function viewOf(
+  pose: Pose,
+  fieldOfView: number,
+  width: number,
+  height: number,
+  insets: Insets,
+  reach: number,
+): View {
   const free = {
     width: Math.max(1, width - insets.left - insets.right),
     height: Math.max(1, height - insets.top - insets.bottom),
   };
-  // The angle belongs to the shorter side of the free part, so that a phone held upright sees as much as a desktop.
+  // The field of view applies to the shorter side of the free part, so that an upright phone sees as much as a desktop.
   const scale = height / Math.min(free.height, free.width);
   const halfTangent = Math.tan((fieldOfView * Math.PI) / 360) * scale;
   const near = Math.max(pose.distance * 0.01, pose.distance - reach);

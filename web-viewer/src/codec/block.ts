@@ -2,22 +2,23 @@ import { modeBase, modeMask, modeRuns, none, previous, widths } from "./format";
 import { move } from "./move";
 import { bitCount, moveChanged } from "./values";
 
-/** Bits of the values of a run, by its axis's width code and its selector. */
+/** Bits per value of a run, by the width code of its axis and by its selector: index 4 * code + selector. */
 const narrowed = Uint8Array.from({ length: 64 }, (_, k) => widths[Math.max(0, (k >> 2) - (k & 3))] as number);
 
 const noWidths = new Uint8Array(24);
 
-/** Reads blocks, one after another; nothing is allocated per block. */
+/** Reads blocks one after another. It allocates nothing per block. */
 export class BlockReader {
-  private readonly width = new Uint8Array(24); // bits, by axis and run
-  private readonly changed = new Uint8Array(24); // mode mask: bit per value
+  private readonly width = new Uint8Array(24); // bits per value, by axis and run
+  private readonly changed = new Uint8Array(24); // mode mask: one bit per value, by axis and run
   private readonly base = new Int32Array(3);
-  /** What is wrong with the block, where `read` gave -1. */
+  /** Describes the fault of the block for which `read` returned -1. */
   fault = "";
 
   /**
-   * The block at `unit` (16 bits): its new positions go into `before` at `at`. Gives the unit behind it, or -1 where it
-   * goes beyond the unit `end` or breaks the rules of keyframes. `view` has eight bytes behind `end`.
+   * Reads the block that begins at `unit`, and writes its new positions to `before`, starting at `at`. `unit` and `end`
+   * count units of 16 bits. Returns the unit after the block, or -1 if the block extends beyond `end` or breaks the
+   * rules of keyframes. `view` must have eight more bytes after `end`.
    */
   read(
     view: DataView,
@@ -57,7 +58,7 @@ export class BlockReader {
     return -1;
   }
 
-  /** Selectors are at the unit `selected`, or all 0 where it is -1. Gives the sum. */
+  /** Reads the width of each run; returns their sum. `selected`: unit of the selectors, or -1 if all are 0. */
   private readWidths(view: DataView, header: number, selected: number): number {
     const { width } = this;
     let sum = 0;
@@ -73,6 +74,7 @@ export class BlockReader {
     return sum;
   }
 
+  /** Reads the base at `unit`, which is 0 in modes without one. */
   private readBase(view: DataView, unit: number, mode: number, predictor: number): void {
     if (mode !== modeBase) {
       this.base.fill(0);
@@ -86,7 +88,9 @@ export class BlockReader {
     }
   }
 
-  /** Masks from `unit` on. Gives the bit behind the values that follow them, or -1 where there is no room for them. */
+  /**
+   * Reads the masks at `unit`. Returns the bit after the values that follow them, or -1 if they extend beyond `end`.
+   */
   private readMasks(view: DataView, unit: number, end: number): number {
     const { width, changed } = this;
     let byte = 2 * unit + 3;
@@ -103,7 +107,7 @@ export class BlockReader {
     return 8 * byte + sum;
   }
 
-  /** The values that end before the bit `behind`, from the last run on: so it need not be kept where they begin. */
+  /** Moves the changed values, from the last run to the first. `behind`: the bit after the last value. */
   private moveMasked(view: DataView, behind: number, before: Int32Array, at: number): void {
     const { width, changed } = this;
     let bit = behind;
@@ -117,9 +121,11 @@ export class BlockReader {
   }
 }
 
-/** What is wrong with such a block, apart from its size. */
+/** Says which rule of keyframes and delta frames the block breaks; empty if none. */
 function faultOf(mode: number, predictor: number, keyframe: boolean, velocities: boolean): string {
-  if ((predictor === none) !== keyframe) return keyframe ? "is predicted in a keyframe" : "is not predicted in a delta frame";
+  if ((predictor === none) !== keyframe) {
+    return keyframe ? "is predicted in a keyframe" : "is not predicted in a delta frame";
+  }
   if (keyframe) return mode === modeBase ? "" : "has no base";
   return predictor === previous || velocities ? "" : "is predicted from a velocity right after a keyframe";
 }

@@ -5,41 +5,44 @@ import { headOf } from "./head";
 import type { FrameHead } from "./head";
 
 /**
- * The decoder of docs/codec.md: one chain of frames. What it is given may be hostile. It allocates for its spheres, and for
- * the longest frame that it was given; nothing per frame.
+ * Decodes one chain of frames, after docs/codec.md. Frames may be hostile. The decoder allocates memory for its spheres
+ * and for the longest frame so far, and none per frame.
  */
 export class Decoder {
-  /** On the grid, x y z, in the codec's order; whole blocks. The other array holds those of the frame before. */
+  /**
+   * Positions in grid units, x y z, in the codec's order, filled up to whole blocks. `before`: positions of the
+   * previous frame.
+   */
   newest: Int32Array;
   before: Int32Array;
-  private words = new Uint32Array(0); // of the frame, and two more
-  private view = new DataView(this.words.buffer); // the same
-  private number = 0;
-  private history = 0; // states that are known, at most 2
+  private words = new Uint32Array(0); // the frame, and two more words
+  private view = new DataView(this.words.buffer); // the same bytes
+  private number = 0; // of the newest frame
+  private history = 0; // known states, at most 2
   private readonly blocks: number;
   private readonly reader = new BlockReader();
 
-  /** `spheres`: at least 1. */
+  /** `spheres` must be at least 1. */
   constructor(readonly spheres: number) {
     this.blocks = Math.ceil(spheres / blockSpheres);
     this.newest = new Int32Array(3 * blockSpheres * this.blocks);
     this.before = new Int32Array(this.newest.length);
   }
 
-  /** No delta frame can be taken: none was there yet, or something went wrong. */
+  /** Whether the next frame must be a keyframe: there was none yet, or the last frame was refused. */
   get wantsKeyframe(): boolean {
     return this.history === 0;
   }
 
   /**
-   * Takes the next frame. Throws an Error that says what is wrong and where for one that is malformed, of other spheres, or
-   * does not follow the frame before; then it wants a keyframe, and keeps the positions it had (after a hash that differs:
-   * those of the frame).
+   * Decodes the next frame. Throws an Error, which says what is wrong and where, if the frame is malformed, has another
+   * number of spheres, or does not follow the previous frame. The next frame must then be a keyframe. The positions are
+   * unchanged after an Error, except if the hash differs: then they are the new ones.
    */
   apply(frame: Uint8Array): FrameHead {
     const history = this.history;
     this.history = 0;
-    const length = this.take(frame);
+    const length = this.copy(frame);
     const head = headOf(this.words, frame.byteLength);
     this.checkOrder(head, history);
     if (frame.byteLength % 4 !== 0) throw new Error("frame, end: is no whole word");
@@ -53,8 +56,8 @@ export class Decoder {
     return head;
   }
 
-  /** The frame's words, aligned, with two more behind them. */
-  private take(frame: Uint8Array): number {
+  /** Copies the frame to aligned words; returns their number. */
+  private copy(frame: Uint8Array): number {
     const length = frame.byteLength >>> 2;
     if (this.words.length < length + 2) {
       this.words = new Uint32Array(length + (length >>> 3) + 2);

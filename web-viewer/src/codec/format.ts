@@ -18,5 +18,5 @@ export const linear = 1;
 export const half = 2;
 export const none = 3;
 
-/** Bits, by width code. */
+/** Bits per value, by width code. */
 export const widths = Uint8Array.of(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 18, 32);

@@ -1,4 +1,4 @@
-/** Of the first `spheres` positions, x y z each, in the codec's order. */
+/** Hashes the first `spheres` positions, x y z each, in the codec's order. */
 export function hashOf(positions: Int32Array, spheres: number): number {
   let sum = 0;
   for (let k = 0, at = 0; k < spheres; k++, at += 3) {

@@ -4,15 +4,15 @@ export interface FrameHead {
   spheres: number;
   number: number;
   keyframe: boolean;
-  /** Of the state after the frame, where the frame brings it. */
-  hash: number | undefined;
+  hash: number | undefined; // of the positions after the frame; undefined if the frame has none
 }
 
-/** Of the first words of a frame of so many bytes; throws an Error where they are no head. */
+/** Parses the head of a frame with this number of bytes. Throws an Error if there is no valid head. */
 export function headOf(words: Uint32Array, bytes: number): FrameHead {
   if (bytes < 4 * headWords) throw new Error(`frame, head: has ${bytes} bytes of 16`);
   const [kind = 0, spheres = 0, number = 0, hash = 0] = words;
-  if ((kind & ~(keyframeFlag | hashedFlag)) >>> 0 !== magic) throw new Error("frame, head: is not that of codec SPB, version 1");
+  const flags = keyframeFlag | hashedFlag;
+  if ((kind & ~flags) >>> 0 !== magic) throw new Error("frame, head: is not that of codec SPB, version 1");
   if (spheres === 0) throw new Error("frame, head: has no spheres");
   return {
     spheres,
@@ -22,7 +22,7 @@ export function headOf(words: Uint32Array, bytes: number): FrameHead {
   };
 }
 
-/** Whether the frame says of itself that it is a keyframe; all else of it may be wrong. */
+/** Whether the frame's keyframe flag is set. The frame is not checked otherwise. */
 export function isKeyframe(frame: Uint8Array): boolean {
   return ((frame[3] ?? 0) & (keyframeFlag >>> 24)) !== 0;
 }

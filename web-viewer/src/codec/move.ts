@@ -1,9 +1,10 @@
 import { half, linear, previous } from "./format";
 
 /**
- * Moves a block's spheres by the values of its runs, which begin at `byte` and have `width` bits, by axis and run, around
- * `base`: the new positions go into `before`, which holds those of the frame before the newest; both x y z for sphere after
- * sphere, the block's first at `at`. `view` has eight bytes behind the values.
+ * Moves the spheres of a block by the values of its runs. A run has the values of eight spheres on one axis. The runs
+ * begin at `byte`, by axis and run; `width` is their number of bits per value, and `base` is added to each value.
+ * `newest` and `before` hold the positions of the last two frames, x y z per sphere, with the block's first sphere at
+ * `at`. The new positions replace those in `before`. `view` must have eight more bytes after the values.
  */
 export function move(
   predictor: number,
@@ -15,7 +16,8 @@ export function move(
   before: Int32Array,
   at: number,
 ): void {
-  const by = predictor === previous ? fromPrevious : predictor === linear ? fromLinear : predictor === half ? fromHalf : fromNone;
+  const predicted = predictor === linear ? fromLinear : predictor === half ? fromHalf : fromNone;
+  const by = predictor === previous ? fromPrevious : predicted;
   by(view, byte, width, base, newest, before, at);
 }
 
@@ -29,26 +31,31 @@ type Move = (
   at: number,
 ) => void;
 
-// One function for each predictor, which reads and moves in one go: none asks again for each sphere, or keeps values anywhere
-// in between. They are long because they are what a frame takes its time in: a line for each of the eight, rather than a
-// loop, saves a tenth of it, and so do runs of their own for those without values. A run takes as many bytes as its values
-// have bits and begins with a byte, so that one look at 32 bits has four values of up to 8 bits, and any single one. Each sum
-// is cut to 32 bits at once, so that the engine has no need of wider numbers.
+// This code takes most of the time of a frame, so it is written for speed:
+// - Each predictor has its own function, which reads and moves in one pass. There is no branch per sphere, and no value
+//   is stored in between.
+// - The eight spheres of a run are written out, which is a tenth faster than a loop. Runs without values have their own
+//   branch.
+// - A run has as many bytes as a value has bits, and begins at a byte. One read of 32 bits therefore contains four
+//   values of up to 8 bits, or one value of any width.
+// - Each sum is truncated to 32 bits at once, so that the engine uses integers.
 
-/** What stands for 0, -1, 1, -2, ... as 0, 1, 2, 3. */
+/** Decodes a zigzag value: 0, 1, 2, 3 stand for 0, -1, 1, -2. */
 function signed(value: number): number {
   return (value >>> 1) ^ -(value & 1);
 }
 
+/** Linear extrapolation from the last two positions. */
 function onwards(now: number, last: number, middle: number): number {
   return ((((now << 1) - last) | 0) + middle) | 0;
 }
 
+/** Extrapolation by half of the last step. */
 function halfway(now: number, last: number, middle: number): number {
   return (((now + ((now - last) >> 1)) | 0) + middle) | 0;
 }
 
-/** The value behind `bit` bits, below 256, of a run at `byte`; any width. */
+/** The value that begins `bit` bits (at most 255) after the start of a run at `byte`. Works for every width. */
 function wideValue(view: DataView, byte: number, bit: number, width: number): number {
   const all = view.getInt32(byte + (bit >> 3), true);
   return width === 32 ? all : (all >>> (bit & 7)) & ((1 << width) - 1);
@@ -108,17 +115,24 @@ const fromLinear: Move = (view, byte, width, base, newest, before, at) => {
         const mask = (1 << wide) - 1;
         let four = view.getInt32(byte, true);
         before[to] = onwards(newest[to] as number, before[to] as number, middle) + signed(four & mask);
-        before[to + 3] = onwards(newest[to + 3] as number, before[to + 3] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 6] = onwards(newest[to + 6] as number, before[to + 6] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 9] = onwards(newest[to + 9] as number, before[to + 9] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 3] =
+          onwards(newest[to + 3] as number, before[to + 3] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 6] =
+          onwards(newest[to + 6] as number, before[to + 6] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 9] =
+          onwards(newest[to + 9] as number, before[to + 9] as number, middle) + signed((four >>>= wide) & mask);
         four = view.getInt32(byte + (wide >> 1), true) >>> (4 * (wide & 1));
         before[to + 12] = onwards(newest[to + 12] as number, before[to + 12] as number, middle) + signed(four & mask);
-        before[to + 15] = onwards(newest[to + 15] as number, before[to + 15] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 18] = onwards(newest[to + 18] as number, before[to + 18] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 21] = onwards(newest[to + 21] as number, before[to + 21] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 15] =
+          onwards(newest[to + 15] as number, before[to + 15] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 18] =
+          onwards(newest[to + 18] as number, before[to + 18] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 21] =
+          onwards(newest[to + 21] as number, before[to + 21] as number, middle) + signed((four >>>= wide) & mask);
       } else {
         for (let k = to, bit = 0; k < to + 24; k += 3, bit += wide) {
-          before[k] = onwards(newest[k] as number, before[k] as number, middle) + signed(wideValue(view, byte, bit, wide));
+          before[k] =
+            onwards(newest[k] as number, before[k] as number, middle) + signed(wideValue(view, byte, bit, wide));
         }
       }
       byte += wide;
@@ -144,17 +158,24 @@ const fromHalf: Move = (view, byte, width, base, newest, before, at) => {
         const mask = (1 << wide) - 1;
         let four = view.getInt32(byte, true);
         before[to] = halfway(newest[to] as number, before[to] as number, middle) + signed(four & mask);
-        before[to + 3] = halfway(newest[to + 3] as number, before[to + 3] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 6] = halfway(newest[to + 6] as number, before[to + 6] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 9] = halfway(newest[to + 9] as number, before[to + 9] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 3] =
+          halfway(newest[to + 3] as number, before[to + 3] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 6] =
+          halfway(newest[to + 6] as number, before[to + 6] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 9] =
+          halfway(newest[to + 9] as number, before[to + 9] as number, middle) + signed((four >>>= wide) & mask);
         four = view.getInt32(byte + (wide >> 1), true) >>> (4 * (wide & 1));
         before[to + 12] = halfway(newest[to + 12] as number, before[to + 12] as number, middle) + signed(four & mask);
-        before[to + 15] = halfway(newest[to + 15] as number, before[to + 15] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 18] = halfway(newest[to + 18] as number, before[to + 18] as number, middle) + signed((four >>>= wide) & mask);
-        before[to + 21] = halfway(newest[to + 21] as number, before[to + 21] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 15] =
+          halfway(newest[to + 15] as number, before[to + 15] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 18] =
+          halfway(newest[to + 18] as number, before[to + 18] as number, middle) + signed((four >>>= wide) & mask);
+        before[to + 21] =
+          halfway(newest[to + 21] as number, before[to + 21] as number, middle) + signed((four >>>= wide) & mask);
       } else {
         for (let k = to, bit = 0; k < to + 24; k += 3, bit += wide) {
-          before[k] = halfway(newest[k] as number, before[k] as number, middle) + signed(wideValue(view, byte, bit, wide));
+          before[k] =
+            halfway(newest[k] as number, before[k] as number, middle) + signed(wideValue(view, byte, bit, wide));
         }
       }
       byte += wide;
@@ -167,7 +188,9 @@ const fromNone: Move = (view, byte, width, base, _newest, before, at) => {
     const middle = base[axis] as number;
     for (let run = 8 * axis, to = at + axis; run < 8 * axis + 8; run++, to += 24) {
       const wide = width[run] as number;
-      for (let k = to, bit = 0; k < to + 24; k += 3, bit += wide) before[k] = middle + signed(wideValue(view, byte, bit, wide));
+      for (let k = to, bit = 0; k < to + 24; k += 3, bit += wide) {
+        before[k] = middle + signed(wideValue(view, byte, bit, wide));
+      }
       byte += wide;
     }
   }

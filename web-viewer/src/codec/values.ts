@@ -1,6 +1,6 @@
-/** Reads the values of a block of which some are not there. */
+/** Reads the values of blocks in mode mask, in which unchanged values are left out. */
 
-/** A field of `width` bits, 0 to 32, from `bit` on; five bytes must exist. */
+/** Reads a field of `width` bits (0 to 32) at `bit`. Five bytes must exist there. */
 export function field(view: DataView, bit: number, width: number): number {
   const byte = bit >>> 3;
   const shift = bit & 7;
@@ -9,11 +9,11 @@ export function field(view: DataView, bit: number, width: number): number {
   return (low | ((view.getUint8(byte + 4) << 1) << (31 - shift))) & (-1 >>> (32 - width));
 }
 
-/** The bits set in a byte. */
+/** The number of bits set in a byte. */
 export const bitCount = new Uint8Array(256);
 for (let k = 1; k < 256; k++) bitCount[k] = (bitCount[k >> 1] as number) + (k & 1);
 
-/** Moves those of a run's eight that `changed` has a bit for, by a field plus 1 each; on one axis, the first at `to`. */
+/** Moves the spheres of a run whose bit is set in `changed`, on one axis. `to`: index of the run's first sphere. */
 export function moveChanged(
   view: DataView,
   bit: number,

@@ -1,22 +1,13 @@
-import type { GroupFacts } from "../gen/spherule/v1/control_pb";
-import type { Group } from "../scene/facts";
 import { hexToRgb } from "./rgb";
 import type { Rgb } from "./rgb";
 
-/** For groups that bring no colour: calm, apart in hue and lightness. */
+/** Colours of groups to which the scene gives none: muted, different in hue and lightness. */
 const palette = ["#5b86b5", "#d98a5b", "#6fa78a", "#c7b35a", "#9a7fb0", "#c96f74", "#5fa7b0", "#8d8a80"];
 
-export function groupColours(groups: GroupFacts[]): Group[] {
-  return groups.map((group, index) => {
-    const own = hexToRgb(group.colour);
-    return {
-      name: group.name || `group ${index + 1}`,
-      first: group.first,
-      count: group.count,
-      colour: own ?? paletteColour(index),
-      own: own !== undefined,
-    };
-  });
+/** Returns the colour of a group. `hex`: given by the scene, or empty; then `own` is false. */
+export function groupColour(hex: string, index: number): { colour: Rgb; own: boolean } {
+  const own = hexToRgb(hex);
+  return { colour: own ?? paletteColour(index), own: own !== undefined };
 }
 
 function paletteColour(index: number): Rgb {

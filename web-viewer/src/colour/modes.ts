@@ -1,4 +1,4 @@
-/** What a sphere's colour says. The numbers are those of renderer/shaders/colour.glsl. */
+/** The quantities that colour can show, with their numbers in renderer/shaders/colour.glsl. */
 export const modes = { speed: 0, radius: 1, id: 2, cell: 3, group: 4 } as const;
 export type Mode = keyof typeof modes;
 
@@ -10,7 +10,7 @@ export const modeNames: Record<Mode, string> = {
   group: "Group",
 };
 
-/** What a scene is coloured by while nobody has chosen: its groups where it tells them apart by colour, else speed. */
+/** The default mode of a scene: "group" if at least two of its groups have a colour of their own, else "speed". */
 export function modeFor(groups: readonly { own: boolean }[]): Mode {
   return groups.filter((group) => group.own).length > 1 ? "group" : "speed";
 }

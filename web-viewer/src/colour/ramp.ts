@@ -1,14 +1,14 @@
 import { css, hexToRgb, mix } from "./rgb";
 import type { Rgb } from "./rgb";
 
-/** Six evenly spaced stops in sRGB; the shader mixes the same ones (renderer/shaders/colour.glsl). */
+/** Six evenly spaced stops in sRGB. The shader interpolates between the same stops (renderer/shaders/colour.glsl). */
 export type Ramp = readonly [Rgb, Rgb, Rgb, Rgb, Rgb, Rgb];
 
 function ramp(...hex: [string, string, string, string, string, string]): Ramp {
   return hex.map((stop) => hexToRgb(stop) ?? [0, 0, 0]) as unknown as Ramp;
 }
 
-/** Still to fast: light slate blue over sea green and sand to coral. Lightness rises to the sand, then warms. */
+/** From rest to high speed: light slate blue, sea green, sand, coral. Lightness rises as far as the sand. */
 export const speedRamp = ramp("#6d98c4", "#60adbd", "#8cc7a6", "#e3db8c", "#f2ab63", "#df5f49");
 /** Small to large. */
 export const radiusRamp = ramp("#8a5a83", "#b06a7c", "#cf8470", "#dfa66e", "#e3cb88", "#dfe6b4");

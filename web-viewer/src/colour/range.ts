@@ -1,4 +1,4 @@
-/** The next of 1, 2, 3, 5 times a power of ten that is at least `value`. */
+/** Rounds up to 1, 2, 3 or 5 times a power of ten. */
 export function niceAbove(value: number): number {
   if (!(value > 0)) return 0;
   const decade = 10 ** Math.floor(Math.log10(value));
@@ -7,14 +7,14 @@ export function niceAbove(value: number): number {
 }
 
 /**
- * The upper end of a colour range that follows what is shown: it widens at once, narrows only after a calm time (so
- * that a legend can be read), and stays where it is while locked.
+ * The upper end of a colour range that follows the values shown. It rises at once, falls only after `patience` ms of
+ * smaller values, so that the legend stays readable, and does not change while locked.
  */
 export class AutoRange {
   locked = false;
   high: number;
-  private calmSince: number | undefined;
-  private peak = 0;
+  private lowerSince: number | undefined; // ms: since when all values were smaller
+  private peak = 0; // largest value since then
 
   constructor(
     private readonly least: number,
@@ -28,24 +28,24 @@ export class AutoRange {
     const wanted = Math.max(this.least, niceAbove(value));
     if (wanted >= this.high) {
       this.high = wanted;
-      this.calmSince = undefined;
+      this.lowerSince = undefined;
       return;
     }
-    if (this.calmSince === undefined) {
-      this.calmSince = now;
+    if (this.lowerSince === undefined) {
+      this.lowerSince = now;
       this.peak = wanted;
     }
     this.peak = Math.max(this.peak, wanted);
-    if (now - this.calmSince >= this.patience) {
+    if (now - this.lowerSince >= this.patience) {
       this.high = this.peak;
-      this.calmSince = undefined;
+      this.lowerSince = undefined;
     }
   }
 
-  /** Starts over for another scene. */
+  /** Resets the range for another scene. */
   reset(): void {
     if (this.locked) return;
     this.high = this.least;
-    this.calmSince = undefined;
+    this.lowerSince = undefined;
   }
 }

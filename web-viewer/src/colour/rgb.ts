@@ -1,6 +1,6 @@
 export type Rgb = [number, number, number]; // sRGB, 0..1
 
-/** "#rrggbb", or undefined for anything else. */
+/** Parses "#rrggbb"; undefined if the text is anything else. */
 export function hexToRgb(hex: string): Rgb | undefined {
   const digits = /^#([0-9a-f]{6})$/i.exec(hex)?.[1];
   if (!digits) return undefined;

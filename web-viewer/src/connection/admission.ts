@@ -2,58 +2,70 @@ import type { LinkChange } from "./messages";
 import type { TokenStore } from "./token_store";
 
 export interface AdmissionEvents {
-  /** The server wants a token. `wrong`: what it says of the one that it was given; empty: it was given none. */
-  ask(wrong: string): void;
-  /** Nothing is asked any more. */
-  done(): void;
-  /** Connect anew with this token, or, where it is empty, without. */
-  identify(token: string): void;
-  /** Whether this tab remembers a token. */
-  held(held: boolean): void;
+  /** The server requires a token. `error`: why it rejected the last one; empty if it was given none. */
+  tokenRequired(error: string): void;
+  /** The token dialog can be closed. */
+  tokenSettled(): void;
+  /** Reconnect with this token, or without one if it is empty. */
+  reconnect(token: string): void;
+  /** Reports whether this tab remembers a token. */
+  tokenHeld(held: boolean): void;
 }
 
-/** How the page is let in: with the token that this tab remembers, or one that the person is asked for. */
+/** Decides which token the page sends: the one that this tab remembers, or one that the user enters. */
 export class Admission {
   constructor(
     private readonly store: TokenStore,
     private readonly events: AdmissionEvents,
   ) {}
 
-  /** Of the connection that is about to be made. */
+  /** Returns the token for the first connection; empty if there is none. */
   begin(): string {
-    this.events.held(this.store.token !== "");
+    this.events.tokenHeld(this.store.token !== "");
     return this.store.token;
   }
 
-  changed({ state, reason = "" }: Pick<LinkChange, "state" | "reason">): void {
-    // Anything but the token may be the matter: the page goes on trying, with the one it has.
-    if (state === "waiting") this.events.done();
+  linkChanged({ state, reason = "" }: Pick<LinkChange, "state" | "reason">): void {
+    // The connection failed for a reason other than the token: the page retries with the token that it has.
+    if (state === "waiting") this.events.tokenSettled();
     if (state !== "locked") return;
-    const wrong = this.store.token ? reason : "";
-    this.hold("");
-    this.events.ask(wrong);
+    const error = this.store.token ? reason : "";
+    this.saveToken("");
+    this.events.tokenRequired(error);
   }
 
   welcomed(): void {
-    this.events.done();
+    this.events.tokenSettled();
   }
 
-  /** The person has given a token: what was copied with space around it is meant without. Returns whether there was any. */
+  /** Takes the token that the user entered, without surrounding white space. Returns false if nothing is left. */
   submit(text: string): boolean {
     const token = text.trim();
     if (!token) return false;
-    this.hold(token);
-    this.events.identify(token);
+    this.saveToken(token);
+    this.events.reconnect(token);
     return true;
   }
 
   forget(): void {
-    this.hold("");
-    this.events.identify("");
+    this.saveToken("");
+    this.events.reconnect("");
   }
 
-  private hold(token: string): void {
-    this.store.keep(token);
-    this.events.held(token !== "");
+  private saveToken(token: string): void {
+    this.store.save(token);
+    this.events.tokenHeld(token !== "");
   }
+}
+
+/**
+ * Returns the address without its token, which would otherwise stay in browser histories and server logs. Undefined if
+ * the address has no token.
+ */
+export function withoutToken(href: string): string | undefined {
+  const address = new URL(href);
+  const names = [...address.searchParams.keys()].filter((name) => name.toLowerCase() === "token");
+  if (names.length === 0) return undefined;
+  for (const name of names) address.searchParams.delete(name);
+  return address.href;
 }

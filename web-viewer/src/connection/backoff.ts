@@ -1,4 +1,6 @@
-/** Waits between attempts to connect: doubling from `first` up to `last` ms, each cut by up to a quarter at random. */
+/**
+ * Waits between attempts to connect (ms): doubles from `first` up to `last`; each is shortened at random by up to 25 %.
+ */
 export class Backoff {
   private attempts = 0;
 

@@ -14,73 +14,79 @@ import {
   StepSchema,
   StopRecordingSchema,
 } from "../gen/spherule/v1/control_pb";
-import type { Ray } from "../camera/ray";
-import type { Vec3 } from "../scene/facts";
 import type { CommandKind, Link, Outcome } from "./link";
 
-/** A command with its answer, in words for the person who gave it. */
+/** The result of a command. */
 export interface Report {
-  what: string;
+  name: string; // of the command, for the user
   outcome: Outcome;
-  words: string;
-  quiet: boolean; // what was done is seen anyway: worth telling only where it was not done
+  text: string; // the outcome, for the user
+  quiet: boolean; // report only failures: a success is visible anyway
 }
 
+/** Spheres to add in a box; lengths in m. */
 export interface Drop {
-  min: Vec3;
-  max: Vec3;
+  min: number[];
+  max: number[];
   count: number;
   radius: number;
 }
 
-/** What the page can ask of the simulation. Each answer goes to `report` as well; nothing is asked while that is hindered. */
+/** A line of sight; origin in m, direction of unit length. */
+export interface PushRay {
+  origin: number[];
+  direction: number[];
+}
+
+/** Sends commands. Each result is also passed to `report`. Sends nothing while `blocked` returns true. */
 export class Commands {
   constructor(
     private readonly link: Link,
     private readonly report: (report: Report) => void,
-    private readonly hindered: () => boolean,
+    private readonly blocked: () => boolean,
   ) {}
 
   pause(): Promise<Outcome> {
-    return this.give("Pause", { case: "pause", value: create(PauseSchema) });
+    return this.send("Pause", { case: "pause", value: create(PauseSchema) });
   }
 
   resume(): Promise<Outcome> {
-    return this.give("Resume", { case: "resume", value: create(ResumeSchema) });
+    return this.send("Resume", { case: "resume", value: create(ResumeSchema) });
   }
 
-  /** `unit`: what a step is called. */
+  /** `unit`: the name of a step in the report. */
   step(count: number, unit = "step"): Promise<Outcome> {
-    return this.give(count === 1 ? `One ${unit}` : `${count} ${unit}s`, { case: "step", value: create(StepSchema, { count }) });
+    const name = count === 1 ? `One ${unit}` : `${count} ${unit}s`;
+    return this.send(name, { case: "step", value: create(StepSchema, { count }) });
   }
 
-  reset(what = "Reset"): Promise<Outcome> {
-    return this.give(what, { case: "reset", value: create(ResetSchema) });
+  reset(name = "Reset"): Promise<Outcome> {
+    return this.send(name, { case: "reset", value: create(ResetSchema) });
   }
 
   cancel(): Promise<Outcome> {
-    return this.give("Cancel", { case: "cancel", value: create(CancelSchema) }, true);
+    return this.send("Cancel", { case: "cancel", value: create(CancelSchema) }, true);
   }
 
   seek(time: number): Promise<Outcome> {
-    return this.give("Seek", { case: "seek", value: create(SeekSchema, { time }) }, true);
+    return this.send("Seek", { case: "seek", value: create(SeekSchema, { time }) }, true);
   }
 
-  record(): Promise<Outcome> {
-    return this.give("Record", { case: "startRecording", value: create(StartRecordingSchema) }, true);
+  startRecording(): Promise<Outcome> {
+    return this.send("Record", { case: "startRecording", value: create(StartRecordingSchema) }, true);
   }
 
   stopRecording(): Promise<Outcome> {
-    return this.give("Stop recording", { case: "stopRecording", value: create(StopRecordingSchema) }, true);
+    return this.send("Stop recording", { case: "stopRecording", value: create(StopRecordingSchema) }, true);
   }
 
   load(name: string): Promise<Outcome> {
     const value = create(LoadSceneSchema, { source: { case: "name", value: name } });
-    return this.give(`Scene ${name}`, { case: "load", value });
+    return this.send(`Scene ${name}`, { case: "load", value });
   }
 
-  set(what: string, settings: MessageInitShape<typeof SetSchema>): Promise<Outcome> {
-    return this.give(what, { case: "set", value: create(SetSchema, settings) });
+  set(name: string, settings: MessageInitShape<typeof SetSchema>): Promise<Outcome> {
+    return this.send(name, { case: "set", value: create(SetSchema, settings) });
   }
 
   drop({ min, max, count, radius }: Drop): Promise<Outcome> {
@@ -90,31 +96,43 @@ export class Commands {
       source: { case: "fill" as const, value: fill },
       radius: { kind: { case: "constant" as const, value: radius } },
     };
-    return this.give(`Drop ${count}`, { case: "spawn", value: create(SpawnSchema, { group }) });
+    return this.send(`Drop ${count}`, { case: "spawn", value: create(SpawnSchema, { group }) });
   }
 
-  /** Pushes along the ray: the sphere that the page saw there, or, where it saw none, what the server finds. */
-  push(ray: Ray, sphere: number | undefined, newtonSeconds: number): Promise<Outcome> {
+  /** Pushes a sphere along the ray. If `sphere` is undefined, the server picks the first sphere that the ray meets. */
+  push(ray: PushRay, sphere: number | undefined, newtonSeconds: number): Promise<Outcome> {
     const impulse = ray.direction.map((part) => part * newtonSeconds);
-    const target = sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: sphere };
-    const what = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
-    return this.give(what, { case: "push", value: create(PushSchema, { target, impulse }) });
+    const target =
+      sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: sphere };
+    const name = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
+    return this.send(name, { case: "push", value: create(PushSchema, { target, impulse }) });
   }
 
-  private async give(what: string, kind: CommandKind, quiet = false): Promise<Outcome> {
-    if (this.hindered()) return { case: "lost" };
+  private async send(name: string, kind: CommandKind, quiet = false): Promise<Outcome> {
+    if (this.blocked()) return { case: "lost" };
     const outcome = await this.link.send(kind);
-    this.report({ what, outcome, words: wordsFor(outcome), quiet });
+    this.report({ name, outcome, text: textFor(outcome), quiet });
     return outcome;
   }
 }
 
-function wordsFor(outcome: Outcome): string {
-  switch (outcome.case) {
+/** The newest reports, oldest first. */
+export class ReportLog {
+  private static readonly capacity = 50;
+  readonly list: Report[] = [];
+
+  add(report: Report): void {
+    this.list.push(report);
+    this.list.splice(0, this.list.length - ReportLog.capacity);
+  }
+}
+
+function textFor({ case: kind, value }: Outcome): string {
+  switch (kind) {
     case "applied":
-      return `applied at step ${outcome.value.step}`;
+      return `applied at step ${value.step}`;
     case "refused":
-      return outcome.value.field ? `refused: ${outcome.value.field}: ${outcome.value.reason}` : `refused: ${outcome.value.reason}`;
+      return value.field ? `refused: ${value.field}: ${value.reason}` : `refused: ${value.reason}`;
     default:
       return "not sent: there is no connection";
   }

@@ -1,50 +1,52 @@
 import { create } from "@bufbuild/protobuf";
 import { CommandSchema } from "../gen/spherule/v1/control_pb";
 import type { Command, CommandResult } from "../gen/spherule/v1/control_pb";
-import type { ControlWish, FromWorker, LinkState, ToWorker, View } from "./messages";
+import type { ControlMessage, FromWorker, LinkState, ToWorker, ViewRequest } from "./messages";
 
 export type CommandKind = Command["kind"];
 
-/** How a command ended; `lost` when it was not sent, or the connection went before its answer came. */
+/** How a command ended. `lost`: it was not sent, or the connection ended before its result arrived. */
 export type Outcome = CommandResult["outcome"] | { case: "lost"; value?: undefined };
 
-/** The page's side of the connection: messages come to `listen`, commands go out and resolve with their outcome. */
+/** The page's end of the worker that holds the connection. Sends commands and resolves them with their outcome. */
 export class Link {
   state: LinkState = "connecting";
   private readonly waiting = new Map<bigint, (outcome: Outcome) => void>();
   private lastId = 0n;
 
+  /** `listen` is given every message of the worker. */
   constructor(
     private readonly worker: Worker,
     listen: (message: FromWorker) => void,
   ) {
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
       if (data.kind === "link") this.changed(data.state);
-      if (data.kind === "result") this.answered(data.result);
+      if (data.kind === "result") this.resolve(data.result);
       listen(data);
     };
   }
 
-  /** `token`: for a server that asks for one; empty: there is none. */
-  connect(url: string, view: View, token: string): void {
+  /** `token`: empty if there is none. */
+  connect(url: string, view: ViewRequest, token: string): void {
     this.post({ kind: "connect", url, view, token });
   }
 
-  /** Connects anew with this token, or, where it is empty, without. */
-  identify(token: string): void {
+  /** Reconnects with this token, or without one if it is empty. */
+  reconnect(token: string): void {
     this.post({ kind: "token", token });
   }
 
+  /** Connects now instead of at the end of the current wait. */
   retry(): void {
     this.post({ kind: "retry" });
   }
 
-  watch(view: View): void {
+  requestView(view: ViewRequest): void {
     this.post({ kind: "view", view });
   }
 
-  /** Pictures per second that the page draws now; 0: unknown. */
-  draws(rate: number): void {
+  /** Reports how many images per second the page draws; 0 if unknown. */
+  reportDrawRate(rate: number): void {
     this.post({ kind: "drawing", rate });
   }
 
@@ -55,11 +57,11 @@ export class Link {
     return new Promise((resolve) => this.waiting.set(id, resolve));
   }
 
-  aboutControl(wish: ControlWish): void {
-    this.post({ kind: "control", wish });
+  sendControl(message: ControlMessage): void {
+    this.post({ kind: "control", message });
   }
 
-  /** Gives the buffer of a state that is no longer needed back to the decoder. */
+  /** Returns the buffer of a state that is no longer needed to the decoder. */
   recycle(positions: Float32Array): void {
     const buffer = positions.buffer as ArrayBuffer;
     if (buffer.byteLength > 0) this.post({ kind: "recycle", buffer }, [buffer]);
@@ -76,7 +78,7 @@ export class Link {
     this.waiting.clear();
   }
 
-  private answered(result: CommandResult): void {
+  private resolve(result: CommandResult): void {
     this.waiting.get(result.id)?.(result.outcome);
     this.waiting.delete(result.id);
   }

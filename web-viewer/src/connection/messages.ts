@@ -16,22 +16,25 @@ import type {
 } from "../gen/spherule/v1/control_pb";
 import type { Status, Tier } from "../gen/spherule/v1/frame_pb";
 
-/** What passes between the page and the worker that holds its connection. */
+/** Messages between the page and the worker that holds its connection. */
 
-/** `locked`: the server wants a token, or another one; nothing is tried until there is one. */
+/** `locked`: the server rejected the token, or requires one; the worker waits for another token. */
 export type LinkState = "connecting" | "open" | "waiting" | "locked";
 
-/** How the page is with its server, and since when, as sharedNow() says. */
+/** A change of the connection's state. Times are in ms, as sharedNow() counts them. */
 export interface LinkChange {
   state: LinkState;
-  at: number; // ms
-  retryIn?: number; // ms
-  reason?: string; // why it is not open
-  refused?: boolean; // the server has turned this page away, and the reason is its own
+  at: number; // time of the change
+  retryIn?: number; // ms until the next attempt
+  reason?: string; // why the connection is not open
+  refused?: boolean; // the server refused this page, and `reason` is the server's
 }
 
-/** What is said about who has the controls. */
-export type ControlWish = Extract<ClientMessage["kind"], { case: "askControl" | "yieldControl" | "keepControl" }>;
+/** A message that asks for, keeps or gives away control of the simulation. */
+export type ControlMessage = Extract<
+  ClientMessage["kind"],
+  { case: "askControl" | "yieldControl" | "keepControl" }
+>;
 
 /** A state of all spheres. */
 export interface State {
@@ -40,28 +43,28 @@ export interface State {
   step: number;
   simTime: number; // s
   count: number;
-  positions: Float32Array; // x y z per sphere, in id order; m, from the centre of the bounds
-  quantum: number; // m: each is off by at most half of it
+  positions: Float32Array; // x y z per sphere, in id order; m, relative to the centre of the bounds
+  quantum: number; // m; a position is off by at most half of it on each axis
 }
 
 export interface Received extends State {
-  arrival: number; // ms, as sharedNow() says
-  ready: number; // ms since 1970 by the server's clock; 0: not said
-  bytes: number; // of the whole message
+  arrival: number; // ms, as sharedNow() counts
+  ready: number; // ms since 1970 on the server's clock; 0: unknown
+  bytes: number; // size of the whole message
   decodeMs: number;
   status: Status | undefined;
 }
 
-/** What the page wants to be sent. */
-export interface View {
+/** The stream that the page requests. */
+export interface ViewRequest {
   tier: Tier;
   rate: number; // frames per second; 0: none
-  fixed: boolean;
+  fixed: boolean; // the server may not lower tier or rate
 }
 
 export type FromWorker =
   | ({ kind: "link" } & LinkChange)
-  | { kind: "silent"; since: number | undefined } // when the server was last heard, as sharedNow() says; undefined: just now
+  | { kind: "silent"; since: number | undefined } // time of the last message (ms); undefined: messages arrive again
   | { kind: "welcome"; welcome: Welcome }
   | { kind: "scene"; facts: SceneFacts }
   | { kind: "settings"; settings: Settings }
@@ -76,14 +79,14 @@ export type FromWorker =
   | { kind: "control"; control: Control }
   | { kind: "change"; change: Change }
   | { kind: "lost"; count: number } // frames that could not be decoded since the page was loaded
-  | { kind: "broken"; reason: string }; // a message that could not be read
+  | { kind: "unreadable"; reason: string }; // a message or frame is malformed
 
 export type ToWorker =
-  | { kind: "connect"; url: string; view: View; token: string }
-  | { kind: "token"; token: string } // for the next hello, which is said at once
+  | { kind: "connect"; url: string; view: ViewRequest; token: string }
+  | { kind: "token"; token: string } // reconnect with this token
   | { kind: "retry" }
-  | { kind: "view"; view: View }
-  | { kind: "drawing"; rate: number } // pictures per second; 0: unknown
+  | { kind: "view"; view: ViewRequest }
+  | { kind: "drawing"; rate: number } // images per second; 0: unknown
   | { kind: "command"; command: Command }
-  | { kind: "control"; wish: ControlWish }
+  | { kind: "control"; message: ControlMessage }
   | { kind: "recycle"; buffer: ArrayBuffer };

@@ -1,87 +1,89 @@
 import type { Outcome } from "./link";
 
-const patience = 1000; // ms after the answer, for a state that may never come: others seek too, frames get lost
-const leadPatience = 150; // ms
+// How long to wait for the state of a seek after its answer (ms). It may never arrive: another client may seek too, and
+// frames get lost.
+const patience = 1000;
+const leadPatience = 150;
 
-interface Flight {
+interface Seek {
   target: number; // s
-  lead: number; // s: still to be shown before the target; 0: nothing
+  lead: number; // s before the target, shown first; 0: none
   answered: number | undefined; // ms
 }
 
-/** What holds in the player just now. */
+/** The present state of the playback. */
 export interface Playing {
   now: number; // ms
-  newest: number | undefined; // s, of the newest state
+  newest: number | undefined; // s, time of the newest state
   speed: number; // simulated s per s; 0 while paused
   spacing: number; // s between two frames
 }
 
 /**
- * Takes a person to a moment of the recording. One seek is under way at a time; of the moments wished for meanwhile only the
- * latest counts. A moment holds until a state of it has come, so that nothing jumps back while answers are under way.
+ * Seeks in a recording. One seek is in progress at a time; of the targets requested meanwhile only the latest counts. A
+ * target holds until its state has arrived, so that the handle does not jump back while an answer is pending.
  */
 export class Seeker {
-  private flight: Flight | undefined;
+  private current: Seek | undefined;
   private next: { time: number; lead: number } | undefined;
 
   constructor(
-    private readonly seek: (time: number) => Promise<Outcome>,
+    private readonly send: (time: number) => Promise<Outcome>,
     private readonly now: () => number,
   ) {}
 
-  /** The moment that is on its way, s; undefined: the server is where it was sent. */
-  get wanted(): number | undefined {
-    return this.next?.time ?? this.flight?.target;
+  /** Time of the latest target (s); undefined if no seek is in progress. */
+  get target(): number | undefined {
+    return this.next?.time ?? this.current?.target;
   }
 
   /**
-   * `lead`: show the moment that lies so far before this one first, s. While nothing moves speeds are told from two states,
-   * and a moment alone has none.
+   * Seeks to `time` (s). `lead` (s): first show the state that lies this long before it. Speeds are computed from two
+   * states, and while playback is paused a seek brings only one.
    */
-  want(time: number, lead = 0): void {
+  seek(time: number, lead = 0): void {
     this.next = { time, lead };
-    if (!this.flight || this.flight.answered !== undefined) this.depart();
+    if (!this.current || this.current.answered !== undefined) this.start();
   }
 
-  /** To be told often: lets go of the moment once it is there. */
-  heed(playing: Playing): void {
-    const { flight } = this;
-    if (flight?.answered === undefined) return;
-    const waited = playing.now - flight.answered;
-    const place = flight.target - flight.lead;
+  /** Ends the seek once its state has arrived. To be called often. */
+  update(playing: Playing): void {
+    const { current } = this;
+    if (current?.answered === undefined) return;
+    const waited = playing.now - current.answered;
+    const time = current.target - current.lead;
     const near = 2 * playing.spacing + (playing.speed * 2 * waited) / 1000;
-    // The state of a lead must not be mistaken for that of the moment itself, which may have been shown already.
-    const after = flight.lead > 0 ? 1e-3 * playing.spacing : near;
-    const ahead = playing.newest === undefined ? NaN : playing.newest - place;
-    const there = -near <= ahead && ahead <= after;
-    if (!there && waited < (flight.lead > 0 ? leadPatience : patience)) return;
-    if (flight.lead > 0) {
-      flight.lead = 0;
-      void this.fly(flight);
-    } else this.flight = undefined;
+    // The state of the target may have been shown before the seek: it must not pass for the state of the lead.
+    const after = current.lead > 0 ? 1e-3 * playing.spacing : near;
+    const ahead = playing.newest === undefined ? NaN : playing.newest - time;
+    const arrived = -near <= ahead && ahead <= after;
+    if (!arrived && waited < (current.lead > 0 ? leadPatience : patience)) return;
+    if (current.lead > 0) {
+      current.lead = 0;
+      void this.execute(current);
+    } else this.current = undefined;
   }
 
-  /** Another server, or none: what was wished for is void. */
-  forget(): void {
-    this.flight = undefined;
+  /** Drops all targets: the recording has changed, or there is none. */
+  reset(): void {
+    this.current = undefined;
     this.next = undefined;
   }
 
-  private depart(): void {
+  private start(): void {
     if (!this.next) return;
     const { time, lead } = this.next;
     this.next = undefined;
-    this.flight = { target: time, lead, answered: undefined };
-    void this.fly(this.flight);
+    this.current = { target: time, lead, answered: undefined };
+    void this.execute(this.current);
   }
 
-  private async fly(flight: Flight): Promise<void> {
-    flight.answered = undefined;
-    const { case: how } = await this.seek(flight.target - flight.lead);
-    if (this.flight !== flight) return;
-    flight.answered = this.now();
-    if (how !== "applied") this.flight = undefined;
-    if (this.next) this.depart();
+  private async execute(seek: Seek): Promise<void> {
+    seek.answered = undefined;
+    const outcome = await this.send(seek.target - seek.lead);
+    if (this.current !== seek) return;
+    seek.answered = this.now();
+    if (outcome.case !== "applied") this.current = undefined;
+    if (this.next) this.start();
   }
 }

@@ -1,55 +1,53 @@
 import { Backoff } from "./backoff";
 import type { LinkChange } from "./messages";
-import { Silence } from "./silence";
+import { refusals, subprotocol, tokenRequired } from "./protocol";
+import { Watchdog } from "./watchdog";
 
 export interface SocketEvents {
   opened(): void;
   received(data: ArrayBuffer): void;
   changed(change: Omit<LinkChange, "at">): void;
-  /** Nothing has come for a while: the server is to be asked for a word. */
-  ask(): void;
-  /** So long (ms), though it was asked; undefined: something has come again. */
-  silent(since: number | undefined): void;
+  /** Nothing has arrived for a while: ask the server for something that it answers at once. */
+  probe(): void;
+  /** Reports the duration of a silence (ms); undefined once a message has arrived. */
+  silent(duration: number | undefined): void;
 }
 
-const subprotocol = "spherule.v1";
-const wantsToken = 4401; // close codes
-const turnedAway = [1008, 1013];
-const patience = 10_000; // ms for the server's first word after opening, before trying again
+const openTimeout = 10_000; // ms for the server's first message
 
-/** A WebSocket that connects again by itself, sooner after a connection that worked than after one that did not. */
+/** A WebSocket that reconnects by itself. The wait before an attempt grows only while no connection works. */
 export class Socket {
   private socket: WebSocket | undefined;
-  private timer: ReturnType<typeof setTimeout> | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined; // of the first message, or of the next attempt
   private readonly backoff = new Backoff();
-  private readonly silence: Silence;
+  private readonly watchdog: Watchdog;
 
   constructor(
     private readonly url: string,
     private readonly events: SocketEvents,
   ) {
-    this.silence = new Silence({
-      ask: () => events.ask(),
-      silent: (since) => events.silent(since),
-      giveUp: () => this.leave({ reason: "nothing came any more" }),
+    this.watchdog = new Watchdog({
+      probe: () => events.probe(),
+      silent: (duration) => events.silent(duration),
+      giveUp: () => this.retryLater({ reason: "the server stopped answering" }),
     });
     this.connect();
   }
 
-  /** Sends, or says that there is no connection. */
+  /** Returns false if there is no open connection. */
   send(data: Uint8Array<ArrayBuffer>): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(data);
     return true;
   }
 
-  /** Tries now instead of at the end of the wait, or of the server's silence. */
+  /** Connects now if there is no connection, or if the server is silent. */
   retry(): void {
-    if (!this.socket || this.silence.lasts) this.renew();
+    if (!this.socket || this.watchdog.silent) this.reconnect();
   }
 
-  /** Begins anew, whatever there is. */
-  renew(): void {
+  /** Closes the connection, if there is one, and connects now. */
+  reconnect(): void {
     this.drop();
     this.backoff.reset();
     this.connect();
@@ -60,41 +58,40 @@ export class Socket {
     const socket = new WebSocket(this.url, subprotocol);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
-    this.timer = setTimeout(() => this.leave({ reason: "no answer" }), patience);
+    this.timer = setTimeout(() => this.retryLater({ reason: "no answer" }), openTimeout);
     socket.onopen = () => {
       if (this.socket === socket) this.events.opened();
     };
     socket.onmessage = (message: MessageEvent<unknown>) => {
       if (this.socket !== socket) return;
-      if (this.timer !== undefined) this.begun();
-      this.silence.heard();
+      if (this.timer !== undefined) this.firstMessage();
+      this.watchdog.feed();
       if (message.data instanceof ArrayBuffer) this.events.received(message.data);
     };
     socket.onclose = (closed) => {
       if (this.socket !== socket) return;
       const reason = closed.reason || (closed.wasClean ? "closed by the server" : "no answer");
-      if (closed.code === wantsToken) this.lock(reason);
-      else this.leave({ reason, refused: turnedAway.includes(closed.code) });
+      if (closed.code === tokenRequired) this.lock(reason);
+      else this.retryLater({ reason, refused: refusals.includes(closed.code) });
     };
   }
 
-  /** The server has said its first word. */
-  private begun(): void {
+  private firstMessage(): void {
     clearTimeout(this.timer);
     this.timer = undefined;
     this.backoff.reset();
-    this.silence.begin();
+    this.watchdog.start();
   }
 
-  /** Turns away from this connection, which may never close by itself, and tries another before long. */
-  private leave(why: { reason: string; refused?: boolean }): void {
+  /** Drops this connection, which may never close by itself, and plans the next attempt. */
+  private retryLater(why: { reason: string; refused?: boolean }): void {
     this.drop();
     const retryIn = this.backoff.next();
     this.events.changed({ state: "waiting", retryIn, ...why });
     this.timer = setTimeout(() => this.connect(), retryIn);
   }
 
-  /** The same hello would be refused again: waits for another one. */
+  /** Waits for another token: the server would reject the same hello again. */
   private lock(reason: string): void {
     this.drop();
     this.events.changed({ state: "locked", reason });
@@ -104,7 +101,7 @@ export class Socket {
     const socket = this.socket;
     this.socket = undefined;
     socket?.close();
-    this.silence.end();
+    this.watchdog.stop();
     clearTimeout(this.timer);
     this.timer = undefined;
   }

@@ -1,34 +1,35 @@
 type Store = Pick<Storage, "getItem" | "setItem" | "removeItem">;
 
 /**
- * The token of one server, kept as long as this tab is. Where the browser forbids to keep things, it is known until the page is
- * loaded again.
+ * The token of one server, kept until this tab is closed. If the browser forbids storage, it is kept until the page is
+ * reloaded.
  */
 export class TokenStore {
   private readonly key: string;
   private held: string;
 
-  /** `address`: of the server; others may be served from the same origin. */
+  /** `address`: of the server; one origin may serve several servers. */
   constructor(
     address: string,
     private readonly store: () => Store,
   ) {
     this.key = `spherule.token ${address}`;
-    this.held = this.trying((kept) => kept.getItem(this.key)) ?? "";
+    this.held = this.attempt((storage) => storage.getItem(this.key)) ?? "";
   }
 
-  /** Empty: there is none. */
+  /** Empty if there is none. */
   get token(): string {
     return this.held;
   }
 
-  /** Empty: there shall be none. */
-  keep(token: string): void {
+  /** An empty token removes the stored one. */
+  save(token: string): void {
     this.held = token;
-    this.trying((kept) => (token ? kept.setItem(this.key, token) : kept.removeItem(this.key)));
+    this.attempt((storage) => (token ? storage.setItem(this.key, token) : storage.removeItem(this.key)));
   }
 
-  private trying<T>(action: (store: Store) => T): T | undefined {
+  /** Returns undefined if the browser forbids storage. */
+  private attempt<T>(action: (store: Store) => T): T | undefined {
     try {
       return action(this.store());
     } catch {

@@ -2,15 +2,14 @@ import { create, toBinary } from "@bufbuild/protobuf";
 import { AckSchema, ClientMessageSchema, HelloSchema, ViewSchema } from "../gen/spherule/v1/control_pb";
 import type { ClientMessage } from "../gen/spherule/v1/control_pb";
 import { sharedNow } from "../clock";
-import { Buffers } from "./buffers";
-import { clientName } from "./client";
-import { decode, forPage } from "./decode";
+import { BufferPool } from "./buffer_pool";
 import { Frames } from "./frames";
-import type { FromWorker, ToWorker, View } from "./messages";
+import type { FromWorker, ToWorker, ViewRequest } from "./messages";
+import { clientName, decode, forPage } from "./protocol";
 import { Socket } from "./socket";
 import { Stream } from "./stream";
 
-/** The connection's thread: holds the socket, decodes, hands states over without copying them. */
+/** The connection's thread: holds the socket, decodes frames, and transfers states to the page without copying them. */
 
 interface Port {
   postMessage(message: FromWorker, transfer?: Transferable[]): void;
@@ -19,12 +18,12 @@ interface Port {
 const page = globalThis as unknown as Port;
 
 let socket: Socket | undefined;
-const buffers = new Buffers();
+const buffers = new BufferPool();
 const frames = new Frames(buffers);
 const stream = new Stream(frames, {
   ack: (ack) => void send({ case: "ack", value: create(AckSchema, ack) }),
   decoded: (frame) => page.postMessage({ kind: "frame", frame }, [frame.positions.buffer as ArrayBuffer]),
-  broken: (reason) => page.postMessage({ kind: "broken", reason }),
+  malformed: (reason) => page.postMessage({ kind: "unreadable", reason }),
   lost: (count) => page.postMessage({ kind: "lost", count }),
 });
 
@@ -37,17 +36,17 @@ function received(data: ArrayBuffer): void {
   try {
     const arrival = sharedNow();
     const kind = decode(data);
-    if (kind.case === "frame") return stream.take(kind.value, arrival, data.byteLength);
+    if (kind.case === "frame") return stream.receive(kind.value, arrival, data.byteLength);
     if (kind.case === "order") return frames.setOrder(kind.value);
     if (kind.case === "scene") frames.setScene(kind.value.epoch, kind.value.count);
     const message = forPage(kind);
     if (message) page.postMessage(message);
   } catch (error) {
-    page.postMessage({ kind: "broken", reason: error instanceof Error ? error.message : String(error) });
+    page.postMessage({ kind: "unreadable", reason: error instanceof Error ? error.message : String(error) });
   }
 }
 
-let view: View | undefined;
+let view: ViewRequest | undefined;
 let token = "";
 
 function sendView(): void {
@@ -64,9 +63,10 @@ function connect(url: string): void {
     },
     received,
     changed: (change) => page.postMessage({ kind: "link", at: sharedNow(), ...change }),
-    // A view that has been said before changes nothing, and is answered with what is sent.
-    ask: () => sendView(),
-    silent: (since) => page.postMessage({ kind: "silent", since: since === undefined ? since : sharedNow() - since }),
+    // The server answers a repeated view with the present stream, and changes nothing.
+    probe: () => sendView(),
+    silent: (duration) =>
+      page.postMessage({ kind: "silent", since: duration === undefined ? undefined : sharedNow() - duration }),
   });
 }
 
@@ -79,7 +79,7 @@ page.onmessage = ({ data }) => {
       break;
     case "token":
       token = data.token;
-      socket?.renew();
+      socket?.reconnect();
       break;
     case "retry":
       socket?.retry();
@@ -95,10 +95,10 @@ page.onmessage = ({ data }) => {
       send({ case: "command", value: data.command });
       break;
     case "control":
-      send(data.wish);
+      send(data.message);
       break;
     case "recycle":
-      buffers.giveBack(data.buffer);
+      buffers.release(data.buffer);
       break;
   }
 };

@@ -1,5 +1,5 @@
 import { mat4, vec3 } from "gl-matrix";
-import type { Facts, Vec3 } from "../scene/facts";
+import type { Facts, Vec3 } from "../model/facts";
 
 export interface Light {
   direction: Vec3; // to the light, unit length
@@ -10,12 +10,13 @@ export interface Light {
 }
 
 const height = 0.95; // radians above the horizon
-const aside = 0.85; // radians to the left of the scene's own camera
+const aside = 0.85; // radians to the left of the scene's camera
 
-/** A far light that stands to the left of the scene's camera, with a shadow map that covers the bounds. */
+/** A directional light from the left of the scene's camera, with a shadow map that covers the bounds. */
 export function lightFor(facts: Facts): Light {
   const azimuth = cameraAzimuth(facts) - aside;
-  const direction: Vec3 = [Math.cos(azimuth) * Math.cos(height), Math.sin(azimuth) * Math.cos(height), Math.sin(height)];
+  const across = Math.cos(height);
+  const direction: Vec3 = [Math.cos(azimuth) * across, Math.sin(azimuth) * across, Math.sin(height)];
   const right = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], [0, 0, 1], direction)) as Vec3;
   const up = vec3.cross([0, 0, 0], direction, right) as Vec3;
   const centre = facts.origin;

@@ -2,7 +2,7 @@ import { slot } from "./program";
 import { vertexFloats } from "./shapes";
 import type { Vertices } from "./shapes";
 
-/** Vertices on the device. */
+/** A vertex buffer on the device, with its layout. */
 export class Mesh {
   private readonly array: WebGLVertexArrayObject;
   private readonly buffer: WebGLBuffer;
@@ -15,7 +15,7 @@ export class Mesh {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     const stride = 4 * vertexFloats;
     for (const [name, size, offset] of [
-      ["a_place", 3, 0],
+      ["a_position", 3, 0],
       ["a_normal", 3, 12],
       ["a_colour", 4, 24],
     ] as const) {

@@ -1,23 +1,32 @@
-/** A linked program with its uniforms by name. */
+/** A linked program, with its uniforms by name. */
 export interface Program {
   use(): void;
   at(uniform: string): WebGLUniformLocation | null;
 }
 
-/** Attribute slots are the same in all programs, so that one vertex array serves several of them. */
-const attributes = ["a_from", "a_to", "a_radius", "a_group", "a_place", "a_normal", "a_colour"] as const;
+/** Attribute slots are the same in all programs, so that programs can share vertex arrays. */
+const attributes = ["a_from", "a_to", "a_radius", "a_group", "a_position", "a_normal", "a_colour"] as const;
 export type Attribute = (typeof attributes)[number];
 
 export function slot(attribute: Attribute): number {
   return attributes.indexOf(attribute);
 }
 
-export const frameBinding = 0; // of the uniform block Frame
+export const frameBinding = 0; // binding point of the uniform block Frame
 
-/** Compiles and links; throws with the compiler's words. Sources are parts that follow each other. */
-export function program(gl: WebGL2RenderingContext, vertex: string[], fragment: string[], defines: string[] = []): Program {
+/**
+ * Compiles and links a program. Sources are given in parts, which are concatenated. Throws an Error with the compiler's
+ * log if that fails.
+ */
+export function program(
+  gl: WebGL2RenderingContext,
+  vertex: string[],
+  fragment: string[],
+  defines: string[] = [],
+): Program {
   const linked = gl.createProgram();
-  const head = ["#version 300 es", "precision highp float;", "precision highp int;", ...defines.map((d) => `#define ${d}`)];
+  const precision = ["precision highp float;", "precision highp int;"];
+  const head = ["#version 300 es", ...precision, ...defines.map((name) => `#define ${name}`)];
   for (const [type, parts] of [
     [gl.VERTEX_SHADER, vertex],
     [gl.FRAGMENT_SHADER, fragment],

@@ -1,27 +1,27 @@
 import { modes } from "../colour/modes";
-import type { Facts } from "../scene/facts";
-import type { Shown } from "../scene/states";
-import type { Paint } from "./picture";
+import type { Facts } from "../model/facts";
+import type { Shown } from "../model/states";
+import type { DrawState } from "./draw_state";
+import type { Environment } from "./environment";
 import { program } from "./program";
 import type { Program } from "./program";
-import type { Quality } from "./quality";
-import type { ShadowMap } from "./shadow";
+import type { RenderQuality } from "./render_quality";
+import type { ShadowMap } from "./shadow_map";
 import type { SphereData } from "./spheres";
-import type { Surroundings } from "./surroundings";
 import background from "./shaders/background.frag.glsl";
 import colour from "./shaders/colour.glsl";
 import floorFragment from "./shaders/floor.frag.glsl";
 import frame from "./shaders/frame.glsl";
 import light from "./shaders/light.glsl";
 import lineFragment from "./shaders/line.frag.glsl";
-import place from "./shaders/place.glsl";
+import position from "./shaders/position.glsl";
 import screen from "./shaders/screen.vert.glsl";
 import solidFragment from "./shaders/solid.frag.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
 import sphereFragment from "./shaders/spheres.frag.glsl";
 import sphereVertex from "./shaders/spheres.vert.glsl";
 
-/** Draws what can be seen: background, floor, obstacles, spheres, then what is translucent. */
+/** Draws the scene: background, floor, obstacles, spheres, then translucent surfaces and lines. */
 export class ScenePass {
   private readonly background: Program;
   private readonly floor: Program;
@@ -31,18 +31,26 @@ export class ScenePass {
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
-    private readonly quality: Quality,
+    private readonly quality: RenderQuality,
   ) {
     const soft = quality.softShadow ? ["SOFT_SHADOW"] : [];
     const coverage = quality.samples > 0 ? ["COVERAGE"] : [];
     this.background = program(gl, [screen], [frame, light, background]);
     this.floor = program(gl, [solidVertex], [frame, light, floorFragment], soft);
     this.solids = program(gl, [solidVertex], [frame, light, solidFragment], soft);
-    this.spheres = program(gl, [frame, place, colour, sphereVertex], [frame, light, sphereFragment], [...soft, ...coverage]);
+    const sphereVertexParts = [frame, position, colour, sphereVertex];
+    this.spheres = program(gl, sphereVertexParts, [frame, light, sphereFragment], [...soft, ...coverage]);
     this.lines = program(gl, [solidVertex], [frame, light, lineFragment]);
   }
 
-  draw(facts: Facts, shown: Shown | undefined, paint: Paint, around: Surroundings, data: SphereData, shadow: ShadowMap): void {
+  draw(
+    facts: Facts,
+    shown: Shown | undefined,
+    state: DrawState,
+    environment: Environment,
+    data: SphereData,
+    shadow: ShadowMap,
+  ): void {
     const { gl } = this;
     gl.depthMask(false);
     this.background.use();
@@ -53,50 +61,50 @@ export class ScenePass {
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.enable(gl.CULL_FACE);
-    this.prepare(this.floor, paint, shadow);
+    this.prepare(this.floor, state, shadow);
     gl.uniform4f(this.floor.at("u_bounds"), facts.min[0], facts.min[1], facts.max[0], facts.max[1]);
-    gl.uniform1f(this.floor.at("u_ruler"), around.ruler);
-    gl.uniform1f(this.floor.at("u_fade"), around.fade);
-    around.floor.draw();
+    gl.uniform1f(this.floor.at("u_ruler"), environment.ruler);
+    gl.uniform1f(this.floor.at("u_fade"), environment.fade);
+    environment.floor.draw();
     gl.disable(gl.CULL_FACE);
     gl.disable(gl.BLEND);
 
-    this.prepare(this.solids, paint, shadow);
-    around.solids.draw();
-    if (shown) this.drawSpheres(facts, shown, paint, data, shadow);
+    this.prepare(this.solids, state, shadow);
+    environment.solids.draw();
+    if (shown) this.drawSpheres(facts, shown, state, data, shadow);
 
     gl.enable(gl.BLEND);
     gl.depthMask(false);
-    this.prepare(this.solids, paint, shadow);
-    around.veils.draw();
-    this.prepare(this.lines, paint, shadow);
-    around.edges.draw(gl.LINES);
+    this.prepare(this.solids, state, shadow);
+    environment.veils.draw();
+    this.prepare(this.lines, state, shadow);
+    environment.edges.draw(gl.LINES);
     gl.depthMask(true);
     gl.disable(gl.BLEND);
   }
 
-  private drawSpheres(facts: Facts, shown: Shown, paint: Paint, data: SphereData, shadow: ShadowMap): void {
+  private drawSpheres(facts: Facts, shown: Shown, state: DrawState, data: SphereData, shadow: ShadowMap): void {
     const { gl, spheres } = this;
     spheres.use();
     shadow.bind(spheres, 0);
     const time = shown.to.simTime - shown.from.simTime;
-    gl.uniform1i(spheres.at("u_mode"), modes[paint.mode]);
-    gl.uniform3fv(spheres.at("u_ramp"), paint.ramp.flat());
-    gl.uniform2fv(spheres.at("u_range"), paint.range);
+    gl.uniform1i(spheres.at("u_mode"), modes[state.mode]);
+    gl.uniform3fv(spheres.at("u_ramp"), state.ramp.flat());
+    gl.uniform2fv(spheres.at("u_range"), state.range);
     gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
     gl.uniform3fv(spheres.at("u_cellCentre"), facts.origin);
     gl.uniform1f(spheres.at("u_cellSize"), facts.cellSize);
     gl.uniform3iv(spheres.at("u_cells"), facts.cells.map((n) => Math.max(1, n)));
-    gl.uniform1i(spheres.at("u_selected"), paint.selected ?? -1);
+    gl.uniform1i(spheres.at("u_selected"), state.selected ?? -1);
     const smooth = this.quality.samples > 0;
     if (smooth) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     data.draw(spheres, shown.mix);
     if (smooth) gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
   }
 
-  private prepare(used: Program, paint: Paint, shadow: ShadowMap): void {
+  private prepare(used: Program, state: DrawState, shadow: ShadowMap): void {
     used.use();
     shadow.bind(used, 0);
-    this.gl.uniformMatrix4fv(used.at("u_matrix"), false, paint.view.viewProjection);
+    this.gl.uniformMatrix4fv(used.at("u_matrix"), false, state.view.viewProjection);
   }
 }

@@ -1,11 +1,11 @@
 import { vec3 } from "gl-matrix";
-import type { Box, Plane, Vec3 } from "../scene/facts";
+import type { Box, Plane, Vec3 } from "../model/facts";
 
-/** Vertices as a flat list: place (3), normal (3), colour (4); three vertices a triangle. */
+/** Vertices as a flat list: position (3), normal (3), colour (4). Three vertices make a triangle, or two a line. */
 export type Vertices = number[];
 export const vertexFloats = 10;
 
-/** The part of the plane that lies in the box, as a polygon around its normal; empty where they do not meet. */
+/** The part of the plane that lies in the box, as a polygon around its normal; empty if they do not meet. */
 export function planeInBox(plane: Plane, min: Vec3, max: Vec3): Vec3[] {
   const corner = (i: number): Vec3 => [(i & 1 ? max : min)[0], (i & 2 ? max : min)[1], (i & 4 ? max : min)[2]];
   const height = (p: Vec3): number => vec3.dot(plane.normal, vec3.subtract([0, 0, 0], p, plane.point));
@@ -20,7 +20,8 @@ export function planeInBox(plane: Plane, min: Vec3, max: Vec3): Vec3[] {
     }
   }
   if (points.length < 3) return [];
-  const centre = vec3.scale([0, 0, 0], points.reduce((sum, p) => vec3.add([0, 0, 0], sum, p) as Vec3, [0, 0, 0]), 1 / points.length);
+  const sum = points.reduce((total, p) => vec3.add([0, 0, 0], total, p) as Vec3, [0, 0, 0]);
+  const centre = vec3.scale([0, 0, 0], sum, 1 / points.length);
   const [u, v] = across(plane.normal);
   const angle = (p: Vec3): number => {
     const from = vec3.subtract([0, 0, 0], p, centre);
@@ -32,12 +33,14 @@ export function planeInBox(plane: Plane, min: Vec3, max: Vec3): Vec3[] {
 export function polygon(points: Vec3[], normal: Vec3, colour: number[]): Vertices {
   const vertices: Vertices = [];
   for (let i = 2; i < points.length; i++) {
-    for (const point of [points[0], points[i - 1], points[i]]) vertices.push(...(point ?? [0, 0, 0]), ...normal, ...colour);
+    for (const point of [points[0], points[i - 1], points[i]]) {
+      vertices.push(...(point ?? [0, 0, 0]), ...normal, ...colour);
+    }
   }
   return vertices;
 }
 
-/** The six faces, outward. */
+/** The six faces of a box, with outward normals. */
 export function faces(min: Vec3, max: Vec3): { normal: Vec3; points: Vec3[] }[] {
   return [0, 1, 2].flatMap((axis) =>
     [-1, 1].map((side) => {

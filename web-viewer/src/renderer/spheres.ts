@@ -1,17 +1,17 @@
-import type { State } from "../connection/messages";
-import type { Facts } from "../scene/facts";
-import type { Shown } from "../scene/states";
-import { capacity } from "../scene/timeline";
+import type { Facts } from "../model/facts";
+import { capacity } from "../model/playout";
+import type { Shown, State } from "../model/states";
 import { slot } from "./program";
 import type { Attribute, Program } from "./program";
 
+/** A buffer on the device, and the state that it holds. */
 interface Resident {
   buffer: WebGLBuffer;
   state: State | undefined;
-  used: number;
+  used: number; // value of `turn` at its last use
 }
 
-/** The spheres' data on the device: states as they came, float32; radius and group colour once per scene. */
+/** The spheres' data on the device: states as received (float32), and radius and group colour once per scene. */
 export class SphereData {
   count = 0;
   private readonly array: WebGLVertexArrayObject;
@@ -47,7 +47,7 @@ export class SphereData {
     gl.bindVertexArray(null);
   }
 
-  /** Makes these states the ones that are drawn, uploading those that are new. */
+  /** Selects the states to draw, and uploads those that are new. */
   show(shown: Shown): void {
     const { gl } = this;
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.count ?? 0);
@@ -63,7 +63,7 @@ export class SphereData {
     gl.bindVertexArray(null);
   }
 
-  /** One instanced draw of all spheres with a program that includes shaders/place.glsl. */
+  /** Draws all spheres in one instanced call, with a program that includes shaders/position.glsl. */
   draw(program: Program, mix: number): void {
     const { gl, facts } = this;
     if (!facts || this.count === 0) return;
@@ -77,15 +77,15 @@ export class SphereData {
 
   private resident(state: State): WebGLBuffer {
     this.turn += 1;
-    let place = this.residents.find((resident) => resident.state === state);
-    if (!place) {
-      place = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
-      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, place.buffer);
+    let found = this.residents.find((resident) => resident.state === state);
+    if (!found) {
+      found = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
+      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, found.buffer);
       this.gl.bufferData(this.gl.ARRAY_BUFFER, state.positions, this.gl.STREAM_DRAW);
-      place.state = state;
+      found.state = state;
     }
-    place.used = this.turn;
-    return place.buffer;
+    found.used = this.turn;
+    return found.buffer;
   }
 
   private perInstance(name: Attribute): void {
@@ -98,7 +98,8 @@ function colours(facts: Facts): Uint8Array {
   const bytes = new Uint8Array(4 * facts.count).fill(160);
   for (const group of facts.groups) {
     const [r, g, b] = group.colour.map((part) => Math.round(255 * part)) as [number, number, number];
-    for (let id = group.first; id < Math.min(facts.count, group.first + group.count); id++) bytes.set([r, g, b, 255], 4 * id);
+    const end = Math.min(facts.count, group.first + group.count);
+    for (let id = group.first; id < end; id++) bytes.set([r, g, b, 255], 4 * id);
   }
   return bytes;
 }

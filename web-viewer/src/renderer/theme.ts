@@ -1,6 +1,6 @@
 import { hexToRgb } from "../colour/rgb";
 
-/** Colours of the picture's surroundings and light; the page's own are in ui/style/theme.css. */
+/** Colours of environment and light. The colours of the page's elements are in ui/style/theme.css. */
 export interface Theme {
   backgroundTop: string;
   backgroundBottom: string;
@@ -8,7 +8,7 @@ export interface Theme {
   surround: string;
   ink: string;
   wall: string;
-  solid: string; // obstacles that bring no colour
+  solid: string; // obstacles to which the scene gives no colour
   key: number[]; // linear light
   sky: number[];
   ground: number[];
@@ -46,7 +46,7 @@ export const themes = {
 
 export type ThemeName = keyof typeof themes;
 
-/** "#rrggbb" to linear light, as shaders/light.glsl means it. */
+/** Converts "#rrggbb" to linear light, with the gamma of shaders/light.glsl. */
 export function linear(hex: string): [number, number, number] {
   const [r, g, b] = hexToRgb(hex) ?? [0, 0, 0];
   return [r * r, g * g, b * b];

@@ -1,75 +1,85 @@
-import { wordsFor } from "../scene/names";
-import type { Named } from "../scene/names";
-import type { Standing } from "../scene/standing";
+import type { ControlState } from "../model/control_state";
+import { nameText } from "../model/names";
+import type { DisplayName } from "../model/names";
 import { h } from "./dom";
 
 export interface ControlActions {
-  ask(): void;
+  request(): void;
   withdraw(): void;
-  give(session: bigint): void;
+  handOver(session: bigint): void;
   release(): void;
   keep(): void;
 }
 
-const most = 3; // who ask, in so many lines
+const maxRows = 3; // of requests
 
-/** Who has the controls, where one has them at a time, and who would like to. */
+/** Shows which client has control and which ones request it, where one client at a time has it. */
 export class ControlLine {
-  readonly element = h("section", { class: "steering", hidden: true, "aria-label": "Who has the controls", "aria-live": "polite", "data-testid": "control" });
+  readonly element = h("section", {
+    class: "steering",
+    hidden: true,
+    "aria-label": "Control of the simulation",
+    "aria-live": "polite",
+    "data-testid": "control",
+    "data-state": "everybody",
+  });
 
-  constructor(private readonly act: ControlActions) {}
+  constructor(private readonly actions: ControlActions) {}
 
-  show(standing: Standing): void {
-    const rows = this.rowsFor(standing);
+  show(state: ControlState): void {
+    const rows = this.rowsFor(state);
     const focused = this.element.contains(document.activeElement);
     this.element.hidden = rows.length === 0;
-    this.element.classList.toggle("asked", standing.kind === "mine" && standing.asking.length > 0);
+    this.element.dataset.state = state.kind;
+    this.element.classList.toggle("asked", state.kind === "mine" && state.asking.length > 0);
     this.element.replaceChildren(...rows);
-    if (focused) this.element.querySelector("button")?.focus(); // it was on a button that is no longer there
+    if (focused) this.element.querySelector("button")?.focus(); // the button that had the focus was replaced
   }
 
-  private rowsFor(standing: Standing): HTMLElement[] {
-    switch (standing.kind) {
+  private rowsFor(state: ControlState): HTMLElement[] {
+    switch (state.kind) {
       case "mine":
-        return this.mine(standing.asking);
+        return this.rowsOfHolder(state.asking);
       case "taken": {
-        const { holder, asked } = standing;
-        const words = asked ? ["Asked", more("; waiting for"), " ", named(holder)] : [named(holder), " has the controls"];
-        const act = asked ? button("control-withdraw", "Withdraw", this.act.withdraw) : button("control-ask", "Ask for them", this.act.ask);
-        return [row(words, act)];
+        const holder = nameElement(state.holder);
+        if (!state.asked) {
+          return [row([holder, " has control"], button("control-ask", "Request control", this.actions.request))];
+        }
+        const text = ["Requested", optional("; waiting for"), " ", holder];
+        return [row(text, button("control-withdraw", "Withdraw", this.actions.withdraw))];
       }
       default:
         return [];
     }
   }
 
-  /** Who ask stand above, so that the last line stays where it is under the hand. */
-  private mine(asking: Named[]): HTMLElement[] {
-    const rows = asking.slice(0, most).map((person) => {
-      const give = button("control-hand-over", "Hand over", () => this.act.give(person.session));
-      give.setAttribute("aria-label", `Hand over to ${wordsFor(person)}`);
-      return row([named(person), " asks", more(" for the controls")], give);
+  /** Requests come first, so that the last line, with the buttons of this page, stays in its place. */
+  private rowsOfHolder(asking: DisplayName[]): HTMLElement[] {
+    const rows = asking.slice(0, maxRows).map((client) => {
+      const handOver = button("control-hand-over", "Hand over", () => this.actions.handOver(client.session));
+      handOver.setAttribute("aria-label", `Hand over to ${nameText(client)}`);
+      return row([nameElement(client), " requests", optional(" control")], handOver);
     });
-    if (asking.length > most) rows.push(row([`and ${asking.length - most} more`]));
-    const release = button("control-release", "Release", this.act.release);
-    const keep = asking.length > 0 ? [button("control-keep", "Keep", this.act.keep)] : [];
-    return [...rows, row(["You have the controls"], ...keep, release)];
+    if (asking.length > maxRows) rows.push(row([`and ${asking.length - maxRows} more`]));
+    const release = button("control-release", "Release", this.actions.release);
+    const keep = asking.length > 0 ? [button("control-keep", "Keep", this.actions.keep)] : [];
+    return [...rows, row(["You have control"], ...keep, release)];
   }
 }
 
-function row(words: (Node | string)[], ...buttons: HTMLElement[]): HTMLElement {
-  return h("div", { class: "row" }, h("p", {}, ...words), ...buttons);
+function row(text: (Node | string)[], ...buttons: HTMLElement[]): HTMLElement {
+  return h("div", { class: "row" }, h("p", {}, ...text), ...buttons);
 }
 
-/** As text, whatever it is, that does not turn what stands around it; the number is seen even where the name is cut. */
-function named(person: Named): HTMLElement {
-  const number = person.number ? [h("i", {}, person.number)] : [];
-  return h("b", { title: wordsFor(person) }, h("bdi", {}, person.name), ...number);
+/** A name, isolated from the direction of the text around it. Its number stays visible if the name is cut. */
+function nameElement(client: DisplayName): HTMLElement {
+  const number = client.number ? [h("i", {}, client.number)] : [];
+  return h("b", { title: nameText(client) }, h("bdi", {}, client.name), ...number);
 }
 
-/** For where there is room. */
-function more(words: string): HTMLElement {
-  return h("span", { class: "more" }, words);
+/** Text that is hidden where there is little room. */
+function optional(text: string): HTMLElement {
+  return h("span", { class: "more" }, text);
 }
 
 function button(id: string, text: string, click: () => void): HTMLButtonElement {

@@ -1,11 +1,16 @@
 import type { Dial as DialMessage, DialPosition, Settings } from "../gen/spherule/v1/control_pb";
-import { costRows, errorRows, nearest, substepWords } from "./dial_words";
+import { costRows, errorRows, modelName, models, nearest, substepLabel } from "./dial_labels";
 import { h, setText } from "./dom";
-import { models, nameOf } from "./models";
 
-/** One control from fast to accurate; each position with what was measured of it and what it costs here. */
+/** The quality dial, from fast to accurate. Shows the measured errors of a position, and its cost on this server. */
 export class Dial {
-  private readonly slider = h("input", { type: "range", min: "0", step: "1", "data-testid": "dial", "aria-label": "Quality" });
+  private readonly slider = h("input", {
+    type: "range",
+    min: "0",
+    step: "1",
+    "data-testid": "dial",
+    "aria-label": "Quality",
+  });
   private readonly model = h("b", { "data-testid": "dial-model" });
   private readonly substeps = h("span", { "data-testid": "dial-substeps" });
   private readonly scale = h("div", { class: "marks", "aria-hidden": "true" });
@@ -22,43 +27,44 @@ export class Dial {
   );
   private dial: DialMessage | undefined;
   private settings: Settings | undefined;
-  private turning = false; // by hand: what the server says meanwhile does not move it
+  private dragging = false; // the user moves the slider: messages of the server do not move it
 
   constructor(turned: (position: DialPosition) => void) {
     this.slider.addEventListener("input", () => {
-      this.turning = true;
+      this.dragging = true;
       this.describe();
     });
     this.slider.addEventListener("change", () => {
-      this.turning = false;
+      this.dragging = false;
       const position = this.dial?.positions[this.slider.valueAsNumber];
       if (position) turned(position);
     });
-    // Let go where it was, there is no change to hear of.
-    for (const end of ["pointerup", "keyup", "blur"])
+    // There is no change event if the slider is released where it was.
+    for (const end of ["pointerup", "keyup", "blur"]) {
       this.slider.addEventListener(end, () => {
-        this.turning = false;
+        this.dragging = false;
         this.show();
       });
+    }
   }
 
-  offer(dial: DialMessage): void {
+  setDial(dial: DialMessage): void {
     this.dial = dial;
     this.slider.max = String(Math.max(0, dial.positions.length - 1));
     this.drawScale(dial);
     this.show();
   }
 
-  settle(settings: Settings): void {
+  setSettings(settings: Settings): void {
     this.settings = settings;
     this.show();
   }
 
-  /** `why`: it is out of use; empty: it is not. */
-  restrict(why: string): void {
-    this.slider.disabled = why !== "";
-    this.slider.title = why;
-    if (why) this.turning = false; // nobody will hear that it was let go
+  /** An empty reason enables the dial. */
+  restrict(blockedReason: string): void {
+    this.slider.disabled = blockedReason !== "";
+    this.slider.title = blockedReason;
+    if (blockedReason) this.dragging = false; // a disabled slider has no further events
     this.show();
   }
 
@@ -66,29 +72,37 @@ export class Dial {
     const { dial, settings } = this;
     this.element.hidden = !dial || !settings;
     if (!dial || !settings) return;
-    if (!this.turning) this.slider.valueAsNumber = Math.max(0, nearest(dial, settings.model, settings.substeps));
+    if (!this.dragging) this.slider.valueAsNumber = Math.max(0, nearest(dial, settings.model, settings.substeps));
     this.describe();
   }
 
-  /** What is under the hand, or else what holds. */
+  /** Shows the position under the slider while it is dragged, else the present settings. */
   private describe(): void {
     const { dial, settings } = this;
     if (!dial || !settings) return;
-    const position = dial.positions[this.turning ? this.slider.valueAsNumber : nearest(dial, settings.model, settings.substeps)];
-    const { model, substeps } = this.turning && position ? position : settings;
-    setText(this.model, nameOf(model));
-    setText(this.substeps, `${substepWords(substeps)} a step`);
-    this.model.title = models.find((one) => one.model === model)?.says ?? "";
+    const index = this.dragging ? this.slider.valueAsNumber : nearest(dial, settings.model, settings.substeps);
+    const position = dial.positions[index];
+    const { model, substeps } = this.dragging && position ? position : settings;
+    setText(this.model, modelName(model));
+    setText(this.substeps, `${substepLabel(substeps)} a step`);
+    this.model.title = models.find((one) => one.model === model)?.description ?? "";
     this.rows.hidden = !position;
-    const rows = position ? [...errorRows(position), ...costRows(position, substeps, dial.calibrated, settings)] : [];
-    const spoken = rows.map(({ name, value }) => `${name} ${value}`).join(", ");
-    this.slider.setAttribute("aria-valuetext", `${nameOf(model)}, ${substepWords(substeps)}: ${spoken}`);
+    const rows = position
+      ? [...errorRows(position), ...costRows(position, substeps, dial.calibrated, settings)]
+      : [];
+    const rowText = rows.map(({ name, value }) => `${name} ${value}`).join(", ");
+    this.slider.setAttribute("aria-valuetext", `${modelName(model)}, ${substepLabel(substeps)}: ${rowText}`);
     this.rows.replaceChildren(
-      ...rows.map(({ id, name, title, value }) => h("tr", { title }, h("th", {}, name), h("td", { "data-testid": `dial-${id}` }, value))),
+      ...rows.map(({ id, name, title, value }) =>
+        h("tr", { title }, h("th", {}, name), h("td", { "data-testid": `dial-${id}` }, value)),
+      ),
     );
-    const between = position && position.substeps !== substeps ? [`Errors as measured with ${substepWords(position.substeps)}.`] : [];
-    const missing = dial.missing.map((one) => `${nameOf(one.model)} is not for this scene: ${one.reason}.`);
-    setText(this.note, [...between, ...missing].join(" "));
+    const measured =
+      position && position.substeps !== substeps
+        ? [`Errors are those measured with ${substepLabel(position.substeps)}.`]
+        : [];
+    const missing = dial.missing.map((one) => `${modelName(one.model)} is not available: ${one.reason}.`);
+    setText(this.note, [...measured, ...missing].join(" "));
     this.note.hidden = this.note.textContent === "";
     this.rows.title = `Errors measured on ${dial.measuredOn}`;
   }
@@ -98,7 +112,8 @@ export class Dial {
     const ticks = positions.map((_, i) => h("i", { style: share(i) }));
     const names = models.flatMap(({ model, name }) => {
       const own = positions.flatMap((position, i) => (position.model === model ? [i] : []));
-      return own.length > 0 ? [h("span", { style: share(own.reduce((sum, i) => sum + i, 0) / own.length) }, name)] : [];
+      if (own.length === 0) return [];
+      return [h("span", { style: share(own.reduce((sum, i) => sum + i, 0) / own.length) }, name)];
     });
     this.scale.replaceChildren(...ticks, ...names);
   }

@@ -1,7 +1,7 @@
 type Child = Node | string;
 type Attributes = Record<string, string | boolean | ((event: Event) => void)>;
 
-/** An element with attributes (`class`, `data-testid`, `title`, ...; functions become listeners) and children. */
+/** Creates an element with attributes and children. An attribute that is a function becomes an event listener. */
 export function h<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
   attributes: Attributes = {},
@@ -11,14 +11,14 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name, value);
     else if (typeof value === "boolean") element.toggleAttribute(name, value);
-    else if (name === "style") element.style.cssText = value; // the attribute may be forbidden by a security policy
+    else if (name === "style") element.style.cssText = value; // security policies may forbid the attribute
     else element.setAttribute(name, value);
   }
   element.append(...children);
   return element;
 }
 
-/** A line drawing of 20 x 20 units. */
+/** Creates an icon from a path in 20 x 20 units. */
 export function icon(path: string): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 20 20");
@@ -29,7 +29,21 @@ export function icon(path: string): SVGSVGElement {
   return svg;
 }
 
-/** Writes only what changed, so that a busy status line costs nothing. */
+/** Sets the text if it has changed: an unchanged text then costs no layout. */
 export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
+}
+
+/** A row of a table. `warning`: why the value is highlighted. */
+export type Row = [id: string, name: string, value: string, warning?: string, title?: string];
+
+/** Shows the rows in a table. The test id of a value is `PREFIX-ID`. */
+export function fillTable(table: HTMLElement, prefix: string, rows: Row[]): void {
+  table.hidden = false;
+  table.replaceChildren(
+    ...rows.map(([id, name, value, warning = "", title = ""]) => {
+      const cell = { class: warning ? "warning" : "", title: warning, "data-testid": `${prefix}-${id}` };
+      return h("tr", { title }, h("th", {}, name), h("td", cell, value));
+    }),
+  );
 }

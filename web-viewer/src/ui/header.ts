@@ -1,16 +1,16 @@
-import { clientName } from "../connection/client";
-import type { Session } from "../scene/session";
-import { hindranceOf } from "../scene/standing";
-import type { Standing } from "../scene/standing";
+import { clientName } from "../connection/protocol";
+import { blockedReasonOf } from "../model/control_state";
+import type { ControlState } from "../model/control_state";
+import type { Session } from "../model/session";
 import { h, setText } from "./dom";
 
-/** Which world this is, and whether the page hears from it. */
+/** Shows the scene's name and the state of the connection. */
 export class Header {
   private readonly scene = h("h1", { "data-testid": "scene-name" }, "Spherule");
   private readonly description = h("p", { "data-testid": "scene-description" });
   private readonly farewell = h("p", { class: "farewell", "data-testid": "farewell", role: "status" });
   private readonly dot = h("i");
-  private readonly words = h("span", { "data-testid": "connection" });
+  private readonly text = h("span", { "data-testid": "connection" });
   private readonly role = h("span", { class: "role", "data-testid": "role", hidden: true }, "watching");
   private readonly refusal = h("p", { class: "refusal", "data-testid": "refusal", hidden: true });
   private readonly link: HTMLButtonElement;
@@ -20,19 +20,21 @@ export class Header {
     private readonly session: Session,
     retry: () => void,
   ) {
-    this.link = h("button", { class: "link", type: "button", "data-testid": "retry", click: retry }, this.dot, this.words);
+    const attributes = { class: "link", type: "button", "data-testid": "retry", click: retry };
+    this.link = h("button", attributes, this.dot, this.text);
     const brand = h("div", { class: "brand" }, h("span", { class: "mark" }), "Spherule", this.link, this.role);
     this.element = h("header", {}, brand, this.refusal, this.scene, this.farewell, this.description);
   }
 
-  update(now: number, standing: Standing, contextLost: boolean): void {
+  /** `now`: ms, as sharedNow() counts; `contextLost`: the browser has taken the WebGL context away. */
+  update(now: number, control: ControlState, contextLost: boolean): void {
     const { session } = this;
-    const state = contextLost ? "lost" : session.silentSince !== undefined ? "silent" : session.link;
+    const state = contextLost ? "lost" : session.connection;
     this.link.dataset.state = state;
     this.link.title = titleFor(state, session);
-    setText(this.words, this.wordsFor(state, now));
-    this.role.hidden = standing.kind !== "watching";
-    this.role.title = hindranceOf(standing);
+    setText(this.text, this.textFor(state, now));
+    this.role.hidden = control.kind !== "watching";
+    this.role.title = blockedReasonOf(control);
     setText(this.refusal, session.refusal && `The server says: ${session.refusal}`);
     this.refusal.hidden = !session.refusal;
     setText(this.farewell, session.farewell);
@@ -43,7 +45,7 @@ export class Header {
     setText(this.description, session.facts.description);
   }
 
-  private wordsFor(state: string, now: number): string {
+  private textFor(state: string, now: number): string {
     switch (state) {
       case "lost":
         return "graphics lost, waiting for the browser";
@@ -52,7 +54,7 @@ export class Header {
       case "connecting":
         return "connecting";
       case "locked":
-        return "a token is needed";
+        return "token required";
       case "silent":
         return `no answer for ${Math.round((now - (this.session.silentSince ?? now)) / 1000)} s`;
       default:
@@ -63,7 +65,7 @@ export class Header {
 
 function titleFor(state: string, { linkReason: reason, welcome, control }: Session): string {
   if (state === "waiting") return `${reason}; click to try now`;
-  if (state === "locked") return `${reason}; click to give one`;
-  if (state === "open" && welcome && control) return `To others this page is ${clientName} #${welcome.session}`;
-  return state === "silent" ? "The picture is not live: nothing comes from the server; click to connect anew" : "";
+  if (state === "locked") return `${reason}; click to enter a token`;
+  if (state === "open" && welcome && control) return `Other clients see this page as ${clientName} #${welcome.session}`;
+  return state === "silent" ? "The image is not live: the server does not answer. Click to reconnect" : "";
 }

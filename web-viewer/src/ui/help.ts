@@ -3,14 +3,14 @@ import type { Key } from "./keys";
 
 const gestures = (playing: boolean): [string, string][] => [
   ["drag · one finger", "orbit"],
-  ["right or shift + drag · two fingers", "move"],
-  ["wheel · pinch", "zoom to that place"],
+  ["right or shift + drag · two fingers", "pan"],
+  ["wheel · pinch", "zoom to the pointer"],
   ["click · tap", playing ? "select a sphere" : "select a sphere, or push it in push mode"],
 ];
 
-const onTimeline: [string, string] = ["Timeline", "← → a frame, ↑ ↓ a second, Home, End"];
+const onTimeline: [string, string] = ["Timeline", "← → one frame, ↑ ↓ one second, Home, End"];
 
-/** Keys and gestures, over the page. */
+/** A dialog that lists keys and gestures. */
 export class Help {
   readonly element: HTMLDialogElement = h("dialog", {
     class: "help",
@@ -22,11 +22,12 @@ export class Help {
   describe(keys: Key[], playing: boolean): void {
     const list = (rows: [string, string][]): HTMLElement =>
       h("dl", {}, ...rows.flatMap(([term, text]) => [h("dt", {}, term), h("dd", {}, text)]));
+    const keyRows = keys.filter((key) => key.shown).map((key): [string, string] => [key.shown, key.description]);
     this.element.replaceChildren(
       h("h2", {}, "Gestures"),
       list(gestures(playing)),
       h("h2", {}, "Keys"),
-      list([...keys.filter((key) => key.shown).map((key): [string, string] => [key.shown, key.says]), ...(playing ? [onTimeline] : [])]),
+      list(playing ? [...keyRows, onTimeline] : keyRows),
     );
   }
 

@@ -1,11 +1,11 @@
-import { groupOf, radiusOf } from "../scene/facts";
-import type { Facts } from "../scene/facts";
-import { leastSpeed, shownPosition, speedOf } from "../scene/positions";
-import type { Shown } from "../scene/states";
+import { groupOf, radiusOf } from "../model/facts";
+import type { Facts } from "../model/facts";
+import { leastSpeed, shownPosition, speedOf } from "../model/positions";
+import type { Shown } from "../model/states";
 import { h, setText } from "./dom";
 import { count, figure, length, vector } from "./format";
 
-/** What is known of the sphere that was clicked. */
+/** Shows the selected sphere: position, speed, radius and group. */
 export class Inspector {
   selected: number | undefined;
   private readonly name = h("h2", { "data-testid": "inspected" });
@@ -13,8 +13,13 @@ export class Inspector {
   readonly element: HTMLElement;
 
   constructor() {
-    const close = h("button", { type: "button", title: "Forget this sphere (Esc)", click: () => this.select(undefined) }, "×");
-    this.element = h("section", { class: "inspector", hidden: true, "aria-label": "Selected sphere" }, h("div", { class: "row" }, this.name, close), this.text);
+    const deselect = { type: "button", title: "Deselect (Esc)", click: () => this.select(undefined) };
+    this.element = h(
+      "section",
+      { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
+      h("div", { class: "row" }, this.name, h("button", deselect, "×")),
+      this.text,
+    );
   }
 
   select(id: number | undefined): void {

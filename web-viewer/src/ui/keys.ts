@@ -1,29 +1,89 @@
+import type { Camera } from "../camera/camera";
+
 export interface Key {
   keys: string[]; // as KeyboardEvent.key, letters in lower case
-  shown: string;
-  says: string;
+  shown: string; // name in the help; empty: not listed
+  description: string;
   act(): void;
 }
 
-/** Keys with which a slider that has the focus is moved. */
-const slides = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
+/** Keys that move a focused slider. */
+const sliderKeys = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
 
-/** Listens for keys, except while something is being typed. */
+/** Listens for keys, except while the user types in a field. */
 export function listenForKeys(keys: () => Key[]): void {
   const pressedDown = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.target instanceof HTMLElement && keeps(event.target, event.key)) return;
+    if (event.target instanceof HTMLElement && handlesKey(event.target, event.key)) return;
     const pressed = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const key = keys().find((candidate) => candidate.keys.includes(pressed));
     if (!key) return;
-    event.preventDefault(); // space would press the button that has the focus
+    event.preventDefault(); // space would press the focused button
     key.act();
   };
-  window.addEventListener("keydown", pressedDown, true); // before the panel, which keeps keys to itself
+  window.addEventListener("keydown", pressedDown, true); // captures: the panel stops the propagation of keys
 }
 
-/** Whether the key is for what has the focus. */
-function keeps(target: HTMLElement, key: string): boolean {
-  if (target.matches("input[type=range]")) return slides.includes(key);
+/** Whether the focused element handles the key itself. */
+function handlesKey(target: HTMLElement, key: string): boolean {
+  if (target.matches("input[type=range]")) return sliderKeys.includes(key);
   return target.matches("input, select, textarea") && key !== "Escape";
+}
+
+export interface KeyActions {
+  toggle(): void;
+  step(count: number): void;
+  reset(): void;
+  panel(): void;
+  colour(index: number): void;
+  push(): void;
+  lock(): void;
+  drop(): void;
+  help(): void;
+  deselect(): void;
+  camera: Camera;
+}
+
+const nudge = 40; // px of the drag that corresponds to one press of an arrow key
+
+/** The keys of the page. `playing`: the server plays a recording. The help shows the same list. */
+export function keysFor(actions: KeyActions, playing: boolean): Key[] {
+  const { camera } = actions;
+  const colours = Object.fromEntries(["1", "2", "3", "4", "5"].map((key, i) => [key, i]));
+  const arrows: Record<string, [number, number]> = {
+    ArrowLeft: [nudge, 0],
+    ArrowRight: [-nudge, 0],
+    ArrowUp: [0, nudge],
+    ArrowDown: [0, -nudge],
+  };
+  const one = (key: string, description: string, action: () => void, shown = key.toUpperCase()): Key => ({
+    keys: [key],
+    shown,
+    description,
+    act: action,
+  });
+  const each = <T>(shown: string, description: string, table: Record<string, T>, action: (value: T) => void): Key[] =>
+    Object.entries(table).map(([key, value], index) => ({
+      keys: [key],
+      shown: index === 0 ? shown : "",
+      description,
+      act: () => action(value),
+    }));
+  return [
+    one(" ", "pause, resume", actions.toggle, "Space"),
+    one(".", playing ? "one frame" : "one step", () => actions.step(1)),
+    one("r", playing ? "go to the beginning" : "reset the scene", actions.reset),
+    ...(playing ? [] : [one("d", "drop spheres", actions.drop), one("p", "push mode", actions.push)]),
+    ...each("1 – 5", "colour by speed, radius, id, grid cell, group", colours, actions.colour),
+    one("l", "lock the colour range", actions.lock),
+    one("f", "reset the view", () => camera.reset()),
+    one("x", "look along x", () => camera.along(0, 0)),
+    one("y", "look along y", () => camera.along(-Math.PI / 2, 0)),
+    one("z", "look down", () => camera.along(-Math.PI / 2, Math.PI / 2 - 0.02)),
+    ...each("Arrows", "orbit", arrows, ([dx, dy]) => camera.orbit(dx, dy)),
+    ...each("+  −", "zoom", { "+": 0.8, "=": 0.8, "-": 1.25 }, (factor) => camera.zoom(factor)),
+    one("c", "show or hide the controls", actions.panel),
+    one("?", "this help", actions.help),
+    one("Escape", "close, deselect", actions.deselect, "Esc"),
+  ];
 }

@@ -3,13 +3,13 @@ import type { Mode } from "../colour/modes";
 import type { AutoRange } from "../colour/range";
 import { idRamp, radiusRamp, rampColour, rampGradient, speedRamp } from "../colour/ramp";
 import { css } from "../colour/rgb";
-import type { Facts } from "../scene/facts";
+import type { Facts } from "../model/facts";
 import { h, setText } from "./dom";
 import { count, figure, length } from "./format";
 
 const groupsShown = 6;
 
-/** Says what the colours mean. */
+/** Explains the colours. */
 export class Legend {
   private readonly title = h("h2", { "data-testid": "legend-title" });
   private readonly body = h("div", { class: "scale" });
@@ -18,18 +18,28 @@ export class Legend {
   private readonly lock: HTMLButtonElement;
   private readonly head: HTMLElement;
   readonly element: HTMLElement;
-  private shown = "";
+  private shown = ""; // mode and epoch
 
   constructor(
     private readonly speeds: AutoRange,
     next: () => void,
   ) {
-    this.lock = h("button", { type: "button", class: "lock", "data-testid": "legend-lock", click: () => this.toggleLock() }, "auto");
-    this.head = h("button", { type: "button", class: "head", title: "Colour by something else", "data-testid": "legend-next", click: next }, this.title);
-    this.element = h("section", { class: "legend", "data-testid": "legend", "aria-label": "Colours" }, h("div", { class: "row" }, this.head, this.lock), this.body);
+    const toggle = (): void => this.toggleLock();
+    this.lock = h("button", { type: "button", class: "lock", "data-testid": "legend-lock", click: toggle }, "auto");
+    this.head = h(
+      "button",
+      { type: "button", class: "head", title: "Next colour mode", "data-testid": "legend-next", click: next },
+      this.title,
+    );
+    this.element = h(
+      "section",
+      { class: "legend", "data-testid": "legend", "aria-label": "Colours" },
+      h("div", { class: "row" }, this.head, this.lock),
+      this.body,
+    );
   }
 
-  /** Keeps the range of speeds as it is, or lets it follow again. */
+  /** Locks or unlocks the range of speeds. */
   toggleLock(): void {
     this.speeds.locked = !this.speeds.locked;
   }
@@ -48,7 +58,7 @@ export class Legend {
       setText(this.low, "0");
       setText(this.high, `${figure(this.speeds.high)} m/s`);
       setText(this.lock, this.speeds.locked ? "locked" : "auto");
-      this.lock.title = this.speeds.locked ? "Let the range follow the spheres (L)" : "Keep this range (L)";
+      this.lock.title = this.speeds.locked ? "Unlock the colour range (L)" : "Lock the colour range (L)";
       this.lock.setAttribute("aria-pressed", String(this.speeds.locked));
     }
   }
@@ -71,10 +81,11 @@ export class Legend {
       case "cell": {
         if (facts.cellSize <= 0) return [h("p", {}, "this scene has no grid")];
         const cells = facts.cells.map(count).join(" × ");
-        return [h("p", {}, `one colour a cell of ${length(facts.cellSize)}`), h("p", {}, `${cells} cells`)];
+        return [h("p", {}, `one colour per cell of ${length(facts.cellSize)}`), h("p", {}, `${cells} cells`)];
       }
       case "group": {
-        const rows = facts.groups.slice(0, groupsShown).map((group) => swatch(css(group.colour), group.name, count(group.count)));
+        const shown = facts.groups.slice(0, groupsShown);
+        const rows = shown.map((group) => swatch(css(group.colour), group.name, count(group.count)));
         const more = facts.groups.length - groupsShown;
         return more > 0 ? [...rows, h("p", {}, `and ${more} more`)] : rows;
       }
@@ -82,10 +93,12 @@ export class Legend {
   }
 
   private bar(gradient: string): HTMLElement[] {
-    return [h("div", { class: "bar", style: `background: ${gradient}` }), h("div", { class: "ends" }, this.low, this.high)];
+    const bar = h("div", { class: "bar", style: `background: ${gradient}` });
+    return [bar, h("div", { class: "ends" }, this.low, this.high)];
   }
 }
 
 function swatch(colour: string, name: string, figure = ""): HTMLElement {
-  return h("div", { class: "swatch" }, h("i", { style: `background: ${colour}` }), h("span", {}, name), h("b", {}, figure));
+  const sample = h("i", { style: `background: ${colour}` });
+  return h("div", { class: "swatch" }, sample, h("span", {}, name), h("b", {}, figure));
 }

@@ -3,26 +3,24 @@ import type { Insets } from "../camera/view";
 import { modeList } from "../colour/modes";
 import type { AutoRange } from "../colour/range";
 import type { Commands } from "../connection/commands";
-import type { ControlWish } from "../connection/messages";
+import type { ControlMessage } from "../connection/messages";
 import type { Recording } from "../gen/spherule/v1/control_pb";
+import type { Session } from "../model/session";
+import type { Shown } from "../model/states";
 import type { ThemeName } from "../renderer/theme";
-import type { Session } from "../scene/session";
-import type { Shown } from "../scene/states";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
 import { Header } from "./header";
 import { Help } from "./help";
 import { Inspector } from "./inspector";
-import { keysFor } from "./key_list";
-import type { KeyActions } from "./key_list";
-import { listenForKeys } from "./keys";
-import type { Key } from "./keys";
+import { keysFor, listenForKeys } from "./keys";
+import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
 import { Panel } from "./panel";
 import type { Choices, PanelActions } from "./panel";
 import { Playback } from "./playback";
 import { Prompt } from "./prompt";
-import { endOf, RecordButton } from "./record";
+import { RecordButton, recordingEnd } from "./record";
 import { StatusLine } from "./status";
 import { Steering } from "./steering";
 import { longStay, Toasts } from "./toasts";
@@ -31,13 +29,14 @@ import { Transport } from "./transport";
 export interface PageActions extends PanelActions {
   retry(): void;
   submitToken(text: string): boolean;
-  aboutControl(wish: ControlWish): void;
+  sendControl(message: ControlMessage): void;
   camera: Camera;
 }
 
 const narrow = window.matchMedia("(width <= 720px)");
+const figurePeriod = 200; // ms; figures that change faster cannot be read
 
-/** All that lies over the picture. */
+/** All elements over the canvas. */
 export class Page {
   readonly toasts = new Toasts();
   readonly inspector = new Inspector();
@@ -55,112 +54,115 @@ export class Page {
   private readonly keys: () => Key[];
   private readonly deck: HTMLElement;
   private deckHeight = 56; // px
-  private playing = false; // a recording
-  private lastFigures = 0;
+  private playing = false; // the server plays a recording
+  private lastFigures = 0; // ms
 
   constructor(
-    private readonly place: HTMLElement,
+    private readonly container: HTMLElement,
     private readonly session: Session,
     private readonly commands: Commands,
     speeds: AutoRange,
     private readonly choices: Choices,
     actions: PageActions,
   ) {
-    const themed = (theme: ThemeName): void => {
+    const themeChanged = (theme: ThemeName): void => {
       document.documentElement.dataset.theme = theme;
-      actions.themed(theme);
+      actions.themeChanged(theme);
     };
-    this.panel = new Panel(commands, choices, { ...actions, themed });
+    this.panel = new Panel(commands, choices, { ...actions, themeChanged });
     this.header = new Header(session, actions.retry);
     this.legend = new Legend(speeds, () => {
       this.panel.colourBy(modeList[(modeList.indexOf(choices.mode) + 1) % modeList.length] ?? "speed");
     });
     this.status = new StatusLine(session);
-    const act = {
+    const shared = {
       toggle: () => this.toggle(),
       step: (count: number) => void commands.step(count, session.timeline ? "frame" : "step"),
-      reset: () => void commands.reset(session.timeline ? "To the beginning" : "Reset"),
-      panel: () => this.showPanel(this.place.classList.contains("panel-closed")),
+      reset: () => void commands.reset(session.timeline ? "Go to the beginning" : "Reset"),
+      panel: () => this.showPanel(this.container.classList.contains("panel-closed")),
       help: () => this.help.toggle(),
     };
     const keyActions: KeyActions = {
-      ...act,
+      ...shared,
       camera: actions.camera,
       colour: (index) => this.panel.colourBy(modeList[index] ?? choices.mode),
       push: () => {
-        if (this.steering.hindered()) return;
+        if (this.steering.blocked()) return;
         choices.push = !choices.push;
         this.panel.refresh();
       },
       lock: () => this.legend.toggleLock(),
       drop: () => this.panel.dropNow(),
-      forget: () => {
+      deselect: () => {
         this.inspector.select(undefined);
         this.help.element.close();
       },
     };
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
-    this.steering = new Steering(session, this.toasts, actions.aboutControl, (why) => this.panel.restrict(why));
+    this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
     this.keys = () => (this.prompt.open ? [] : keysFor(keyActions, this.playing));
     listenForKeys(() => this.keys());
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
-    this.transport = new Transport(this.record.element, { ...act, home: () => actions.camera.reset() });
-    this.playback = new Playback(session, commands, () => choices.mode === "speed" || this.inspector.selected !== undefined);
+    this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
+    const needsSpeeds = (): boolean => choices.mode === "speed" || this.inspector.selected !== undefined;
+    this.playback = new Playback(session, commands, needsSpeeds);
     const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, this.change.element, steering.element, this.playback.element, this.transport.element));
+    const controls = [this.change, steering, this.playback, this.transport].map(({ element }) => element);
+    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, ...controls));
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
-    place.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
+    container.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
     new ResizeObserver(() => this.measureDeck()).observe(this.deck);
     document.documentElement.dataset.theme = choices.theme;
     this.showPanel(!narrow.matches);
     this.help.describe(this.keys(), this.playing);
   }
 
-  /** `now`: ms, as sharedNow() says. */
-  update(now: number, shown: Shown | undefined, picturesPerSecond: number, contextLost: boolean): void {
+  /** Call at every tick. `now`: ms, as sharedNow() counts. */
+  update(now: number, shown: Shown | undefined, imagesPerSecond: number, contextLost: boolean): void {
     this.inspector.update(this.session.facts, shown);
     this.setPlaying(this.session.timeline !== undefined);
     this.steering.update();
-    const { why } = this.steering;
-    this.change.update(this.session.change, why);
-    this.transport.update(this.session.paused, why);
-    this.playback.update(now, shown, why);
-    this.record.offer(this.playing ? undefined : this.session.recording, why);
+    const { blockedReason } = this.steering;
+    this.change.update(this.session.change, blockedReason);
+    this.transport.update(this.session.paused, blockedReason);
+    this.playback.update(now, shown, blockedReason);
+    this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.legend.update(this.choices.mode, this.session.facts);
     document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
-    if (now - this.lastFigures < 200) return; // figures that change faster cannot be read
+    if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
-    this.header.update(now, this.steering.standing, contextLost);
-    this.status.update(now, picturesPerSecond);
+    this.header.update(now, this.steering.state, contextLost);
+    this.status.update(now, imagesPerSecond);
     this.panel.stream.update(this.session, now);
   }
 
-  recorded(recording: Recording, before: Recording | undefined): void {
-    const end = endOf(recording, before);
+  recordingChanged(recording: Recording, before: Recording | undefined): void {
+    const end = recordingEnd(recording, before);
     if (end) this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", longStay);
   }
 
+  /** The margins of the canvas that the page's elements cover (CSS pixels). */
   insets(): Insets {
     if (narrow.matches) return { top: 60, right: 0, bottom: this.deckHeight + 104, left: 0 };
-    const open = !this.place.classList.contains("panel-closed");
+    const open = !this.container.classList.contains("panel-closed");
     return { top: 24, right: open ? 304 : 0, bottom: this.deckHeight + 56, left: 0 };
   }
 
   private setPlaying(playing: boolean): void {
     if (playing === this.playing) return;
     this.playing = playing;
-    this.place.classList.toggle("playing", playing);
+    this.container.classList.toggle("playing", playing);
     this.transport.setPlaying(playing);
     this.panel.setPlaying(playing);
     this.help.describe(this.keys(), playing);
   }
 
-  /** The sheet of controls on a narrow screen stands on what lies below it. */
+  /** On a narrow screen the panel lies above the deck: passes the deck's height to the style sheet. */
   private measureDeck(): void {
     this.deckHeight = this.deck.offsetHeight;
-    this.place.style.setProperty("--deck", `${this.deckHeight}px`);
+    this.container.style.setProperty("--deck", `${this.deckHeight}px`);
   }
 
   private toggle(): void {
@@ -168,6 +170,6 @@ export class Page {
   }
 
   private showPanel(open: boolean): void {
-    this.place.classList.toggle("panel-closed", !open);
+    this.container.classList.toggle("panel-closed", !open);
   }
 }

@@ -1,46 +1,49 @@
 import GUI from "lil-gui";
 import type { Controller, OptionController } from "lil-gui";
-import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import { modeFor, modeList, modeNames } from "../colour/modes";
 import type { Mode } from "../colour/modes";
 import type { Commands } from "../connection/commands";
-import type { View } from "../connection/messages";
-import type { QualityChoice } from "../renderer/quality";
+import type { ViewRequest } from "../connection/messages";
+import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Facts } from "../model/facts";
+import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
-import type { Facts } from "../scene/facts";
-import { dropFor, impulseFor, impulseNote } from "./amounts";
-import { goalFrom, goalNames, goals, heldBy } from "./auto";
-import type { GoalName } from "./auto";
+import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
+import type { GoalName } from "./auto_goal";
+import { Restriction, tag } from "./controllers";
 import { Dial } from "./dial";
-import { presetOf, presets } from "./gravity";
-import { Restriction } from "./restriction";
+import { customGravity, dropFor, gravityPresetOf, gravityPresets, impulseFor, impulseNote } from "./presets";
 import { StatisticsTables } from "./statistics";
-import { StreamFolder } from "./stream";
-import { tag } from "./tag";
+import { StreamFolder } from "./stream_folder";
 
-/** What the panel holds that only the page uses. */
+/** Choices of the user that concern only this page. */
 export interface Choices {
   mode: Mode;
-  modeChosen: boolean; // false: the scene decides
-  quality: QualityChoice;
+  modeChosen: boolean; // false: the scene determines the mode
+  quality: RenderQualityChoice;
   theme: ThemeName;
   push: boolean;
   impulse: number; // N s
-  view: View;
+  view: ViewRequest;
 }
 
 export interface PanelActions {
-  themed(theme: ThemeName): void;
-  qualityChosen(quality: QualityChoice): void;
-  viewWished(view: View): void;
+  themeChanged(theme: ThemeName): void;
+  qualityChanged(quality: RenderQualityChoice): void;
+  viewRequested(view: ViewRequest): void;
   forgetToken(): void;
 }
 
-/** The controls at the side. Commands go out when a control is let go; what the server settled on comes back. */
+const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
+const themeNames = { Light: "light", Dark: "dark" };
+
+/**
+ * The panel at the side. It sends a command when a control is released, and shows the settings that the server reports.
+ */
 export class Panel {
   readonly element: HTMLElement;
-  private readonly gui: GUI;
   readonly stream: StreamFolder;
+  private readonly gui: GUI;
   private readonly statistics = new StatisticsTables();
   private readonly world = {
     scene: "",
@@ -52,19 +55,21 @@ export class Panel {
     friction: 0,
     speed: 1,
     auto: "off" as GoalName,
-    goal: 0, // in the unit of what is held
+    goal: 0, // in the unit shown
   };
-  private readonly steering: GUI[] = []; // folders with which the world is changed
-  private readonly simulated: GUI[] = []; // folders that are of no use in a recording
-  private playback!: GUI;
-  private readonly access: GUI; // of no use where there is no token
-  private readonly restriction: Restriction;
   private readonly drop = { count: 200, radius: 0.05 };
+  private readonly steering: GUI[] = []; // folders whose controls send commands
+  private readonly simulated: GUI[] = []; // folders that are hidden for a recording
+  private playback!: GUI; // the folder of which a recording uses the speed
+  private readonly access: GUI; // hidden while there is no token
+  private readonly restriction: Restriction;
   private readonly scene: OptionController;
-  private readonly dial = new Dial(({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }));
+  private readonly dial = new Dial(
+    ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
+  );
   private goal!: Controller;
   private facts: Facts | undefined;
-  private settled: Settings | undefined;
+  private settings: Settings | undefined;
 
   constructor(
     private readonly commands: Commands,
@@ -81,28 +86,28 @@ export class Panel {
     this.addDrop();
     this.addPush();
     this.addLook();
-    this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, (view) => actions.viewWished(view));
+    const requested = (view: ViewRequest): void => actions.viewRequested(view);
+    this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, requested);
     this.addStatistics();
     this.access = this.gui.addFolder("Access").hide();
-    tag("forget-token", this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget the token")).domElement.title =
-      "This tab remembers it until it is closed";
+    const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
+    tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
     this.restriction = new Restriction([this.scene, ...this.steering.flatMap((folder) => folder.controllers)]);
   }
 
-  /** `why`: what changes the world is out of use; empty: it is not. */
-  restrict(why: string): void {
-    if (why) this.choices.push = false;
-    this.restriction.set(why);
-    this.dial.restrict(why);
+  /** Disables all controls that send commands; an empty reason enables them. */
+  restrict(blockedReason: string): void {
+    if (blockedReason) this.choices.push = false;
+    this.restriction.set(blockedReason);
+    this.dial.restrict(blockedReason);
     this.refresh();
   }
 
-  /** Whether there is a token to be forgotten. */
-  holdToken(held: boolean): void {
+  setTokenHeld(held: boolean): void {
     this.access.show(held);
   }
 
-  /** A recording is played, or else a scene simulated: only what works is offered. */
+  /** `playing`: the server plays a recording. Hides the controls that then have no effect. */
   setPlaying(playing: boolean): void {
     if (playing) this.choices.push = false;
     this.scene.show(!playing);
@@ -112,15 +117,15 @@ export class Panel {
     this.refresh();
   }
 
-  offer(welcome: Welcome): void {
-    this.scene.options(welcome.scenes);
+  setScenes({ scenes }: Welcome): void {
+    this.scene.options(scenes);
   }
 
   setFacts(facts: Facts): void {
-    const another = facts.name !== this.facts?.name;
+    const otherScene = facts.name !== this.facts?.name;
     this.facts = facts;
     this.world.scene = facts.name;
-    if (another) {
+    if (otherScene) {
       const [low, high] = facts.radiusRange;
       this.drop.radius = Number(((low + high) / 2 || 0.05).toPrecision(3));
       this.choices.impulse = impulseFor(this.drop.radius);
@@ -129,28 +134,29 @@ export class Panel {
     this.refresh();
   }
 
-  settle(settings: Settings): void {
-    this.settled = settings;
+  setSettings(settings: Settings): void {
+    this.settings = settings;
     const [x = 0, y = 0, z = 0] = settings.gravity;
     const { restitution, friction, speed } = settings;
-    const settled = { x, y, z, gravity: presetOf([x, y, z]), restitution, friction, speed, ...heldBy(settings.auto) };
+    const gravity = gravityPresetOf([x, y, z]);
+    const values = { x, y, z, gravity, restitution, friction, speed, ...fromAuto(settings.auto) };
     const edited = this.edited();
-    if (edited) delete (settled as Partial<typeof settled>)[edited as keyof typeof settled];
-    Object.assign(this.world, settled);
-    this.dial.settle(settings);
-    const held = goals[this.world.auto];
-    this.goal.show(this.world.auto !== "off").name(held.unit);
+    if (edited) delete (values as Partial<typeof values>)[edited as keyof typeof values];
+    Object.assign(this.world, values);
+    this.dial.setSettings(settings);
+    this.goal.show(this.world.auto !== "off").name(goals[this.world.auto].label);
     this.refresh();
   }
 
   setDial(dial: DialMessage): void {
-    this.dial.offer(dial);
+    this.dial.setDial(dial);
   }
 
-  diagnose(diagnostics: Diagnostics): void {
-    this.statistics.show(diagnostics, this.settled);
+  setDiagnostics(diagnostics: Diagnostics): void {
+    this.statistics.show(diagnostics, this.settings);
   }
 
+  /** Shows values that have been changed outside of the panel. */
   refresh(): void {
     for (const controller of this.gui.controllersRecursive()) controller.updateDisplay();
   }
@@ -161,24 +167,25 @@ export class Panel {
     this.refresh();
   }
 
-  /** Asks for a change; when it is refused, the control goes back to what holds. */
-  private async change(what: string, wish: Parameters<Commands["set"]>[1]): Promise<void> {
-    const outcome = await this.commands.set(what, wish);
-    if (outcome.case !== "applied" && this.settled) this.settle(this.settled);
-  }
-
-  /** The setting that is being typed or dragged just now: what others set must not slip under the hand. */
-  private edited(): string | undefined {
-    const held = this.element.querySelector(".lil-slider.lil-active") ?? document.activeElement;
-    const control = held?.matches("input:not([type=checkbox]), .lil-slider") && held.closest<HTMLElement>("[data-control]");
-    return control ? control.dataset.control?.replace("gravity-", "") : undefined;
-  }
-
   dropNow(): void {
     if (this.facts) void this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
   }
 
-  private simulation(name: string): GUI {
+  /** Sends a change of settings. If the server refuses it, the control returns to the present setting. */
+  private async change(name: string, settings: Parameters<Commands["set"]>[1]): Promise<void> {
+    const outcome = await this.commands.set(name, settings);
+    if (outcome.case !== "applied" && this.settings) this.setSettings(this.settings);
+  }
+
+  /** The setting that the user types or drags at present: messages of the server do not change it. */
+  private edited(): string | undefined {
+    const held = this.element.querySelector(".lil-slider.lil-active") ?? document.activeElement;
+    const isEditing = held?.matches("input:not([type=checkbox]), .lil-slider");
+    const control = isEditing && held?.closest<HTMLElement>("[data-control]");
+    return control ? control.dataset.control?.replace("gravity-", "") : undefined;
+  }
+
+  private addSimulated(name: string): GUI {
     const folder = this.gui.addFolder(name);
     this.simulated.push(folder);
     return folder;
@@ -191,14 +198,17 @@ export class Panel {
     this.steering.push(folder);
     folder.domElement.classList.add("playback");
     const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
-    tag("gravity-preset", folder.add(world, "gravity", [...Object.keys(presets), "Own"]).name("Gravity, m/s²")).onFinishChange((name: string) => {
-      const preset = presets[name];
-      if (!preset) return;
-      [world.x, world.y, world.z] = preset;
+    const presetNames = [...Object.keys(gravityPresets), customGravity];
+    const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Gravity, m/s²"));
+    preset.onFinishChange((name: string) => {
+      const gravity = gravityPresets[name];
+      if (!gravity) return;
+      [world.x, world.y, world.z] = gravity;
       setGravity();
     });
     for (const axis of ["x", "y", "z"] as const) {
-      tag(`gravity-${axis}`, folder.add(world, axis).step(0.01).decimals(2).name(axis)).onFinishChange(setGravity);
+      const part = folder.add(world, axis).step(0.01).decimals(2).name(axis);
+      tag(`gravity-${axis}`, part).onFinishChange(setGravity);
     }
     tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
       (restitution: number) => void this.change("Restitution", { restitution }),
@@ -213,20 +223,22 @@ export class Panel {
 
   private addQuality(): void {
     const { world } = this;
-    const folder = this.simulation("Quality");
+    const folder = this.addSimulated("Quality");
     this.steering.push(folder);
     folder.$children.append(this.dial.element);
-    const hold = (): void => void this.change("Automatic", { auto: goalFrom(world.auto, world.goal) });
-    tag("auto", folder.add(world, "auto", goalNames).name("Automatic")).onFinishChange((name: GoalName) => {
+    const setAuto = (): void => void this.change("Automatic", { auto: toAuto(world.auto, world.goal) });
+    const auto = tag("auto", folder.add(world, "auto", goalNames).name("Automatic"));
+    auto.onFinishChange((name: GoalName) => {
       world.goal = goals[name].first;
-      hold();
-    }).domElement.title = "Moves the substeps of the model to hold a time per step, or a mean overlap";
-    this.simulation("Now").$children.append(this.statistics.quality);
-    this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(hold).hide();
+      setAuto();
+    });
+    auto.domElement.title = "Adjusts the substeps to hold a step time or a mean overlap";
+    this.addSimulated("Now").$children.append(this.statistics.quality);
+    this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(setAuto).hide();
   }
 
   private addDrop(): void {
-    const folder = this.simulation("Drop spheres");
+    const folder = this.addSimulated("Drop spheres");
     this.steering.push(folder);
     tag("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"));
     tag("drop-radius", folder.add(this.drop, "radius").min(1e-4).decimals(4).name("Radius, m"));
@@ -234,25 +246,25 @@ export class Panel {
   }
 
   private addPush(): void {
-    const folder = this.simulation("Push");
+    const folder = this.addSimulated("Push");
     this.steering.push(folder);
-    tag("push", folder.add(this.choices, "push").name("Click pushes"));
+    tag("push", folder.add(this.choices, "push").name("Push on click"));
     tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s")).domElement.title = impulseNote;
   }
 
   private addLook(): void {
+    const { actions, choices } = this;
     const folder = this.gui.addFolder("Look");
     const names = Object.fromEntries(modeList.map((mode) => [modeNames[mode], mode]));
-    tag("colour", folder.add(this.choices, "mode", names).name("Colour by")).onChange((mode: Mode) => this.colourBy(mode));
-    tag("quality", folder.add(this.choices, "quality", { Automatic: "auto", Full: "full", Light: "light" }).name("Picture")).onChange(
-      (quality: QualityChoice) => this.actions.qualityChosen(quality),
-    );
-    tag("theme", folder.add(this.choices, "theme", { Light: "light", Dark: "dark" }).name("Theme")).onChange((theme: ThemeName) =>
-      this.actions.themed(theme),
-    );
+    const mode = tag("colour", folder.add(choices, "mode", names).name("Colour by"));
+    mode.onChange((value: Mode) => this.colourBy(value));
+    const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
+    quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
+    const theme = tag("theme", folder.add(choices, "theme", themeNames).name("Theme"));
+    theme.onChange((value: ThemeName) => actions.themeChanged(value));
   }
 
   private addStatistics(): void {
-    this.simulation("Statistics").$children.append(this.statistics.rest);
+    this.addSimulated("Statistics").$children.append(this.statistics.rest);
   }
 }

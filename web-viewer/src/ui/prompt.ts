@@ -3,7 +3,7 @@ import { h, icon, setText } from "./dom";
 const eye = "M2.5 10S5.3 5 10 5s7.5 5 7.5 5-2.8 5-7.5 5-7.5-5-7.5-5zM10 7.8a2.2 2.2 0 1 1 0 4.4 2.2 2.2 0 0 1 0-4.4z";
 const struckEye = `${eye}M3.5 16.5l13-13`;
 
-/** Asks for the token of a server. What was typed stays in the field only until it is handed over. */
+/** A dialog that asks for a token. The field is cleared as soon as the token is submitted. */
 export class Prompt {
   private readonly field = h("input", {
     id: "token",
@@ -14,12 +14,22 @@ export class Prompt {
     "aria-describedby": "token-wrong",
     "data-testid": "token-field",
   });
-  private readonly reveal = h("button", { type: "button", class: "reveal", "data-testid": "token-reveal", click: () => this.show(this.field.type === "password") });
-  private readonly wrong = h("p", { id: "token-wrong", class: "wrong", role: "alert", "data-testid": "token-wrong" });
+  private readonly reveal = h("button", {
+    type: "button",
+    class: "reveal",
+    "data-testid": "token-reveal",
+    click: () => this.show(this.field.type === "password"),
+  });
+  private readonly message = h("p", {
+    id: "token-wrong",
+    class: "wrong",
+    role: "alert",
+    "data-testid": "token-wrong",
+  });
   private readonly connect = h("button", { type: "submit", class: "primary", "data-testid": "token-connect" });
   readonly element: HTMLDialogElement;
 
-  /** `submit` hands the text over; returns whether there was a token in it. */
+  /** `submit` is given the text of the field. It returns false if the text has no token. */
   constructor(
     host: string,
     private readonly submit: (text: string) => boolean,
@@ -27,23 +37,28 @@ export class Prompt {
     const form = h(
       "form",
       { submit: (event) => this.submitted(event) },
-      h("h2", { id: "token-title" }, "Token needed"),
-      h("p", { id: "token-about" }, h("b", {}, host), " asks for a token."),
+      h("h2", { id: "token-title" }, "Token required"),
+      h("p", { id: "token-about" }, h("b", {}, host), " requires a token."),
       h("label", { for: "token" }, "Token"),
       h("div", { class: "entry" }, this.field, this.reveal),
-      this.wrong,
+      this.message,
       h("div", { class: "row" }, h("small", {}, "Kept until this tab is closed."), this.connect),
     );
-    const attributes = { class: "prompt", "data-testid": "token-prompt", "aria-labelledby": "token-title", "aria-describedby": "token-about" };
+    const attributes = {
+      class: "prompt",
+      "data-testid": "token-prompt",
+      "aria-labelledby": "token-title",
+      "aria-describedby": "token-about",
+    };
     this.element = h("dialog", { ...attributes, close: () => this.clear() }, form);
     this.clear();
     this.wait(false);
   }
 
-  /** `wrong`: what the matter is with the token that there was; empty: there was none. */
-  ask(wrong: string): void {
+  /** Opens the dialog. `message`: why the last token was rejected; empty if there was none. */
+  ask(message: string): void {
     this.wait(false);
-    this.complain(wrong);
+    this.setMessage(message);
     if (!this.element.open) this.element.showModal();
     this.field.focus();
   }
@@ -54,7 +69,7 @@ export class Prompt {
 
   close(): void {
     this.wait(false);
-    this.complain("");
+    this.setMessage("");
     this.element.close();
   }
 
@@ -62,17 +77,17 @@ export class Prompt {
     event.preventDefault();
     const text = this.field.value;
     this.clear();
-    this.complain("");
+    this.setMessage("");
     if (this.submit(text)) this.wait(true);
-    else this.ask("There is no token in the field.");
+    else this.ask("The field has no token.");
   }
 
-  private complain(wrong: string): void {
-    setText(this.wrong, wrong);
-    this.field.setAttribute("aria-invalid", String(wrong !== ""));
+  private setMessage(message: string): void {
+    setText(this.message, message);
+    this.field.setAttribute("aria-invalid", String(message !== ""));
   }
 
-  /** For the server's answer. */
+  /** Disables the dialog while the server's answer is pending. */
   private wait(waiting: boolean): void {
     this.field.disabled = this.reveal.disabled = this.connect.disabled = waiting;
     setText(this.connect, waiting ? "Connecting…" : "Connect");

@@ -1,55 +1,70 @@
-import type { Recording } from "../gen/spherule/v1/control_pb";
 import type { Commands } from "../connection/commands";
+import type { Recording } from "../gen/spherule/v1/control_pb";
 import { h, setText } from "./dom";
-import { bytes } from "./format";
-import { clockTime } from "./moment";
+import { bytes, clockTime } from "./format";
 
-/** Starts and ends a recording on the server, and says how long and large it is. */
+/** A button that starts and stops a recording on the server, and shows its duration and size. */
 export class RecordButton {
-  private readonly words = h("span", { "data-testid": "record-words" });
-  readonly element = h("button", { type: "button", class: "record", "data-testid": "record", click: () => void this.toggle() }, h("i"), this.words);
+  private readonly label = h("span", { "data-testid": "record-words" });
+  readonly element = h(
+    "button",
+    { type: "button", class: "record", "data-testid": "record", click: () => void this.toggle() },
+    h("i"),
+    this.label,
+  );
   private recording: Recording | undefined;
-  private why = "";
-  private asked = false; // a second click would ask for the opposite of what is under way
+  private blockedReason = "";
+  private pending = false; // a command has no result yet: a second click would revert it
 
   constructor(private readonly commands: Commands) {
-    this.offer(undefined, "");
+    this.update(undefined, "");
   }
 
-  /** `recording` undefined: there is nothing to record. `why`: it is out of use; empty: it is not. */
-  offer(recording: Recording | undefined, why: string): void {
-    if (recording === this.recording && why === this.why && this.element.title) return;
+  /** `recording` is undefined if the server cannot record. An empty reason enables the button. */
+  update(recording: Recording | undefined, blockedReason: string): void {
+    const same = recording === this.recording && blockedReason === this.blockedReason;
+    if (same && this.element.title) return;
     this.recording = recording;
-    this.why = why;
+    this.blockedReason = blockedReason;
     this.enable();
     this.element.hidden = !recording;
     const active = recording?.active ?? false;
-    const title = active ? `Stop recording ${recording?.file ?? ""}`.trim() : "Record what is simulated, on the server";
-    this.element.title = why || title;
+    const title = active ? `Stop recording ${recording?.file ?? ""}`.trim() : "Record the simulation, on the server";
+    this.element.title = blockedReason || title;
     this.element.setAttribute("aria-label", title);
     this.element.setAttribute("aria-pressed", String(active));
-    this.words.hidden = !active;
-    setText(this.words, active && recording ? `${clockTime(recording.duration)} · ${bytes(Number(recording.bytes))}` : "");
+    this.label.hidden = !active;
+    const progress = recording && `${clockTime(recording.duration)} · ${bytes(Number(recording.bytes))}`;
+    setText(this.label, (active && progress) || "");
   }
 
   private async toggle(): Promise<void> {
     const { commands, recording } = this;
-    this.asked = true;
+    this.pending = true;
     this.enable();
-    await (recording?.active ? commands.stopRecording() : commands.record());
-    this.asked = false;
+    await (recording?.active ? commands.stopRecording() : commands.startRecording());
+    this.pending = false;
     this.enable();
   }
 
   private enable(): void {
-    this.element.disabled = this.asked || this.why !== "";
+    this.element.disabled = this.pending || this.blockedReason !== "";
   }
 }
 
-/** What a person is told when a recording has ended; undefined: none has. */
-export function endOf(recording: Recording, before: Recording | undefined): { title: string; text: string; failed: boolean } | undefined {
+/** The message for the user when a recording has ended. */
+export interface RecordingEnd {
+  title: string;
+  text: string;
+  failed: boolean;
+}
+
+/** Returns undefined if no recording has ended. */
+export function recordingEnd(recording: Recording, before: Recording | undefined): RecordingEnd | undefined {
   const { active, file, failure } = recording;
   if (!before || active) return undefined;
-  if (failure && (before.active || failure !== before.failure)) return { title: "Recording ended", text: failure, failed: true };
+  if (failure && (before.active || failure !== before.failure)) {
+    return { title: "Recording ended", text: failure, failed: true };
+  }
   return before.active ? { title: "Recorded", text: `Play it with spherule play ${file}`, failed: false } : undefined;
 }

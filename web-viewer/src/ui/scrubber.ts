@@ -1,16 +1,16 @@
 import type { Timeline } from "../gen/spherule/v1/control_pb";
 import { h, setText } from "./dom";
-import { moment } from "./moment";
+import { recordingTime } from "./format";
 
-const tenth = 0.1; // of the whole, at most, for a long step
+const longStep = 0.1; // of the recording, at most
 
-/** Where the recording stands, and a handle to take it elsewhere. */
+/** The timeline of a recording: its present position, and a handle to seek. */
 export class Scrubber {
   private readonly slider = h("input", {
     type: "range",
     step: "any",
     "data-testid": "timeline",
-    "aria-label": "Moment of the recording",
+    "aria-label": "Position in the recording",
   });
   private readonly position = h("b", { "data-testid": "timeline-position" });
   private readonly file = h("span", { class: "file", "data-testid": "timeline-file" });
@@ -24,27 +24,29 @@ export class Scrubber {
     this.flaw,
   );
   private timeline: Timeline | undefined;
-  private stands = 0; // s: of the newest state, or what is on its way; the handle glides there
-  private still = false; // it is shown, and nothing goes on by itself
-  private held = false; // by hand: what the server says meanwhile does not move it
+  private newest = 0; // s: of the newest state, or the target of a seek; the handle moves towards it
+  private still = false; // paused, and no seek is in progress
+  private held = false; // the user holds the handle: the server does not move it
 
-  /** `wished`: the person wants this moment, s; `last`: the hand has let go; `stepped`: the next frame. */
+  /** `seek`: to a time (s); `released`: the user has released the handle. `step`: to the next frame. */
   constructor(
-    private readonly wished: (time: number, last: boolean) => void,
-    private readonly stepped: () => void,
+    private readonly seek: (time: number, released: boolean) => void,
+    private readonly step: () => void,
   ) {
     this.slider.addEventListener("pointerdown", () => (this.held = true));
     this.slider.addEventListener("input", () => {
       this.describe();
-      wished(this.time, false);
+      seek(this.time, false);
     });
-    this.slider.addEventListener("change", () => wished(this.time, true));
-    for (const end of ["pointerup", "pointercancel", "change", "blur"]) this.slider.addEventListener(end, () => (this.held = false));
+    this.slider.addEventListener("change", () => seek(this.time, true));
+    for (const end of ["pointerup", "pointercancel", "change", "blur"]) {
+      this.slider.addEventListener(end, () => (this.held = false));
+    }
     this.slider.addEventListener("keydown", (event) => this.pressed(event));
   }
 
-  /** Returns whether it is another one. */
-  offer(timeline: Timeline | undefined): boolean {
+  /** Returns true if the timeline has changed. */
+  setTimeline(timeline: Timeline | undefined): boolean {
     if (timeline === this.timeline) return false;
     this.timeline = timeline;
     this.held = false;
@@ -59,69 +61,73 @@ export class Scrubber {
     this.slider.max = String(end);
     setText(this.file, file);
     this.file.title = `${file}, ${Number(timeline.frames)} frames`;
-    setText(this.range, begin === 0 ? moment(end, end) : `${moment(begin, end - begin)} – ${moment(end, end - begin)}`);
+    const last = recordingTime(end, end - begin);
+    setText(this.range, begin === 0 ? last : `${recordingTime(begin, end - begin)} – ${last}`);
     setText(this.flaw, flaw && `Ends early: ${flaw}`);
     this.flaw.hidden = !flaw;
-    this.element.title = flaw ? `The recording ends before it was meant to: ${flaw}` : "";
+    this.element.title = flaw ? `The recording is incomplete: ${flaw}` : "";
   }
 
-  /** `time`: what the picture shows; `stands`: the newest state, or what is on its way; s. `still`: it stays there. */
-  update(time: number | undefined, stands: number | undefined, still: boolean): void {
-    this.stands = stands ?? this.stands;
+  /**
+   * `time`: of the image (s); `newest`: of the newest state, or the target of a seek (s); `still`: paused, and no seek
+   * is in progress.
+   */
+  update(time: number | undefined, newest: number | undefined, still: boolean): void {
+    this.newest = newest ?? this.newest;
     this.still = still;
     if (time === undefined || this.held) return;
     this.slider.value = String(time);
     this.describe();
   }
 
-  /** `why`: the handle is out of use; empty: that says itself. */
-  enable(usable: boolean, why: string): void {
+  /** `blockedReason`: why the user may not seek; empty if they may, or if there is no connection. */
+  enable(usable: boolean, blockedReason: string): void {
     this.slider.disabled = !usable;
-    this.slider.title = why;
-    if (!usable) this.held = false; // nobody will say that it was let go
+    this.slider.title = blockedReason;
+    if (!usable) this.held = false; // a disabled slider has no further events
   }
 
-  /** s; what the handle says. */
-  get time(): number {
+  /** The time at the handle (s). */
+  private get time(): number {
     const time = this.slider.valueAsNumber;
     const { begin, end } = this.timeline ?? { begin: time, end: time };
-    const near = 1e-9 * (end - begin); // sliders round, and just before the end another frame is shown
+    const near = 1e-9 * (end - begin); // sliders round, and just before the end the previous frame is shown
     return time - begin <= near ? begin : end - time <= near ? end : time;
   }
 
   private describe(): void {
     if (!this.timeline) return;
     const { begin, end } = this.timeline;
-    const words = moment(this.time, end - begin);
-    setText(this.position, words);
-    this.slider.setAttribute("aria-valuetext", `${words} of ${moment(end, end - begin)}`);
+    const text = recordingTime(this.time, end - begin);
+    setText(this.position, text);
+    this.slider.setAttribute("aria-valuetext", `${text} of ${recordingTime(end, end - begin)}`);
     const share = end > begin ? (this.time - begin) / (end - begin) : 0;
     this.slider.style.setProperty("--share", String(Math.min(1, Math.max(0, share))));
   }
 
-  /** A frame with the arrows to the sides, a second or a tenth of the whole with those up and down. */
+  /** Left and right arrow: one frame. Up and down: one second, or a tenth of the recording if that is less. */
   private pressed(event: KeyboardEvent): void {
     if (!this.timeline || event.ctrlKey || event.metaKey || event.altKey) return;
     const { begin, end, frames } = this.timeline;
     const frame = (end - begin) / Math.max(1, Number(frames) - 1);
     if (event.key === "ArrowRight" && this.still) {
       event.preventDefault();
-      this.stands += frame; // about: until it is there
+      this.newest += frame; // an estimate, until the frame arrives
       this.still = false;
-      this.stepped();
+      this.step();
       return;
     }
-    // The server goes to the last frame that is not after the time. Frames need not be equally far from each other: a little
-    // before this one is the one before, wherever that is.
+    // The server seeks to the last frame that is not after the time. Distances between frames may differ, so the
+    // previous frame is found by a time slightly before this frame.
     const back = this.still ? 1e-4 * frame : frame;
-    const far = Math.min(1, tenth * (end - begin));
+    const far = Math.min(1, longStep * (end - begin));
     const to: Record<string, number> = {
-      ArrowRight: this.stands + frame,
-      ArrowLeft: this.stands - back,
-      ArrowUp: this.stands + far,
-      ArrowDown: this.stands - far,
-      PageUp: this.stands + far,
-      PageDown: this.stands - far,
+      ArrowRight: this.newest + frame,
+      ArrowLeft: this.newest - back,
+      ArrowUp: this.newest + far,
+      ArrowDown: this.newest - far,
+      PageUp: this.newest + far,
+      PageDown: this.newest - far,
       Home: begin,
       End: end,
     };
@@ -130,8 +136,8 @@ export class Scrubber {
     event.preventDefault();
     this.slider.value = String(time); // between begin and end
     this.describe();
-    this.stands = this.time; // for the next key, which may come before an answer
+    this.newest = this.time; // for the next key, which may be pressed before the answer arrives
     this.still = false;
-    this.wished(this.time, true);
+    this.seek(this.time, true);
   }
 }

@@ -1,19 +1,20 @@
 import type { Diagnostics, Settings } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
-import { impactWords, moreImpacts } from "./dial_words";
-import type { Impacts } from "./dial_words";
-import { h } from "./dom";
+import { impactLabels, mergeImpacts } from "./dial_labels";
+import type { Impacts } from "./dial_labels";
+import { fillTable, h } from "./dom";
 import { count, figure, seconds, vector } from "./format";
-import { fill } from "./table";
 
-const seen = "Of spheres that met spheres, seen in every 16th step: less than asked where one meets several within a substep";
+const impactTitle =
+  "Measured over impacts of two spheres, in every 16th step. It is lower than specified if a sphere has several " +
+  "impacts within a substep";
 
-/** What the world is like now, as two small tables: what goes with the dial, and the rest. */
+/** The diagnostics in two tables: the figures that belong to the dial, and the others. */
 export class StatisticsTables {
   readonly quality = h("table", { class: "statistics", hidden: true });
   readonly rest = h("table", { class: "statistics", hidden: true });
 
-  /** The last impacts that were told: where they are rare, most reports have none. */
+  /** The last impacts reported: if impacts are rare, most reports have none. */
   private impacts: Impacts | undefined;
   private step = 0n;
 
@@ -21,39 +22,44 @@ export class StatisticsTables {
     const s = now.statistics;
     if (!s) return;
     const percent = (share: number): string => `${figure(100 * share)} %`;
-    const raised = settings && now.substeps > settings.substeps ? "More than set, because something moves very fast" : undefined;
-    const rises = now.energyRises ? "It has risen where nothing can have given any: use more substeps or another model" : undefined;
+    const raised =
+      settings && now.substeps > settings.substeps ? "More than set, because spheres move very fast" : undefined;
+    const rises = now.energyRises
+      ? "The energy increases without a source: use more substeps or another model"
+      : undefined;
     if (s.step < this.step) this.impacts = undefined; // another scene
     this.step = s.step;
-    this.impacts = moreImpacts(this.impacts, s);
-    const unseen = settings?.model === Model.ACCURATE;
-    const { restitution, over } = unseen ? { restitution: "not observed", over: "–" } : impactWords(this.impacts);
+    this.impacts = mergeImpacts(this.impacts, s);
+    const measured = settings?.model !== Model.ACCURATE;
+    const { restitution, over } = measured
+      ? impactLabels(this.impacts)
+      : { restitution: "not measured", over: "–" };
     const energy = s.kineticEnergy + s.rotationalEnergy + s.elasticEnergy + s.potentialEnergy;
-    fill(this.quality, "statistics", [
+    fillTable(this.quality, "statistics", [
       ["substeps", "Substeps", count(now.substeps), raised],
-      ["step-time", "A step takes", now.stepMs > 0 ? `${figure(now.stepMs)} ms` : "–"],
+      ["step-time", "Step time", now.stepMs > 0 ? `${figure(now.stepMs)} ms` : "–"],
       ["overlap-mean", "Overlap, mean", percent(s.overlapMean)],
-      ["overlap-max", "Overlap, most", percent(s.overlapMax)],
-      ["restitution", "Restitution", restitution, undefined, seen],
-      ["impacts", "Over impacts", over, undefined, seen],
+      ["overlap-max", "Overlap, max", percent(s.overlapMax)],
+      ["restitution", "Restitution", restitution, undefined, impactTitle],
+      ["impacts", "Impacts", over, undefined, impactTitle],
       ["energy", "Energy", `${rises ? "rises: " : ""}${figure(energy)} J`, rises],
-      ["speed-max", "Speed, most", `${figure(s.speedMax)} m/s`],
+      ["speed-max", "Speed, max", `${figure(s.speedMax)} m/s`],
     ]);
-    fill(this.rest, "statistics", [
-      ["wall-overlap", "Into walls, most", percent(s.wallOverlapMax)],
+    fillTable(this.rest, "statistics", [
+      ["wall-overlap", "Wall overlap, max", percent(s.wallOverlapMax)],
       ["contacts", "Contacts", count(Number(s.contacts))],
-      ["kinetic", "Energy of motion", `${figure(s.kineticEnergy)} J`],
-      ["rotational", "Energy of rotation", `${figure(s.rotationalEnergy)} J`],
-      ["elastic", "Energy of springs", `${figure(s.elasticEnergy)} J`],
-      ["potential", "Energy of height", `${figure(s.potentialEnergy)} J`],
+      ["kinetic", "Kinetic energy", `${figure(s.kineticEnergy)} J`],
+      ["rotational", "Rotational energy", `${figure(s.rotationalEnergy)} J`],
+      ["elastic", "Elastic energy", `${figure(s.elasticEnergy)} J`],
+      ["potential", "Potential energy", `${figure(s.potentialEnergy)} J`],
       ["momentum", "Momentum, N s", vector(s.momentum)],
       ["speed-rms", "Speed, rms", `${figure(s.speedRms)} m/s`],
       ["height", "Mean height", `${figure(s.meanHeight)} m`],
       ["sleeping", "Asleep", count(s.sleeping)],
       ["outside", "Outside", count(s.outside)],
-      ["non-finite", "Not finite", count(s.nonFinite)],
+      ["non-finite", "Non-finite", count(s.nonFinite)],
       ["step", "Step", count(Number(s.step))],
-      ["time", "Simulated", seconds(s.simTime)],
+      ["time", "Simulated time", seconds(s.simTime)],
     ]);
   }
 }

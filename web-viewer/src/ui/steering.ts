@@ -1,36 +1,36 @@
 import { create } from "@bufbuild/protobuf";
-import type { ControlWish } from "../connection/messages";
+import type { ControlMessage } from "../connection/messages";
 import { AskControlSchema, KeepControlSchema, YieldControlSchema } from "../gen/spherule/v1/control_pb";
-import type { Session } from "../scene/session";
-import { answerTo, hindranceOf, standingOf } from "../scene/standing";
-import type { Standing } from "../scene/standing";
+import { blockedReasonOf, controlAnswer, controlStateOf } from "../model/control_state";
+import type { ControlInfo, ControlState } from "../model/control_state";
+import type { Session } from "../model/session";
 import { ControlLine } from "./control_line";
 import type { Toasts } from "./toasts";
 
-/** Whether the person may steer: follows what the server says of that, and says it on. */
+/** Follows whether this page may send commands, and updates the page accordingly. */
 export class Steering {
-  standing: Standing = { kind: "everybody" };
-  why = ""; // nothing can be commanded; empty: it can
+  state: ControlState = { kind: "everybody" };
+  blockedReason = ""; // why this page may not send commands; empty if it may
   private readonly line: ControlLine;
-  private said: Pick<Session, "welcome" | "control"> = { welcome: undefined, control: undefined }; // that it follows from
-  private withdrawn = false; // no answer is waited for
+  private info: ControlInfo = { welcome: undefined, control: undefined }; // from which the state was derived
+  private withdrawn = false; // this page has withdrawn its request
 
-  /** `say` goes to the server; `restrict`: what commands is out of use from now on, or, where `why` is empty, of use. */
+  /** `restrict`: disables all that sends commands, with the given reason; an empty reason enables it. */
   constructor(
     private readonly session: Session,
     private readonly toasts: Toasts,
-    say: (wish: ControlWish) => void,
-    private readonly restrict: (why: string) => void,
+    send: (message: ControlMessage) => void,
+    private readonly restrict: (blockedReason: string) => void,
   ) {
     this.line = new ControlLine({
-      ask: () => say({ case: "askControl", value: create(AskControlSchema) }),
+      request: () => send({ case: "askControl", value: create(AskControlSchema) }),
       withdraw: () => {
         this.withdrawn = true;
-        say({ case: "yieldControl", value: create(YieldControlSchema) });
+        send({ case: "yieldControl", value: create(YieldControlSchema) });
       },
-      give: (session) => say({ case: "yieldControl", value: create(YieldControlSchema, { session }) }),
-      release: () => say({ case: "yieldControl", value: create(YieldControlSchema) }),
-      keep: () => say({ case: "keepControl", value: create(KeepControlSchema) }),
+      handOver: (session) => send({ case: "yieldControl", value: create(YieldControlSchema, { session }) }),
+      release: () => send({ case: "yieldControl", value: create(YieldControlSchema) }),
+      keep: () => send({ case: "keepControl", value: create(KeepControlSchema) }),
     });
   }
 
@@ -38,25 +38,27 @@ export class Steering {
     return this.line.element;
   }
 
-  /** Whether commands would not be taken; who tries to give one is told why. */
-  hindered(): boolean {
+  /** Call before a command is sent. If this page may not send it, notifies the user and returns true. */
+  blocked(): boolean {
     this.update();
-    if (this.why) this.toasts.once("Not done", this.why, "plain");
-    return this.why !== "";
+    if (this.blockedReason) this.toasts.once("Not sent", this.blockedReason, "plain");
+    return this.blockedReason !== "";
   }
 
   update(): void {
     const { welcome, control } = this.session;
-    if (welcome === this.said.welcome && control === this.said.control) return;
-    this.said = { welcome, control };
-    const before = this.standing;
-    const now = standingOf(this.said);
-    this.standing = now;
-    this.why = hindranceOf(now);
-    const answer = answerTo(before, now);
-    if (answer && (answer.granted || !this.withdrawn)) this.toasts.show("Controls", answer.words, answer.granted ? "good" : "plain");
+    if (welcome === this.info.welcome && control === this.info.control) return;
+    this.info = { welcome, control };
+    const before = this.state;
+    const now = controlStateOf(this.info);
+    this.state = now;
+    this.blockedReason = blockedReasonOf(now);
+    const answer = controlAnswer(before, now);
+    if (answer && (answer.granted || !this.withdrawn)) {
+      this.toasts.show("Control", answer.text, answer.granted ? "good" : "plain");
+    }
     this.withdrawn &&= now.kind === "taken" && now.asked;
     this.line.show(now);
-    this.restrict(this.why);
+    this.restrict(this.blockedReason);
   }
 }

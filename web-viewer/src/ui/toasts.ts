@@ -3,17 +3,17 @@ import { h } from "./dom";
 export type Tone = "good" | "bad" | "plain";
 
 const stays = { good: 2200, plain: 4000, bad: 7000 }; // ms
-export const longStay = 15_000; // ms, for what is to be copied
-const most = 3;
+export const longStay = 15_000; // ms, for messages that the user may copy
+const maxToasts = 3;
 
-/** Short messages that go away by themselves. */
+/** Short messages that disappear by themselves. */
 export class Toasts {
   readonly element = h("div", { class: "toasts", "data-testid": "toasts", role: "status", "aria-live": "polite" });
 
-  /** What is said already is not said again. */
+  /** Shows a message unless the same text is visible already. */
   once(title: string, text: string, tone: Tone): void {
-    const said = [...this.element.children].some((toast) => toast.lastElementChild?.textContent === text);
-    if (!said) this.show(title, text, tone);
+    const visible = [...this.element.children].some((toast) => toast.lastElementChild?.textContent === text);
+    if (!visible) this.show(title, text, tone);
   }
 
   show(title: string, text: string, tone: Tone, stay: number = stays[tone]): void {
@@ -25,7 +25,7 @@ export class Toasts {
     );
     toast.addEventListener("click", () => toast.remove());
     this.element.append(toast);
-    while (this.element.childElementCount > most) this.element.firstElementChild?.remove();
+    while (this.element.childElementCount > maxToasts) this.element.firstElementChild?.remove();
     setTimeout(() => {
       toast.classList.add("leaving");
       setTimeout(() => toast.remove(), 300);

@@ -20,17 +20,23 @@ export interface TransportActions {
   help(): void;
 }
 
-/** Pause, step, reset, record; and the few buttons of the page itself. */
+/** The button bar: pause, step, reset, record, and the buttons of the page itself. */
 export class Transport {
   readonly element: HTMLElement;
   private readonly pause: HTMLButtonElement;
   private readonly step: HTMLButtonElement;
   private readonly reset: HTMLButtonElement;
-  private readonly steps = h("input", { type: "number", min: "1", max: "100000", value: "10", "data-testid": "step-count" });
+  private readonly steps = h("input", {
+    type: "number",
+    min: "1",
+    max: "100000",
+    value: "10",
+    "data-testid": "step-count",
+  });
   private readonly unit: HTMLButtonElement;
   private playing = false; // a recording
   private paused = false;
-  private why = ""; // it is out of use; empty: it is not
+  private blockedReason = ""; // why the user may not send commands; empty if they may
 
   constructor(record: HTMLElement, actions: TransportActions) {
     const button = (id: string, click: () => void, path: string, filled = false): HTMLButtonElement =>
@@ -39,8 +45,8 @@ export class Transport {
     this.pause.classList.add("main");
     this.step = button("step", () => actions.step(1), icons.step, true);
     const stepMany = (): void => {
-      const wanted = Math.round(Number(this.steps.value));
-      actions.step(Number.isFinite(wanted) ? wanted : 0);
+      const count = Math.round(Number(this.steps.value));
+      actions.step(Number.isFinite(count) ? count : 0);
     };
     this.steps.addEventListener("keydown", (event) => {
       if (event.key === "Enter") stepMany();
@@ -63,41 +69,43 @@ export class Transport {
     this.describe();
   }
 
-  /** Of a recording, or else of a simulation: what the same buttons are called. */
+  /** Sets the buttons' names for a recording or for a simulation. */
   setPlaying(playing: boolean): void {
     this.playing = playing;
     this.describe();
   }
 
-  update(paused: boolean, why: string): void {
-    if (paused === this.paused && why === this.why) return;
+  update(paused: boolean, blockedReason: string): void {
+    if (paused === this.paused && blockedReason === this.blockedReason) return;
     this.paused = paused;
-    this.why = why;
+    this.blockedReason = blockedReason;
     this.describe();
   }
 
   private describe(): void {
-    const { playing, paused, why } = this;
+    const { playing, paused, blockedReason } = this;
     const unit = playing ? "frame" : "step";
     this.element.setAttribute("aria-label", playing ? "Playback" : "Simulation");
-    named(this.step, `One ${unit} (.)`, why);
-    this.steps.title = why || `How many ${unit}s`;
+    named(this.step, `One ${unit} (.)`, blockedReason);
+    this.steps.title = blockedReason || `Number of ${unit}s`;
     this.steps.setAttribute("aria-label", `Number of ${unit}s`);
     this.unit.textContent = `${unit}s`;
-    this.unit.title = why;
-    named(this.reset, playing ? "To the beginning (R)" : "Reset the scene (R)", why);
+    this.unit.title = blockedReason;
+    named(this.reset, playing ? "Go to the beginning (R)" : "Reset the scene (R)", blockedReason);
     this.reset.replaceChildren(icon(playing ? icons.begin : icons.reset));
     this.reset.classList.toggle("filled", playing);
     this.pause.replaceChildren(icon(paused ? icons.play : icons.pause));
-    named(this.pause, paused ? "Resume (space)" : "Pause (space)", why);
+    named(this.pause, paused ? "Resume (space)" : "Pause (space)", blockedReason);
     this.pause.dataset.paused = String(paused);
-    for (const control of [this.pause, this.step, this.steps, this.unit, this.reset]) control.disabled = why !== "";
+    for (const control of [this.pause, this.step, this.steps, this.unit, this.reset]) {
+      control.disabled = blockedReason !== "";
+    }
   }
 }
 
-/** `why`: it is out of use. */
-function named(button: HTMLButtonElement, name: string, why = ""): HTMLButtonElement {
-  button.title = why || name;
+/** Sets a button's name, which is its tooltip unless there is a reason why it is disabled. */
+function named(button: HTMLButtonElement, name: string, blockedReason = ""): HTMLButtonElement {
+  button.title = blockedReason || name;
   button.setAttribute("aria-label", name);
   return button;
 }

@@ -3,14 +3,14 @@ import type { MessageInitShape } from "@bufbuild/protobuf";
 import { FrameSchema, OrderSchema, Tier } from "../../src/gen/spherule/v1/frame_pb";
 import type { Frame, Order } from "../../src/gen/spherule/v1/frame_pb";
 
-/** A chain made by hand, as docs/codec.md says: frames of up to 64 spheres in epoch 3, order 1. */
+/** A chain made by hand after docs/codec.md: frames of up to 64 spheres in epoch 3, order 1. */
 
 type Place = [number, number, number];
 
 const head = (flags: number, spheres: number, number: number, words: number[]): Uint8Array =>
   new Uint8Array(Uint32Array.of(0x5053 | (1 << 16) | (flags << 24), spheres, number, 0, words.length, ...words).buffer);
 
-/** One block of which every value has 32 bits, around the base 0. */
+/** A keyframe of one block. Every value has 32 bits; the base is 0. */
 export function keyframe(number: number, places: Place[]): Uint8Array {
   const units = [0xffff, 0, 0, 0, 0, 0, 0, 0, 0, 0]; // header; selectors; base
   for (let axis = 0; axis < 3; axis++) {
@@ -24,13 +24,14 @@ export function keyframe(number: number, places: Place[]): Uint8Array {
   return head(1, places.length, number, [1, ...words]);
 }
 
-/** Nothing moves. */
+/** A delta frame in which nothing moves. */
 export function still(number: number, spheres: number): Uint8Array {
   return head(0, spheres, number, [0]);
 }
 
 export function frameOf(spb: Uint8Array, fields: MessageInitShape<typeof FrameSchema> = {}): Frame {
-  return create(FrameSchema, { sequence: 7n, epoch: 3, step: 120n, simTime: 2, tier: Tier.NORMAL, order: 1, quantum: 0.5, spb, ...fields });
+  const times = { sequence: 7n, step: 120n, simTime: 2 };
+  return create(FrameSchema, { ...times, epoch: 3, tier: Tier.NORMAL, order: 1, quantum: 0.5, spb, ...fields });
 }
 
 export function orderOf(ids: number[], fields: MessageInitShape<typeof OrderSchema> = {}): Order {

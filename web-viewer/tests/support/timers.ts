@@ -1,4 +1,4 @@
-// Timers that go by at the test's word. Those of Node 18's own test runner lose some when others are cleared.
+// Fake timers. The fake timers of Node 18's test runner lose some timers when others are cleared.
 import FakeTimers from "@sinonjs/fake-timers";
 
 let clock: FakeTimers.InstalledClock | undefined;
@@ -7,7 +7,7 @@ export const timers = {
   enable(): void {
     clock = FakeTimers.install({ toFake: ["setTimeout", "clearTimeout"] });
   },
-  /** So many ms go by. */
+  /** Advances the clock (ms). */
   tick(ms: number): void {
     clock?.tick(ms);
   },

@@ -1,4 +1,4 @@
-// Frames that are as docs/codec.md says, of blocks that are as random as it lets them be: what no encoder would choose, too.
+// Valid frames of docs/codec.md with random blocks, including blocks that no encoder would choose.
 import { draw, word } from "./random.mjs";
 
 const widths = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 18, 32];
@@ -9,13 +9,13 @@ const none = 3;
 /** Units of 16 bits. */
 class Units {
   list = [];
-  /** The bits of random values. */
+  /** Appends `count` random bits. */
   bits(count) {
     for (let left = count; left > 0; left -= 16) this.list.push(word() & (left < 16 ? (1 << left) - 1 : 0xffff));
   }
 }
 
-/** Mostly narrow, as wide values make all frames long. */
+/** Draws a width code, mostly a narrow one, because wide values make frames long. */
 function drawCode() {
   return draw(12) === 0 ? draw(16) : draw(6);
 }
@@ -46,14 +46,14 @@ function drawMasked(units, codes) {
     bytes.push(changed);
     for (let bit = changed; bit !== 0; bit &= bit - 1) sum += widths[codes[run >> 3]];
   }
-  // Values lie right behind the masks, which may end in the middle of a unit.
+  // Values follow the masks directly. The masks may end in the middle of a unit.
   const odd = bytes.length & 1;
   for (let k = 0; k + 1 < bytes.length; k += 2) units.list.push(bytes[k] | (bytes[k + 1] << 8));
   if (odd) units.list.push(bytes.at(-1) | (sum > 0 ? draw(256) << 8 : 0));
   units.bits(Math.max(0, sum - 8 * odd));
 }
 
-/** Of so many spheres, at most 16384, as there is one chunk. `velocities`: two states are known. */
+/** Generates a frame of one chunk, so of at most 16384 spheres. `velocities`: two states are known. */
 export function frameAt(spheres, number, keyframe, velocities) {
   const blocks = Math.ceil(spheres / 64);
   const words = [];

@@ -1,4 +1,4 @@
-// What can happen to a frame.
+// Mutations of frames.
 import { draw, word } from "./random.mjs";
 
 const words = [0, 1, 2, 0x7f, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0x80000000, 0xfffffffe, 0xffffffff];
@@ -13,7 +13,7 @@ function setBytes(frame) {
   return frame;
 }
 
-/** A word of the head, the table or behind them: lengths, bitmaps, headers of blocks. */
+/** Sets a word of the head, the table or the first groups: lengths, bitmaps, headers of blocks. */
 function setWord(frame) {
   const at = 4 * draw(Math.min(12, frame.length >> 2));
   const value = draw(3) === 0 ? word() : words[draw(words.length)];
@@ -32,7 +32,7 @@ function extend(frame) {
   return longer;
 }
 
-/** The beginning of one, the end of the other. */
+/** Joins the beginning of one frame and the end of the other. */
 function splice(frame, other) {
   const at = draw(frame.length);
   const rest = other.subarray(draw(other.length));
@@ -42,19 +42,19 @@ function splice(frame, other) {
   return both;
 }
 
-/** A part of it stands somewhere else too. */
+/** Copies a part of the frame to another place in it. */
 function copyWithin(frame) {
   frame.copyWithin(draw(frame.length), draw(frame.length), frame.length);
   return frame;
 }
 
-/** Nothing of it but its head. */
+/** Replaces all bytes, or all after the head, by random ones. */
 function noise(frame) {
   for (let k = draw(2) === 0 ? 0 : 20; k < frame.length; k++) frame[k] = draw(256);
   return frame;
 }
 
-/** The last chunk's end is the frame's again, so that what is behind the table is looked at. */
+/** Makes the chunk end with the frame, so that the decoder reads beyond the table. */
 function repair(frame) {
   if (frame.length < 24) return frame;
   const whole = frame.slice(0, frame.length & ~3);
@@ -62,14 +62,17 @@ function repair(frame) {
   return whole;
 }
 
-const changes = [flipBits, flipBits, flipBits, setBytes, setBytes, setWord, truncate, extend, splice, copyWithin, noise];
+const flips = [flipBits, flipBits, flipBits];
+const changes = [...flips, setBytes, setBytes, setWord, truncate, extend, splice, copyWithin, noise];
 
-/** `frame`, changed in one or some ways; `other`: to take parts of. */
+/** Returns a copy of `frame` with one to four mutations. `other`: a frame from which parts are copied. */
 export function mutate(frame, other) {
   let changed = frame.slice();
-  for (let k = draw(4) === 0 ? 1 + draw(3) : 1; k > 0 && changed.length > 0; k--) changed = changes[draw(changes.length)](changed, other);
+  for (let k = draw(4) === 0 ? 1 + draw(3) : 1; k > 0 && changed.length > 0; k--) {
+    changed = changes[draw(changes.length)](changed, other);
+  }
   if (draw(2) === 0) changed = repair(changed);
-  // Most say nothing of the hash, which would refuse nearly all that are changed.
+  // Most frames lose their hash flag: the hash would refuse nearly all mutated frames.
   if (changed.length > 3 && draw(8) !== 0) changed[3] &= ~2;
   return changed;
 }

@@ -1,9 +1,9 @@
 in vec4 a_group;
 
-uniform int u_mode;             // as in colour/modes.ts
+uniform int u_mode;             // numbers of colour/modes.ts
 uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
-uniform float u_inverseTime;    // 1/s, of the time between the two states; 0: unknown
+uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
 uniform vec3 u_cellCentre;      // m
 uniform float u_cellSize;       // m; 0: no grid
 uniform ivec3 u_cells;
@@ -20,10 +20,10 @@ uint scrambled(uint x) {
     return x ^ (x >> 16);
 }
 
-// Neighbouring cells differ in hue at random and in lightness by parity.
-vec3 cellColour(vec3 place) {
+// The hue of a cell is random; its lightness alternates between neighbours.
+vec3 cellColour(vec3 position) {
     if (u_cellSize <= 0.0) return vec3(0.62, 0.66, 0.70);
-    ivec3 cell = ivec3(floor((place - u_cellCentre) / u_cellSize));
+    ivec3 cell = ivec3(floor((position - u_cellCentre) / u_cellSize));
     cell = ((cell % u_cells) + u_cells) % u_cells;
     uint hash = scrambled(uint(cell.x + u_cells.x * (cell.y + u_cells.y * cell.z)));
     float hue = float(hash & 1023u) * (6.2831853 / 1024.0);
@@ -31,7 +31,7 @@ vec3 cellColour(vec3 place) {
     return vec3(lightness) + 0.17 * vec3(cos(hue), cos(hue - 2.0944), cos(hue + 2.0944));
 }
 
-vec3 colourNow(vec3 place, float radius) {
+vec3 colourNow(vec3 position, float radius) {
     float span = max(u_range.y - u_range.x, 1e-12);
     if (u_mode == 0) {
         float speed = length(a_to - a_from) * u_inverseTime;
@@ -39,6 +39,6 @@ vec3 colourNow(vec3 place, float radius) {
     }
     if (u_mode == 1) return rampAt((radius - u_range.x) / span);
     if (u_mode == 2) return rampAt((float(gl_InstanceID) - u_range.x) / span);
-    if (u_mode == 3) return cellColour(place);
+    if (u_mode == 3) return cellColour(position);
     return a_group.rgb;
 }

@@ -1,8 +1,8 @@
-// Picture to canvas: occlusion, smoothed over the 4 x 4 pattern of its sampling where depth agrees, and a trace of noise
-// against bands in the background.
+// Copies the scene to the canvas. Ambient occlusion is smoothed over its 4 x 4 sampling pattern where depths are
+// similar. Noise of less than one colour step avoids bands in the background.
 precision highp sampler2D;
-uniform sampler2D u_picture;
-uniform float u_dim;        // 0..1: how stale the picture is
+uniform sampler2D u_scene;
+uniform float u_dim;        // 0..1: how stale the image is
 #ifdef OCCLUSION
 uniform sampler2D u_occlusion;
 uniform sampler2D u_depth;
@@ -35,7 +35,7 @@ float openness() {
 #endif
 
 void main() {
-    vec3 colour = texture(u_picture, v_at).rgb;
+    vec3 colour = texture(u_scene, v_at).rgb;
 #ifdef OCCLUSION
     // Darkens towards a cool tint rather than to black.
     colour *= mix(vec3(0.30, 0.33, 0.40), vec3(1.0), openness());

@@ -1,12 +1,12 @@
-// The floor of the bounds with a faint ruler on it, and a surround that fades into the background.
-in vec3 v_place;
+// The floor of the bounds with faint lines, and around it a floor that fades into the background.
+in vec3 v_position;
 in vec3 v_normal;
 in vec4 v_colour;
 out vec4 o_colour;
 
 uniform vec4 u_bounds;    // x min, y min, x max, y max
 uniform float u_ruler;    // m between lines
-uniform float u_fade;     // m over which the surround fades
+uniform float u_fade;     // m over which the surrounding floor fades
 
 float ruled(vec2 at, float every) {
     vec2 width = max(fwidth(at), vec2(1e-6));
@@ -16,16 +16,15 @@ float ruled(vec2 at, float every) {
 }
 
 void main() {
-    vec2 outward = max(max(u_bounds.xy - v_place.xy, v_place.xy - u_bounds.zw), 0.0);
+    vec2 outward = max(max(u_bounds.xy - v_position.xy, v_position.xy - u_bounds.zw), 0.0);
     float away = length(outward);
     float inside = away > 0.0 ? 0.0 : 1.0;
     float fade = 1.0 - smoothstep(0.0, u_fade, away);
     vec3 albedo = mix(surround.rgb, tile.rgb, inside);
-    float share = lit(v_place, vec3(0.0, 0.0, 1.0), 0.0);
+    float share = lit(v_position, vec3(0.0, 0.0, 1.0), 0.0);
     vec3 ambient = sky.rgb;
     vec3 colour = albedo * (key.rgb * light.z * share + ambient);
-    float line = inside * 0.10 * ruled(v_place.xy - 0.5 * (u_bounds.xy + u_bounds.zw), u_ruler);
+    float line = inside * 0.10 * ruled(v_position.xy - 0.5 * (u_bounds.xy + u_bounds.zw), u_ruler);
     colour = mix(colour, ink.rgb, line);
-    // Around the bounds only the shade stays visible as the floor fades.
     o_colour = vec4(encode(colour), fade * fade);
 }

@@ -1,12 +1,13 @@
 uniform highp sampler2DShadow u_shadow;
 uniform float u_shadowTexel;
 
-// Light is linear in the shaders and stored as its square root: close to sRGB and far cheaper.
+// Light is linear in the shaders, and stored as its square root, which is close to sRGB and much cheaper.
 vec3 encode(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }
 
-// Share of the key light that arrives; `normal` lifts the place off its own surface.
-float lit(vec3 place, vec3 normal, float lift) {
-    vec3 at = (shadow * vec4(place + normal * lift, 1.0)).xyz;
+// Share of the key light that reaches a position. The position is first moved by `lift` (m) along `normal`, off its
+// own surface.
+float lit(vec3 position, vec3 normal, float lift) {
+    vec3 at = (shadow * vec4(position + normal * lift, 1.0)).xyz;
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
 #ifdef SOFT_SHADOW
     float sum = 0.0;
@@ -19,7 +20,7 @@ float lit(vec3 place, vec3 normal, float lift) {
     return mix(1.0, share, light.w);
 }
 
-// Key light, hemisphere ambient, a soft highlight and a thin sheen at the rim. `share` is what `lit` said.
+// Key light, hemisphere ambient light, a soft highlight and a thin sheen at the rim. `share`: result of `lit`.
 vec3 shade(vec3 albedo, vec3 normal, vec3 toEye, float share) {
     float facing = dot(normal, light.xyz);
     float direct = max(facing, 0.0) * share;

@@ -1,4 +1,4 @@
-in vec3 v_place;
+in vec3 v_position;
 in vec3 v_normal;
 in vec4 v_colour;
 out vec4 o_colour;

@@ -1,20 +1,20 @@
-// How much of the sky near surfaces hide, from the depth picture (after the "Alchemy" estimator of McGuire et al. 2011:
-// the mean of how far neighbours rise above the tangent plane, over their squared distance).
+// Ambient occlusion from the depth buffer, after the "Alchemy" estimator of McGuire et al. 2011: the mean height of
+// neighbours above the tangent plane, over their squared distance.
 precision highp sampler2D;
 uniform sampler2D u_depth;
 uniform mat4 u_unproject;    // inverse of the projection
 uniform float u_reach;       // m
-uniform float u_scale;       // share of the picture's height that a metre takes at one metre's distance
+uniform float u_scale;       // share of the image height that 1 m covers at a distance of 1 m
 out vec4 o_share;
 
 const int samples = 10;
 
-// Of a texel's centre: a depth is only true there.
-vec3 placeAt(ivec2 texel, ivec2 size) {
+// The position at the centre of a texel, where its depth is exact.
+vec3 positionAt(ivec2 texel, ivec2 size) {
     texel = clamp(texel, ivec2(0), size - 1);
     vec2 at = (vec2(texel) + 0.5) / vec2(size);
-    vec4 place = u_unproject * vec4(vec3(at, texelFetch(u_depth, texel, 0).r) * 2.0 - 1.0, 1.0);
-    return place.xyz / place.w;
+    vec4 position = u_unproject * vec4(vec3(at, texelFetch(u_depth, texel, 0).r) * 2.0 - 1.0, 1.0);
+    return position.xyz / position.w;
 }
 
 void main() {
@@ -24,24 +24,24 @@ void main() {
         o_share = vec4(1.0);
         return;
     }
-    vec3 place = placeAt(here, size);
-    // The normal from the nearer neighbour on each axis, so that it does not bend at outlines.
-    vec3 right = placeAt(here + ivec2(1, 0), size) - place;
-    vec3 left = place - placeAt(here - ivec2(1, 0), size);
-    vec3 above = placeAt(here + ivec2(0, 1), size) - place;
-    vec3 below = place - placeAt(here - ivec2(0, 1), size);
+    vec3 position = positionAt(here, size);
+    // The normal is taken from the nearer neighbour on each axis, so that it stays right at outlines.
+    vec3 right = positionAt(here + ivec2(1, 0), size) - position;
+    vec3 left = position - positionAt(here - ivec2(1, 0), size);
+    vec3 above = positionAt(here + ivec2(0, 1), size) - position;
+    vec3 below = position - positionAt(here - ivec2(0, 1), size);
     vec3 dx = abs(right.z) < abs(left.z) ? right : left;
     vec3 dy = abs(above.z) < abs(below.z) ? above : below;
     vec3 normal = normalize(cross(dx, dy));
 
-    float span = float(size.y) * min(u_reach * u_scale / -place.z, 0.12);    // texels
+    float span = float(size.y) * min(u_reach * u_scale / -position.z, 0.12);    // texels
     float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     float hidden = 0.0;
     for (int i = 0; i < samples; i++) {
         float part = (float(i) + 0.5) / float(samples);
         float angle = turn + float(i) * 2.3999632;
         vec2 off = span * sqrt(part) * vec2(cos(angle), sin(angle));
-        vec3 to = placeAt(here + ivec2(round(off)), size) - place;
+        vec3 to = positionAt(here + ivec2(round(off)), size) - position;
         float distance2 = dot(to, to);
         float near = max(0.0, 1.0 - distance2 / (u_reach * u_reach));
         hidden += near * max(0.0, dot(to, normal) - 0.02 * u_reach) / (sqrt(distance2) + 0.02 * u_reach);

@@ -1,4 +1,4 @@
-// Spheres as discs through their centres, facing the light: a sphere then never shades its own lit side.
+// Spheres are drawn as discs through their centres that face the light, so that no sphere shades its own lit side.
 uniform mat4 u_light;
 uniform vec3 u_right;
 uniform vec3 u_up;

@@ -20,16 +20,16 @@ void main() {
     if (inside < 0.0) discard;
 #endif
     float t = c / (b + sqrt(max(square, 0.0)));
-    vec3 place = t * v_ray;
-    vec3 normal = normalize(place - to);
-    place += eye.xyz;
+    vec3 position = t * v_ray;
+    vec3 normal = normalize(position - to);
+    position += eye.xyz;
 
-    vec4 clip = viewProjection * vec4(place, 1.0);
+    vec4 clip = viewProjection * vec4(position, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 
     vec3 toEye = -normalize(v_ray);
     vec3 albedo = mix(v_colour.rgb, vec3(1.0), 0.35 * v_colour.w);
-    float share = dot(normal, light.xyz) > 0.0 ? lit(place, normal, 0.05 * radius) : 0.0;
+    float share = dot(normal, light.xyz) > 0.0 ? lit(position, normal, 0.05 * radius) : 0.0;
     vec3 colour = shade(albedo, normal, toEye, share);
     float rim = 1.0 - max(dot(normal, toEye), 0.0);
     colour = mix(colour, vec3(1.0, 0.98, 0.9), v_colour.w * smoothstep(0.55, 0.75, rim));

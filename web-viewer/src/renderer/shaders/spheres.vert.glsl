@@ -1,8 +1,8 @@
-// One instance per sphere: the square around its outline as seen from the eye, through its centre.
+// One instance per sphere: a square through its centre that covers its outline as seen from the eye.
 uniform int u_selected;
 
-flat out vec4 v_sphere;    // centre from the eye; radius
-flat out vec4 v_colour;    // linear; w: 1 where selected
+flat out vec4 v_sphere;    // centre relative to the eye; radius
+flat out vec4 v_colour;    // linear; w: 1 if selected
 out vec3 v_ray;            // from the eye to the square
 
 void main() {

@@ -1,0 +1,130 @@
+import type { GroupFacts, SceneFacts } from "../gen/spherule/v1/control_pb";
+import { Face } from "../gen/spherule/v1/scene_pb";
+import { groupColour } from "../colour/groups";
+import { hexToRgb } from "../colour/rgb";
+import type { Rgb } from "../colour/rgb";
+
+export type Vec3 = [number, number, number];
+
+export interface Box {
+  min: Vec3;
+  max: Vec3;
+  colour: Rgb | undefined;
+}
+
+export interface Plane {
+  point: Vec3;
+  normal: Vec3; // unit length, towards the free side
+  colour: Rgb | undefined;
+}
+
+export interface Group {
+  name: string;
+  first: number;
+  count: number;
+  colour: Rgb;
+  own: boolean; // the colour is given by the scene
+}
+
+/** The static facts of a scene: constant within an epoch. Lengths are in m. */
+export interface Facts {
+  epoch: number;
+  name: string;
+  description: string;
+  min: Vec3;
+  max: Vec3;
+  open: Set<Face>;
+  boxes: Box[];
+  planes: Plane[];
+  count: number;
+  groups: Group[];
+  radius: number; // of every sphere; 0 if they differ: see radii
+  radii: Float32Array | undefined;
+  radiusRange: [number, number];
+  origin: Vec3; // the centre of the bounds; positions in states are relative to it
+  cellSize: number; // m; 0 if there is no grid
+  cells: Vec3;
+  eye: Vec3 | undefined;
+  target: Vec3 | undefined;
+  fieldOfView: number; // degrees, vertical
+}
+
+export function factsOf(scene: SceneFacts): Facts {
+  const radii = scene.radius > 0 ? undefined : floats(scene.radii, scene.count);
+  const boxes: Box[] = [];
+  const planes: Plane[] = [];
+  for (const { shape, colour } of scene.obstacles) {
+    if (shape.case === "box") {
+      boxes.push({ min: vec3(shape.value.min), max: vec3(shape.value.max), colour: hexToRgb(colour) });
+    } else if (shape.case === "plane") {
+      const normal = unit(vec3(shape.value.normal));
+      planes.push({ point: vec3(shape.value.point), normal, colour: hexToRgb(colour) });
+    }
+  }
+  const min = vec3(scene.boundsMin);
+  const max = vec3(scene.boundsMax);
+  return {
+    epoch: scene.epoch,
+    name: scene.name,
+    description: scene.description,
+    min,
+    max,
+    open: new Set(scene.open),
+    boxes,
+    planes,
+    count: scene.count,
+    groups: scene.groups.map(groupFrom),
+    radius: scene.radius,
+    radii,
+    radiusRange: radii ? rangeOf(radii) : [scene.radius, scene.radius],
+    origin: between(min, max),
+    cellSize: scene.cellSize,
+    cells: vec3(scene.cells),
+    eye: scene.camera?.eye.length === 3 ? vec3(scene.camera.eye) : undefined,
+    target: scene.camera?.target.length === 3 ? vec3(scene.camera.target) : undefined,
+    fieldOfView: scene.camera?.fieldOfView ?? 45,
+  };
+}
+
+export function radiusOf(facts: Facts, id: number): number {
+  return facts.radii?.[id] ?? facts.radius;
+}
+
+export function groupOf(facts: Facts, id: number): Group | undefined {
+  return facts.groups.find((group) => id >= group.first && id < group.first + group.count);
+}
+
+function groupFrom(group: GroupFacts, index: number): Group {
+  const { colour, own } = groupColour(group.colour, index);
+  return { name: group.name || `group ${index + 1}`, first: group.first, count: group.count, colour, own };
+}
+
+function between(a: Vec3, b: Vec3): Vec3 {
+  return [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])];
+}
+
+function vec3(numbers: readonly number[]): Vec3 {
+  return [numbers[0] ?? 0, numbers[1] ?? 0, numbers[2] ?? 0];
+}
+
+function unit(v: Vec3): Vec3 {
+  const length = Math.hypot(...v) || 1;
+  return [v[0] / length, v[1] / length, v[2] / length];
+}
+
+function floats(bytes: Uint8Array, count: number): Float32Array {
+  const values = new Float32Array(count);
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  for (let i = 0; i < count && 4 * i + 4 <= bytes.byteLength; i++) values[i] = view.getFloat32(4 * i, true);
+  return values;
+}
+
+function rangeOf(values: Float32Array): [number, number] {
+  let low = Infinity;
+  let high = 0;
+  for (const value of values) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return values.length > 0 ? [low, high] : [0, 0];
+}

@@ -1,0 +1,222 @@
+import { sharedNow } from "../clock";
+import type { FromWorker, LinkChange, LinkState } from "../connection/messages";
+import { Event_Kind } from "../gen/spherule/v1/control_pb";
+import type {
+  Change,
+  Control,
+  Diagnostics,
+  Dial,
+  Event,
+  Recording,
+  Settings,
+  Stream,
+  Timeline,
+  Welcome,
+} from "../gen/spherule/v1/control_pb";
+import type { Status } from "../gen/spherule/v1/frame_pb";
+import { markFirst } from "../perf_marks";
+import { DelayMeter } from "./delay";
+import { factsOf } from "./facts";
+import type { Facts } from "./facts";
+import type { TimeAdvance } from "./playout";
+import { States } from "./states";
+import type { State } from "./states";
+import { Traffic } from "./traffic";
+
+const farewells = [Event_Kind.DRAINING, Event_Kind.DEVICE_LOST]; // the last events of a server
+const firstStateTimeout = 1000; // ms to wait for the first state of a scene before drawing without it
+
+export interface SessionEvents {
+  linkChanged(change: LinkChange): void;
+  welcomed(welcome: Welcome): void;
+  sceneChanged(facts: Facts, before: Facts | undefined): void;
+  settingsChanged(settings: Settings): void;
+  dialChanged(dial: Dial): void;
+  diagnosticsReceived(diagnostics: Diagnostics): void;
+  eventReceived(event: Event): void;
+  recordingChanged(recording: Recording, before: Recording | undefined): void;
+  messageUnreadable(reason: string): void;
+}
+
+/** The page's end of its session: all that it knows of the server and the simulation. */
+export class Session {
+  link: LinkState = "connecting";
+  linkReason = "";
+  refusal = ""; // why the server refused this page; empty if it did not
+  retryAt = 0; // ms, as sharedNow() counts
+  silentSince: number | undefined; // ms: the connection is open, but the server does not answer
+  farewell = ""; // why the server ended; empty once a server answers
+  welcome: Welcome | undefined;
+  facts: Facts | undefined;
+  settings: Settings | undefined;
+  status: Status | undefined;
+  dial: Dial | undefined;
+  diagnostics: Diagnostics | undefined;
+  stream: Stream | undefined; // that the server sends; undefined: unknown
+  timeline: Timeline | undefined; // of the recording that is played; undefined: the server simulates
+  control: Control | undefined; // undefined: every client may send commands, or the holder is unknown
+  recording: Recording | undefined; // of the server; undefined: it cannot record
+  change: Change | undefined; // a long command in progress
+  frames = 0; // states received since the page was loaded
+  lost = 0; // frames that could not be decoded since the page was loaded
+  readonly traffic = new Traffic();
+  readonly delay = new DelayMeter();
+  readonly states: States;
+  private lastArrival = 0; // ms, of a frame of this epoch
+  private epochStart = 0; // ms: when the facts of this epoch arrived
+  private newConnection = true; // no scene has arrived since the connection opened
+
+  /** `drop` is given each state that will not be shown any more. */
+  constructor(
+    drop: (state: State) => void,
+    private readonly events: SessionEvents,
+  ) {
+    this.states = new States(drop);
+  }
+
+  handle(message: FromWorker): void {
+    switch (message.kind) {
+      case "link":
+        this.linkChanged(message);
+        break;
+      case "silent":
+        this.silentSince = message.since;
+        break;
+      case "welcome":
+        this.farewell = "";
+        this.welcome = message.welcome;
+        this.refusal = "";
+        this.timeline = undefined; // it may be another server
+        this.recording = undefined;
+        this.events.welcomed(message.welcome);
+        break;
+      case "scene": {
+        markFirst("scene");
+        const before = this.facts;
+        this.facts = factsOf(message.facts);
+        if (this.newConnection) this.states.begin(-1); // another server may give the same number to another epoch
+        this.newConnection = false;
+        if (this.states.epoch !== this.facts.epoch) this.epochStart = sharedNow();
+        this.states.begin(this.facts.epoch);
+        this.events.sceneChanged(this.facts, before);
+        break;
+      }
+      case "settings":
+        this.settings = message.settings;
+        this.events.settingsChanged(message.settings);
+        break;
+      case "frame": {
+        const { arrival, ready, status } = message.frame;
+        this.traffic.add(message.frame);
+        this.delay.add(arrival, ready);
+        if (!this.states.push(message.frame, this.timeAdvance)) break;
+        markFirst("arrived", arrival);
+        markFirst("decoded");
+        this.frames += 1;
+        this.lastArrival = arrival;
+        this.status = status;
+        break;
+      }
+      case "timeline":
+        this.timeline = message.timeline;
+        break;
+      case "recording": {
+        const before = this.recording;
+        this.recording = message.recording;
+        this.events.recordingChanged(message.recording, before);
+        break;
+      }
+      case "control":
+        this.control = message.control;
+        break;
+      case "change":
+        this.change = message.change.what ? message.change : undefined;
+        break;
+      case "stream":
+        this.stream = message.stream;
+        break;
+      case "lost":
+        this.lost = message.count;
+        break;
+      case "dial":
+        this.dial = message.dial;
+        this.events.dialChanged(message.dial);
+        break;
+      case "diagnostics":
+        this.diagnostics = message.diagnostics;
+        this.events.diagnosticsReceived(message.diagnostics);
+        break;
+      case "event":
+        if (farewells.includes(message.event.kind)) this.farewell = message.event.text;
+        else this.events.eventReceived(message.event);
+        break;
+      case "unreadable":
+        this.events.messageUnreadable(message.reason);
+        break;
+      case "result":
+        break; // handled by the link
+    }
+  }
+
+  /** Call when the page is shown again: its state may be old, and the next one is about to arrive. */
+  resume(now: number): void {
+    this.lastArrival = Math.max(this.lastArrival, now);
+  }
+
+  /** Whether the first state of the scene is about to arrive, so that drawing without it is not worth while. */
+  awaitsState(now: number): boolean {
+    const spheres = this.facts?.count ?? 0;
+    return this.live && !this.newest && spheres > 0 && now - this.epochStart < firstStateTimeout;
+  }
+
+  /** The newest state of this epoch. */
+  get newest(): State | undefined {
+    return this.states.newest;
+  }
+
+  /** The state of the connection; "silent": it is open, but the server does not answer. */
+  get connection(): LinkState | "silent" {
+    return this.silentSince === undefined ? this.link : "silent";
+  }
+
+  get live(): boolean {
+    return this.connection === "open";
+  }
+
+  get paused(): boolean {
+    const setting = this.settings?.paused;
+    return (this.timeline ? setting : (this.status?.paused ?? setting)) ?? false;
+  }
+
+  /** Mean time between the frames of the recording that is played (s); 0 if none is. */
+  get spacing(): number {
+    if (!this.timeline) return 0;
+    const { begin, end, frames } = this.timeline;
+    return (end - begin) / Math.max(1, Number(frames) - 1);
+  }
+
+  /** How stale the image is: 0 for a live one, 1 for one that has not been refreshed for a while. `now`: ms. */
+  staleness(now: number): number {
+    if (!this.facts) return 0;
+    const age = now - this.lastArrival;
+    const grace = this.live ? (this.paused ? Infinity : 5000) : 400;
+    return Math.min(1, Math.max(0, (age - grace) / 600));
+  }
+
+  private linkChanged(change: LinkChange): void {
+    markFirst(change.state, change.at);
+    this.link = change.state;
+    this.linkReason = change.reason ?? "";
+    this.retryAt = sharedNow() + (change.retryIn ?? 0);
+    this.silentSince = undefined;
+    if (change.state === "waiting") this.refusal = change.refused ? this.linkReason : "";
+    if (change.state !== "open") this.stream = this.control = this.change = undefined;
+    this.delay.reset();
+    this.newConnection ||= change.state === "open";
+    this.events.linkChanged(change);
+  }
+
+  private get timeAdvance(): TimeAdvance {
+    return { speed: this.settings?.speed || Infinity, paused: this.paused, spacing: this.spacing };
+  }
+}

@@ -1,0 +1,66 @@
+import type { Received, State } from "../connection/messages";
+import { PlayoutBuffer } from "./playout";
+import type { TimeAdvance } from "./playout";
+
+export type { State };
+
+/** The states that are drawn, interpolated by `mix` in 0..1. */
+export interface Shown {
+  from: State;
+  to: State;
+  mix: number;
+  moving: boolean; // false: nothing changes until the next state arrives
+}
+
+/** The simulated time that is shown (s). */
+export function timeOf({ from, to, mix }: Shown): number {
+  return (1 - mix) * from.simTime + mix * to.simTime;
+}
+
+/** The newest states of one epoch. Frames of another epoch are ignored. */
+export class States {
+  newest: State | undefined;
+  epoch = -1;
+  private readonly byKey = new Map<number, State>();
+  private readonly playout = new PlayoutBuffer();
+  private key = 0;
+
+  /** `drop` is given each state that will not be shown any more. */
+  constructor(private readonly drop: (state: State) => void) {}
+
+  begin(epoch: number): void {
+    if (epoch === this.epoch) return;
+    this.epoch = epoch;
+    this.newest = undefined;
+    this.remove(this.playout.clear());
+  }
+
+  /** Returns false if the frame is of another epoch. */
+  push(frame: Received, advance?: TimeAdvance): boolean {
+    if (frame.epoch !== this.epoch) {
+      this.drop(frame);
+      return false;
+    }
+    const key = ++this.key;
+    this.byKey.set(key, frame);
+    this.newest = frame;
+    this.remove(this.playout.push(key, frame.arrival, frame.simTime, advance));
+    return true;
+  }
+
+  /** Returns what to draw at `now`, on the clock of Received.arrival; undefined if there is no state. */
+  shown(now: number): Shown | undefined {
+    const sample = this.playout.sample(now);
+    const from = sample && this.byKey.get(sample.from);
+    const to = sample && this.byKey.get(sample.to);
+    return sample && from && to && { from, to, mix: sample.mix, moving: sample.moving };
+  }
+
+  private remove(keys: number[]): void {
+    for (const key of keys) {
+      const state = this.byKey.get(key);
+      this.byKey.delete(key);
+      if (state) this.drop(state);
+    }
+  }
+}

@@ -1,0 +1,103 @@
+import type { DrawState } from "./draw_state";
+import { FrameRenderer } from "./frame_renderer";
+import { RenderQualityControl } from "./render_quality";
+import type { RenderQualityChoice } from "./render_quality";
+import { themes } from "./theme";
+import type { ThemeName } from "./theme";
+import type { Facts } from "../model/facts";
+import type { Shown } from "../model/states";
+
+/** The canvas and its WebGL context, which the browser may take away and give back. */
+export class Canvas {
+  drawn = 0; // images since the page was loaded
+  private renderer: FrameRenderer | undefined; // undefined: the context is lost
+  private readonly quality: RenderQualityControl;
+  private facts: Facts | undefined;
+  private theme: ThemeName = "light";
+  private size: [number, number] = [1, 1]; // CSS pixels
+
+  /** `restored` is called when a lost context is available again. */
+  constructor(
+    private readonly element: HTMLCanvasElement,
+    choice: RenderQualityChoice,
+    restored: () => void,
+  ) {
+    const gl = element.getContext("webgl2", {
+      antialias: false,
+      alpha: false,
+      depth: false,
+      powerPreference: "high-performance",
+    });
+    if (!gl) throw new Error("This browser does not support WebGL 2, which this page requires.");
+    this.quality = new RenderQualityControl(choice, drawsInSoftware(gl));
+    this.renderer = new FrameRenderer(gl);
+    element.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault(); // asks the browser to restore the context
+      this.renderer = undefined;
+    });
+    element.addEventListener("webglcontextrestored", () => {
+      this.renderer = new FrameRenderer(gl);
+      if (this.facts) this.renderer.setFacts(this.facts, themes[this.theme]);
+      this.fit();
+      restored();
+    });
+  }
+
+  get contextLost(): boolean {
+    return this.renderer === undefined;
+  }
+
+  setFacts(facts: Facts): void {
+    if (facts.count !== this.facts?.count) this.quality.restart();
+    this.facts = facts;
+    this.renderer?.setFacts(facts, themes[this.theme]);
+    this.fit();
+  }
+
+  setTheme(theme: ThemeName): void {
+    this.theme = theme;
+    if (this.facts) this.renderer?.setFacts(this.facts, themes[theme]);
+  }
+
+  choose(choice: RenderQualityChoice): void {
+    this.quality.choose(choice);
+    this.fit();
+  }
+
+  resize(width: number, height: number): void {
+    // The height alone changes when a phone shows or hides its address bar.
+    if (width !== this.size[0]) this.quality.restart();
+    this.size = [width, height];
+    this.fit();
+  }
+
+  /**
+   * Draws an image. `elapsed`: ms since the last one if drawing is continuous, else undefined. Returns false if the
+   * context is lost.
+   */
+  draw(shown: Shown | undefined, state: DrawState, elapsed: number | undefined): boolean {
+    if (!this.renderer) return false;
+    if (elapsed !== undefined && this.quality.took(elapsed)) this.fit();
+    this.renderer.draw(shown, state);
+    this.element.classList.toggle("empty", !this.facts);
+    this.drawn += 1;
+    return true;
+  }
+
+  private fit(): void {
+    const { quality } = this.quality;
+    const scale = Math.min(window.devicePixelRatio, quality.scale);
+    const [width, height] = this.size.map((side) => Math.max(1, Math.round(side * scale))) as [number, number];
+    if (this.element.width !== width || this.element.height !== height) {
+      this.element.width = width;
+      this.element.height = height;
+    }
+    this.renderer?.setQuality(quality, width, height);
+  }
+}
+
+function drawsInSoftware(gl: WebGL2RenderingContext): boolean {
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}

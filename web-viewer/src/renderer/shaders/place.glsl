@@ -1,9 +1,0 @@
-// Where a sphere is: the mix of two states, in metres from the origin.
-in vec3 a_from;
-in vec3 a_to;
-in float a_radius;
-
-uniform vec3 u_origin;     // m
-uniform float u_mix;
-
-vec3 centreNow() { return u_origin + mix(a_from, a_to, u_mix); }

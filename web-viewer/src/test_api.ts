@@ -1,0 +1,65 @@
+import type { Pose } from "./camera/orbit";
+import { project } from "./camera/ray";
+import { sharedNow } from "./clock";
+import type { Report } from "./connection/commands";
+import type { Vec3 } from "./model/facts";
+import { positionOf } from "./model/positions";
+import type { Session } from "./model/session";
+import { timeOf } from "./model/states";
+import type { Viewer } from "./viewer";
+
+/**
+ * `window.spherule`: read-only access for tests to all that the DOM does not show. Elements of the page are found by
+ * their `data-testid`. Commands are sent through the page's controls or the server's protocol. perf_marks.ts lists the
+ * performance marks of the first image.
+ */
+export interface TestApi {
+  readonly session: Session;
+  readonly reports: readonly Report[]; // results of this page's commands, the newest last
+  readonly drawn: number; // images since the page was loaded
+  readonly camera: Pose & { eye: Vec3 };
+  /** Simulated times (s): of the image, and of the two states from which it is interpolated. */
+  readonly shown: { time: number; from: number; to: number } | undefined;
+  /** Whether a seek in the recording is in progress. */
+  readonly seeking: boolean;
+  /** Positions in the newest state (m), by id; each is off by at most half a quantum on each axis. */
+  positions(ids: number[]): { step: number; quantum: number; positions: Vec3[] } | undefined;
+  /** The sphere that is drawn at a point of the page (CSS pixels). */
+  at(x: number, y: number): number | undefined;
+  /** Projects a point (m) to the page (CSS pixels); undefined if it lies behind the eye. */
+  project(point: Vec3): [number, number] | undefined;
+}
+
+declare global {
+  interface Window {
+    spherule: TestApi;
+  }
+}
+
+export function createTestApi(viewer: Viewer): TestApi {
+  const { session, camera, canvas, reports, page } = viewer;
+  return {
+    session,
+    reports: reports.list,
+    get drawn() {
+      return canvas.drawn;
+    },
+    get camera() {
+      return { ...camera.pose, eye: camera.last.eye };
+    },
+    get shown() {
+      const shown = session.states.shown(sharedNow());
+      return shown && { time: timeOf(shown), from: shown.from.simTime, to: shown.to.simTime };
+    },
+    get seeking() {
+      return page.playback.seeking;
+    },
+    positions(ids) {
+      const { facts, newest: state } = session;
+      if (!state || !facts) return undefined;
+      return { step: state.step, quantum: state.quantum, positions: ids.map((id) => positionOf(facts, state, id)) };
+    },
+    at: (x, y) => viewer.sphereAt(x, y),
+    project: (point) => project(camera.last, point),
+  };
+}

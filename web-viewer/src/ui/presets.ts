@@ -1,0 +1,40 @@
+import type { Drop } from "../connection/commands";
+import type { Facts, Vec3 } from "../model/facts";
+
+/** Gravity (m/s²) by name. */
+export const gravityPresets: Record<string, Vec3> = {
+  Earth: [0, 0, -9.81],
+  Moon: [0, 0, -1.62],
+  Zero: [0, 0, 0],
+  Sideways: [6.94, 0, -6.94], // as strong as on Earth
+};
+
+export const customGravity = "Custom";
+
+export function gravityPresetOf(gravity: Vec3): string {
+  const same = (preset: Vec3): boolean => preset.every((part, axis) => Math.abs(part - (gravity[axis] ?? 0)) < 5e-3);
+  return Object.keys(gravityPresets).find((name) => same(gravityPresets[name] ?? [0, 0, 0])) ?? customGravity;
+}
+
+// The density of water, which is the default of materials. The server does not send densities. The impulse is only a
+// first value, which the user can change, and it fits most solids and liquids.
+const density = 1000; // kg/m³
+const pushSpeed = 3; // m/s that the first impulse gives to a sphere of that density
+
+export const impulseNote =
+  `The first value gives a sphere of the scene's mean radius ${pushSpeed} m/s at ${density} kg/m³. ` +
+  "Denser spheres need more";
+
+/** The first impulse (N s) for spheres of this radius (m), rounded to two significant digits. */
+export function impulseFor(radius: number): number {
+  return Number((pushSpeed * density * (4 / 3) * Math.PI * radius ** 3).toPrecision(2));
+}
+
+/** Spheres to drop in the upper third of the bounds, clear of its walls. */
+export function dropFor(facts: Facts, count: number, radius: number): Drop {
+  const margin = 1.1 * radius;
+  const min = facts.min.map((low) => low + margin) as Vec3;
+  const max = facts.max.map((high) => high - margin) as Vec3;
+  min[2] = Math.min(max[2], facts.max[2] - (facts.max[2] - facts.min[2]) / 3);
+  return { min, max, count, radius };
+}

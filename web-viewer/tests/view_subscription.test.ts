@@ -1,0 +1,26 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { ViewSubscription } from "../src/connection/view_subscription";
+import { Tier } from "../src/gen/spherule/v1/frame_pb";
+import { timers } from "./support/timers";
+
+const defaults = { tier: Tier.NORMAL, rate: 30, fixed: false };
+
+test("a hidden page requests no frames after a while, and its own rate again when it is shown", () => {
+  timers.enable();
+  const requested: number[] = [];
+  const subscription = new ViewSubscription(defaults, (view) => void requested.push(view.rate));
+  subscription.setVisible(true);
+  subscription.setVisible(false);
+  timers.tick(1000);
+  subscription.setVisible(true);
+  timers.tick(10_000);
+  assert.deepEqual(requested, []);
+  subscription.setVisible(false);
+  timers.tick(10_000);
+  assert.equal(subscription.view.rate, 0, "also for the next hello");
+  subscription.request({ ...defaults, rate: 60 });
+  subscription.setVisible(true);
+  assert.deepEqual(requested, [0, 0, 60]);
+  timers.reset();
+});
