@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "frame/order.h"
+#include "codec/order.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -35,16 +35,16 @@ Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder,
       announceOrder_(std::move(announceOrder)),
       complain_(std::move(complain)) {}
 
-void Chains::serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now) {
+void Chains::serve(const Scenery& world, const std::vector<codec::Demand>& demands, Clock::time_point now) {
     if (world.epoch != epoch_) chains_.clear();
     version_ = world.version;
     std::erase_if(chains_, [&](const auto& entry) {
-        return std::ranges::find(demands, entry.first, &frame::Demand::channel) == demands.end();
+        return std::ranges::find(demands, entry.first, &codec::Demand::channel) == demands.end();
     });
     if (world.spheres == 0) return;
     for (auto& [channel, chain] : chains_) collect(channel, chain);
-    std::vector<std::pair<frame::Channel, Chain*>> making;
-    for (const frame::Demand& demand : demands) {
+    std::vector<std::pair<codec::Channel, Chain*>> making;
+    for (const codec::Demand& demand : demands) {
         Chain* const chain = served(demand, world, now);
         if (chain == nullptr) continue;
         if (!chain->making) begin(demand, *chain, world, now);
@@ -55,7 +55,7 @@ void Chains::serve(const Scenery& world, const std::vector<frame::Demand>& deman
     for (const auto& [channel, chain] : making) collect(channel, *chain);
 }
 
-Chains::Chain* Chains::served(const frame::Demand& demand, const Scenery& world, Clock::time_point now) {
+Chains::Chain* Chains::served(const codec::Demand& demand, const Scenery& world, Clock::time_point now) {
     if (!chains_.contains(demand.channel) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
     auto chain = chainOf(demand.channel, world);
     if (chain) return *chain;
@@ -66,7 +66,7 @@ Chains::Chain* Chains::served(const frame::Demand& demand, const Scenery& world,
     return nullptr;
 }
 
-Result<void> Chains::open(const frame::Channel& channel, const Scenery& world) {
+Result<void> Chains::open(const codec::Channel& channel, const Scenery& world) {
     if (world.epoch != epoch_) chains_.clear();
     if (world.spheres == 0) return {};
     auto chain = chainOf(channel, world);
@@ -88,16 +88,16 @@ Result<void> Chains::prepare(const Scenery& world) {
     tools_->setOrder(order);
     epoch_ = world.epoch;
     v1::ServerMessage message;
-    *message.mutable_order() = frame::orderMessage(epoch_, ++order_, order);
-    announceOrder_(frame::share(std::move(message)));
+    *message.mutable_order() = codec::orderMessage(epoch_, ++order_, order);
+    announceOrder_(codec::share(std::move(message)));
     return {};
 }
 
-Result<Chains::Chain*> Chains::chainOf(const frame::Channel& channel, const Scenery& world) {
+Result<Chains::Chain*> Chains::chainOf(const codec::Channel& channel, const Scenery& world) {
     if (const auto known = chains_.find(channel); known != chains_.end()) return &known->second;
     if (world.epoch != epoch_)
         if (auto done = prepare(world); !done) return tl::unexpected(done.error());
-    auto tier = sim::Tier::create(*tools_, {.quantum = frame::quantumOf(channel.tier, world.smallestRadius)});
+    auto tier = sim::Tier::create(*tools_, {.quantum = codec::quantumOf(channel.tier, world.smallestRadius)});
     if (!tier) return tl::unexpected(tier.error());
     Chain& chain = chains_[channel];
     chain.tier = std::move(*tier);
@@ -106,8 +106,8 @@ Result<Chains::Chain*> Chains::chainOf(const frame::Channel& channel, const Scen
 
 // A keyframe for who waits and the next frame for all others take turns where the world is so slow that the next frame
 // is always due.
-void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
-    using enum frame::Link::Kind;
+void Chains::begin(const codec::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
+    using enum codec::Link::Kind;
     const bool begun = chain.tier->number() > 0;
     const bool due = now >= chain.next && chain.version != world.version;
     const auto since = now - chain.keyframe;
@@ -123,34 +123,34 @@ void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& wor
     chain.newest.set_order(order_);
     chain.newest.set_count(world.spheres);
     chain.newest.set_tier(demand.channel.tier);
-    chain.newest.set_quantum(frame::quantumOf(demand.channel.tier, world.smallestRadius));
+    chain.newest.set_quantum(codec::quantumOf(demand.channel.tier, world.smallestRadius));
     start(chain, begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 
-void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+void Chains::start(Chain& chain, codec::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
                    Clock::time_point now) {
     const bool hash = now - chain.hash >= hashEvery;
     if (hash) chain.hash = now;
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
     switch (kind) {
-        case frame::Link::Kind::Keyframe:
+        case codec::Link::Kind::Keyframe:
             chain.tier->begin(source, hash);
             break;
-        case frame::Link::Kind::Delta:
+        case codec::Link::Kind::Delta:
             chain.tier->next(source, hash);
             break;
-        case frame::Link::Kind::Join:
+        case codec::Link::Kind::Join:
             chain.tier->join(hash);
             break;
     }
     device_.endTimer();
-    if (kind != frame::Link::Kind::Delta) chain.keyframe = now;
+    if (kind != codec::Link::Kind::Delta) chain.keyframe = now;
     chain.turn = ++turns_;
     chain.kind = kind;
     chain.making = std::move(head);
 }
 
-void Chains::collect(const frame::Channel& channel, Chain& chain) {
+void Chains::collect(const codec::Channel& channel, Chain& chain) {
     if (!chain.making) return;
     const auto bytes = chain.tier->poll();
     if (!bytes) return;
@@ -161,7 +161,7 @@ void Chains::collect(const frame::Channel& channel, Chain& chain) {
     made.set_sequence(++sequence_);
     made.set_stamp_us(microsecondsNow());
     made.set_spb(bytes->data(), bytes->size());
-    publish_({channel, chain.kind, chain.tier->number(), frame::share(std::move(message))});
+    publish_({channel, chain.kind, chain.tier->number(), codec::share(std::move(message))});
 }
 
 std::optional<Chains::Clock::time_point> Chains::due() const {

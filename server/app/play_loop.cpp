@@ -26,14 +26,14 @@ PlayLoop::PlayLoop(std::unique_ptr<compute::Device> device, Player player, const
       live_(stage.live),
       outlets_(stage.outlets),
       chains_(
-          *device_, [this](const frame::Link& link) { publish(link); },
-          [this](frame::SharedMessage order) { outlets_.order(std::move(order)); },
+          *device_, [this](const codec::Link& link) { publish(link); },
+          [this](codec::SharedMessage order) { outlets_.order(std::move(order)); },
           [this](const std::string& text) { say(v1::Event::WARNING, text); }) {}
 
 Result<void> PlayLoop::run(const std::stop_token& stop) {
     v1::ServerMessage timeline;
     *timeline.mutable_timeline() = player_.timeline();
-    outlets_.keep(frame::share(std::move(timeline)));
+    outlets_.keep(codec::share(std::move(timeline)));
     while (!stop.stop_requested()) {
         pulse::beat("serving viewers");
         // All that was asked for, before anything is decoded: of several seeks only the last counts.
@@ -63,7 +63,7 @@ void PlayLoop::serve(const Request& request) {
 Result<void> PlayLoop::advance(Chains::Clock::time_point now) {
     const Player::Moved moved = player_.advance(now);
     for (const std::string& damage : moved.damage) say(v1::Event::WARNING, "Skipped: " + damage);
-    for (const v1::ServerMessage& message : moved.passed) outlets_.everybody(frame::share(message));
+    for (const v1::ServerMessage& message : moved.passed) outlets_.everybody(codec::share(message));
     return moved.shown ? show() : Result<void>();
 }
 
@@ -102,7 +102,7 @@ void PlayLoop::describe() {
         report.scene = facts.name();
         report.spheres = facts.count();
     });
-    outlets_.keep(frame::share(std::move(message)));
+    outlets_.keep(codec::share(std::move(message)));
 }
 
 void PlayLoop::sendSettings() {
@@ -112,7 +112,7 @@ void PlayLoop::sendSettings() {
     if (bytes == settings_) return;
     settings_ = std::move(bytes);
     nextReport_ = {};
-    outlets_.keep(frame::share(std::move(message)));
+    outlets_.keep(codec::share(std::move(message)));
 }
 
 void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
@@ -121,7 +121,7 @@ void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(player_.recording().step());
     message.mutable_event()->set_text(utf8(text));
-    outlets_.everybody(frame::share(std::move(message)));
+    outlets_.everybody(codec::share(std::move(message)));
 }
 
 void PlayLoop::produce(Chains::Clock::time_point now) {
@@ -143,7 +143,7 @@ void PlayLoop::produce(Chains::Clock::time_point now) {
                   outlets_.demands(), now);
 }
 
-void PlayLoop::publish(const frame::Link& link) {
+void PlayLoop::publish(const codec::Link& link) {
     states_.shown(version_, Chains::Clock::now());
     outlets_.frame(link);
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "app/facts.h"
+#include "codec/order.h"
+#include "codec/rendition.h"
 #include "core/pulse.h"
-#include "frame/channel.h"
-#include "frame/order.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -25,7 +25,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
     auto tools = sim::TierTools::create(device, simulation.count(), simulation.tierSource().slotOf != nullptr);
     if (!tools) return tl::unexpected(tools.error());
-    const double quantum = frame::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
+    const double quantum = codec::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
     auto tier = sim::Tier::create(**tools, {.quantum = quantum});
     if (!tier) return tl::unexpected(tier.error());
     // The file comes last: where the device has no room, one that is to be replaced stays.
@@ -51,7 +51,7 @@ Result<void> Recorder::begin() {
     const std::vector<std::uint32_t> ids = sim::mortonOrder(simulation_.snapshot().position);
     tools_->setOrder(ids);
     v1::ServerMessage message;
-    *message.mutable_order() = frame::orderMessage(epoch, order, ids);
+    *message.mutable_order() = codec::orderMessage(epoch, order, ids);
     if (auto done = add(store::Kind::Order, message); !done) return done;
     if (auto done = writeSettings(); !done) return done;
     keyframe_ = simulation_.time();

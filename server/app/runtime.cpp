@@ -85,7 +85,7 @@ Outlets Runtime::outlets() {
     return {.keep = [this](auto message) { server_->keep(std::move(message)); },
             .everybody = [this](auto message) { server_->broadcast(std::move(message)); },
             .order = [this](auto message) { server_->setOrder(std::move(message)); },
-            .frame = [this](const frame::Link& link) { server_->publish(link); },
+            .frame = [this](const codec::Link& link) { server_->publish(link); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },
             .demands = [this] { return server_->demands(); }};
@@ -141,7 +141,7 @@ void Runtime::beginToEnd(const std::optional<Error>& failure) {
                                               "server has been started again.",
                                               failure->text()))
                            : "The server is stopping.");
-    server_->broadcast(frame::share(std::move(message)));
+    server_->broadcast(codec::share(std::move(message)));
 }
 
 void Runtime::refuseWaiting() {

@@ -52,8 +52,8 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
       live_(stage.live),
       outlets_(stage.outlets),
       chains_(
-          world_.device(), [this](const frame::Link& link) { publish(link); },
-          [this](frame::SharedMessage order) {
+          world_.device(), [this](const codec::Link& link) { publish(link); },
+          [this](codec::SharedMessage order) {
               tape_.order(order);
               outlets_.order(std::move(order));
           },
@@ -383,7 +383,7 @@ v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
     return head;
 }
 
-void SimLoop::publish(const frame::Link& link) {
+void SimLoop::publish(const codec::Link& link) {
     states_.shown(version_, Pacer::Clock::now());
     tape_.frame(link);
     outlets_.frame(link);

@@ -63,7 +63,7 @@ class SimLoop : public Show {
     void produce(Pacer::Clock::time_point now);
     Scenery scenery(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
-    void publish(const frame::Link& link);
+    void publish(const codec::Link& link);
     Result<void> report();
     void tellOfTape();
     Result<void> finishTape();

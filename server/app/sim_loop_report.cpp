@@ -40,13 +40,13 @@ void SimLoop::tellNotices() {
 
 // For viewers, and for the recording.
 void SimLoop::everybody(v1::ServerMessage message) {
-    const auto shared = frame::share(std::move(message));
+    const auto shared = codec::share(std::move(message));
     tape_.say(shared);
     outlets_.everybody(shared);
 }
 
 void SimLoop::keep(v1::ServerMessage message) {
-    const auto shared = frame::share(std::move(message));
+    const auto shared = codec::share(std::move(message));
     tape_.keep(shared);
     outlets_.keep(shared);
 }
@@ -106,7 +106,7 @@ void SimLoop::tellOfChange() {
         return;
     }
     toldOfChange_ = asked != nullptr;
-    outlets_.keep(frame::share(std::move(message)));
+    outlets_.keep(codec::share(std::move(message)));
 }
 
 // Why commands or states may be late, for who asks after the server's health; empty: they are not.

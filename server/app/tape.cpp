@@ -39,7 +39,7 @@ Tape::Tape(TapeOptions options, v1::Welcome source)
     : options_(std::move(options)), channel_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
     v1::ServerMessage message;
     *message.mutable_welcome() = std::move(source);
-    source_ = frame::share(std::move(message));
+    source_ = codec::share(std::move(message));
 }
 
 Result<void> Tape::startFromOptions() {
@@ -118,7 +118,7 @@ Result<void> Tape::stop() {
     return {};
 }
 
-void Tape::keep(frame::SharedMessage message) {
+void Tape::keep(codec::SharedMessage message) {
     const v1::ServerMessage& content = message->content();
     if (content.has_scene()) {
         order_.reset();
@@ -131,18 +131,18 @@ void Tape::keep(frame::SharedMessage message) {
     }
 }
 
-void Tape::say(const frame::SharedMessage& message) {
+void Tape::say(const codec::SharedMessage& message) {
     if (writer_ && timed_ && message->content().has_event()) add(store::Kind::Other, message);
 }
 
-void Tape::order(frame::SharedMessage message) {
+void Tape::order(codec::SharedMessage message) {
     if (writer_ && timed_) add(store::Kind::Order, message);
     order_ = std::move(message);
 }
 
-void Tape::frame(const frame::Link& link) {
+void Tape::frame(const codec::Link& link) {
     if (!writer_ || link.channel != channel_) return;
-    using enum frame::Link::Kind;
+    using enum codec::Link::Kind;
     const bool again = link.kind == Join && number_ == link.number;
     if (!again) {
         waits_ = timed_ && standsStill(link.message->content().frame());
@@ -192,7 +192,7 @@ void Tape::timeOf(const v1::Frame& frame) {
     time_ = std::max(time_, frame.sim_time() + offset_);
 }
 
-void Tape::add(store::Kind kind, const frame::SharedMessage& message) {
+void Tape::add(store::Kind kind, const codec::SharedMessage& message) {
     if (writer_->add(kind, time_, message)) return;
     if (!message->content().has_frame()) return;
     number_.reset();
@@ -200,10 +200,10 @@ void Tape::add(store::Kind kind, const frame::SharedMessage& message) {
     ++framesLost_;
 }
 
-void Tape::demand(std::vector<frame::Demand>& demands, Clock::time_point now) const {
+void Tape::demand(std::vector<codec::Demand>& demands, Clock::time_point now) const {
     if (!writer_) return;
-    auto own = std::ranges::find(demands, channel_, &frame::Demand::channel);
-    if (own == demands.end()) own = demands.insert(demands.end(), frame::Demand{.channel = channel_});
+    auto own = std::ranges::find(demands, channel_, &codec::Demand::channel);
+    if (own == demands.end()) own = demands.insert(demands.end(), codec::Demand{.channel = channel_});
     own->newcomer = own->newcomer || !timed_;
     own->lost = own->lost || (!waits_ && (!number_ || (moved_ && now - keyframe_ >= keyframesEvery)));
 }

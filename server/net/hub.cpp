@@ -32,7 +32,7 @@ void Hub::join(SessionId id) {
     for (const auto& [kind, message] : kept_) entry->session->send(message);
 }
 
-void Hub::watch(SessionId id, const frame::Channel& channel) {
+void Hub::watch(SessionId id, const codec::Channel& channel) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
@@ -48,14 +48,14 @@ void Hub::askKeyframe(SessionId id) {
     if (Entry* const entry = find(id)) entry->lost = entry->channel.rate > 0;
 }
 
-void Hub::setOrder(frame::SharedMessage order) {
+void Hub::setOrder(codec::SharedMessage order) {
     const std::lock_guard lock(mutex_);
     order_ = std::move(order);
     for (const auto& [id, entry] : entries_)
         if (entry.channel.rate > 0) entry.session->send(order_);
 }
 
-void Hub::keep(frame::SharedMessage message) {
+void Hub::keep(codec::SharedMessage message) {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
@@ -64,38 +64,38 @@ void Hub::keep(frame::SharedMessage message) {
     kept_[message->content().kind_case()] = std::move(message);
 }
 
-void Hub::publish(const frame::Link& link) {
+void Hub::publish(const codec::Link& link) {
     const std::lock_guard lock(mutex_);
     for (auto& [id, entry] : entries_) {
         if (entry.channel.rate == 0 || entry.channel != link.channel) continue;
         const bool waits = entry.newcomer || entry.lost;
-        if (link.kind == frame::Link::Kind::Join && !waits) continue;
-        if (link.kind != frame::Link::Kind::Delta) entry.newcomer = entry.lost = false;
-        if (link.kind != frame::Link::Kind::Delta || !waits) entry.session->offer(link);
+        if (link.kind == codec::Link::Kind::Join && !waits) continue;
+        if (link.kind != codec::Link::Kind::Delta) entry.newcomer = entry.lost = false;
+        if (link.kind != codec::Link::Kind::Delta || !waits) entry.session->offer(link);
     }
 }
 
-std::vector<frame::Demand> Hub::demands() {
+std::vector<codec::Demand> Hub::demands() {
     const std::lock_guard lock(mutex_);
-    std::vector<frame::Demand> demands;
+    std::vector<codec::Demand> demands;
     for (const auto& [id, entry] : entries_) {
         if (entry.channel.rate == 0) continue;
-        auto same = std::ranges::find(demands, entry.channel, &frame::Demand::channel);
-        if (same == demands.end()) same = demands.insert(demands.end(), frame::Demand{.channel = entry.channel});
+        auto same = std::ranges::find(demands, entry.channel, &codec::Demand::channel);
+        if (same == demands.end()) same = demands.insert(demands.end(), codec::Demand{.channel = entry.channel});
         same->newcomer = same->newcomer || entry.newcomer;
         same->lost = same->lost || entry.lost;
     }
     return demands;
 }
 
-void Hub::broadcast(const frame::SharedMessage& message) {
+void Hub::broadcast(const codec::SharedMessage& message) {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
     }
 }
 
-void Hub::sendTo(SessionId id, frame::SharedMessage message) {
+void Hub::sendTo(SessionId id, codec::SharedMessage message) {
     const std::lock_guard lock(mutex_);
     const auto found = entries_.find(id);
     if (found != entries_.end()) found->second.session->send(std::move(message));

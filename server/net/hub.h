@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "frame/channel.h"
+#include "codec/rendition.h"
 #include "net/server.h"
 
 namespace spherule::net {
@@ -19,8 +19,8 @@ namespace spherule::net {
 class Subscriber {
   public:
     virtual ~Subscriber() = default;
-    virtual void send(frame::SharedMessage message) = 0;  // reliable lane
-    virtual void offer(frame::Link link) = 0;             // lossy lane
+    virtual void send(codec::SharedMessage message) = 0;  // reliable lane
+    virtual void offer(codec::Link link) = 0;             // lossy lane
     virtual void drain() = 0;                             // close when the reliable lane is empty
     virtual void drop() = 0;                              // now, without a close frame
 };
@@ -33,21 +33,21 @@ class Hub {
     // After the welcome: the session gets what is kept.
     void join(SessionId id);
     // The chain that the session is sent from now on, from its next keyframe on; rate 0: none.
-    void watch(SessionId id, const frame::Channel& channel);
+    void watch(SessionId id, const codec::Channel& channel);
     // The session has lost its chain and needs a keyframe.
     void askKeyframe(SessionId id);
 
     // For all and for newcomers, until there is a newer one of its kind.
-    void keep(frame::SharedMessage message);
+    void keep(codec::SharedMessage message);
     // For the frames that come; to whoever watches.
-    void setOrder(frame::SharedMessage order);
-    void publish(const frame::Link& link);
-    void broadcast(const frame::SharedMessage& message);
-    void sendTo(SessionId id, frame::SharedMessage message);
+    void setOrder(codec::SharedMessage order);
+    void publish(const codec::Link& link);
+    void broadcast(const codec::SharedMessage& message);
+    void sendTo(SessionId id, codec::SharedMessage message);
 
     [[nodiscard]] std::uint32_t viewers() const { return viewers_; }
     // Of each chain that somebody watches.
-    [[nodiscard]] std::vector<frame::Demand> demands();
+    [[nodiscard]] std::vector<codec::Demand> demands();
 
     // Closes what is open and whatever comes later.
     void drain();
@@ -59,7 +59,7 @@ class Hub {
     struct Entry {
         std::shared_ptr<Subscriber> session;
         bool joined = false;
-        frame::Channel channel{};  // rate 0: none
+        codec::Channel channel{};  // rate 0: none
         bool newcomer = false;     // no frame of the chain has come yet
         bool lost = false;
     };
@@ -72,8 +72,8 @@ class Hub {
     std::unordered_map<SessionId, Entry> entries_;
     SessionId lastId_ = 0;
     bool draining_ = false;
-    std::map<v1::ServerMessage::KindCase, frame::SharedMessage> kept_;  // in the order in which newcomers get them
-    frame::SharedMessage order_;
+    std::map<v1::ServerMessage::KindCase, codec::SharedMessage> kept_;  // in the order in which newcomers get them
+    codec::SharedMessage order_;
     std::atomic<std::uint32_t> viewers_ = 0;
 };
 

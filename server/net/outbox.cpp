@@ -16,7 +16,7 @@ bool replaceable(v1::ServerMessage::KindCase kind) {
 
 }  // namespace
 
-void Outbox::follow(const frame::Channel& channel) {
+void Outbox::follow(const codec::Channel& channel) {
     channel_ = channel;
     lose();
 }
@@ -32,7 +32,7 @@ void Outbox::lose() {
     frame_.reset();
 }
 
-bool Outbox::push(frame::SharedMessage message) {
+bool Outbox::push(codec::SharedMessage message) {
     const auto kind = message->content().kind_case();
     if (replaceable(kind))
         std::erase_if(reliable_, [kind](const auto& waiting) { return waiting->content().kind_case() == kind; });
@@ -46,9 +46,9 @@ bool Outbox::push(frame::SharedMessage message) {
     return true;
 }
 
-Outbox::Offered Outbox::offer(const frame::Link& link) {
+Outbox::Offered Outbox::offer(const codec::Link& link) {
     if (channel_.rate == 0 || link.channel != channel_) return Offered::Fine;
-    const bool keyframe = link.kind != frame::Link::Kind::Delta;
+    const bool keyframe = link.kind != codec::Link::Kind::Delta;
     if (numbered_ != link.message->content().frame().epoch()) lose();
     if (keyframe && number_ == link.number) return Offered::Fine;  // for those who lack it
     if (!keyframe && !number_) return Offered::Fine;               // lost before
@@ -64,7 +64,7 @@ Outbox::Offered Outbox::offer(const frame::Link& link) {
     return Offered::Fine;
 }
 
-frame::SharedMessage Outbox::next(bool frames) {
+codec::SharedMessage Outbox::next(bool frames) {
     if (!reliable_.empty()) {
         auto message = std::move(reliable_.front());
         reliable_.pop_front();

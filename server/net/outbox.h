@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "frame/channel.h"
+#include "codec/rendition.h"
 
 namespace spherule::net {
 
@@ -18,23 +18,23 @@ class Outbox {
     explicit Outbox(std::size_t capacity) : capacity_(capacity) {}
 
     // The chain to follow, from its next keyframe on; rate 0: none.
-    void follow(const frame::Channel& channel);
+    void follow(const codec::Channel& channel);
 
     // False when the lane is full. What says how something is now takes the place of an older one of its kind
     // that waits.
-    [[nodiscard]] bool push(frame::SharedMessage message);
+    [[nodiscard]] bool push(codec::SharedMessage message);
     enum class Offered : std::uint8_t {
         Fine,
         Busy,  // the chain is lost: the frame before still waits to be sent
         Gap    // the chain is lost: the frame before has never come
     };
-    Offered offer(const frame::Link& link);
+    Offered offer(const codec::Link& link);
     // The client has lost the chain with the frame of this sequence. False where a newer keyframe has been taken, so
     // that it says nothing of the chain as it is now.
     bool lose(std::uint64_t sequence);
 
     // The next message to send, the reliable lane first; frames only where `frames` says so.
-    frame::SharedMessage next(bool frames);
+    codec::SharedMessage next(bool frames);
     // It follows a chain and has nothing to send of it before a keyframe comes.
     [[nodiscard]] bool wantsKeyframe() const { return channel_.rate > 0 && !number_; }
 
@@ -46,14 +46,14 @@ class Outbox {
     [[nodiscard]] bool frameIsDescribed() const;
 
     const std::size_t capacity_;
-    frame::Channel channel_;
+    codec::Channel channel_;
     std::optional<std::uint32_t> epoch_;   // of the latest facts
     std::optional<std::uint32_t> order_;   // the latest
     std::optional<std::uint32_t> number_;  // of the newest frame taken
     std::uint32_t numbered_ = 0;           // the epoch in which: each begins to count anew
     std::uint64_t keyframe_ = 0;           // sequence of the newest one taken
-    std::deque<frame::SharedMessage> reliable_;
-    frame::SharedMessage frame_;
+    std::deque<codec::SharedMessage> reliable_;
+    codec::SharedMessage frame_;
 };
 
 }  // namespace spherule::net

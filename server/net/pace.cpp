@@ -21,23 +21,23 @@ constexpr double busy = 0.6;             // of the time between frames, with dec
 constexpr int slowFor = 30;              // acks
 
 std::optional<std::uint32_t> below(std::uint32_t rate) {
-    const auto found = std::ranges::lower_bound(frame::rates, rate);
-    if (found == frame::rates.begin()) return std::nullopt;
+    const auto found = std::ranges::lower_bound(codec::rates, rate);
+    if (found == codec::rates.begin()) return std::nullopt;
     return *(found - 1);
 }
 
 // Nothing where there is no less.
-std::optional<frame::Channel> lessThan(const frame::Channel& channel) {
+std::optional<codec::Channel> lessThan(const codec::Channel& channel) {
     const auto rate = below(channel.rate);
-    if (rate && *rate >= watchable) return frame::Channel{channel.tier, *rate};
-    if (channel.tier != v1::ECO) return frame::Channel{channel.tier == v1::FINE ? v1::NORMAL : v1::ECO, channel.rate};
-    if (rate) return frame::Channel{channel.tier, *rate};
+    if (rate && *rate >= watchable) return codec::Channel{channel.tier, *rate};
+    if (channel.tier != v1::ECO) return codec::Channel{channel.tier == v1::FINE ? v1::NORMAL : v1::ECO, channel.rate};
+    if (rate) return codec::Channel{channel.tier, *rate};
     return std::nullopt;
 }
 
 }  // namespace
 
-bool Pace::want(const frame::Channel& channel, bool fixed, Clock::time_point now) {
+bool Pace::want(const codec::Channel& channel, bool fixed, Clock::time_point now) {
     if (channel == wanted_ && fixed == fixed_) return false;
     wanted_ = channel;
     channel_ = channel;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "frame/channel.h"
+#include "codec/rendition.h"
 
 namespace spherule::net {
 
@@ -19,8 +19,8 @@ class Pace {
     explicit Pace(Clock::time_point now) : quietSince_(now) {}
 
     // What the client wants; `fixed`: and nothing less. False where it wanted that before.
-    bool want(const frame::Channel& channel, bool fixed, Clock::time_point now);
-    [[nodiscard]] const frame::Channel& channel() const { return channel_; }
+    bool want(const codec::Channel& channel, bool fixed, Clock::time_point now);
+    [[nodiscard]] const codec::Channel& channel() const { return channel_; }
     [[nodiscard]] bool reduced() const { return channel_ != wanted_; }
 
     // The reason for a change of channel(), where there is one.
@@ -33,11 +33,11 @@ class Pace {
     bool stepDown(Clock::time_point now);
     bool stepUp(Clock::time_point now);
 
-    frame::Channel wanted_;
-    frame::Channel channel_;
+    codec::Channel wanted_;
+    codec::Channel channel_;
     bool fixed_ = false;
     std::deque<Clock::time_point> losses_;
-    std::deque<frame::Channel> left_;  // on the way down, for the way up
+    std::deque<codec::Channel> left_;  // on the way down, for the way up
     Clock::time_point quietSince_;
     Clock::time_point steppedUp_{};  // a loss soon after it says that it was too early
     std::chrono::seconds patience_{10};

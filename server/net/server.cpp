@@ -49,19 +49,19 @@ class RunningServer final : public Server {
 
     [[nodiscard]] std::uint16_t port() const override { return listener_->port(); }
 
-    void keep(frame::SharedMessage message) override { context_.hub.keep(std::move(message)); }
-    void setOrder(frame::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
-    void publish(const frame::Link& link) override { context_.hub.publish(link); }
-    void broadcast(frame::SharedMessage message) override { context_.hub.broadcast(message); }
+    void keep(codec::SharedMessage message) override { context_.hub.keep(std::move(message)); }
+    void setOrder(codec::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
+    void publish(const codec::Link& link) override { context_.hub.publish(link); }
+    void broadcast(codec::SharedMessage message) override { context_.hub.broadcast(message); }
 
     void reply(SessionId session, v1::CommandResult result) override {
         v1::ServerMessage message;
         *message.mutable_result() = std::move(result);
-        context_.hub.sendTo(session, std::make_shared<frame::Message>(std::move(message)));
+        context_.hub.sendTo(session, std::make_shared<codec::Message>(std::move(message)));
     }
 
     [[nodiscard]] std::uint32_t viewers() const override { return context_.hub.viewers(); }
-    [[nodiscard]] std::vector<frame::Demand> demands() override { return context_.hub.demands(); }
+    [[nodiscard]] std::vector<codec::Demand> demands() override { return context_.hub.demands(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }
 
     Result<void> setSecrets(const Secrets& secrets) override {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/rendition.h"
 #include "core/result.h"
-#include "frame/channel.h"
 #include "net/admission.h"
 #include "net/counters.h"
 #include "net/visitors.h"
@@ -68,19 +68,19 @@ class Server {
 
     // Any thread from here on.
     // All clients get it, and those who come later after their welcome: the newest of each kind.
-    virtual void keep(frame::SharedMessage message) = 0;
+    virtual void keep(codec::SharedMessage message) = 0;
     // For who watches: the order of the spheres in the frames that come, once their scene facts are kept.
-    virtual void setOrder(frame::SharedMessage order) = 0;
+    virtual void setOrder(codec::SharedMessage order) = 0;
     // Lossy lane: who could not be sent the frame before has lost the chain, and is sent nothing more of it before a
     // keyframe. A frame of another epoch than the scene's, or of another order, waits for that.
-    virtual void publish(const frame::Link& link) = 0;
+    virtual void publish(const codec::Link& link) = 0;
     // Reliable lane; diagnostics, as what is kept, take the place of older ones that wait.
-    virtual void broadcast(frame::SharedMessage message) = 0;
+    virtual void broadcast(codec::SharedMessage message) = 0;
     virtual void reply(SessionId session, v1::CommandResult result) = 0;
 
     [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want frames
     // The chains that are watched, and whether somebody waits for a keyframe: no frame comes to them before.
-    [[nodiscard]] virtual std::vector<frame::Demand> demands() = 0;
+    [[nodiscard]] virtual std::vector<codec::Demand> demands() = 0;
 
     // Closes the port; who is connected stays.
     virtual void stopAccepting() = 0;

@@ -153,7 +153,7 @@ void Session::admit(const v1::Hello& hello, v1::Role role) {
     *message.mutable_welcome() = context_.handlers.welcome(hello);
     message.mutable_welcome()->set_role(role);
     message.mutable_welcome()->set_session(id_);
-    queue(frame::share(std::move(message)));
+    queue(codec::share(std::move(message)));
     context_.hub.join(id_);
     onView(hello.view());
 }
@@ -179,8 +179,8 @@ void Session::onView(const v1::View& view) {
         return;
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
-    const frame::Channel wish{known ? view.tier() : v1::NORMAL,
-                              frame::rateFor(view.has_rate() ? view.rate() : defaultRate)};
+    const codec::Channel wish{known ? view.tier() : v1::NORMAL,
+                              codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
     // Whoever says the same again begins nothing anew.
     if (pace_.want(wish, view.fixed(), Pace::Clock::now()))
         follow("");

@@ -41,8 +41,8 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     // Answers an upgrade request and serves the client until one side leaves. Call once, on the strand.
     void run(const Request& upgrade);
 
-    void send(frame::SharedMessage message) override;
-    void offer(frame::Link link) override;
+    void send(codec::SharedMessage message) override;
+    void offer(codec::Link link) override;
     void drain() override;
     void drop() override;
 
@@ -68,7 +68,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void onControls(const v1::ClientMessage& message);
     [[nodiscard]] std::string who() const;
 
-    void queue(frame::SharedMessage message);
+    void queue(codec::SharedMessage message);
     void pump();
     void onWritten(ErrorCode error, std::size_t bytes);
     void missed();
@@ -111,11 +111,11 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     boost::asio::cancellation_signal endOfClose_;
     boost::beast::flat_buffer incoming_;
     Liveness liveness_;
-    LatestSlot<frame::Link> offered_;
+    LatestSlot<codec::Link> offered_;
     Outbox outbox_;
     Credit credit_;
     Pace pace_;
-    frame::SharedMessage writing_;
+    codec::SharedMessage writing_;
     Encoding encoding_ = Encoding::Binary;
     TokenBucket commands_;
     TokenBucket views_;

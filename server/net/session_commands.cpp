@@ -66,7 +66,7 @@ void Session::refuse(std::uint64_t command, Rejection cause, const std::string& 
     message.mutable_result()->set_id(command);
     message.mutable_result()->mutable_refused()->set_field(field);
     message.mutable_result()->mutable_refused()->set_reason(reason);
-    queue(std::make_shared<frame::Message>(std::move(message)));
+    queue(std::make_shared<codec::Message>(std::move(message)));
 }
 
 // Where everybody has the controls, there is nothing to ask for.

@@ -17,13 +17,13 @@ namespace websocket = beast::websocket;
 using websocket::close_code;
 using Clock = Pace::Clock;
 
-void Session::send(frame::SharedMessage message) {
+void Session::send(codec::SharedMessage message) {
     asio::post(stream_.get_executor(),
                guarded([message = std::move(message)](Session& self) mutable { self.queue(std::move(message)); }));
 }
 
 // However long the io thread is busy, one frame waits for it, not a row of them.
-void Session::offer(frame::Link link) {
+void Session::offer(codec::Link link) {
     if (offered_.put(std::move(link))) return;
     asio::post(stream_.get_executor(), guarded([](Session& self) {
                    const auto newest = self.offered_.take();
@@ -53,7 +53,7 @@ void Session::askKeyframe() {
 }
 
 void Session::follow(const std::string& reason) {
-    const frame::Channel channel = pace_.channel();
+    const codec::Channel channel = pace_.channel();
     outbox_.follow(channel);
     credit_.setRate(channel.rate);
     asked_ = true;  // who comes to a chain is sent a keyframe of it
@@ -62,13 +62,13 @@ void Session::follow(const std::string& reason) {
 }
 
 void Session::sayStream(const std::string& reason) {
-    const frame::Channel channel = pace_.channel();
+    const codec::Channel channel = pace_.channel();
     v1::ServerMessage message;
     message.mutable_stream()->set_tier(channel.tier);
     message.mutable_stream()->set_rate(channel.rate);
     message.mutable_stream()->set_reduced(pace_.reduced());
     message.mutable_stream()->set_reason(reason);
-    queue(frame::share(std::move(message)));
+    queue(codec::share(std::move(message)));
 }
 
 void Session::drain() {
@@ -82,7 +82,7 @@ void Session::drop() {
     asio::post(stream_.get_executor(), guarded([](Session& self) { self.abort(CloseCause::Drained); }));
 }
 
-void Session::queue(frame::SharedMessage message) {
+void Session::queue(codec::SharedMessage message) {
     if (closing_ || finished_) return;
     if (!outbox_.push(std::move(message))) {
         return close(close_code::try_again_later, "too many messages wait for this client to read them",

@@ -39,7 +39,7 @@ BackgroundWriter::~BackgroundWriter() {
     finish();
 }
 
-bool BackgroundWriter::add(Kind kind, double time, frame::SharedMessage message) {
+bool BackgroundWriter::add(Kind kind, double time, codec::SharedMessage message) {
     const std::lock_guard lock(mutex_);
     if (progress_.ended || finishing_) return true;
     const std::size_t bytes = waitingBytes_ + message->binary().size();

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "codec/message.h"
 #include "core/memory.h"
 #include "core/result.h"
-#include "frame/message.h"
 #include "store/writer.h"
 
 namespace spherule::store {
@@ -29,7 +29,7 @@ class BackgroundWriter {
 
     // As Writer::add. False where the record is left out, because very much still waits to be written. What frames need
     // is never left out: where that would take up too much memory, the recording ends.
-    [[nodiscard]] bool add(Kind kind, double time, frame::SharedMessage message);
+    [[nodiscard]] bool add(Kind kind, double time, codec::SharedMessage message);
     // No record follows.
     void finish();
     void wait();  // until all is written that will be
@@ -46,7 +46,7 @@ class BackgroundWriter {
     struct Item {
         Kind kind;
         double time;
-        frame::SharedMessage message;
+        codec::SharedMessage message;
     };
 
     BackgroundWriter(Writer writer, std::uint64_t mostBytes, memory::Claim queue);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame/order.h"
+#include "codec/order.h"
 
 namespace spherule::store {
 
@@ -33,7 +33,7 @@ Result<Cast> Cast::from(const v1::SceneFacts& facts, const v1::Order& order) {
     for (int axis = 0; axis < 3; ++axis)
         if (cast.low[axis] > cast.high[axis]) return bad("have no bounds");
     if (facts.count() == 0) return bad("have no spheres");
-    auto ids = frame::idsOf(order, facts.count());
+    auto ids = codec::idsOf(order, facts.count());
     if (!ids) return tl::unexpected(ids.error());
     cast.ids = std::move(*ids);
     cast.radii.assign(facts.count(), facts.radius());

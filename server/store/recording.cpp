@@ -173,7 +173,7 @@ Result<void> Recording::prepare(std::uint64_t offset) {
         cast_ = std::move(*cast);
         order_.reset();
     }
-    if (!decoder_) decoder_ = std::make_unique<frame::codec::Decoder>(cast_->spheres());
+    if (!decoder_) decoder_ = std::make_unique<codec::Decoder>(cast_->spheres());
     return {};
 }
 

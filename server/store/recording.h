@@ -10,8 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "codec/decoder.h"
 #include "core/result.h"
-#include "frame/codec.h"
 #include "spherule/v1/control.pb.h"
 #include "store/cast.h"
 #include "store/index.h"
@@ -88,7 +88,7 @@ class Recording {
     std::uint64_t factsAt_ = 0;       // byte of the file
     std::optional<v1::Order> order_;  // until the cast is made of it
     std::optional<Cast> cast_;
-    std::unique_ptr<frame::codec::Decoder> decoder_;
+    std::unique_ptr<codec::Decoder> decoder_;
     double time_ = 0;
     std::uint64_t step_ = 0;
     double quantum_ = 0;

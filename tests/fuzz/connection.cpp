@@ -109,7 +109,7 @@ class Served {
                     [this](net::SessionId session, const v1::Command& command, std::size_t) {
                         v1::ServerMessage message;
                         message.mutable_result()->set_id(command.id());
-                        context_.hub.sendTo(session, frame::share(std::move(message)));
+                        context_.hub.sendTo(session, codec::share(std::move(message)));
                         sendFrames();
                         return command.has_reset() ? std::optional<std::string>("the queue is full") : std::nullopt;
                     },
@@ -120,14 +120,14 @@ class Served {
     }
 
     void sendFrames() {
-        for (const frame::Demand& demand : context_.hub.demands()) {
+        for (const codec::Demand& demand : context_.hub.demands()) {
             v1::ServerMessage message;
             message.mutable_frame()->set_sequence(++frames_);
             message.mutable_frame()->set_tier(demand.channel.tier);
             context_.hub.publish({.channel = demand.channel,
-                                  .kind = frame::Link::Kind::Keyframe,
+                                  .kind = codec::Link::Kind::Keyframe,
                                   .number = frames_,
-                                  .message = frame::share(std::move(message))});
+                                  .message = codec::share(std::move(message))});
         }
     }
 

@@ -84,7 +84,7 @@ std::optional<std::string> ChainCheck::frame(const v1::Frame& frame) {
     if (auto fault = described(frame)) return fault;
     if (frame.sequence() <= sequence_) return fmt::format("sequence {} after {}", frame.sequence(), sequence_);
     sequence_ = frame.sequence();
-    const auto head = frame::codec::headOf(bytesOf(frame.spb()));
+    const auto head = codec::headOf(bytesOf(frame.spb()));
     if (!head) return head.error().text();
     if (auto fault = follows(frame, *head)) return fault;
     ++received_.frames;
@@ -109,7 +109,7 @@ std::optional<std::string> ChainCheck::described(const v1::Frame& frame) const {
     return std::nullopt;
 }
 
-std::optional<std::string> ChainCheck::follows(const v1::Frame& frame, const frame::codec::FrameHead& head) {
+std::optional<std::string> ChainCheck::follows(const v1::Frame& frame, const codec::FrameHead& head) {
     if (head.spheres != spheres_)
         return fmt::format("{} spheres in the codec where there are {}", head.spheres, spheres_);
     if (head.keyframe) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/codec.h"
+#include "codec/decoder.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::load {
@@ -47,7 +47,7 @@ class ChainCheck {
     std::optional<std::string> order(const v1::Order& order);
     std::optional<std::string> frame(const v1::Frame& frame);
     [[nodiscard]] std::optional<std::string> described(const v1::Frame& frame) const;
-    std::optional<std::string> follows(const v1::Frame& frame, const frame::codec::FrameHead& head);
+    std::optional<std::string> follows(const v1::Frame& frame, const codec::FrameHead& head);
 
     const bool decode_;
     bool welcomed_ = false;
@@ -56,7 +56,7 @@ class ChainCheck {
     std::optional<std::uint32_t> order_;  // of that epoch
     std::optional<v1::Stream> stream_;
     std::optional<Chain> chain_;
-    std::optional<frame::codec::Decoder> decoder_;
+    std::optional<codec::Decoder> decoder_;
     std::uint64_t sequence_ = 0;
     Received received_;
 };

@@ -5,7 +5,7 @@
 namespace spherule::net {
 namespace {
 
-using enum frame::Link::Kind;
+using enum codec::Link::Kind;
 
 void describe(Outbox& outbox, std::uint32_t epoch) {
     ASSERT_TRUE(outbox.push(factsOf(epoch, 64)));
@@ -22,7 +22,7 @@ Outbox following(std::size_t capacity = 4) {
     return outbox;
 }
 
-frame::Link link(frame::Link::Kind kind, std::uint32_t number, std::uint32_t epoch = 1) {
+codec::Link link(codec::Link::Kind kind, std::uint32_t number, std::uint32_t epoch = 1) {
     return linkOf(kind, number, epoch, 64);
 }
 
@@ -70,8 +70,8 @@ TEST(Outbox, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
         dial.mutable_dial()->add_positions()->set_substeps(substeps);
         v1::ServerMessage diagnostics;
         diagnostics.mutable_diagnostics()->set_substeps(substeps);
-        EXPECT_TRUE(outbox.push(frame::share(std::move(dial))));
-        EXPECT_TRUE(outbox.push(frame::share(std::move(diagnostics))));
+        EXPECT_TRUE(outbox.push(codec::share(std::move(dial))));
+        EXPECT_TRUE(outbox.push(codec::share(std::move(diagnostics))));
     }
     EXPECT_EQ(outbox.next(true)->content().dial().positions(0).substeps(), 99U);
     EXPECT_EQ(outbox.next(true)->content().diagnostics().substeps(), 99U);

@@ -14,23 +14,23 @@ Options quickOptions() {
     return options;
 }
 
-frame::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres) {
+codec::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres) {
     v1::ServerMessage message;
     message.mutable_scene()->set_epoch(epoch);
     message.mutable_scene()->set_name("synthetic");
     message.mutable_scene()->set_count(spheres);
-    return std::make_shared<frame::Message>(std::move(message));
+    return std::make_shared<codec::Message>(std::move(message));
 }
 
-frame::SharedMessage orderOf(std::uint32_t epoch) {
+codec::SharedMessage orderOf(std::uint32_t epoch) {
     v1::ServerMessage message;
     message.mutable_order()->set_epoch(epoch);
     message.mutable_order()->set_number(epoch);
-    return frame::share(std::move(message));
+    return codec::share(std::move(message));
 }
 
-frame::Link linkOf(frame::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
-                   const frame::Channel& channel) {
+codec::Link linkOf(codec::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
+                   const codec::Channel& channel) {
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
     frame.set_sequence(number);
@@ -40,14 +40,14 @@ frame::Link linkOf(frame::Link::Kind kind, std::uint32_t number, std::uint32_t e
     frame.set_count(spheres);
     frame.set_tier(channel.tier);
     frame.set_spb(std::string(std::size_t{6} * spheres, static_cast<char>(number)));
-    return {channel, kind, number, frame::share(std::move(message))};
+    return {channel, kind, number, codec::share(std::move(message))};
 }
 
-frame::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind) {
+codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind) {
     v1::ServerMessage message;
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_text(text);
-    return std::make_shared<frame::Message>(std::move(message));
+    return std::make_shared<codec::Message>(std::move(message));
 }
 
 bool eventually(const std::function<bool()>& condition) {
@@ -66,7 +66,7 @@ Owner::Owner(const Options& options) {
     setEpoch(1);
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(8);
-    server_->keep(std::make_shared<frame::Message>(std::move(settings)));
+    server_->keep(std::make_shared<codec::Message>(std::move(settings)));
 }
 
 Owner::~Owner() {
@@ -78,10 +78,10 @@ std::string Owner::url() const {
 }
 
 void Owner::publish(std::uint32_t spheres) {
-    using enum frame::Link::Kind;
+    using enum codec::Link::Kind;
     const auto demands = server_->demands();
     const std::uint32_t number = ++number_;
-    for (const frame::Demand& demand : demands) {
+    for (const codec::Demand& demand : demands) {
         server_->publish(linkOf(Delta, number, epoch_, spheres, demand.channel));
         if (demand.newcomer || demand.lost) server_->publish(linkOf(Join, number, epoch_, spheres, demand.channel));
     }

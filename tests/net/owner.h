@@ -24,12 +24,12 @@ constexpr auto patience = 10s;  // for what must happen; only a failing test wai
 // Limits short enough for a test that waits for them, long enough for a busy machine.
 Options quickOptions();
 
-frame::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres);
-frame::SharedMessage orderOf(std::uint32_t epoch);  // with the epoch's number
+codec::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres);
+codec::SharedMessage orderOf(std::uint32_t epoch);  // with the epoch's number
 // Of a chain of channel `normal`.
-frame::Link linkOf(frame::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
-                   const frame::Channel& channel = {v1::NORMAL, 60});
-frame::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1::Event::WARNING);
+codec::Link linkOf(codec::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
+                   const codec::Channel& channel = {v1::NORMAL, 60});
+codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1::Event::WARNING);
 
 // True as soon as `condition` holds; false when patience is over.
 bool eventually(const std::function<bool()>& condition);

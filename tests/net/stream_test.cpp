@@ -86,16 +86,16 @@ TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    const frame::Channel channel{v1::NORMAL, 60};
-    const auto give = [&](frame::Link::Kind kind, std::uint32_t number) {
+    const codec::Channel channel{v1::NORMAL, 60};
+    const auto give = [&](codec::Link::Kind kind, std::uint32_t number) {
         owner.server().publish(linkOf(kind, number, 1, 64, channel));
     };
-    give(frame::Link::Kind::Join, 1);
+    give(codec::Link::Kind::Join, 1);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
-    give(frame::Link::Kind::Delta, 3);
+    give(codec::Link::Kind::Delta, 3);
     ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; })) << "though nothing is written";
     EXPECT_EQ(owner.counters().chainsLost, 1U);
-    give(frame::Link::Kind::Join, 3);
+    give(codec::Link::Kind::Join, 3);
     EXPECT_EQ(next(*client).frame().sequence(), 3U);
 }
 
@@ -104,19 +104,19 @@ TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    const frame::Channel channel{v1::NORMAL, 60};
+    const codec::Channel channel{v1::NORMAL, 60};
     owner.hold = true;
     v1::ClientMessage command;
     command.mutable_command()->mutable_query();
     ASSERT_TRUE(client->send(command));
     ASSERT_TRUE(eventually([&] { return owner.held.load(); }));
-    owner.server().publish(linkOf(frame::Link::Kind::Join, 1, 1, 64, channel));
+    owner.server().publish(linkOf(codec::Link::Kind::Join, 1, 1, 64, channel));
     EXPECT_FALSE(owner.server().demands().front().newcomer);
-    owner.server().publish(linkOf(frame::Link::Kind::Delta, 2, 1, 64, channel));
+    owner.server().publish(linkOf(codec::Link::Kind::Delta, 2, 1, 64, channel));
     owner.hold = false;
     EXPECT_TRUE(next(*client).has_result());
     ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
-    owner.server().publish(linkOf(frame::Link::Kind::Join, 2, 1, 64, channel));
+    owner.server().publish(linkOf(codec::Link::Kind::Join, 2, 1, 64, channel));
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
 }
 
@@ -179,7 +179,7 @@ TEST(Stream, AsksForAKeyframeForEachNewcomer) {
     const auto second = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
     EXPECT_TRUE(owner.server().demands().front().newcomer);
-    owner.server().publish(linkOf(frame::Link::Kind::Join, 1, 1, 64));
+    owner.server().publish(linkOf(codec::Link::Kind::Join, 1, 1, 64));
     EXPECT_EQ(next(*second).frame().sequence(), 1U);
     const auto none = first->receive(100ms);
     EXPECT_TRUE(none && !*none) << "it has that state";
@@ -224,7 +224,7 @@ TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.server().publish(linkOf(frame::Link::Kind::Keyframe, 1, 2, 64));
+    owner.server().publish(linkOf(codec::Link::Kind::Keyframe, 1, 2, 64));
     owner.server().keep(factsOf(2, 64));
     owner.server().setOrder(orderOf(2));
     EXPECT_EQ(next(*client).scene().epoch(), 2U);
@@ -239,7 +239,7 @@ TEST(Stream, TellsEveryoneOfEventsAndNewSettings) {
     owner.server().broadcast(eventOf("mind the gap"));
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(9);
-    owner.server().keep(std::make_shared<frame::Message>(std::move(settings)));
+    owner.server().keep(std::make_shared<codec::Message>(std::move(settings)));
     for (Client* client : {one.get(), two.get()}) {
         EXPECT_EQ(next(*client).event().text(), "mind the gap");
         EXPECT_EQ(next(*client).settings().substeps(), 9U);

@@ -12,8 +12,8 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = frame::Link::Kind;
-constexpr frame::Channel normal{v1::NORMAL, 30};
+using Kind = codec::Link::Kind;
+constexpr codec::Channel normal{v1::NORMAL, 30};
 
 // A world of spheres on the CPU device that somebody watches.
 class Watched : public testing::Test {
@@ -22,7 +22,7 @@ class Watched : public testing::Test {
 
     Watched()
         : chains_(
-              *device_, [this](const frame::Link& link) { links_.push_back(link); },
+              *device_, [this](const codec::Link& link) { links_.push_back(link); },
               [this](auto order) { orders_.push_back(std::move(order)); },
               [this](const std::string& text) { complaints_.push_back(text); }) {
         position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
@@ -40,13 +40,13 @@ class Watched : public testing::Test {
     }
 
     // The world as it is after `steps` more; the kinds of the frames that came.
-    std::string serve(std::vector<frame::Demand> demands, std::chrono::milliseconds later, std::uint64_t steps = 1) {
+    std::string serve(std::vector<codec::Demand> demands, std::chrono::milliseconds later, std::uint64_t steps = 1) {
         version_ += steps;
         now_ += later;
         links_.clear();
         chains_.serve(scenery(), demands, now_);
         std::string kinds;
-        for (const frame::Link& link : links_)
+        for (const codec::Link& link : links_)
             kinds += link.kind == Kind::Keyframe ? 'K' : link.kind == Kind::Join ? 'J' : 'D';
         return kinds;
     }
@@ -54,8 +54,8 @@ class Watched : public testing::Test {
     std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
     std::unique_ptr<compute::Buffer> position_;
     sim::State state_;
-    std::vector<frame::Link> links_;
-    std::vector<frame::SharedMessage> orders_;
+    std::vector<codec::Link> links_;
+    std::vector<codec::SharedMessage> orders_;
     std::vector<std::string> complaints_;
     Chains chains_;
     std::uint32_t count_ = spheres;
@@ -77,13 +77,13 @@ TEST_F(Watched, MakesNothingForNobodyAndAKeyframeForTheFirst) {
 }
 
 TEST_F(Watched, KeepsToTheRateOfEachChain) {
-    const frame::Channel slow{v1::ECO, 10};
+    const codec::Channel slow{v1::ECO, 10};
     serve({{.channel = normal}, {.channel = slow}}, 1s);
     std::size_t fast = 0;
     std::size_t slowly = 0;
     for (int k = 0; k < 1000; ++k) {
         serve({{.channel = normal}, {.channel = slow}}, 2ms);
-        for (const frame::Link& link : links_) ++(link.channel == slow ? slowly : fast);
+        for (const codec::Link& link : links_) ++(link.channel == slow ? slowly : fast);
     }
     EXPECT_NEAR(static_cast<double>(fast), 60, 2);
     EXPECT_NEAR(static_cast<double>(slowly), 20, 1);
@@ -99,7 +99,7 @@ TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
 
 TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
     serve({{.channel = normal, .newcomer = true}}, 1s);
-    for (const frame::Demand& demand : {frame::Demand{normal, true, false}, frame::Demand{normal, false, true}}) {
+    for (const codec::Demand& demand : {codec::Demand{normal, true, false}, codec::Demand{normal, false, true}}) {
         std::string kinds;
         for (int k = 0; k < 6; ++k) kinds += serve({demand}, 200ms);
         EXPECT_NE(kinds.find('J'), std::string::npos) << kinds;

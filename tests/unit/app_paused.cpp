@@ -49,11 +49,11 @@ class Looping : public testing::Test {
 
   private:
     Outlets outlets() {
-        return {.keep = [](const frame::SharedMessage&) {},
-                .everybody = [](const frame::SharedMessage&) {},
-                .order = [](const frame::SharedMessage&) {},
+        return {.keep = [](const codec::SharedMessage&) {},
+                .everybody = [](const codec::SharedMessage&) {},
+                .order = [](const codec::SharedMessage&) {},
                 .frame =
-                    [this](const frame::Link& link) {
+                    [this](const codec::Link& link) {
                         const std::scoped_lock lock(mutex_);
                         frames_.push_back(link.message->content().frame());
                         changed_.notify_all();
@@ -62,7 +62,7 @@ class Looping : public testing::Test {
                 .viewers = [] { return 1U; },
                 .demands =
                     [] {
-                        return std::vector<frame::Demand>{{.channel = {v1::NORMAL, 60}}};
+                        return std::vector<codec::Demand>{{.channel = {v1::NORMAL, 60}}};
                     }};
     }
 

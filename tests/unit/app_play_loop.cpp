@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/order.h"
 #include "codec_support.h"
-#include "frame/order.h"
 #include "store/record.h"
 #include "store_support.h"
 
@@ -32,7 +32,7 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
     std::vector<std::uint32_t> ids(spheres);
     for (std::uint32_t id = 0; id < spheres; ++id) ids[id] = id;
     v1::ServerMessage order;
-    *order.mutable_order() = frame::orderMessage(epoch, 1, ids);
+    *order.mutable_order() = codec::orderMessage(epoch, 1, ids);
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
     frame.set_epoch(epoch);
@@ -61,18 +61,18 @@ class Stage {
   private:
     Outlets outlets(std::size_t changes) {
         return {.keep =
-                    [this, changes](const frame::SharedMessage& message) {
+                    [this, changes](const codec::SharedMessage& message) {
                         if (message->content().has_scene()) scenes.push_back(message->content().scene());
                         if (scenes.size() > changes) stop_.request_stop();
                     },
-                .everybody = [](const frame::SharedMessage&) {},
-                .order = [](const frame::SharedMessage&) {},
-                .frame = [this](const frame::Link& link) { frames.push_back(link.message->content().frame()); },
+                .everybody = [](const codec::SharedMessage&) {},
+                .order = [](const codec::SharedMessage&) {},
+                .frame = [this](const codec::Link& link) { frames.push_back(link.message->content().frame()); },
                 .reply = [](std::uint64_t, const v1::CommandResult&) {},
                 .viewers = [] { return 1U; },
                 .demands =
                     [] {
-                        return std::vector<frame::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
+                        return std::vector<codec::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
                     }};
     }
 

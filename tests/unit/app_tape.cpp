@@ -13,9 +13,9 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = frame::Link::Kind;
+using Kind = codec::Link::Kind;
 constexpr std::uint32_t spheres = 70;
-constexpr frame::Channel channel{v1::FINE, 30};
+constexpr codec::Channel channel{v1::FINE, 30};
 
 // A tape, and a chain of frames like those that it would be told of.
 class Taping : public testing::Test {
@@ -28,10 +28,10 @@ class Taping : public testing::Test {
         tape_ = std::make_unique<Tape>(options_, source);
         keep(store::sceneMessage(1, spheres));
     }
-    void keep(v1::ServerMessage message) { tape_->keep(frame::share(std::move(message))); }
-    void order(std::uint32_t epoch = 1) { tape_->order(frame::share(store::orderMessage(epoch, spheres))); }
+    void keep(v1::ServerMessage message) { tape_->keep(codec::share(std::move(message))); }
+    void order(std::uint32_t epoch = 1) { tape_->order(codec::share(store::orderMessage(epoch, spheres))); }
 
-    frame::Link link(Kind kind, double time, std::uint32_t epoch = 1) {
+    codec::Link link(Kind kind, double time, std::uint32_t epoch = 1) {
         codec::Positions positions(spheres);
         for (std::uint32_t id = 0; id < spheres; ++id)
             positions[id] = {9 * std::sin(id + 37 * time), 9 * std::sin(7 * id - 53 * time), 0.1 * time, 0.5};
@@ -47,7 +47,7 @@ class Taping : public testing::Test {
         frame.set_quantum(0.125);
         frame.set_count(spheres);
         frame.set_spb(bytes.data(), bytes.size());
-        return {channel, kind, number_, frame::share(std::move(message))};
+        return {channel, kind, number_, codec::share(std::move(message))};
     }
     // The state once the disk has all.
     v1::Recording ended() {
@@ -59,8 +59,8 @@ class Taping : public testing::Test {
         }
         return state;
     }
-    [[nodiscard]] std::vector<frame::Demand> demands() const {
-        std::vector<frame::Demand> demands;
+    [[nodiscard]] std::vector<codec::Demand> demands() const {
+        std::vector<codec::Demand> demands;
         tape_->demand(demands, Tape::Clock::now());
         return demands;
     }
@@ -139,7 +139,7 @@ TEST_F(Taping, WantsAKeyframeNowAndThenWhileSomethingMoves) {
     order();
     ASSERT_TRUE(tape_->start());
     tape_->frame(link(Kind::Keyframe, 0));
-    std::vector<frame::Demand> later;
+    std::vector<codec::Demand> later;
     tape_->demand(later, Tape::Clock::now() + 1h);
     EXPECT_FALSE(later[0].lost);
     tape_->frame(link(Kind::Delta, 1));
@@ -245,7 +245,7 @@ TEST_F(Taping, IsNotLargerForWhatOthersAskFor) {
     for (int k = 0; k < 50; ++k) tape_->frame(link(Kind::Join, 0.1));
     v1::ServerMessage figures;
     figures.mutable_diagnostics();
-    tape_->say(frame::share(figures));
+    tape_->say(codec::share(figures));
     const auto state = tape_->finish();
     ASSERT_TRUE(state);
     const auto file = store::RecordFile::open(state->file());
@@ -283,10 +283,10 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
     order();
     ASSERT_TRUE(tape_->start());
     const auto paused = [&](Kind kind, double time, std::uint32_t epoch = 1) {
-        frame::Link made = link(kind, time, epoch);
+        codec::Link made = link(kind, time, epoch);
         v1::ServerMessage message = made.message->content();
         message.mutable_frame()->mutable_status()->set_paused(true);
-        made.message = frame::share(std::move(message));
+        made.message = codec::share(std::move(message));
         tape_->frame(made);
     };
     tape_->frame(link(Kind::Keyframe, 0));

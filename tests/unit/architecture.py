@@ -8,13 +8,13 @@ import sys
 from pathlib import Path
 
 ALLOWED = {
-    "app": {"net", "measure", "quality", "sim", "store", "frame", "scene", "compute", "core"},
+    "app": {"net", "measure", "quality", "sim", "store", "codec", "scene", "compute", "core"},
     "measure": {"sim", "scene", "compute", "core"},
     "sim": {"compute", "scene", "core"},
     "quality": {"scene", "core"},
-    "frame": {"scene", "core"},
-    "store": {"frame", "scene", "core"},
-    "net": {"frame", "core"},
+    "codec": {"scene", "core"},
+    "store": {"codec", "scene", "core"},
+    "net": {"codec", "core"},
     "scene": {"core"},
     "compute": {"core"},
     "core": set(),

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
 
-using frame::codec::Decoder;
+using codec::Decoder;
 
 constexpr std::uint32_t spheres = 2500;
 

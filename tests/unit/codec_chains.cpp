@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
@@ -154,7 +154,7 @@ class Chain {
     std::uint32_t spheres_;
     Encoder encoder_{"cpu:1", spheres_};
     Motion motion_{spheres_, random_()};
-    frame::codec::Decoder decoder_{spheres_};
+    codec::Decoder decoder_{spheres_};
     Bytes last_;
 };
 

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
+#include "codec/decoder.h"
+#include "codec/rendition.h"
 #include "compute/device.h"
-#include "frame/channel.h"
-#include "frame/codec.h"
 #include "scene/catalog.h"
 #include "scene/json.h"
 #include "scene/load.h"
@@ -64,7 +64,7 @@ struct Chain {
 
     double quantum;  // m
     std::unique_ptr<sim::Tier> tier;
-    std::unique_ptr<frame::codec::Decoder> first, joined;
+    std::unique_ptr<codec::Decoder> first, joined;
     double worst = 0;  // error, in quanta
 };
 
@@ -77,7 +77,7 @@ class CodecError : public testing::TestWithParam<std::string> {
         order_ = sim::mortonOrder(simulation_->snapshot().position);
         tools_->setOrder(order_);
         for (const v1::Tier tier : tiers)
-            chains_.emplace_back(*tools_, frame::quantumOf(tier, simulation_->radii().smallest));
+            chains_.emplace_back(*tools_, codec::quantumOf(tier, simulation_->radii().smallest));
     }
 
     sim::TierSource source() { return simulation_->tierSource(); }
@@ -87,8 +87,8 @@ class CodecError : public testing::TestWithParam<std::string> {
             if (const auto done = simulation_->step(); !done) throw std::runtime_error(done.error().text());
     }
 
-    void take(Chain& chain, std::unique_ptr<frame::codec::Decoder>& decoder, const sim::State& state) {
-        if (!decoder) decoder = std::make_unique<frame::codec::Decoder>(simulation_->count());
+    void take(Chain& chain, std::unique_ptr<codec::Decoder>& decoder, const sim::State& state) {
+        if (!decoder) decoder = std::make_unique<codec::Decoder>(simulation_->count());
         const auto head = decoder->apply(chain.tier->download());
         ASSERT_TRUE(head) << head.error().text();
         const auto cells = decoder->newest();

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
@@ -35,7 +35,7 @@ void write(const std::string& name, std::span<const std::byte> bytes) {
 const bool writing = std::getenv("SPHERULE_WRITE_GOLDEN") != nullptr;
 
 // The frame is as it was, and the decoder takes it.
-void compare(const std::string& name, const Bytes& made, frame::codec::Decoder& decoder) {
+void compare(const std::string& name, const Bytes& made, codec::Decoder& decoder) {
     if (writing) write(name, made);
     const Bytes golden = read(name);
     EXPECT_TRUE(made == golden) << name;
@@ -47,7 +47,7 @@ void compare(const std::string& name, const Bytes& made, frame::codec::Decoder& 
 TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres, 2);
-    frame::codec::Decoder decoder(spheres);
+    codec::Decoder decoder(spheres);
     for (int k = 0; k < 8; ++k) {
         // Who joins begins with frame 5, a keyframe of the state after frame 4.
         const Bytes made = k == 0   ? encoder.begin(positionsAt(motion.next()))
@@ -77,7 +77,7 @@ std::vector<glm::ivec3> crowd(int frame) {
 TEST(CodecGolden, FramesOfSeveralChunksAreMadeAndReadAsEver) {
     const auto count = static_cast<std::uint32_t>(crowd(0).size());
     Encoder encoder("cpu:1", count);
-    frame::codec::Decoder decoder(count);
+    codec::Decoder decoder(count);
     for (int k = 0; k < 4; ++k) {
         const Positions positions = positionsAt(crowd(6 * k));
         compare("chunks-" + std::to_string(k) + ".spb", k == 0 ? encoder.begin(positions) : encoder.next(positions),

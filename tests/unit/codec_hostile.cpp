@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <random>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
 
-using frame::codec::Decoder;
+using codec::Decoder;
 
 // A frame by hand: words of 32 bits.
 Bytes frameOf(std::vector<std::uint32_t> words) {

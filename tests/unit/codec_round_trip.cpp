@@ -8,14 +8,14 @@
 #include <random>
 #include <set>
 
+#include "codec/block.h"
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
-#include "frame/codec_block.h"
 
 namespace spherule::codec {
 namespace {
 
-using frame::codec::Decoder;
+using codec::Decoder;
 
 std::vector<glm::ivec3> decoded(Decoder& decoder, const Bytes& frame) {
     const auto head = decoder.apply(frame);
@@ -58,7 +58,7 @@ TEST(Codec, EveryModePredictorAndWidthIsUsed) {
         std::size_t unit = 2 * (4 + 1 + 1);  // behind head, table and bitmap
         for (std::uint32_t rest = words[5]; rest != 0; rest &= rest - 1) {
             const std::uint32_t header = words[unit / 2] >> 16 * (unit % 2) & 0xffffU;
-            frame::codec::Block block;
+            codec::Block block;
             ASSERT_TRUE(block.read(words, unit, bytes.size() / 2));
             unit = block.end();
             modes.insert(static_cast<int>(block.mode()));

@@ -1,8 +1,8 @@
-#include "frame/message.h"
+#include "codec/message.h"
 
 #include <gtest/gtest.h>
 
-namespace spherule::frame {
+namespace spherule::codec {
 namespace {
 
 v1::ServerMessage stateMessage() {
@@ -24,4 +24,4 @@ TEST(Message, HasLowerCamelNamesAndBase64InJson) {
 }
 
 }  // namespace
-}  // namespace spherule::frame
+}  // namespace spherule::codec

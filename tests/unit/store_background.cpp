@@ -15,10 +15,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-frame::SharedMessage messageOf(std::size_t bytes) {
+codec::SharedMessage messageOf(std::size_t bytes) {
     v1::ServerMessage message;
     message.mutable_frame()->set_spb(std::string(bytes, 'x'));
-    return frame::share(std::move(message));
+    return codec::share(std::move(message));
 }
 
 BackgroundWriter::Progress ended(BackgroundWriter& writer) {

@@ -128,7 +128,7 @@ TEST_F(Output, ARecordingThatIsDeletedEndsAlsoWhileNothingComes) {
     ASSERT_TRUE(writer);
     v1::ServerMessage message;
     message.mutable_frame();
-    ASSERT_TRUE((*writer)->add(Kind::Keyframe, 0, frame::share(std::move(message))));
+    ASSERT_TRUE((*writer)->add(Kind::Keyframe, 0, codec::share(std::move(message))));
     fs::remove_all(path_);
     for (int k = 0; k < 2000 && !(*writer)->progress().ended; ++k) std::this_thread::sleep_for(5ms);
     EXPECT_TRUE((*writer)->progress().ended);

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "codec/order.h"
 #include "codec_support.h"
-#include "frame/order.h"
 
 namespace spherule::store {
 
@@ -71,7 +71,7 @@ v1::ServerMessage sceneMessage(std::uint32_t epoch, std::uint32_t spheres) {
 
 v1::ServerMessage orderMessage(std::uint32_t epoch, std::uint32_t spheres) {
     v1::ServerMessage message;
-    *message.mutable_order() = frame::orderMessage(epoch, 1, orderOf(spheres));
+    *message.mutable_order() = codec::orderMessage(epoch, 1, orderOf(spheres));
     return message;
 }
 

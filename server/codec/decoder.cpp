@@ -1,12 +1,12 @@
-#include "frame/codec.h"
+#include "codec/decoder.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "frame/codec_block.h"
-#include "frame/codec_format.h"
+#include "codec/block.h"
+#include "codec/format.h"
 
-namespace spherule::frame::codec {
+namespace spherule::codec {
 
 namespace {
 
@@ -146,4 +146,4 @@ Result<void> Decoder::decodeChunk(const FrameHead& head, std::uint32_t chunk, st
     return {};
 }
 
-}  // namespace spherule::frame::codec
+}  // namespace spherule::codec

@@ -4,11 +4,11 @@
 #include <compare>
 #include <cstdint>
 
-#include "frame/message.h"
+#include "codec/message.h"
 #include "spherule/v1/frame.pb.h"
 
 // Chains of frames, as the simulation makes them and the network hands them on.
-namespace spherule::frame {
+namespace spherule::codec {
 
 // One chain: all who watch it are sent the same frames.
 struct Channel {
@@ -47,4 +47,4 @@ struct Demand {
     bool lost = false;      // somebody has lost the chain
 };
 
-}  // namespace spherule::frame
+}  // namespace spherule::codec

@@ -1,11 +1,11 @@
-#include "frame/message.h"
+#include "codec/message.h"
 
 #include <stdexcept>
 #include <utility>
 
 #include <google/protobuf/util/json_util.h>
 
-namespace spherule::frame {
+namespace spherule::codec {
 
 Message::Message(v1::ServerMessage message) : message_(std::move(message)), binary_(message_.SerializeAsString()) {}
 
@@ -18,4 +18,4 @@ const std::string& Message::json() const {
     return json_;
 }
 
-}  // namespace spherule::frame
+}  // namespace spherule::codec

@@ -1,8 +1,8 @@
-#include "frame/channel.h"
+#include "codec/rendition.h"
 
 #include <algorithm>
 
-namespace spherule::frame {
+namespace spherule::codec {
 
 std::uint32_t rateFor(std::uint32_t asked) {
     if (asked == 0) return 0;
@@ -15,4 +15,4 @@ double quantumOf(v1::Tier tier, double smallestRadius) {
     return 2 * smallestRadius / errors;
 }
 
-}  // namespace spherule::frame
+}  // namespace spherule::codec

@@ -7,7 +7,7 @@
 
 #include "spherule/v1/control.pb.h"
 
-namespace spherule::frame {
+namespace spherule::codec {
 
 // One message to any number of clients: serialised once, shared, immutable. Any thread.
 class Message {
@@ -32,4 +32,4 @@ inline SharedMessage share(v1::ServerMessage message) {
     return std::make_shared<const Message>(std::move(message));
 }
 
-}  // namespace spherule::frame
+}  // namespace spherule::codec

@@ -1,9 +1,9 @@
-#include "frame/order.h"
+#include "codec/order.h"
 
 #include <string>
 #include <utility>
 
-namespace spherule::frame {
+namespace spherule::codec {
 
 namespace {
 
@@ -40,4 +40,4 @@ Result<std::vector<std::uint32_t>> idsOf(const v1::Order& order, std::uint32_t s
     return ids;
 }
 
-}  // namespace spherule::frame
+}  // namespace spherule::codec

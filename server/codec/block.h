@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "frame/codec_format.h"
+#include "codec/format.h"
 
-namespace spherule::frame::codec {
+namespace spherule::codec {
 
 // A block of a frame, read but for its values. Offsets are in units of 16 bits within `words`.
 class Block {
@@ -39,4 +39,4 @@ class Block {
     std::size_t end_ = 0;
 };
 
-}  // namespace spherule::frame::codec
+}  // namespace spherule::codec

@@ -1,9 +1,9 @@
-#include "frame/codec_block.h"
+#include "codec/block.h"
 
 #include <algorithm>
 #include <bit>
 
-namespace spherule::frame::codec {
+namespace spherule::codec {
 
 namespace {
 
@@ -147,4 +147,4 @@ void Block::decode(const std::uint32_t* words, const glm::ivec3* newest, glm::iv
     }
 }
 
-}  // namespace spherule::frame::codec
+}  // namespace spherule::codec

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 // The constants of docs/codec.md.
-namespace spherule::frame::codec {
+namespace spherule::codec {
 
 constexpr std::uint32_t blockSpheres = 64;
 constexpr std::uint32_t blockValues = 3 * blockSpheres;
@@ -33,4 +33,4 @@ constexpr std::uint32_t chunksFor(std::uint32_t spheres) {
     return (blocksFor(spheres) + chunkBlocks - 1) / chunkBlocks;
 }
 
-}  // namespace spherule::frame::codec
+}  // namespace spherule::codec

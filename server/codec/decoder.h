@@ -12,7 +12,7 @@
 #include "core/result.h"
 
 // The decoder of docs/codec.md. What it is given may be hostile.
-namespace spherule::frame::codec {
+namespace spherule::codec {
 
 struct FrameHead {
     std::uint32_t spheres = 0;
@@ -55,4 +55,4 @@ class Decoder {
     unsigned history_ = 0;  // states that are known, at most 2
 };
 
-}  // namespace spherule::frame::codec
+}  // namespace spherule::codec
