@@ -9,7 +9,7 @@
 namespace spherule::app {
 
 Result<Dump> Dump::create(const std::string& path, bool replace) {
-    auto file = store::OutputFile::create(path, replace);
+    auto file = recording::OutputFile::create(path, replace);
     if (!file) return tl::unexpected(file.error());
     Dump dump(std::move(*file));
     if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius\n"); !done) return tl::unexpected(done.error());

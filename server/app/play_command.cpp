@@ -22,7 +22,7 @@ struct PlayOptions {
 
 Result<Player> playerOf(const PlayOptions& options) {
     const pulse::Unwatched reading;
-    auto recording = store::Recording::open(options.file);
+    auto recording = recording::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
     if (!recording->flaw().empty())
         spdlog::warn("{} is played up to {:g} s: {}", options.file, recording->end(), recording->flaw());

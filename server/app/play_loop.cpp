@@ -69,7 +69,7 @@ Result<void> PlayLoop::advance(Chains::Clock::time_point now) {
 
 // What the recording has now.
 Result<void> PlayLoop::show() {
-    const store::Recording& recording = player_.recording();
+    const recording::Recording& recording = player_.recording();
     const auto cells = recording.cells();
     const auto order = recording.order();
     const auto quantum = static_cast<float>(recording.quantum());

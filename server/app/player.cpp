@@ -23,7 +23,7 @@ double secondsOf(Player::Clock::duration time) {
 
 }  // namespace
 
-Player::Player(store::Recording recording, std::string name, bool again, Clock::time_point now)
+Player::Player(recording::Recording recording, std::string name, bool again, Clock::time_point now)
     : recording_(std::move(recording)), name_(std::move(name)), again_(again), since_(now) {
     wanted_ = recording_.begin();
 }

@@ -98,7 +98,7 @@ Result<std::string> Tape::newPath() const {
 }
 
 Result<void> Tape::start(const std::string& path, bool replace, std::uint64_t mostBytes) {
-    auto writer = store::BackgroundWriter::create(path, replace, mostBytes);
+    auto writer = recording::BackgroundWriter::create(path, replace, mostBytes);
     if (!writer) return tl::unexpected(writer.error());
     writer_ = std::move(*writer);
     state_.Clear();
@@ -123,20 +123,20 @@ void Tape::keep(codec::SharedMessage message) {
     if (content.has_scene()) {
         order_.reset();
         number_.reset();
-        if (writer_ && timed_) add(store::Kind::Scene, message);
+        if (writer_ && timed_) add(recording::Kind::Scene, message);
         scene_ = std::move(message);
     } else if (content.has_settings()) {
-        if (writer_ && timed_) add(store::Kind::Settings, message);
+        if (writer_ && timed_) add(recording::Kind::Settings, message);
         settings_ = std::move(message);
     }
 }
 
 void Tape::say(const codec::SharedMessage& message) {
-    if (writer_ && timed_ && message->content().has_event()) add(store::Kind::Other, message);
+    if (writer_ && timed_ && message->content().has_event()) add(recording::Kind::Other, message);
 }
 
 void Tape::order(codec::SharedMessage message) {
-    if (writer_ && timed_) add(store::Kind::Order, message);
+    if (writer_ && timed_) add(recording::Kind::Order, message);
     order_ = std::move(message);
 }
 
@@ -160,16 +160,20 @@ void Tape::frame(const codec::Link& link) {
     timeOf(link.message->content().frame());
     if (first) {
         // Whatever has been so far, in the order in which it is needed.
-        add(store::Kind::Other, source_);
-        for (const auto& [kind, message] :
-             {std::pair(store::Kind::Scene, scene_), {store::Kind::Order, order_}, {store::Kind::Settings, settings_}})
+        add(recording::Kind::Other, source_);
+        for (const auto& [kind, message] : {std::pair(recording::Kind::Scene, scene_),
+                                            {recording::Kind::Order, order_},
+                                            {recording::Kind::Settings, settings_}})
             if (message) add(kind, message);
     }
     moved_ = link.kind == Delta;
     if (!moved_) keyframe_ = Clock::now();
     number_ = link.number;
     // A chain that was lost begins anew.
-    add(again ? store::Kind::Join : link.kind == Delta ? store::Kind::Delta : store::Kind::Keyframe, link.message);
+    add(again                ? recording::Kind::Join
+        : link.kind == Delta ? recording::Kind::Delta
+                             : recording::Kind::Keyframe,
+        link.message);
 }
 
 // Whether the world has not gone on since the newest frame. A paused one that was reset has not either.
@@ -192,7 +196,7 @@ void Tape::timeOf(const v1::Frame& frame) {
     time_ = std::max(time_, frame.sim_time() + offset_);
 }
 
-void Tape::add(store::Kind kind, const codec::SharedMessage& message) {
+void Tape::add(recording::Kind kind, const codec::SharedMessage& message) {
     if (writer_->add(kind, time_, message)) return;
     if (!message->content().has_frame()) return;
     number_.reset();

@@ -10,7 +10,7 @@
 #include "app/record_options.h"
 #include "codec/rendition.h"
 #include "core/result.h"
-#include "store/background_writer.h"
+#include "recording/background_writer.h"
 
 namespace spherule::app {
 
@@ -50,7 +50,7 @@ class Tape {
     Result<void> start(const std::string& path, bool replace, std::uint64_t mostBytes);
     [[nodiscard]] Result<std::uint64_t> roomInFolder() const;
     [[nodiscard]] Result<std::string> newPath() const;
-    void add(store::Kind kind, const codec::SharedMessage& message);
+    void add(recording::Kind kind, const codec::SharedMessage& message);
     void timeOf(const v1::Frame& frame);
     [[nodiscard]] bool standsStill(const v1::Frame& frame) const;
     void leaveOut(const v1::Frame& frame);
@@ -59,7 +59,7 @@ class Tape {
     codec::Channel channel_;
     codec::SharedMessage source_;
     codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that begins
-    std::unique_ptr<store::BackgroundWriter> writer_;
+    std::unique_ptr<recording::BackgroundWriter> writer_;
     v1::Recording state_;
     std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nothing: a keyframe is wanted
     Clock::time_point keyframe_{};

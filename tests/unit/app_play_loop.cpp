@@ -9,7 +9,7 @@
 
 #include "codec/order.h"
 #include "codec_support.h"
-#include "store/record.h"
+#include "recording/record.h"
 #include "store_support.h"
 
 namespace spherule::app {
@@ -40,9 +40,9 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
     frame.set_quantum(0.125);
     frame.set_count(spheres);
     frame.set_spb(bytes.data(), bytes.size());
-    return store::recordBytes(store::Kind::Scene, time, scene.SerializeAsString()) +
-           store::recordBytes(store::Kind::Order, time, order.SerializeAsString()) +
-           store::recordBytes(store::Kind::Keyframe, time, message.SerializeAsString());
+    return recording::recordBytes(recording::Kind::Scene, time, scene.SerializeAsString()) +
+           recording::recordBytes(recording::Kind::Order, time, order.SerializeAsString()) +
+           recording::recordBytes(recording::Kind::Keyframe, time, message.SerializeAsString());
 }
 
 // What a viewer is told while a recording is played in a loop, until the scene has changed `changes` times.
@@ -52,7 +52,7 @@ class Stage {
     std::vector<v1::Frame> frames;
 
     void play(const std::string& path, std::size_t changes) {
-        Player player(std::move(*store::Recording::open(path)), "film.sph", true, Player::Clock::now());
+        Player player(std::move(*recording::Recording::open(path)), "film.sph", true, Player::Clock::now());
         PlayLoop loop(std::move(*compute::openDevice("cpu:1")), std::move(player),
                       {requests_, live_, outlets(changes)});
         EXPECT_TRUE(loop.run(stop_.get_token()));
@@ -83,9 +83,10 @@ class Stage {
 
 TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
     for (const std::uint32_t second : {1U, 2U}) {
-        const store::Folder folder;
+        const recording::Folder folder;
         const std::string path = folder / "film.sph";
-        store::put(path, store::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
+        recording::put(path,
+                       recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
         Stage stage;
         stage.play(path, 6);
         ASSERT_EQ(stage.scenes.size(), 7U);

@@ -26,10 +26,10 @@ class Taping : public testing::Test {
         v1::Welcome source;
         source.set_server("spherule test");
         tape_ = std::make_unique<Tape>(options_, source);
-        keep(store::sceneMessage(1, spheres));
+        keep(recording::sceneMessage(1, spheres));
     }
     void keep(v1::ServerMessage message) { tape_->keep(codec::share(std::move(message))); }
-    void order(std::uint32_t epoch = 1) { tape_->order(codec::share(store::orderMessage(epoch, spheres))); }
+    void order(std::uint32_t epoch = 1) { tape_->order(codec::share(recording::orderMessage(epoch, spheres))); }
 
     codec::Link link(Kind kind, double time, std::uint32_t epoch = 1) {
         codec::Positions positions(spheres);
@@ -65,7 +65,7 @@ class Taping : public testing::Test {
         return demands;
     }
 
-    store::Folder folder_;
+    recording::Folder folder_;
     TapeOptions options_;
     std::unique_ptr<Tape> tape_;
     codec::Encoder encoder_{"cpu", spheres, 0.125};
@@ -88,12 +88,12 @@ TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
     const v1::Recording state = ended();
     EXPECT_EQ(state.failure(), "");
     EXPECT_NEAR(state.duration(), 0.2, 1e-9);
-    auto recording = store::Recording::open(state.file());
+    auto recording = recording::Recording::open(state.file());
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(recording->flaw(), "");
     EXPECT_EQ(recording->frames(), 3U);
     EXPECT_EQ(recording->begin(), 4.0);
-    EXPECT_EQ(store::play(*recording).size(), 3U);
+    EXPECT_EQ(recording::play(*recording).size(), 3U);
     EXPECT_TRUE(demands().empty());
 }
 
@@ -107,10 +107,10 @@ TEST_F(Taping, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
     tape_->frame(link(Kind::Join, 0.1));
     tape_->frame(link(Kind::Delta, 0.2));
     ASSERT_TRUE(tape_->stop());
-    auto recording = store::Recording::open(ended().file());
+    auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(recording->begin(), 0.1);
-    EXPECT_EQ(store::play(*recording).size(), 2U);
+    EXPECT_EQ(recording::play(*recording).size(), 2U);
 }
 
 TEST_F(Taping, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
@@ -121,16 +121,16 @@ TEST_F(Taping, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
     tape_->frame(link(Kind::Delta, 12));
     tape_->frame(link(Kind::Delta, 0));
     tape_->frame(link(Kind::Delta, 1));
-    keep(store::sceneMessage(2, spheres));
+    keep(recording::sceneMessage(2, spheres));
     order(2);
     tape_->frame(link(Kind::Keyframe, 0.5, 2));
     tape_->frame(link(Kind::Delta, 0.75, 2));
     ASSERT_TRUE(tape_->stop());
-    auto recording = store::Recording::open(ended().file());
+    auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(recording->frames(), 6U);
     EXPECT_NEAR(recording->end(), 13.25, 1e-9);
-    EXPECT_EQ(store::play(*recording).size(), 6U);
+    EXPECT_EQ(recording::play(*recording).size(), 6U);
     EXPECT_EQ(recording->facts().epoch(), 2U);
 }
 
@@ -161,10 +161,10 @@ TEST_F(Taping, AsksForAKeyframeAfterAGap) {
     tape_->frame(link(Kind::Join, 3));
     tape_->frame(link(Kind::Delta, 4));
     ASSERT_TRUE(tape_->stop());
-    auto recording = store::Recording::open(ended().file());
+    auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording);
     std::string end;
-    EXPECT_EQ(store::play(*recording, &end).size(), 3U);
+    EXPECT_EQ(recording::play(*recording, &end).size(), 3U);
     EXPECT_EQ(end, "");
 }
 
@@ -185,14 +185,14 @@ TEST_F(Taping, OneRecordingAtATimeAndASecondHasANameOfItsOwn) {
 TEST_F(Taping, ItsFolderHasALimit) {
     options_.folderBytes = 3'000'000;
     std::filesystem::create_directories(options_.folder);
-    store::put(options_.folder + "/old.sph", std::string(1'900'000, ' '));
+    recording::put(options_.folder + "/old.sph", std::string(1'900'000, ' '));
     open();
     order();
     ASSERT_TRUE(tape_->start());
     for (int k = 0; k < 10'000; ++k) tape_->frame(link(k == 0 ? Kind::Keyframe : Kind::Delta, k));
     const v1::Recording state = ended();
     EXPECT_EQ(state.failure(), "it has reached 1.1 MB, the most that it may have");
-    auto recording = store::Recording::open(state.file());
+    auto recording = recording::Recording::open(state.file());
     ASSERT_TRUE(recording);
     EXPECT_EQ(recording->flaw(), "");
     EXPECT_LE(std::filesystem::file_size(state.file()), 1'100'000U);
@@ -248,12 +248,12 @@ TEST_F(Taping, IsNotLargerForWhatOthersAskFor) {
     tape_->say(codec::share(figures));
     const auto state = tape_->finish();
     ASSERT_TRUE(state);
-    const auto file = store::RecordFile::open(state->file());
+    const auto file = recording::RecordFile::open(state->file());
     int records = 0;
-    for (std::uint64_t offset = store::fileHeadBytes;;) {
+    for (std::uint64_t offset = recording::fileHeadBytes;;) {
         const auto record = file->read(offset);
         if (!record) break;
-        EXPECT_NE(record->kind, store::Kind::Join);
+        EXPECT_NE(record->kind, recording::Kind::Join);
         ++records;
         offset = record->end;
     }
@@ -301,14 +301,14 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
     tape_->frame(link(Kind::Delta, 3));
     paused(Kind::Delta, 3);
     paused(Kind::Delta, 0);  // it was reset
-    keep(store::sceneMessage(2, spheres));
+    keep(recording::sceneMessage(2, spheres));
     order(2);
     paused(Kind::Keyframe, 0, 2);  // and others were loaded
     paused(Kind::Delta, 0.5, 2);   // and stepped
     paused(Kind::Join, 0.5, 2);
     tape_->frame(link(Kind::Delta, 0.75, 2));
     ASSERT_TRUE(tape_->stop());
-    auto recording = store::Recording::open(ended().file());
+    auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording) << recording.error().text();
     std::vector<double> times;
     while (recording->next().value()) times.push_back(recording->time());
@@ -317,7 +317,7 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
 
 TEST_F(Taping, AHostileSceneNameIsNoPath) {
     open();
-    v1::ServerMessage scene = store::sceneMessage(1, spheres);
+    v1::ServerMessage scene = recording::sceneMessage(1, spheres);
     scene.mutable_scene()->set_name("../../up/away\n;" + std::string(500, 'x'));
     keep(scene);
     order();

@@ -8,12 +8,12 @@ import sys
 from pathlib import Path
 
 ALLOWED = {
-    "app": {"net", "measure", "quality", "sim", "store", "codec", "scene", "compute", "core"},
+    "app": {"net", "measure", "quality", "sim", "recording", "codec", "scene", "compute", "core"},
     "measure": {"sim", "scene", "compute", "core"},
     "sim": {"compute", "scene", "core"},
     "quality": {"scene", "core"},
     "codec": {"scene", "core"},
-    "store": {"codec", "scene", "core"},
+    "recording": {"codec", "scene", "core"},
     "net": {"codec", "core"},
     "scene": {"core"},
     "compute": {"core"},

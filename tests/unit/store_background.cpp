@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "store/background_writer.h"
+#include "recording/background_writer.h"
 #include "store_support.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 namespace {
 
 using namespace std::chrono_literals;
@@ -91,4 +91,4 @@ TEST(BackgroundWriter, WritesAllBeforeItEnds) {
 }
 
 }  // namespace
-}  // namespace spherule::store
+}  // namespace spherule::recording

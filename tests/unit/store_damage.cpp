@@ -3,7 +3,7 @@
 
 #include "store_support.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 namespace {
 
 constexpr double bound = Film::quantum / 2 + 1e-6;  // m
@@ -96,4 +96,4 @@ TEST_F(Damage, BehindADamagedFrameItGoesOnWithTheNextKeyframe) {
 }
 
 }  // namespace
-}  // namespace spherule::store
+}  // namespace spherule::recording

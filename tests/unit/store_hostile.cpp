@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "store/bytes.h"
+#include "recording/bytes.h"
 #include "store_support.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 namespace {
 
 class Hostile : public testing::Test {
@@ -138,4 +138,4 @@ TEST_F(Hostile, IndexesAreNotTrusted) {
 }
 
 }  // namespace
-}  // namespace spherule::store
+}  // namespace spherule::recording

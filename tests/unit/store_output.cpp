@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <thread>
 
-#include "store/background_writer.h"
-#include "store/exporter.h"
-#include "store/output_file.h"
+#include "recording/background_writer.h"
+#include "recording/exporter.h"
+#include "recording/output_file.h"
 #include "store_support.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 namespace {
 
 namespace fs = std::filesystem;
@@ -181,4 +181,4 @@ TEST_F(Output, VtkReplacesFramesAndKeepsWhatElseIsInTheFolder) {
 }
 
 }  // namespace
-}  // namespace spherule::store
+}  // namespace spherule::recording

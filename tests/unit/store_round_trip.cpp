@@ -6,7 +6,7 @@
 
 #include "store_support.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 namespace {
 
 constexpr double bound = Film::quantum / 2 + 1e-6;  // m
@@ -18,7 +18,7 @@ class RoundTrip : public testing::Test {
 };
 
 TEST_F(RoundTrip, EveryFrameComesBackInIdOrderInMetres) {
-    const Film film = store::film(path_, 23);
+    const Film film = recording::film(path_, 23);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(recording->frames(), 23U);
@@ -41,7 +41,7 @@ TEST_F(RoundTrip, EveryFrameComesBackInIdOrderInMetres) {
 }
 
 TEST_F(RoundTrip, AFilePlaysFromItsFirstFrameOnWhileItIsWritten) {
-    const Film film = store::film(folder_ / "whole.sph", 1);
+    const Film film = recording::film(folder_ / "whole.sph", 1);
     auto writer = Writer::create(path_, false);
     ASSERT_TRUE(writer);
     for (const std::string& record : film.records) {
@@ -54,7 +54,7 @@ TEST_F(RoundTrip, AFilePlaysFromItsFirstFrameOnWhileItIsWritten) {
 }
 
 TEST_F(RoundTrip, SeekGoesToTheFrameThatIsNotAfterTheTime) {
-    const Film film = store::film(path_, 23);
+    const Film film = recording::film(path_, 23);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording);
     for (const double time : {1.0, 0.52, 2.2, 0.0, 1.49, -3.0, 99.0, 0.5}) {
@@ -71,7 +71,7 @@ TEST_F(RoundTrip, SeekGoesToTheFrameThatIsNotAfterTheTime) {
 }
 
 TEST_F(RoundTrip, OtherSpheresMayFollow) {
-    store::film(path_, 3, false);
+    recording::film(path_, 3, false);
     const std::string first = contentOf(path_);
     // The same again, of another epoch and later.
     std::string second;
@@ -118,4 +118,4 @@ TEST_F(RoundTrip, WhereItCannotBeWrittenAndWhyIsSaid) {
 }
 
 }  // namespace
-}  // namespace spherule::store
+}  // namespace spherule::recording

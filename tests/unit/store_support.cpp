@@ -11,7 +11,7 @@
 #include "codec/order.h"
 #include "codec_support.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -137,4 +137,4 @@ double distance(const Places& a, const Places& b) {
     return most;
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

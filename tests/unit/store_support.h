@@ -7,10 +7,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "store/recording.h"
-#include "store/writer.h"
+#include "recording/recording.h"
+#include "recording/writer.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // A folder of its own, gone afterwards.
 class Folder {
@@ -52,4 +52,4 @@ std::vector<Places> play(Recording& recording, std::string* end = nullptr);
 // How far two are apart, on the axis where it is most.
 double distance(const Places& a, const Places& b);
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -12,9 +12,9 @@
 #include "codec/message.h"
 #include "core/memory.h"
 #include "core/result.h"
-#include "store/writer.h"
+#include "recording/writer.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // Writes a recording on a thread of its own, so that who records never waits for a disk. Used by one thread.
 class BackgroundWriter {
@@ -67,4 +67,4 @@ class BackgroundWriter {
     std::jthread thread_;
 };
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // A file that is written from beginning to end, through a buffer. Used by one thread. What goes wrong is Input where it
 // cannot be opened and Refused where it cannot be written; then nothing more is written. A file that is destroyed
@@ -60,4 +60,4 @@ class OutputFile {
     std::optional<Error> failed_;
 };
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,4 +1,4 @@
-#include "store/background_writer.h"
+#include "recording/background_writer.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -131,4 +131,4 @@ void BackgroundWriter::end(const Result<void>& done) {
     changed_.notify_all();
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,11 +1,11 @@
-#include "store/index.h"
+#include "recording/index.h"
 
 #include <cmath>
 #include <limits>
 
-#include "store/bytes.h"
+#include "recording/bytes.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 void Index::add(Kind kind, double time, std::uint64_t offset) {
     if (isFrame(kind)) {
@@ -78,4 +78,4 @@ Contents contentsOf(const RecordFile& file) {
     return contents;
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "store/bytes.h"
-#include "store/exporter.h"
-#include "store/output_file.h"
+#include "recording/bytes.h"
+#include "recording/exporter.h"
+#include "recording/output_file.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -181,4 +181,4 @@ MadeExporter vtkExporter(const std::string& path, bool replace) {
     return std::make_unique<Vtk>(std::move(*file), std::move(*beside));
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/result.h"
-#include "store/recording.h"
+#include "recording/recording.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // Writes moments of a recording in a format that other tools read. Nothing is there under the names of its files before
 // finish(), and nothing is left of one that is destroyed before. Used by one thread. What goes wrong is as OutputFile
@@ -31,4 +31,4 @@ MadeExporter csvExporter(const std::string& path, bool replace);
 // it.
 MadeExporter vtkExporter(const std::string& path, bool replace);
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,4 +1,4 @@
-#include "store/output_file.h"
+#include "recording/output_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -193,4 +193,4 @@ tl::unexpected<Error> OutputFile::cannot(int error) {
     return tl::unexpected(*failed_);
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,4 +1,4 @@
-#include "store/cast.h"
+#include "recording/cast.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "codec/order.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -46,4 +46,4 @@ Result<Cast> Cast::from(const v1::SceneFacts& facts, const v1::Order& order) {
     return cast;
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,4 +1,4 @@
-#include "store/record.h"
+#include "recording/record.h"
 
 #include <xxhash.h>
 
@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "store/bytes.h"
+#include "recording/bytes.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 std::string recordBytes(Kind kind, double time, std::string_view payload) {
     std::string bytes;
@@ -94,4 +94,4 @@ std::uint64_t RecordFile::indexOffset() const {
     return numberAt<std::uint64_t>(trailer, 0);
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -12,11 +12,11 @@
 
 #include "codec/decoder.h"
 #include "core/result.h"
+#include "recording/cast.h"
+#include "recording/index.h"
 #include "spherule/v1/control.pb.h"
-#include "store/cast.h"
-#include "store/index.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // Where the spheres were at one time. Holds until the recording is moved to another.
 struct Moment {
@@ -97,4 +97,4 @@ class Recording {
     std::vector<v1::ServerMessage> passed_;
 };
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 // The constants of docs/recordings.md.
-namespace spherule::store {
+namespace spherule::recording {
 
 constexpr std::array<unsigned char, 8> fileMagic = {'S', 'P', 'H', 'R', 'E', 'C', '\r', '\n'};
 constexpr std::array<unsigned char, 8> endMagic = {'S', 'P', 'H', 'E', 'N', 'D', '\r', '\n'};
@@ -41,4 +41,4 @@ constexpr std::size_t indexHeadBytes = 24;  // frames, time of the first, time o
 constexpr std::size_t trailerBytes = 16;    // offset of the index, magic
 constexpr std::uint32_t mostPayload = 1U << 30U;
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -6,10 +6,10 @@
 
 #include "core/input_file.h"
 #include "core/result.h"
-#include "store/format.h"
+#include "recording/format.h"
 
 // Records of docs/recordings.md.
-namespace spherule::store {
+namespace spherule::recording {
 
 struct Record {
     Kind kind = Kind::Other;
@@ -49,4 +49,4 @@ class RecordFile {
     InputFile file_;
 };
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

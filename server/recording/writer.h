@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "store/index.h"
-#include "store/output_file.h"
+#include "recording/index.h"
+#include "recording/output_file.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // Writes a recording: from its first frame on, what is in it can be read at any moment up to about a second before,
 // whatever happens then. One without frames is removed at the end. Used by one thread. After an error nothing more is
@@ -42,4 +42,4 @@ class Writer {
     std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "store/exporter.h"
-#include "store/output_file.h"
+#include "recording/exporter.h"
+#include "recording/output_file.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -87,4 +87,4 @@ MadeExporter xyzExporter(const std::string& path, bool replace) {
     return make<Xyz>(path, replace);
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace spherule::store {
+namespace spherule::recording {
 
 static_assert(std::endian::native == std::endian::little, "files are little endian");
 
@@ -23,4 +23,4 @@ T numberAt(std::string_view bytes, std::size_t offset) {
     return number;
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,11 +1,11 @@
-#include "store/recording.h"
+#include "recording/recording.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -206,4 +206,4 @@ Moment Recording::now() {
             .high = cast_ ? cast_->high : glm::dvec3()};
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

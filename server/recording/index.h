@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/result.h"
-#include "store/record.h"
+#include "recording/record.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // Where in a recording one can begin, and what must be known there.
 struct Index {
@@ -40,4 +40,4 @@ struct Contents {
 // From the index; where there is none, from reading all the records up to the first that is cut off or damaged.
 Contents contentsOf(const RecordFile& file);
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -1,8 +1,8 @@
-#include "store/writer.h"
+#include "recording/writer.h"
 
-#include "store/bytes.h"
+#include "recording/bytes.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 namespace {
 
@@ -53,4 +53,4 @@ Result<void> Writer::finish() {
     return file_.close();
 }
 
-}  // namespace spherule::store
+}  // namespace spherule::recording

@@ -8,7 +8,7 @@
 #include "core/result.h"
 #include "spherule/v1/control.pb.h"
 
-namespace spherule::store {
+namespace spherule::recording {
 
 // Who plays in the frames: what scene facts and order say of the spheres. Any thread.
 struct Cast {
@@ -24,4 +24,4 @@ struct Cast {
     static Result<Cast> from(const v1::SceneFacts& facts, const v1::Order& order);
 };
 
-}  // namespace spherule::store
+}  // namespace spherule::recording
