@@ -107,13 +107,13 @@ Result<Chains::Chain*> Chains::chainOf(const codec::Channel& channel, const Scen
 // A keyframe for who waits and the next frame for all others take turns where the world is so slow that the next frame
 // is always due.
 void Chains::begin(const codec::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
-    using enum codec::Link::Kind;
+    using enum codec::EncodedFrame::Kind;
     const bool begun = chain.tier->number() > 0;
     const bool due = now >= chain.next && chain.version != world.version;
     const auto since = now - chain.keyframe;
     const bool waits =
         begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
-    if (waits && (!due || chain.kind == Delta)) return start(chain, Join, chain.newest, world.source, now);
+    if (waits && (!due || chain.kind == Delta)) return start(chain, Resync, chain.newest, world.source, now);
     if (begun && !due) return;
     const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
     chain.next = std::max(chain.next + interval, now - interval / 2);
@@ -127,24 +127,24 @@ void Chains::begin(const codec::Demand& demand, Chain& chain, const Scenery& wor
     start(chain, begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 
-void Chains::start(Chain& chain, codec::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+void Chains::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const sim::TierSource& source,
                    Clock::time_point now) {
     const bool hash = now - chain.hash >= hashEvery;
     if (hash) chain.hash = now;
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
     switch (kind) {
-        case codec::Link::Kind::Keyframe:
+        case codec::EncodedFrame::Kind::Keyframe:
             chain.tier->begin(source, hash);
             break;
-        case codec::Link::Kind::Delta:
+        case codec::EncodedFrame::Kind::Delta:
             chain.tier->next(source, hash);
             break;
-        case codec::Link::Kind::Join:
+        case codec::EncodedFrame::Kind::Resync:
             chain.tier->join(hash);
             break;
     }
     device_.endTimer();
-    if (kind != codec::Link::Kind::Delta) chain.keyframe = now;
+    if (kind != codec::EncodedFrame::Kind::Delta) chain.keyframe = now;
     chain.turn = ++turns_;
     chain.kind = kind;
     chain.making = std::move(head);

@@ -32,7 +32,7 @@ struct Scenery {
 class Chains {
   public:
     using Clock = std::chrono::steady_clock;
-    using Publish = std::function<void(const codec::Link&)>;
+    using Publish = std::function<void(const codec::EncodedFrame&)>;
     using Announce = std::function<void(codec::SharedMessage)>;
     using Complain = std::function<void(const std::string&)>;  // to viewers and the log
 
@@ -54,7 +54,7 @@ class Chains {
     struct Chain {
         std::unique_ptr<sim::Tier> tier;
         std::optional<v1::Frame> making;
-        codec::Link::Kind kind = codec::Link::Kind::Keyframe;
+        codec::EncodedFrame::Kind kind = codec::EncodedFrame::Kind::Keyframe;
         std::uint64_t version = 0;     // of the world in its newest frame
         v1::Frame newest;              // head of its newest frame
         std::uint64_t turn = 0;        // in which the frame was begun: the oldest is copied first
@@ -67,7 +67,7 @@ class Chains {
     Result<Chain*> chainOf(const codec::Channel& channel, const Scenery& world);
     Chain* served(const codec::Demand& demand, const Scenery& world, Clock::time_point now);
     void begin(const codec::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now);
-    void start(Chain& chain, codec::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+    void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const sim::TierSource& source,
                Clock::time_point now);
     void collect(const codec::Channel& channel, Chain& chain);
 

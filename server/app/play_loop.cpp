@@ -26,7 +26,7 @@ PlayLoop::PlayLoop(std::unique_ptr<compute::Device> device, Player player, const
       live_(stage.live),
       outlets_(stage.outlets),
       chains_(
-          *device_, [this](const codec::Link& link) { publish(link); },
+          *device_, [this](const codec::EncodedFrame& encoded) { publish(encoded); },
           [this](codec::SharedMessage order) { outlets_.order(std::move(order)); },
           [this](const std::string& text) { say(v1::Event::WARNING, text); }) {}
 
@@ -143,9 +143,9 @@ void PlayLoop::produce(Chains::Clock::time_point now) {
                   outlets_.demands(), now);
 }
 
-void PlayLoop::publish(const codec::Link& link) {
+void PlayLoop::publish(const codec::EncodedFrame& encoded) {
     states_.shown(version_, Chains::Clock::now());
-    outlets_.frame(link);
+    outlets_.frame(encoded);
 }
 
 v1::Status PlayLoop::status(Chains::Clock::time_point now) {

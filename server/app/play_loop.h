@@ -29,7 +29,7 @@ class PlayLoop : public Show {
     void sendSettings();
     void say(v1::Event::Kind kind, const std::string& text);
     void produce(Chains::Clock::time_point now);
-    void publish(const codec::Link& link);
+    void publish(const codec::EncodedFrame& encoded);
     v1::Status status(Chains::Clock::time_point now);
     void report(Chains::Clock::time_point now);
     [[nodiscard]] Chains::Clock::duration patience(Chains::Clock::time_point now) const;

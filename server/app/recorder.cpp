@@ -67,7 +67,7 @@ Result<void> Recorder::stepped(bool last) {
     if (auto done = write(recording::Kind::Delta); !done) return done;
     if (simulation_.time() - keyframe_ + roundedBy / options_.rate < keyframesEvery) return {};
     keyframe_ = simulation_.time();
-    return write(recording::Kind::Join);
+    return write(recording::Kind::Resync);
 }
 
 Result<void> Recorder::say(v1::Event::Kind kind, const std::string& text) {
@@ -101,7 +101,7 @@ Result<void> Recorder::write(recording::Kind kind) {
 
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
-    frame.set_sequence(kind == recording::Kind::Join ? sequence_ : ++sequence_);
+    frame.set_sequence(kind == recording::Kind::Resync ? sequence_ : ++sequence_);
     frame.set_epoch(epoch);
     frame.set_step(simulation_.steps());
     frame.set_sim_time(simulation_.time());

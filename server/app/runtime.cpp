@@ -85,7 +85,7 @@ Outlets Runtime::outlets() {
     return {.keep = [this](auto message) { server_->keep(std::move(message)); },
             .everybody = [this](auto message) { server_->broadcast(std::move(message)); },
             .order = [this](auto message) { server_->setOrder(std::move(message)); },
-            .frame = [this](const codec::Link& link) { server_->publish(link); },
+            .frame = [this](const codec::EncodedFrame& encoded) { server_->publish(encoded); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },
             .demands = [this] { return server_->demands(); }};

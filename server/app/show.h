@@ -20,7 +20,7 @@ struct Outlets {
     std::function<void(codec::SharedMessage)> keep;       // scene facts, settings, dial, ...: newcomers get them too
     std::function<void(codec::SharedMessage)> everybody;  // events, diagnostics
     std::function<void(codec::SharedMessage)> order;
-    std::function<void(const codec::Link&)> frame;
+    std::function<void(const codec::EncodedFrame&)> frame;
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;
     std::function<std::uint32_t()> viewers;
     std::function<std::vector<codec::Demand>()> demands;

@@ -52,7 +52,7 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
       live_(stage.live),
       outlets_(stage.outlets),
       chains_(
-          world_.device(), [this](const codec::Link& link) { publish(link); },
+          world_.device(), [this](const codec::EncodedFrame& encoded) { publish(encoded); },
           [this](codec::SharedMessage order) {
               tape_.order(order);
               outlets_.order(std::move(order));
@@ -383,10 +383,10 @@ v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
     return head;
 }
 
-void SimLoop::publish(const codec::Link& link) {
+void SimLoop::publish(const codec::EncodedFrame& encoded) {
     states_.shown(version_, Pacer::Clock::now());
-    tape_.frame(link);
-    outlets_.frame(link);
+    tape_.frame(encoded);
+    outlets_.frame(encoded);
 }
 
 }  // namespace spherule::app

@@ -63,7 +63,7 @@ class SimLoop : public Show {
     void produce(Pacer::Clock::time_point now);
     Scenery scenery(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
-    void publish(const codec::Link& link);
+    void publish(const codec::EncodedFrame& encoded);
     Result<void> report();
     void tellOfTape();
     Result<void> finishTape();

@@ -140,15 +140,15 @@ void Tape::order(codec::SharedMessage message) {
     order_ = std::move(message);
 }
 
-void Tape::frame(const codec::Link& link) {
-    if (!writer_ || link.channel != channel_) return;
-    using enum codec::Link::Kind;
-    const bool again = link.kind == Join && number_ == link.number;
+void Tape::frame(const codec::EncodedFrame& encoded) {
+    if (!writer_ || encoded.channel != channel_) return;
+    using enum codec::EncodedFrame::Kind;
+    const bool again = encoded.kind == Resync && number_ == encoded.number;
     if (!again) {
-        waits_ = timed_ && standsStill(link.message->content().frame());
-        if (waits_) return leaveOut(link.message->content().frame());
+        waits_ = timed_ && standsStill(encoded.message->content().frame());
+        if (waits_) return leaveOut(encoded.message->content().frame());
     }
-    if (link.kind == Delta && number_ != link.number - 1) {
+    if (encoded.kind == Delta && number_ != encoded.number - 1) {
         number_.reset();
         if (refused_) ++framesLost_;
         return;
@@ -157,7 +157,7 @@ void Tape::frame(const codec::Link& link) {
     if (again && (!moved_ || Clock::now() - keyframe_ < keyframesEvery)) return;
     refused_ = false;
     const bool first = !timed_;
-    timeOf(link.message->content().frame());
+    timeOf(encoded.message->content().frame());
     if (first) {
         // Whatever has been so far, in the order in which it is needed.
         add(recording::Kind::Other, source_);
@@ -166,14 +166,14 @@ void Tape::frame(const codec::Link& link) {
                                             {recording::Kind::Settings, settings_}})
             if (message) add(kind, message);
     }
-    moved_ = link.kind == Delta;
+    moved_ = encoded.kind == Delta;
     if (!moved_) keyframe_ = Clock::now();
-    number_ = link.number;
+    number_ = encoded.number;
     // A chain that was lost begins anew.
-    add(again                ? recording::Kind::Join
-        : link.kind == Delta ? recording::Kind::Delta
-                             : recording::Kind::Keyframe,
-        link.message);
+    add(again                   ? recording::Kind::Resync
+        : encoded.kind == Delta ? recording::Kind::Delta
+                                : recording::Kind::Keyframe,
+        encoded.message);
 }
 
 // Whether the world has not gone on since the newest frame. A paused one that was reset has not either.

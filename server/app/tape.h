@@ -33,7 +33,7 @@ class Tape {
     void keep(codec::SharedMessage message);
     void say(const codec::SharedMessage& message);
     void order(codec::SharedMessage message);
-    void frame(const codec::Link& link);
+    void frame(const codec::EncodedFrame& encoded);
 
     // Adds its own, while it records.
     void demand(std::vector<codec::Demand>& demands, Clock::time_point now) const;

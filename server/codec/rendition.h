@@ -28,11 +28,11 @@ std::uint32_t rateFor(std::uint32_t asked);
 double quantumOf(v1::Tier tier, double smallestRadius);
 
 // A frame of a chain, with its number there.
-struct Link {
+struct EncodedFrame {
     enum class Kind : std::uint8_t {
         Delta,     // for who has the one before
         Keyframe,  // the chain begins anew: for all
-        Join       // a keyframe of a state that others have already: for who waits for one
+        Resync     // a keyframe of a state that others have already: for who waits for one
     };
     Channel channel;
     Kind kind = Kind::Delta;

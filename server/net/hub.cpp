@@ -64,14 +64,14 @@ void Hub::keep(codec::SharedMessage message) {
     kept_[message->content().kind_case()] = std::move(message);
 }
 
-void Hub::publish(const codec::Link& link) {
+void Hub::publish(const codec::EncodedFrame& encoded) {
     const std::lock_guard lock(mutex_);
     for (auto& [id, entry] : entries_) {
-        if (entry.channel.rate == 0 || entry.channel != link.channel) continue;
+        if (entry.channel.rate == 0 || entry.channel != encoded.channel) continue;
         const bool waits = entry.newcomer || entry.lost;
-        if (link.kind == codec::Link::Kind::Join && !waits) continue;
-        if (link.kind != codec::Link::Kind::Delta) entry.newcomer = entry.lost = false;
-        if (link.kind != codec::Link::Kind::Delta || !waits) entry.session->offer(link);
+        if (encoded.kind == codec::EncodedFrame::Kind::Resync && !waits) continue;
+        if (encoded.kind != codec::EncodedFrame::Kind::Delta) entry.newcomer = entry.lost = false;
+        if (encoded.kind != codec::EncodedFrame::Kind::Delta || !waits) entry.session->offer(encoded);
     }
 }
 

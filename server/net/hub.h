@@ -20,7 +20,7 @@ class Subscriber {
   public:
     virtual ~Subscriber() = default;
     virtual void send(codec::SharedMessage message) = 0;  // reliable lane
-    virtual void offer(codec::Link link) = 0;             // lossy lane
+    virtual void offer(codec::EncodedFrame encoded) = 0;  // lossy lane
     virtual void drain() = 0;                             // close when the reliable lane is empty
     virtual void drop() = 0;                              // now, without a close frame
 };
@@ -41,7 +41,7 @@ class Hub {
     void keep(codec::SharedMessage message);
     // For the frames that come; to whoever watches.
     void setOrder(codec::SharedMessage order);
-    void publish(const codec::Link& link);
+    void publish(const codec::EncodedFrame& encoded);
     void broadcast(const codec::SharedMessage& message);
     void sendTo(SessionId id, codec::SharedMessage message);
 

@@ -46,21 +46,21 @@ bool Outbox::push(codec::SharedMessage message) {
     return true;
 }
 
-Outbox::Offered Outbox::offer(const codec::Link& link) {
-    if (channel_.rate == 0 || link.channel != channel_) return Offered::Fine;
-    const bool keyframe = link.kind != codec::Link::Kind::Delta;
-    if (numbered_ != link.message->content().frame().epoch()) lose();
-    if (keyframe && number_ == link.number) return Offered::Fine;  // for those who lack it
-    if (!keyframe && !number_) return Offered::Fine;               // lost before
-    if (!keyframe && (frame_ || link.number != *number_ + 1)) {
+Outbox::Offered Outbox::offer(const codec::EncodedFrame& encoded) {
+    if (channel_.rate == 0 || encoded.channel != channel_) return Offered::Fine;
+    const bool keyframe = encoded.kind != codec::EncodedFrame::Kind::Delta;
+    if (numbered_ != encoded.message->content().frame().epoch()) lose();
+    if (keyframe && number_ == encoded.number) return Offered::Fine;  // for those who lack it
+    if (!keyframe && !number_) return Offered::Fine;                  // lost before
+    if (!keyframe && (frame_ || encoded.number != *number_ + 1)) {
         const Offered why = frame_ ? Offered::Busy : Offered::Gap;
         lose();
         return why;
     }
-    if (keyframe) keyframe_ = link.message->content().frame().sequence();
-    number_ = link.number;
-    numbered_ = link.message->content().frame().epoch();
-    frame_ = link.message;
+    if (keyframe) keyframe_ = encoded.message->content().frame().sequence();
+    number_ = encoded.number;
+    numbered_ = encoded.message->content().frame().epoch();
+    frame_ = encoded.message;
     return Offered::Fine;
 }
 

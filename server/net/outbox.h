@@ -28,7 +28,7 @@ class Outbox {
         Busy,  // the chain is lost: the frame before still waits to be sent
         Gap    // the chain is lost: the frame before has never come
     };
-    Offered offer(const codec::Link& link);
+    Offered offer(const codec::EncodedFrame& encoded);
     // The client has lost the chain with the frame of this sequence. False where a newer keyframe has been taken, so
     // that it says nothing of the chain as it is now.
     bool lose(std::uint64_t sequence);

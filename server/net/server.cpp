@@ -51,7 +51,7 @@ class RunningServer final : public Server {
 
     void keep(codec::SharedMessage message) override { context_.hub.keep(std::move(message)); }
     void setOrder(codec::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
-    void publish(const codec::Link& link) override { context_.hub.publish(link); }
+    void publish(const codec::EncodedFrame& encoded) override { context_.hub.publish(encoded); }
     void broadcast(codec::SharedMessage message) override { context_.hub.broadcast(message); }
 
     void reply(SessionId session, v1::CommandResult result) override {

@@ -73,7 +73,7 @@ class Server {
     virtual void setOrder(codec::SharedMessage order) = 0;
     // Lossy lane: who could not be sent the frame before has lost the chain, and is sent nothing more of it before a
     // keyframe. A frame of another epoch than the scene's, or of another order, waits for that.
-    virtual void publish(const codec::Link& link) = 0;
+    virtual void publish(const codec::EncodedFrame& encoded) = 0;
     // Reliable lane; diagnostics, as what is kept, take the place of older ones that wait.
     virtual void broadcast(codec::SharedMessage message) = 0;
     virtual void reply(SessionId session, v1::CommandResult result) = 0;

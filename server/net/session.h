@@ -42,7 +42,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void run(const Request& upgrade);
 
     void send(codec::SharedMessage message) override;
-    void offer(codec::Link link) override;
+    void offer(codec::EncodedFrame encoded) override;
     void drain() override;
     void drop() override;
 
@@ -111,7 +111,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     boost::asio::cancellation_signal endOfClose_;
     boost::beast::flat_buffer incoming_;
     Liveness liveness_;
-    LatestSlot<codec::Link> offered_;
+    LatestSlot<codec::EncodedFrame> offered_;
     Outbox outbox_;
     Credit credit_;
     Pace pace_;

@@ -23,8 +23,8 @@ void Session::send(codec::SharedMessage message) {
 }
 
 // However long the io thread is busy, one frame waits for it, not a row of them.
-void Session::offer(codec::Link link) {
-    if (offered_.put(std::move(link))) return;
+void Session::offer(codec::EncodedFrame encoded) {
+    if (offered_.put(std::move(encoded))) return;
     asio::post(stream_.get_executor(), guarded([](Session& self) {
                    const auto newest = self.offered_.take();
                    if (self.closing_ || self.finished_) return;

@@ -18,7 +18,7 @@ enum class Kind : std::uint32_t {
     Settings = 3,  // as they are from here on
     Other = 4,     // welcome, event, diagnostics, ...: nothing that a frame needs
     Keyframe = 5,  // a frame with which the chain begins
-    Join = 6,      // the frame before once more, as a keyframe: for who begins here
+    Resync = 6,    // the frame before once more, as a keyframe: for who begins here
     Delta = 7,     // a frame that needs the one before
     Index = 8,     // of the whole file; the last record
 };
@@ -29,7 +29,7 @@ constexpr bool isFrame(Kind kind) {
 // Where a reader can begin, or what it must know of before it does.
 constexpr bool isIndexed(Kind kind) {
     return kind == Kind::Scene || kind == Kind::Order || kind == Kind::Settings || kind == Kind::Keyframe ||
-           kind == Kind::Join;
+           kind == Kind::Resync;
 }
 
 // Bytes.

@@ -63,7 +63,7 @@ Result<void> Recording::enter(std::uint64_t offset) {
     }
     const auto record = file_.read(offset);
     if (!record) return tl::unexpected(record.error());
-    if (record->kind != Kind::Keyframe && record->kind != Kind::Join) return bad(offset, "is no keyframe");
+    if (record->kind != Kind::Keyframe && record->kind != Kind::Resync) return bad(offset, "is no keyframe");
     if (auto done = take(*record, offset); !done) return tl::unexpected(done.error());
     offset_ = record->end;
     return {};
@@ -72,7 +72,7 @@ Result<void> Recording::enter(std::uint64_t offset) {
 Result<void> Recording::seek(double time) {
     const Index::Entry* from = nullptr;
     for (const Index::Entry& entry : contents_.index.entries) {
-        if (entry.kind != Kind::Keyframe && entry.kind != Kind::Join) continue;
+        if (entry.kind != Kind::Keyframe && entry.kind != Kind::Resync) continue;
         if (from == nullptr || entry.time <= time + sameTime) from = &entry;
     }
     if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
@@ -94,7 +94,7 @@ Result<void> Recording::walk(double time) {
 bool Recording::recover(double time) {
     int tries = 0;
     for (const Index::Entry& entry : contents_.index.entries) {
-        const bool begins = entry.kind == Kind::Keyframe || entry.kind == Kind::Join;
+        const bool begins = entry.kind == Kind::Keyframe || entry.kind == Kind::Resync;
         if (!begins || entry.time <= time + sameTime) continue;
         if (enter(entry.offset)) return true;
         if (++tries == mostTries) return false;
@@ -118,7 +118,7 @@ Result<bool> Recording::next() {
         if (!record) return tl::unexpected(record.error());
         if (record->kind == Kind::Other) pass(*record);
         // Of a join, the frame is had already.
-        if (record->kind == Kind::Join || record->kind == Kind::Other || record->kind == Kind::Index) {
+        if (record->kind == Kind::Resync || record->kind == Kind::Other || record->kind == Kind::Index) {
             offset_ = record->end;
             continue;
         }

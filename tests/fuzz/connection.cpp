@@ -125,7 +125,7 @@ class Served {
             message.mutable_frame()->set_sequence(++frames_);
             message.mutable_frame()->set_tier(demand.channel.tier);
             context_.hub.publish({.channel = demand.channel,
-                                  .kind = codec::Link::Kind::Keyframe,
+                                  .kind = codec::EncodedFrame::Kind::Keyframe,
                                   .number = frames_,
                                   .message = codec::share(std::move(message))});
         }

@@ -5,7 +5,7 @@
 namespace spherule::net {
 namespace {
 
-using enum codec::Link::Kind;
+using enum codec::EncodedFrame::Kind;
 
 void describe(Outbox& outbox, std::uint32_t epoch) {
     ASSERT_TRUE(outbox.push(factsOf(epoch, 64)));
@@ -22,8 +22,8 @@ Outbox following(std::size_t capacity = 4) {
     return outbox;
 }
 
-codec::Link link(codec::Link::Kind kind, std::uint32_t number, std::uint32_t epoch = 1) {
-    return linkOf(kind, number, epoch, 64);
+codec::EncodedFrame encoded(codec::EncodedFrame::Kind kind, std::uint32_t number, std::uint32_t epoch = 1) {
+    return encodedFrame(kind, number, epoch, 64);
 }
 
 std::uint64_t nextFrame(Outbox& outbox) {
@@ -33,7 +33,7 @@ std::uint64_t nextFrame(Outbox& outbox) {
 
 TEST(Outbox, SendsTheReliableLaneFirstAndInOrder) {
     Outbox outbox = following();
-    const auto state = link(Keyframe, 1);
+    const auto state = encoded(Keyframe, 1);
     const auto first = eventOf("first");
     const auto second = eventOf("second");
     outbox.offer(state);
@@ -81,42 +81,42 @@ TEST(Outbox, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
 TEST(Outbox, FollowsAChainFromItsKeyframeOn) {
     Outbox outbox = following();
     EXPECT_TRUE(outbox.wantsKeyframe());
-    outbox.offer(link(Delta, 6));
+    outbox.offer(encoded(Delta, 6));
     EXPECT_EQ(nextFrame(outbox), 0U) << "the one before is missing";
-    EXPECT_EQ(outbox.offer(link(Join, 6)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Resync, 6)), Outbox::Offered::Fine);
     EXPECT_FALSE(outbox.wantsKeyframe());
     EXPECT_EQ(nextFrame(outbox), 6U);
-    EXPECT_EQ(outbox.offer(link(Join, 6)), Outbox::Offered::Fine) << "for somebody else";
+    EXPECT_EQ(outbox.offer(encoded(Resync, 6)), Outbox::Offered::Fine) << "for somebody else";
     EXPECT_EQ(nextFrame(outbox), 0U);
-    EXPECT_EQ(outbox.offer(link(Delta, 7)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Delta, 7)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 7U);
-    EXPECT_EQ(outbox.offer(link(Keyframe, 8)), Outbox::Offered::Fine) << "the chain begins anew";
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 8)), Outbox::Offered::Fine) << "the chain begins anew";
     EXPECT_EQ(nextFrame(outbox), 8U);
 }
 
 TEST(Outbox, LosesTheChainWhenAFrameCouldNotGoInTime) {
     Outbox outbox = following();
-    EXPECT_EQ(outbox.offer(link(Keyframe, 1)), Outbox::Offered::Fine);
-    EXPECT_EQ(outbox.offer(link(Delta, 2)), Outbox::Offered::Busy) << "1 still waits";
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 1)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Delta, 2)), Outbox::Offered::Busy) << "1 still waits";
     EXPECT_TRUE(outbox.wantsKeyframe());
     EXPECT_EQ(nextFrame(outbox), 0U) << "it is old";
-    EXPECT_EQ(outbox.offer(link(Delta, 3)), Outbox::Offered::Fine) << "lost already";
+    EXPECT_EQ(outbox.offer(encoded(Delta, 3)), Outbox::Offered::Fine) << "lost already";
     EXPECT_EQ(nextFrame(outbox), 0U);
-    EXPECT_EQ(outbox.offer(link(Join, 3)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Resync, 3)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 3U);
 }
 
 TEST(Outbox, LosesTheChainAtAGap) {
     Outbox outbox = following();
-    outbox.offer(link(Keyframe, 1));
+    outbox.offer(encoded(Keyframe, 1));
     EXPECT_EQ(nextFrame(outbox), 1U);
-    EXPECT_EQ(outbox.offer(link(Delta, 3)), Outbox::Offered::Gap);
+    EXPECT_EQ(outbox.offer(encoded(Delta, 3)), Outbox::Offered::Gap);
     EXPECT_TRUE(outbox.wantsKeyframe());
 }
 
 TEST(Outbox, HearsOfALossOnlyOnce) {
     Outbox outbox = following();
-    EXPECT_EQ(outbox.offer(link(Keyframe, 4)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 4)), Outbox::Offered::Fine);
     EXPECT_FALSE(outbox.lose(3)) << "before the keyframe";
     EXPECT_EQ(nextFrame(outbox), 4U);
     EXPECT_TRUE(outbox.lose(4));
@@ -127,34 +127,34 @@ TEST(Outbox, HearsOfALossOnlyOnce) {
 
 TEST(Outbox, TakesANewerKeyframeInPlaceOfOneThatWaits) {
     Outbox outbox = following();
-    outbox.offer(link(Keyframe, 1));
-    EXPECT_EQ(outbox.offer(link(Keyframe, 2)), Outbox::Offered::Fine);
+    outbox.offer(encoded(Keyframe, 1));
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 2)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 2U);
     EXPECT_EQ(nextFrame(outbox), 0U);
 }
 
 TEST(Outbox, TakesNoFrameOfAnotherEpochForOneOfTheChain) {
     Outbox outbox = following();
-    outbox.offer(link(Keyframe, 1));
+    outbox.offer(encoded(Keyframe, 1));
     EXPECT_EQ(nextFrame(outbox), 1U);
     describe(outbox, 2);
-    EXPECT_EQ(outbox.offer(link(Delta, 2, 2)), Outbox::Offered::Fine) << "nothing is lost that had begun";
+    EXPECT_EQ(outbox.offer(encoded(Delta, 2, 2)), Outbox::Offered::Fine) << "nothing is lost that had begun";
     EXPECT_EQ(outbox.next(true), nullptr);
     EXPECT_TRUE(outbox.wantsKeyframe());
-    EXPECT_EQ(outbox.offer(link(Keyframe, 1, 2)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 1, 2)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 1U) << "chains count from 1 in each epoch";
     describe(outbox, 3);
-    EXPECT_EQ(outbox.offer(link(Keyframe, 1, 3)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 1, 3)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 1U);
 }
 
 TEST(Outbox, KnowsNothingOfOtherChains) {
     Outbox outbox = following();
-    EXPECT_EQ(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::ECO, 60})), Outbox::Offered::Fine);
-    EXPECT_EQ(outbox.offer(linkOf(Keyframe, 1, 1, 64, {v1::NORMAL, 30})), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encodedFrame(Keyframe, 1, 1, 64, {v1::ECO, 60})), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encodedFrame(Keyframe, 1, 1, 64, {v1::NORMAL, 30})), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 0U);
     outbox.follow({v1::ECO, 60});
-    EXPECT_EQ(outbox.offer(link(Keyframe, 2)), Outbox::Offered::Fine);
+    EXPECT_EQ(outbox.offer(encoded(Keyframe, 2)), Outbox::Offered::Fine);
     EXPECT_EQ(nextFrame(outbox), 0U);
     outbox.follow({});
     EXPECT_FALSE(outbox.wantsKeyframe());
@@ -163,7 +163,7 @@ TEST(Outbox, KnowsNothingOfOtherChains) {
 TEST(Outbox, HoldsFramesBackWhileTheClientHasNoCredit) {
     Outbox outbox = following();
     const auto event = eventOf("first");
-    outbox.offer(link(Keyframe, 1));
+    outbox.offer(encoded(Keyframe, 1));
     EXPECT_EQ(outbox.next(false), nullptr);
     ASSERT_TRUE(outbox.push(event));
     EXPECT_EQ(outbox.next(false), event);
@@ -172,7 +172,7 @@ TEST(Outbox, HoldsFramesBackWhileTheClientHasNoCredit) {
 
 TEST(Outbox, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochAreSent) {
     Outbox outbox = following();
-    outbox.offer(link(Keyframe, 1, 2));
+    outbox.offer(encoded(Keyframe, 1, 2));
     EXPECT_EQ(outbox.next(true), nullptr);
     ASSERT_TRUE(outbox.push(factsOf(2, 64)));
     EXPECT_TRUE(outbox.next(true)->content().has_scene());

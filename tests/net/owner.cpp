@@ -29,8 +29,8 @@ codec::SharedMessage orderOf(std::uint32_t epoch) {
     return codec::share(std::move(message));
 }
 
-codec::Link linkOf(codec::Link::Kind kind, std::uint32_t number, std::uint32_t epoch, std::uint32_t spheres,
-                   const codec::Channel& channel) {
+codec::EncodedFrame encodedFrame(codec::EncodedFrame::Kind kind, std::uint32_t number, std::uint32_t epoch,
+                                 std::uint32_t spheres, const codec::Channel& channel) {
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
     frame.set_sequence(number);
@@ -78,12 +78,13 @@ std::string Owner::url() const {
 }
 
 void Owner::publish(std::uint32_t spheres) {
-    using enum codec::Link::Kind;
+    using enum codec::EncodedFrame::Kind;
     const auto demands = server_->demands();
     const std::uint32_t number = ++number_;
     for (const codec::Demand& demand : demands) {
-        server_->publish(linkOf(Delta, number, epoch_, spheres, demand.channel));
-        if (demand.newcomer || demand.lost) server_->publish(linkOf(Join, number, epoch_, spheres, demand.channel));
+        server_->publish(encodedFrame(Delta, number, epoch_, spheres, demand.channel));
+        if (demand.newcomer || demand.lost)
+            server_->publish(encodedFrame(Resync, number, epoch_, spheres, demand.channel));
     }
 }
 

@@ -87,15 +87,15 @@ TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
     const codec::Channel channel{v1::NORMAL, 60};
-    const auto give = [&](codec::Link::Kind kind, std::uint32_t number) {
-        owner.server().publish(linkOf(kind, number, 1, 64, channel));
+    const auto give = [&](codec::EncodedFrame::Kind kind, std::uint32_t number) {
+        owner.server().publish(encodedFrame(kind, number, 1, 64, channel));
     };
-    give(codec::Link::Kind::Join, 1);
+    give(codec::EncodedFrame::Kind::Resync, 1);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
-    give(codec::Link::Kind::Delta, 3);
+    give(codec::EncodedFrame::Kind::Delta, 3);
     ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; })) << "though nothing is written";
     EXPECT_EQ(owner.counters().chainsLost, 1U);
-    give(codec::Link::Kind::Join, 3);
+    give(codec::EncodedFrame::Kind::Resync, 3);
     EXPECT_EQ(next(*client).frame().sequence(), 3U);
 }
 
@@ -110,13 +110,13 @@ TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
     command.mutable_command()->mutable_query();
     ASSERT_TRUE(client->send(command));
     ASSERT_TRUE(eventually([&] { return owner.held.load(); }));
-    owner.server().publish(linkOf(codec::Link::Kind::Join, 1, 1, 64, channel));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64, channel));
     EXPECT_FALSE(owner.server().demands().front().newcomer);
-    owner.server().publish(linkOf(codec::Link::Kind::Delta, 2, 1, 64, channel));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Delta, 2, 1, 64, channel));
     owner.hold = false;
     EXPECT_TRUE(next(*client).has_result());
     ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
-    owner.server().publish(linkOf(codec::Link::Kind::Join, 2, 1, 64, channel));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 2, 1, 64, channel));
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
 }
 
@@ -179,7 +179,7 @@ TEST(Stream, AsksForAKeyframeForEachNewcomer) {
     const auto second = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
     EXPECT_TRUE(owner.server().demands().front().newcomer);
-    owner.server().publish(linkOf(codec::Link::Kind::Join, 1, 1, 64));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64));
     EXPECT_EQ(next(*second).frame().sequence(), 1U);
     const auto none = first->receive(100ms);
     EXPECT_TRUE(none && !*none) << "it has that state";
@@ -224,7 +224,7 @@ TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.server().publish(linkOf(codec::Link::Kind::Keyframe, 1, 2, 64));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Keyframe, 1, 2, 64));
     owner.server().keep(factsOf(2, 64));
     owner.server().setOrder(orderOf(2));
     EXPECT_EQ(next(*client).scene().epoch(), 2U);

@@ -12,7 +12,7 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = codec::Link::Kind;
+using Kind = codec::EncodedFrame::Kind;
 constexpr codec::Channel normal{v1::NORMAL, 30};
 
 // A world of spheres on the CPU device that somebody watches.
@@ -22,7 +22,7 @@ class Watched : public testing::Test {
 
     Watched()
         : chains_(
-              *device_, [this](const codec::Link& link) { links_.push_back(link); },
+              *device_, [this](const codec::EncodedFrame& encoded) { encoded_.push_back(encoded); },
               [this](auto order) { orders_.push_back(std::move(order)); },
               [this](const std::string& text) { complaints_.push_back(text); }) {
         position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
@@ -43,18 +43,18 @@ class Watched : public testing::Test {
     std::string serve(std::vector<codec::Demand> demands, std::chrono::milliseconds later, std::uint64_t steps = 1) {
         version_ += steps;
         now_ += later;
-        links_.clear();
+        encoded_.clear();
         chains_.serve(scenery(), demands, now_);
         std::string kinds;
-        for (const codec::Link& link : links_)
-            kinds += link.kind == Kind::Keyframe ? 'K' : link.kind == Kind::Join ? 'J' : 'D';
+        for (const codec::EncodedFrame& encoded : encoded_)
+            kinds += encoded.kind == Kind::Keyframe ? 'K' : encoded.kind == Kind::Resync ? 'J' : 'D';
         return kinds;
     }
 
     std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
     std::unique_ptr<compute::Buffer> position_;
     sim::State state_;
-    std::vector<codec::Link> links_;
+    std::vector<codec::EncodedFrame> encoded_;
     std::vector<codec::SharedMessage> orders_;
     std::vector<std::string> complaints_;
     Chains chains_;
@@ -70,10 +70,10 @@ TEST_F(Watched, MakesNothingForNobodyAndAKeyframeForTheFirst) {
     EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "K");
     ASSERT_EQ(orders_.size(), 1U);
     EXPECT_EQ(orders_[0]->content().order().ids().size(), 3 * spheres);
-    EXPECT_EQ(links_[0].message->content().frame().order(), orders_[0]->content().order().number());
-    EXPECT_EQ(links_[0].number, 1U);
+    EXPECT_EQ(encoded_[0].message->content().frame().order(), orders_[0]->content().order().number());
+    EXPECT_EQ(encoded_[0].number, 1U);
     EXPECT_EQ(serve({{.channel = normal}}, 40ms), "D");
-    EXPECT_EQ(links_[0].number, 2U);
+    EXPECT_EQ(encoded_[0].number, 2U);
 }
 
 TEST_F(Watched, KeepsToTheRateOfEachChain) {
@@ -83,7 +83,7 @@ TEST_F(Watched, KeepsToTheRateOfEachChain) {
     std::size_t slowly = 0;
     for (int k = 0; k < 1000; ++k) {
         serve({{.channel = normal}, {.channel = slow}}, 2ms);
-        for (const codec::Link& link : links_) ++(link.channel == slow ? slowly : fast);
+        for (const codec::EncodedFrame& encoded : encoded_) ++(encoded.channel == slow ? slowly : fast);
     }
     EXPECT_NEAR(static_cast<double>(fast), 60, 2);
     EXPECT_NEAR(static_cast<double>(slowly), 20, 1);
@@ -94,7 +94,7 @@ TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
     EXPECT_EQ(serve({{.channel = normal}}, 1s, 0), "");
     EXPECT_FALSE(chains_.due());
     EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s, 0), "J");
-    EXPECT_EQ(links_[0].number, 1U) << "of the state that others have";
+    EXPECT_EQ(encoded_[0].number, 1U) << "of the state that others have";
 }
 
 TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {

@@ -53,9 +53,9 @@ class Looping : public testing::Test {
                 .everybody = [](const codec::SharedMessage&) {},
                 .order = [](const codec::SharedMessage&) {},
                 .frame =
-                    [this](const codec::Link& link) {
+                    [this](const codec::EncodedFrame& encoded) {
                         const std::scoped_lock lock(mutex_);
-                        frames_.push_back(link.message->content().frame());
+                        frames_.push_back(encoded.message->content().frame());
                         changed_.notify_all();
                     },
                 .reply = [](std::uint64_t, const v1::CommandResult&) {},

@@ -60,20 +60,22 @@ class Stage {
 
   private:
     Outlets outlets(std::size_t changes) {
-        return {.keep =
-                    [this, changes](const codec::SharedMessage& message) {
-                        if (message->content().has_scene()) scenes.push_back(message->content().scene());
-                        if (scenes.size() > changes) stop_.request_stop();
-                    },
-                .everybody = [](const codec::SharedMessage&) {},
-                .order = [](const codec::SharedMessage&) {},
-                .frame = [this](const codec::Link& link) { frames.push_back(link.message->content().frame()); },
-                .reply = [](std::uint64_t, const v1::CommandResult&) {},
-                .viewers = [] { return 1U; },
-                .demands =
-                    [] {
-                        return std::vector<codec::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
-                    }};
+        return {
+            .keep =
+                [this, changes](const codec::SharedMessage& message) {
+                    if (message->content().has_scene()) scenes.push_back(message->content().scene());
+                    if (scenes.size() > changes) stop_.request_stop();
+                },
+            .everybody = [](const codec::SharedMessage&) {},
+            .order = [](const codec::SharedMessage&) {},
+            .frame =
+                [this](const codec::EncodedFrame& encoded) { frames.push_back(encoded.message->content().frame()); },
+            .reply = [](std::uint64_t, const v1::CommandResult&) {},
+            .viewers = [] { return 1U; },
+            .demands =
+                [] {
+                    return std::vector<codec::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
+                }};
     }
 
     Requests requests_;

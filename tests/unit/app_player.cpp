@@ -250,7 +250,7 @@ TEST_F(Playing, ADamagedEndIsTheEnd) {
 
 TEST_F(Playing, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
     damage(1.55);
-    damage(1.95, recording::Kind::Join);
+    damage(1.95, recording::Kind::Resync);
     open();
     EXPECT_NEAR(after(1300ms), 1.3, 1e-9);
     after(400ms);

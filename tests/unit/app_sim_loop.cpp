@@ -67,7 +67,7 @@ class Desk {
                     },
                 .everybody = [](const codec::SharedMessage&) {},
                 .order = [](const codec::SharedMessage&) {},
-                .frame = [](const codec::Link&) {},
+                .frame = [](const codec::EncodedFrame&) {},
                 .reply =
                     [this](std::uint64_t, v1::CommandResult result) {
                         answers.push_back(std::move(result));

@@ -13,7 +13,7 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = codec::Link::Kind;
+using Kind = codec::EncodedFrame::Kind;
 constexpr std::uint32_t spheres = 70;
 constexpr codec::Channel channel{v1::FINE, 30};
 
@@ -31,14 +31,14 @@ class Taping : public testing::Test {
     void keep(v1::ServerMessage message) { tape_->keep(codec::share(std::move(message))); }
     void order(std::uint32_t epoch = 1) { tape_->order(codec::share(recording::orderMessage(epoch, spheres))); }
 
-    codec::Link link(Kind kind, double time, std::uint32_t epoch = 1) {
+    codec::EncodedFrame encoded(Kind kind, double time, std::uint32_t epoch = 1) {
         codec::Positions positions(spheres);
         for (std::uint32_t id = 0; id < spheres; ++id)
             positions[id] = {9 * std::sin(id + 37 * time), 9 * std::sin(7 * id - 53 * time), 0.1 * time, 0.5};
-        const auto bytes = kind == Kind::Delta  ? encoder_.next(positions)
-                           : kind == Kind::Join ? encoder_.join()
-                                                : encoder_.begin(positions);
-        if (kind != Kind::Join) ++number_;
+        const auto bytes = kind == Kind::Delta    ? encoder_.next(positions)
+                           : kind == Kind::Resync ? encoder_.join()
+                                                  : encoder_.begin(positions);
+        if (kind != Kind::Resync) ++number_;
         v1::ServerMessage message;
         v1::Frame& frame = *message.mutable_frame();
         frame.set_epoch(epoch);
@@ -79,11 +79,11 @@ TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
     ASSERT_TRUE(tape_->start());
     ASSERT_EQ(demands().size(), 1U);
     EXPECT_TRUE(demands()[0].newcomer);
-    tape_->frame(link(Kind::Keyframe, 4.0));
+    tape_->frame(encoded(Kind::Keyframe, 4.0));
     EXPECT_FALSE(demands()[0].newcomer || demands()[0].lost);
-    tape_->frame(link(Kind::Delta, 4.1));
-    tape_->frame(link(Kind::Join, 4.1));
-    tape_->frame(link(Kind::Delta, 4.2));
+    tape_->frame(encoded(Kind::Delta, 4.1));
+    tape_->frame(encoded(Kind::Resync, 4.1));
+    tape_->frame(encoded(Kind::Delta, 4.2));
     ASSERT_TRUE(tape_->stop());
     const v1::Recording state = ended();
     EXPECT_EQ(state.failure(), "");
@@ -100,12 +100,12 @@ TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
 TEST_F(Taping, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
     open();
     order();
-    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Keyframe, 0));
     ASSERT_TRUE(tape_->start());
-    tape_->frame(link(Kind::Delta, 0.1));
+    tape_->frame(encoded(Kind::Delta, 0.1));
     EXPECT_TRUE(demands()[0].newcomer);
-    tape_->frame(link(Kind::Join, 0.1));
-    tape_->frame(link(Kind::Delta, 0.2));
+    tape_->frame(encoded(Kind::Resync, 0.1));
+    tape_->frame(encoded(Kind::Delta, 0.2));
     ASSERT_TRUE(tape_->stop());
     auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording) << recording.error().text();
@@ -117,14 +117,14 @@ TEST_F(Taping, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
     open();
     order();
     ASSERT_TRUE(tape_->start());
-    tape_->frame(link(Kind::Keyframe, 10));
-    tape_->frame(link(Kind::Delta, 12));
-    tape_->frame(link(Kind::Delta, 0));
-    tape_->frame(link(Kind::Delta, 1));
+    tape_->frame(encoded(Kind::Keyframe, 10));
+    tape_->frame(encoded(Kind::Delta, 12));
+    tape_->frame(encoded(Kind::Delta, 0));
+    tape_->frame(encoded(Kind::Delta, 1));
     keep(recording::sceneMessage(2, spheres));
     order(2);
-    tape_->frame(link(Kind::Keyframe, 0.5, 2));
-    tape_->frame(link(Kind::Delta, 0.75, 2));
+    tape_->frame(encoded(Kind::Keyframe, 0.5, 2));
+    tape_->frame(encoded(Kind::Delta, 0.75, 2));
     ASSERT_TRUE(tape_->stop());
     auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording) << recording.error().text();
@@ -138,11 +138,11 @@ TEST_F(Taping, WantsAKeyframeNowAndThenWhileSomethingMoves) {
     open();
     order();
     ASSERT_TRUE(tape_->start());
-    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Keyframe, 0));
     std::vector<codec::Demand> later;
     tape_->demand(later, Tape::Clock::now() + 1h);
     EXPECT_FALSE(later[0].lost);
-    tape_->frame(link(Kind::Delta, 1));
+    tape_->frame(encoded(Kind::Delta, 1));
     later.clear();
     tape_->demand(later, Tape::Clock::now() + 1h);
     EXPECT_TRUE(later[0].lost);
@@ -153,13 +153,13 @@ TEST_F(Taping, AsksForAKeyframeAfterAGap) {
     open();
     order();
     ASSERT_TRUE(tape_->start());
-    tape_->frame(link(Kind::Keyframe, 0));
-    link(Kind::Delta, 1);
-    tape_->frame(link(Kind::Delta, 2));
+    tape_->frame(encoded(Kind::Keyframe, 0));
+    encoded(Kind::Delta, 1);
+    tape_->frame(encoded(Kind::Delta, 2));
     EXPECT_TRUE(demands()[0].lost);
-    tape_->frame(link(Kind::Delta, 3));
-    tape_->frame(link(Kind::Join, 3));
-    tape_->frame(link(Kind::Delta, 4));
+    tape_->frame(encoded(Kind::Delta, 3));
+    tape_->frame(encoded(Kind::Resync, 3));
+    tape_->frame(encoded(Kind::Delta, 4));
     ASSERT_TRUE(tape_->stop());
     auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording);
@@ -174,7 +174,7 @@ TEST_F(Taping, OneRecordingAtATimeAndASecondHasANameOfItsOwn) {
     EXPECT_EQ(tape_->stop().error().message, "nothing is being recorded");
     ASSERT_TRUE(tape_->start());
     EXPECT_NE(tape_->start().error().message.find("is being recorded already"), std::string::npos);
-    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Keyframe, 0));
     ASSERT_TRUE(tape_->stop());
     const std::string first = ended().file();
     EXPECT_EQ(first.find((folder_ / "made") + "/film-"), 0U);
@@ -189,7 +189,7 @@ TEST_F(Taping, ItsFolderHasALimit) {
     open();
     order();
     ASSERT_TRUE(tape_->start());
-    for (int k = 0; k < 10'000; ++k) tape_->frame(link(k == 0 ? Kind::Keyframe : Kind::Delta, k));
+    for (int k = 0; k < 10'000; ++k) tape_->frame(encoded(k == 0 ? Kind::Keyframe : Kind::Delta, k));
     const v1::Recording state = ended();
     EXPECT_EQ(state.failure(), "it has reached 1.1 MB, the most that it may have");
     auto recording = recording::Recording::open(state.file());
@@ -224,7 +224,7 @@ TEST_F(Taping, AFolderThatIsDeletedIsAFailure) {
     open();
     order();
     ASSERT_TRUE(tape_->start());
-    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Keyframe, 0));
     std::filesystem::remove_all(options_.folder);
     v1::Recording state;
     for (int k = 0; k < 2000 && (k == 0 || state.active()); ++k) {
@@ -240,9 +240,9 @@ TEST_F(Taping, IsNotLargerForWhatOthersAskFor) {
     open();
     order();
     ASSERT_TRUE(tape_->start());
-    tape_->frame(link(Kind::Keyframe, 0));
-    tape_->frame(link(Kind::Delta, 0.1));
-    for (int k = 0; k < 50; ++k) tape_->frame(link(Kind::Join, 0.1));
+    tape_->frame(encoded(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Delta, 0.1));
+    for (int k = 0; k < 50; ++k) tape_->frame(encoded(Kind::Resync, 0.1));
     v1::ServerMessage figures;
     figures.mutable_diagnostics();
     tape_->say(codec::share(figures));
@@ -253,7 +253,7 @@ TEST_F(Taping, IsNotLargerForWhatOthersAskFor) {
     for (std::uint64_t offset = recording::fileHeadBytes;;) {
         const auto record = file->read(offset);
         if (!record) break;
-        EXPECT_NE(record->kind, recording::Kind::Join);
+        EXPECT_NE(record->kind, recording::Kind::Resync);
         ++records;
         offset = record->end;
     }
@@ -269,11 +269,11 @@ TEST_F(Taping, RoundingDoesNotSetTimeBack) {
         for (int k = 0; k < steps; ++k) time += 1.0 / 60;
         return time;
     };
-    tape_->frame(link(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Keyframe, 0));
     for (int last = 1; last < 60; ++last)
         for (int first = 0; first < last; ++first) {
-            tape_->frame(link(Kind::Delta, after(last)));
-            tape_->frame(link(Kind::Delta, after(first)));
+            tape_->frame(encoded(Kind::Delta, after(last)));
+            tape_->frame(encoded(Kind::Delta, after(first)));
         }
     EXPECT_EQ(tape_->finish()->failure(), "");
 }
@@ -283,30 +283,30 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
     order();
     ASSERT_TRUE(tape_->start());
     const auto paused = [&](Kind kind, double time, std::uint32_t epoch = 1) {
-        codec::Link made = link(kind, time, epoch);
+        codec::EncodedFrame made = encoded(kind, time, epoch);
         v1::ServerMessage message = made.message->content();
         message.mutable_frame()->mutable_status()->set_paused(true);
         made.message = codec::share(std::move(message));
         tape_->frame(made);
     };
-    tape_->frame(link(Kind::Keyframe, 0));
-    tape_->frame(link(Kind::Delta, 1));
+    tape_->frame(encoded(Kind::Keyframe, 0));
+    tape_->frame(encoded(Kind::Delta, 1));
     for (int k = 0; k < 5; ++k) paused(Kind::Delta, 1);
     EXPECT_FALSE(demands()[0].lost) << "before the world goes on";
-    paused(Kind::Join, 1);
-    tape_->frame(link(Kind::Delta, 1));  // it goes on, but has not yet
-    tape_->frame(link(Kind::Delta, 2));
+    paused(Kind::Resync, 1);
+    tape_->frame(encoded(Kind::Delta, 1));  // it goes on, but has not yet
+    tape_->frame(encoded(Kind::Delta, 2));
     EXPECT_TRUE(demands()[0].lost);
-    tape_->frame(link(Kind::Join, 2));
-    tape_->frame(link(Kind::Delta, 3));
+    tape_->frame(encoded(Kind::Resync, 2));
+    tape_->frame(encoded(Kind::Delta, 3));
     paused(Kind::Delta, 3);
     paused(Kind::Delta, 0);  // it was reset
     keep(recording::sceneMessage(2, spheres));
     order(2);
     paused(Kind::Keyframe, 0, 2);  // and others were loaded
     paused(Kind::Delta, 0.5, 2);   // and stepped
-    paused(Kind::Join, 0.5, 2);
-    tape_->frame(link(Kind::Delta, 0.75, 2));
+    paused(Kind::Resync, 0.5, 2);
+    tape_->frame(encoded(Kind::Delta, 0.75, 2));
     ASSERT_TRUE(tape_->stop());
     auto recording = recording::Recording::open(ended().file());
     ASSERT_TRUE(recording) << recording.error().text();
