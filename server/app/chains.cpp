@@ -39,37 +39,37 @@ void Chains::serve(const Scenery& world, const std::vector<codec::Demand>& deman
     if (world.epoch != epoch_) chains_.clear();
     version_ = world.version;
     std::erase_if(chains_, [&](const auto& entry) {
-        return std::ranges::find(demands, entry.first, &codec::Demand::channel) == demands.end();
+        return std::ranges::find(demands, entry.first, &codec::Demand::rendition) == demands.end();
     });
     if (world.spheres == 0) return;
-    for (auto& [channel, chain] : chains_) collect(channel, chain);
-    std::vector<std::pair<codec::Channel, Chain*>> making;
+    for (auto& [rendition, chain] : chains_) collect(rendition, chain);
+    std::vector<std::pair<codec::Rendition, Chain*>> making;
     for (const codec::Demand& demand : demands) {
         Chain* const chain = served(demand, world, now);
         if (chain == nullptr) continue;
         if (!chain->making) begin(demand, *chain, world, now);
-        if (chain->making) making.emplace_back(demand.channel, chain);
+        if (chain->making) making.emplace_back(demand.rendition, chain);
     }
     // The device copies few at a time: whose turn was first goes first.
     std::ranges::sort(making, {}, [](const auto& entry) { return entry.second->turn; });
-    for (const auto& [channel, chain] : making) collect(channel, *chain);
+    for (const auto& [rendition, chain] : making) collect(rendition, *chain);
 }
 
 Chains::Chain* Chains::served(const codec::Demand& demand, const Scenery& world, Clock::time_point now) {
-    if (!chains_.contains(demand.channel) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
-    auto chain = chainOf(demand.channel, world);
+    if (!chains_.contains(demand.rendition) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
+    auto chain = chainOf(demand.rendition, world);
     if (chain) return *chain;
-    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(demand.channel.tier),
-                          demand.channel.rate, chain.error().text()));
+    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(demand.rendition.tier),
+                          demand.rendition.rate, chain.error().text()));
     retry_ = now + retryEvery;
     refusedEpoch_ = world.epoch;
     return nullptr;
 }
 
-Result<void> Chains::open(const codec::Channel& channel, const Scenery& world) {
+Result<void> Chains::open(const codec::Rendition& rendition, const Scenery& world) {
     if (world.epoch != epoch_) chains_.clear();
     if (world.spheres == 0) return {};
-    auto chain = chainOf(channel, world);
+    auto chain = chainOf(rendition, world);
     if (!chain) return tl::unexpected(chain.error());
     return {};
 }
@@ -93,13 +93,13 @@ Result<void> Chains::prepare(const Scenery& world) {
     return {};
 }
 
-Result<Chains::Chain*> Chains::chainOf(const codec::Channel& channel, const Scenery& world) {
-    if (const auto known = chains_.find(channel); known != chains_.end()) return &known->second;
+Result<Chains::Chain*> Chains::chainOf(const codec::Rendition& rendition, const Scenery& world) {
+    if (const auto known = chains_.find(rendition); known != chains_.end()) return &known->second;
     if (world.epoch != epoch_)
         if (auto done = prepare(world); !done) return tl::unexpected(done.error());
-    auto tier = sim::Tier::create(*tools_, {.quantum = codec::quantumOf(channel.tier, world.smallestRadius)});
+    auto tier = sim::Tier::create(*tools_, {.quantum = codec::quantumOf(rendition.tier, world.smallestRadius)});
     if (!tier) return tl::unexpected(tier.error());
-    Chain& chain = chains_[channel];
+    Chain& chain = chains_[rendition];
     chain.tier = std::move(*tier);
     return &chain;
 }
@@ -115,15 +115,15 @@ void Chains::begin(const codec::Demand& demand, Chain& chain, const Scenery& wor
         begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
     if (waits && (!due || chain.kind == Delta)) return start(chain, Resync, chain.newest, world.source, now);
     if (begun && !due) return;
-    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
+    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.rendition.rate;
     chain.next = std::max(chain.next + interval, now - interval / 2);
     chain.version = world.version;
     chain.newest = world.head();
     chain.newest.set_epoch(epoch_);
     chain.newest.set_order(order_);
     chain.newest.set_count(world.spheres);
-    chain.newest.set_tier(demand.channel.tier);
-    chain.newest.set_quantum(codec::quantumOf(demand.channel.tier, world.smallestRadius));
+    chain.newest.set_tier(demand.rendition.tier);
+    chain.newest.set_quantum(codec::quantumOf(demand.rendition.tier, world.smallestRadius));
     start(chain, begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 
@@ -150,7 +150,7 @@ void Chains::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head,
     chain.making = std::move(head);
 }
 
-void Chains::collect(const codec::Channel& channel, Chain& chain) {
+void Chains::collect(const codec::Rendition& rendition, Chain& chain) {
     if (!chain.making) return;
     const auto bytes = chain.tier->poll();
     if (!bytes) return;
@@ -161,12 +161,12 @@ void Chains::collect(const codec::Channel& channel, Chain& chain) {
     made.set_sequence(++sequence_);
     made.set_stamp_us(microsecondsNow());
     made.set_spb(bytes->data(), bytes->size());
-    publish_({channel, chain.kind, chain.tier->number(), codec::share(std::move(message))});
+    publish_({rendition, chain.kind, chain.tier->number(), codec::share(std::move(message))});
 }
 
 std::optional<Chains::Clock::time_point> Chains::due() const {
     std::optional<Clock::time_point> first;
-    for (const auto& [channel, chain] : chains_) {
+    for (const auto& [rendition, chain] : chains_) {
         if (!chain.making && chain.version == version_) continue;
         const auto when = chain.making ? Clock::now() + copyWait : chain.next;
         first = std::min(first.value_or(when), when);

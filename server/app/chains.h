@@ -43,7 +43,7 @@ class Chains {
     void serve(const Scenery& world, const std::vector<codec::Demand>& demands, Clock::time_point now);
 
     // Whether there is room for a chain: makes it where it is not there yet. The next serve() demands it, or ends it.
-    Result<void> open(const codec::Channel& channel, const Scenery& world);
+    Result<void> open(const codec::Rendition& rendition, const Scenery& world);
 
     // When to call again; nothing when there is nothing to do before the world or the demands change.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
@@ -64,12 +64,12 @@ class Chains {
     };
 
     Result<void> prepare(const Scenery& world);
-    Result<Chain*> chainOf(const codec::Channel& channel, const Scenery& world);
+    Result<Chain*> chainOf(const codec::Rendition& rendition, const Scenery& world);
     Chain* served(const codec::Demand& demand, const Scenery& world, Clock::time_point now);
     void begin(const codec::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now);
     void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const sim::TierSource& source,
                Clock::time_point now);
-    void collect(const codec::Channel& channel, Chain& chain);
+    void collect(const codec::Rendition& rendition, Chain& chain);
 
     compute::Device& device_;
     Publish publish_;
@@ -80,7 +80,7 @@ class Chains {
     std::uint32_t epoch_ = 0;
     std::uint32_t order_ = 0;
     std::uint64_t version_ = 0;  // of the world when it was last served
-    std::map<codec::Channel, Chain> chains_;
+    std::map<codec::Rendition, Chain> chains_;
     std::uint64_t turns_ = 0;
     Clock::time_point retry_{};       // of what was refused,
     std::uint32_t refusedEpoch_ = 0;  // in this epoch

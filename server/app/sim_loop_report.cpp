@@ -52,7 +52,7 @@ void SimLoop::keep(v1::ServerMessage message) {
 }
 
 Result<void> SimLoop::roomForTape() {
-    return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
+    return chains_.open(tape_.rendition(), scenery(Pacer::Clock::now())).map_error([](Error error) {
         error.message = "nothing is recorded: " + error.message;
         return error;
     });

@@ -36,7 +36,7 @@ std::string fileNameOf(std::string name) {
 }  // namespace
 
 Tape::Tape(TapeOptions options, v1::Welcome source)
-    : options_(std::move(options)), channel_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
+    : options_(std::move(options)), rendition_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
     v1::ServerMessage message;
     *message.mutable_welcome() = std::move(source);
     source_ = codec::share(std::move(message));
@@ -141,7 +141,7 @@ void Tape::order(codec::SharedMessage message) {
 }
 
 void Tape::frame(const codec::EncodedFrame& encoded) {
-    if (!writer_ || encoded.channel != channel_) return;
+    if (!writer_ || encoded.rendition != rendition_) return;
     using enum codec::EncodedFrame::Kind;
     const bool again = encoded.kind == Resync && number_ == encoded.number;
     if (!again) {
@@ -206,8 +206,8 @@ void Tape::add(recording::Kind kind, const codec::SharedMessage& message) {
 
 void Tape::demand(std::vector<codec::Demand>& demands, Clock::time_point now) const {
     if (!writer_) return;
-    auto own = std::ranges::find(demands, channel_, &codec::Demand::channel);
-    if (own == demands.end()) own = demands.insert(demands.end(), codec::Demand{.channel = channel_});
+    auto own = std::ranges::find(demands, rendition_, &codec::Demand::rendition);
+    if (own == demands.end()) own = demands.insert(demands.end(), codec::Demand{.rendition = rendition_});
     own->newcomer = own->newcomer || !timed_;
     own->lost = own->lost || (!waits_ && (!number_ || (moved_ && now - keyframe_ >= keyframesEvery)));
 }

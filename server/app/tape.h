@@ -14,7 +14,7 @@
 
 namespace spherule::app {
 
-// Records what a viewer is sent: it demands a channel as viewers do, and what it is told of, it writes. Used by the
+// Records what a viewer is sent: it demands a rendition as viewers do, and what it is told of, it writes. Used by the
 // simulation thread, which never waits for the disk.
 class Tape {
   public:
@@ -41,7 +41,7 @@ class Tape {
     std::optional<v1::Recording> news(Clock::time_point now);
     // Ends the recording, if there is one, waits for the disk, and tells how it is.
     std::optional<v1::Recording> finish();
-    [[nodiscard]] const codec::Channel& channel() const { return channel_; }
+    [[nodiscard]] const codec::Rendition& rendition() const { return rendition_; }
     [[nodiscard]] bool beginsByItself() const { return !options_.path.empty(); }
     [[nodiscard]] bool canRecord() const { return !options_.folder.empty() || !options_.path.empty(); }
     [[nodiscard]] std::uint64_t framesLost() const { return framesLost_; }
@@ -56,7 +56,7 @@ class Tape {
     void leaveOut(const v1::Frame& frame);
 
     TapeOptions options_;
-    codec::Channel channel_;
+    codec::Rendition rendition_;
     codec::SharedMessage source_;
     codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that begins
     std::unique_ptr<recording::BackgroundWriter> writer_;

@@ -11,11 +11,11 @@
 namespace spherule::codec {
 
 // One chain: all who watch it are sent the same frames.
-struct Channel {
+struct Rendition {
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 0;  // frames per second, one of `rates`
 
-    auto operator<=>(const Channel&) const = default;
+    auto operator<=>(const Rendition&) const = default;
 };
 
 // Few, so that viewers share chains.
@@ -34,7 +34,7 @@ struct EncodedFrame {
         Keyframe,  // the chain begins anew: for all
         Resync     // a keyframe of a state that others have already: for who waits for one
     };
-    Channel channel;
+    Rendition rendition;
     Kind kind = Kind::Delta;
     std::uint32_t number = 0;
     SharedMessage message;
@@ -42,7 +42,7 @@ struct EncodedFrame {
 
 // What somebody watches.
 struct Demand {
-    Channel channel;
+    Rendition rendition;
     bool newcomer = false;  // somebody has had no frame yet
     bool lost = false;      // somebody has lost the chain
 };

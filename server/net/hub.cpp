@@ -32,27 +32,27 @@ void Hub::join(SessionId id) {
     for (const auto& [kind, message] : kept_) entry->session->send(message);
 }
 
-void Hub::watch(SessionId id, const codec::Channel& channel) {
+void Hub::watch(SessionId id, const codec::Rendition& rendition) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
-    if (entry->channel.rate == 0 && channel.rate > 0 && order_) entry->session->send(order_);
-    entry->channel = channel;
-    entry->newcomer = channel.rate > 0;
+    if (entry->rendition.rate == 0 && rendition.rate > 0 && order_) entry->session->send(order_);
+    entry->rendition = rendition;
+    entry->newcomer = rendition.rate > 0;
     entry->lost = false;
     countViewers();
 }
 
 void Hub::askKeyframe(SessionId id) {
     const std::lock_guard lock(mutex_);
-    if (Entry* const entry = find(id)) entry->lost = entry->channel.rate > 0;
+    if (Entry* const entry = find(id)) entry->lost = entry->rendition.rate > 0;
 }
 
 void Hub::setOrder(codec::SharedMessage order) {
     const std::lock_guard lock(mutex_);
     order_ = std::move(order);
     for (const auto& [id, entry] : entries_)
-        if (entry.channel.rate > 0) entry.session->send(order_);
+        if (entry.rendition.rate > 0) entry.session->send(order_);
 }
 
 void Hub::keep(codec::SharedMessage message) {
@@ -67,7 +67,7 @@ void Hub::keep(codec::SharedMessage message) {
 void Hub::publish(const codec::EncodedFrame& encoded) {
     const std::lock_guard lock(mutex_);
     for (auto& [id, entry] : entries_) {
-        if (entry.channel.rate == 0 || entry.channel != encoded.channel) continue;
+        if (entry.rendition.rate == 0 || entry.rendition != encoded.rendition) continue;
         const bool waits = entry.newcomer || entry.lost;
         if (encoded.kind == codec::EncodedFrame::Kind::Resync && !waits) continue;
         if (encoded.kind != codec::EncodedFrame::Kind::Delta) entry.newcomer = entry.lost = false;
@@ -79,9 +79,9 @@ std::vector<codec::Demand> Hub::demands() {
     const std::lock_guard lock(mutex_);
     std::vector<codec::Demand> demands;
     for (const auto& [id, entry] : entries_) {
-        if (entry.channel.rate == 0) continue;
-        auto same = std::ranges::find(demands, entry.channel, &codec::Demand::channel);
-        if (same == demands.end()) same = demands.insert(demands.end(), codec::Demand{.channel = entry.channel});
+        if (entry.rendition.rate == 0) continue;
+        auto same = std::ranges::find(demands, entry.rendition, &codec::Demand::rendition);
+        if (same == demands.end()) same = demands.insert(demands.end(), codec::Demand{.rendition = entry.rendition});
         same->newcomer = same->newcomer || entry.newcomer;
         same->lost = same->lost || entry.lost;
     }
@@ -119,7 +119,7 @@ bool Hub::waitEmpty(std::chrono::milliseconds timeout) {
 
 void Hub::countViewers() {
     viewers_ = static_cast<std::uint32_t>(
-        std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.channel.rate > 0; }));
+        std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.rendition.rate > 0; }));
 }
 
 }  // namespace spherule::net

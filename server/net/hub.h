@@ -33,7 +33,7 @@ class Hub {
     // After the welcome: the session gets what is kept.
     void join(SessionId id);
     // The chain that the session is sent from now on, from its next keyframe on; rate 0: none.
-    void watch(SessionId id, const codec::Channel& channel);
+    void watch(SessionId id, const codec::Rendition& rendition);
     // The session has lost its chain and needs a keyframe.
     void askKeyframe(SessionId id);
 
@@ -59,8 +59,8 @@ class Hub {
     struct Entry {
         std::shared_ptr<Subscriber> session;
         bool joined = false;
-        codec::Channel channel{};  // rate 0: none
-        bool newcomer = false;     // no frame of the chain has come yet
+        codec::Rendition rendition{};  // rate 0: none
+        bool newcomer = false;         // no frame of the chain has come yet
         bool lost = false;
     };
 

@@ -16,13 +16,13 @@ bool replaceable(v1::ServerMessage::KindCase kind) {
 
 }  // namespace
 
-void Outbox::follow(const codec::Channel& channel) {
-    channel_ = channel;
+void Outbox::follow(const codec::Rendition& rendition) {
+    rendition_ = rendition;
     lose();
 }
 
 bool Outbox::lose(std::uint64_t sequence) {
-    if (channel_.rate == 0 || sequence < keyframe_) return false;
+    if (rendition_.rate == 0 || sequence < keyframe_) return false;
     lose();
     return true;
 }
@@ -47,7 +47,7 @@ bool Outbox::push(codec::SharedMessage message) {
 }
 
 Outbox::Offered Outbox::offer(const codec::EncodedFrame& encoded) {
-    if (channel_.rate == 0 || encoded.channel != channel_) return Offered::Fine;
+    if (rendition_.rate == 0 || encoded.rendition != rendition_) return Offered::Fine;
     const bool keyframe = encoded.kind != codec::EncodedFrame::Kind::Delta;
     if (numbered_ != encoded.message->content().frame().epoch()) lose();
     if (keyframe && number_ == encoded.number) return Offered::Fine;  // for those who lack it

@@ -18,7 +18,7 @@ class Outbox {
     explicit Outbox(std::size_t capacity) : capacity_(capacity) {}
 
     // The chain to follow, from its next keyframe on; rate 0: none.
-    void follow(const codec::Channel& channel);
+    void follow(const codec::Rendition& rendition);
 
     // False when the lane is full. What says how something is now takes the place of an older one of its kind
     // that waits.
@@ -36,7 +36,7 @@ class Outbox {
     // The next message to send, the reliable lane first; frames only where `frames` says so.
     codec::SharedMessage next(bool frames);
     // It follows a chain and has nothing to send of it before a keyframe comes.
-    [[nodiscard]] bool wantsKeyframe() const { return channel_.rate > 0 && !number_; }
+    [[nodiscard]] bool wantsKeyframe() const { return rendition_.rate > 0 && !number_; }
 
     void dropFrame() { frame_.reset(); }
     void clear();
@@ -46,7 +46,7 @@ class Outbox {
     [[nodiscard]] bool frameIsDescribed() const;
 
     const std::size_t capacity_;
-    codec::Channel channel_;
+    codec::Rendition rendition_;
     std::optional<std::uint32_t> epoch_;   // of the latest facts
     std::optional<std::uint32_t> order_;   // the latest
     std::optional<std::uint32_t> number_;  // of the newest frame taken

@@ -27,20 +27,21 @@ std::optional<std::uint32_t> below(std::uint32_t rate) {
 }
 
 // Nothing where there is no less.
-std::optional<codec::Channel> lessThan(const codec::Channel& channel) {
-    const auto rate = below(channel.rate);
-    if (rate && *rate >= watchable) return codec::Channel{channel.tier, *rate};
-    if (channel.tier != v1::ECO) return codec::Channel{channel.tier == v1::FINE ? v1::NORMAL : v1::ECO, channel.rate};
-    if (rate) return codec::Channel{channel.tier, *rate};
+std::optional<codec::Rendition> lessThan(const codec::Rendition& rendition) {
+    const auto rate = below(rendition.rate);
+    if (rate && *rate >= watchable) return codec::Rendition{rendition.tier, *rate};
+    if (rendition.tier != v1::ECO)
+        return codec::Rendition{rendition.tier == v1::FINE ? v1::NORMAL : v1::ECO, rendition.rate};
+    if (rate) return codec::Rendition{rendition.tier, *rate};
     return std::nullopt;
 }
 
 }  // namespace
 
-bool Pace::want(const codec::Channel& channel, bool fixed, Clock::time_point now) {
-    if (channel == wanted_ && fixed == fixed_) return false;
-    wanted_ = channel;
-    channel_ = channel;
+bool Pace::want(const codec::Rendition& rendition, bool fixed, Clock::time_point now) {
+    if (rendition == wanted_ && fixed == fixed_) return false;
+    wanted_ = rendition;
+    rendition_ = rendition;
     fixed_ = fixed;
     losses_.clear();
     left_.clear();
@@ -51,11 +52,11 @@ bool Pace::want(const codec::Channel& channel, bool fixed, Clock::time_point now
 }
 
 bool Pace::stepDown(Clock::time_point now) {
-    const auto less = lessThan(channel_);
+    const auto less = lessThan(rendition_);
     if (fixed_ || !less) return false;
     if (now - steppedUp_ < tooEarly) patience_ = std::min<std::chrono::seconds>(2 * patience_, mostPatience);
-    left_.push_back(channel_);
-    channel_ = *less;
+    left_.push_back(rendition_);
+    rendition_ = *less;
     losses_.clear();
     slowAcks_ = 0;
     quietSince_ = now;
@@ -64,7 +65,7 @@ bool Pace::stepDown(Clock::time_point now) {
 
 bool Pace::stepUp(Clock::time_point now) {
     if (left_.empty() || now - quietSince_ < patience_) return false;
-    channel_ = left_.back();
+    rendition_ = left_.back();
     left_.pop_back();
     quietSince_ = now;
     steppedUp_ = now;
@@ -81,11 +82,11 @@ std::optional<std::string> Pace::lost(Clock::time_point now) {
 }
 
 std::optional<std::string> Pace::acked(double drawRate, double decodeMs, Clock::time_point now) {
-    const bool drawsLess = drawRate > 0 && drawRate < drawn * channel_.rate;
-    const bool decodesLong = decodeMs * channel_.rate > busy * 1000;
+    const bool drawsLess = drawRate > 0 && drawRate < drawn * rendition_.rate;
+    const bool decodesLong = decodeMs * rendition_.rate > busy * 1000;
     slowAcks_ = drawsLess || decodesLong ? slowAcks_ + 1 : 0;
-    const auto less = lessThan(channel_);
-    const bool fewer = less && less->rate < channel_.rate;  // less precision would not help
+    const auto less = lessThan(rendition_);
+    const bool fewer = less && less->rate < rendition_.rate;  // less precision would not help
     if (slowAcks_ >= slowFor && fewer && stepDown(now))
         return drawsLess ? fmt::format("only {:.0f} pictures per second are drawn", drawRate)
                          : fmt::format("a frame takes {:.0f} ms to decode", decodeMs);

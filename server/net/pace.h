@@ -19,11 +19,11 @@ class Pace {
     explicit Pace(Clock::time_point now) : quietSince_(now) {}
 
     // What the client wants; `fixed`: and nothing less. False where it wanted that before.
-    bool want(const codec::Channel& channel, bool fixed, Clock::time_point now);
-    [[nodiscard]] const codec::Channel& channel() const { return channel_; }
-    [[nodiscard]] bool reduced() const { return channel_ != wanted_; }
+    bool want(const codec::Rendition& rendition, bool fixed, Clock::time_point now);
+    [[nodiscard]] const codec::Rendition& rendition() const { return rendition_; }
+    [[nodiscard]] bool reduced() const { return rendition_ != wanted_; }
 
-    // The reason for a change of channel(), where there is one.
+    // The reason for a change of rendition(), where there is one.
     std::optional<std::string> lost(Clock::time_point now);  // the client missed a frame
     // `drawRate`: pictures per second, 0: unknown.
     std::optional<std::string> acked(double drawRate, double decodeMs, Clock::time_point now);
@@ -33,11 +33,11 @@ class Pace {
     bool stepDown(Clock::time_point now);
     bool stepUp(Clock::time_point now);
 
-    codec::Channel wanted_;
-    codec::Channel channel_;
+    codec::Rendition wanted_;
+    codec::Rendition rendition_;
     bool fixed_ = false;
     std::deque<Clock::time_point> losses_;
-    std::deque<codec::Channel> left_;  // on the way down, for the way up
+    std::deque<codec::Rendition> left_;  // on the way down, for the way up
     Clock::time_point quietSince_;
     Clock::time_point steppedUp_{};  // a loss soon after it says that it was too early
     std::chrono::seconds patience_{10};

@@ -179,8 +179,8 @@ void Session::onView(const v1::View& view) {
         return;
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
-    const codec::Channel wish{known ? view.tier() : v1::NORMAL,
-                              codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
+    const codec::Rendition wish{known ? view.tier() : v1::NORMAL,
+                                codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
     // Whoever says the same again begins nothing anew.
     if (pace_.want(wish, view.fixed(), Pace::Clock::now()))
         follow("");

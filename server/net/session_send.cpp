@@ -30,7 +30,7 @@ void Session::offer(codec::EncodedFrame encoded) {
                    if (self.closing_ || self.finished_) return;
                    // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on
                    // its way here.
-                   if (newest->channel == self.pace_.channel()) self.asked_ = false;
+                   if (newest->rendition == self.pace_.rendition()) self.asked_ = false;
                    const auto offered = self.outbox_.offer(*newest);
                    if (offered == Outbox::Offered::Busy) self.missed();
                    if (offered == Outbox::Offered::Gap) ++self.context_.counters.chainsLost;
@@ -53,19 +53,19 @@ void Session::askKeyframe() {
 }
 
 void Session::follow(const std::string& reason) {
-    const codec::Channel channel = pace_.channel();
-    outbox_.follow(channel);
-    credit_.setRate(channel.rate);
+    const codec::Rendition rendition = pace_.rendition();
+    outbox_.follow(rendition);
+    credit_.setRate(rendition.rate);
     asked_ = true;  // who comes to a chain is sent a keyframe of it
     sayStream(reason);
-    context_.hub.watch(id_, channel);
+    context_.hub.watch(id_, rendition);
 }
 
 void Session::sayStream(const std::string& reason) {
-    const codec::Channel channel = pace_.channel();
+    const codec::Rendition rendition = pace_.rendition();
     v1::ServerMessage message;
-    message.mutable_stream()->set_tier(channel.tier);
-    message.mutable_stream()->set_rate(channel.rate);
+    message.mutable_stream()->set_tier(rendition.tier);
+    message.mutable_stream()->set_rate(rendition.rate);
     message.mutable_stream()->set_reduced(pace_.reduced());
     message.mutable_stream()->set_reason(reason);
     queue(codec::share(std::move(message)));

@@ -123,8 +123,8 @@ class Served {
         for (const codec::Demand& demand : context_.hub.demands()) {
             v1::ServerMessage message;
             message.mutable_frame()->set_sequence(++frames_);
-            message.mutable_frame()->set_tier(demand.channel.tier);
-            context_.hub.publish({.channel = demand.channel,
+            message.mutable_frame()->set_tier(demand.rendition.tier);
+            context_.hub.publish({.rendition = demand.rendition,
                                   .kind = codec::EncodedFrame::Kind::Keyframe,
                                   .number = frames_,
                                   .message = codec::share(std::move(message))});

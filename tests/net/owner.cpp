@@ -30,7 +30,7 @@ codec::SharedMessage orderOf(std::uint32_t epoch) {
 }
 
 codec::EncodedFrame encodedFrame(codec::EncodedFrame::Kind kind, std::uint32_t number, std::uint32_t epoch,
-                                 std::uint32_t spheres, const codec::Channel& channel) {
+                                 std::uint32_t spheres, const codec::Rendition& rendition) {
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
     frame.set_sequence(number);
@@ -38,9 +38,9 @@ codec::EncodedFrame encodedFrame(codec::EncodedFrame::Kind kind, std::uint32_t n
     frame.set_order(epoch);
     frame.set_step(number);
     frame.set_count(spheres);
-    frame.set_tier(channel.tier);
+    frame.set_tier(rendition.tier);
     frame.set_spb(std::string(std::size_t{6} * spheres, static_cast<char>(number)));
-    return {channel, kind, number, codec::share(std::move(message))};
+    return {rendition, kind, number, codec::share(std::move(message))};
 }
 
 codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind) {
@@ -82,9 +82,9 @@ void Owner::publish(std::uint32_t spheres) {
     const auto demands = server_->demands();
     const std::uint32_t number = ++number_;
     for (const codec::Demand& demand : demands) {
-        server_->publish(encodedFrame(Delta, number, epoch_, spheres, demand.channel));
+        server_->publish(encodedFrame(Delta, number, epoch_, spheres, demand.rendition));
         if (demand.newcomer || demand.lost)
-            server_->publish(encodedFrame(Resync, number, epoch_, spheres, demand.channel));
+            server_->publish(encodedFrame(Resync, number, epoch_, spheres, demand.rendition));
     }
 }
 

@@ -26,9 +26,9 @@ Options quickOptions();
 
 codec::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres);
 codec::SharedMessage orderOf(std::uint32_t epoch);  // with the epoch's number
-// Of a chain of channel `normal`.
+// Of a chain of rendition `normal`.
 codec::EncodedFrame encodedFrame(codec::EncodedFrame::Kind kind, std::uint32_t number, std::uint32_t epoch,
-                                 std::uint32_t spheres, const codec::Channel& channel = {v1::NORMAL, 60});
+                                 std::uint32_t spheres, const codec::Rendition& rendition = {v1::NORMAL, 60});
 codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1::Event::WARNING);
 
 // True as soon as `condition` holds; false when patience is over.

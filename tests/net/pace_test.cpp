@@ -11,9 +11,9 @@ namespace {
 using namespace std::chrono_literals;
 const Pace::Clock::time_point start = Pace::Clock::now();
 
-Pace wanting(const codec::Channel& channel, bool fixed = false) {
+Pace wanting(const codec::Rendition& rendition, bool fixed = false) {
     Pace pace(start);
-    pace.want(channel, fixed, start);
+    pace.want(rendition, fixed, start);
     return pace;
 }
 
@@ -27,9 +27,9 @@ bool stepsDown(Pace& pace, Pace::Clock::time_point& now) {
 TEST(Pace, StepsDownInRateFirstThenInPrecision) {
     Pace pace = wanting({v1::NORMAL, 30});
     auto now = start;
-    std::vector<codec::Channel> down;
-    while (stepsDown(pace, now)) down.push_back(pace.channel());
-    EXPECT_EQ(down, (std::vector<codec::Channel>{{v1::NORMAL, 20}, {v1::NORMAL, 10}, {v1::ECO, 10}, {v1::ECO, 5}}));
+    std::vector<codec::Rendition> down;
+    while (stepsDown(pace, now)) down.push_back(pace.rendition());
+    EXPECT_EQ(down, (std::vector<codec::Rendition>{{v1::NORMAL, 20}, {v1::NORMAL, 10}, {v1::ECO, 10}, {v1::ECO, 5}}));
     EXPECT_TRUE(pace.reduced());
 }
 
@@ -44,10 +44,10 @@ TEST(Pace, StepsUpAfterAQuietTimeTheWayItCameDown) {
     auto now = start;
     ASSERT_TRUE(stepsDown(pace, now));
     ASSERT_TRUE(stepsDown(pace, now));
-    EXPECT_EQ(pace.channel(), (codec::Channel{v1::ECO, 10}));
+    EXPECT_EQ(pace.rendition(), (codec::Rendition{v1::ECO, 10}));
     EXPECT_FALSE(pace.acked(60, 1, now + 9s));
     EXPECT_TRUE(pace.acked(60, 1, now + 11s));
-    EXPECT_EQ(pace.channel(), (codec::Channel{v1::NORMAL, 10}));
+    EXPECT_EQ(pace.rendition(), (codec::Rendition{v1::NORMAL, 10}));
     EXPECT_TRUE(pace.acked(60, 1, now + 22s));
     EXPECT_FALSE(pace.reduced());
     EXPECT_FALSE(pace.acked(60, 1, now + 100s)) << "that is what was wanted";
@@ -69,7 +69,7 @@ TEST(Pace, LowersTheRateForWhoDrawsSlowly) {
     int acks = 1;
     while (!pace.acked(4, 1, start + acks * 33ms) && acks < 100) ++acks;
     EXPECT_EQ(acks, 30);
-    EXPECT_EQ(pace.channel(), (codec::Channel{v1::NORMAL, 20}));
+    EXPECT_EQ(pace.rendition(), (codec::Rendition{v1::NORMAL, 20}));
     Pace unknown = wanting({v1::NORMAL, 30});
     for (int k = 0; k < 100; ++k) EXPECT_FALSE(unknown.acked(0, 1, start + k * 33ms));
 }
@@ -83,7 +83,7 @@ TEST(Pace, WaitsLongerWithAStepUpForWhoDrawsSlowly) {
         return changes;
     };
     EXPECT_EQ(slowly(5s), 1);
-    EXPECT_EQ(pace.channel().rate, 30U);
+    EXPECT_EQ(pace.rendition().rate, 30U);
     EXPECT_EQ(slowly(11s), 2) << "up, and down again";
     EXPECT_EQ(slowly(15s), 0);
 }
@@ -93,7 +93,7 @@ TEST(Pace, LowersTheRateForWhoDecodesSlowly) {
     std::optional<std::string> reason;
     for (int k = 0; k < 100 && !reason; ++k) reason = pace.acked(60, 25, start + k * 33ms);
     EXPECT_EQ(reason, "a frame takes 25 ms to decode");
-    EXPECT_EQ(pace.channel().rate, 20U);
+    EXPECT_EQ(pace.rendition().rate, 20U);
 }
 
 TEST(Pace, StepsUpWithoutAcksToo) {
@@ -109,10 +109,10 @@ TEST(Pace, LeavesWhatIsFixed) {
     Pace pace = wanting({v1::FINE, 60}, true);
     auto now = start;
     EXPECT_FALSE(stepsDown(pace, now));
-    EXPECT_EQ(pace.channel(), (codec::Channel{v1::FINE, 60}));
+    EXPECT_EQ(pace.rendition(), (codec::Rendition{v1::FINE, 60}));
 }
 
-TEST(Channel, RatesAreTheNextOneBelow) {
+TEST(Rendition, RatesAreTheNextOneBelow) {
     EXPECT_EQ(codec::rateFor(0), 0U);
     EXPECT_EQ(codec::rateFor(1), 5U);
     EXPECT_EQ(codec::rateFor(29), 20U);
@@ -120,7 +120,7 @@ TEST(Channel, RatesAreTheNextOneBelow) {
     EXPECT_EQ(codec::rateFor(1000), 60U);
 }
 
-TEST(Channel, QuantaAreTwiceTheErrors) {
+TEST(Rendition, QuantaAreTwiceTheErrors) {
     EXPECT_DOUBLE_EQ(codec::quantumOf(v1::FINE, 0.05), 2 * 0.05 / 500);
     EXPECT_DOUBLE_EQ(codec::quantumOf(v1::NORMAL, 0.05), 2 * 0.05 / 50);
     EXPECT_DOUBLE_EQ(codec::quantumOf(v1::ECO, 0.05), 2 * 0.05 / 16);

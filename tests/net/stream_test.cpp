@@ -86,9 +86,9 @@ TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    const codec::Channel channel{v1::NORMAL, 60};
+    const codec::Rendition rendition{v1::NORMAL, 60};
     const auto give = [&](codec::EncodedFrame::Kind kind, std::uint32_t number) {
-        owner.server().publish(encodedFrame(kind, number, 1, 64, channel));
+        owner.server().publish(encodedFrame(kind, number, 1, 64, rendition));
     };
     give(codec::EncodedFrame::Kind::Resync, 1);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
@@ -104,19 +104,19 @@ TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
     Owner owner;
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    const codec::Channel channel{v1::NORMAL, 60};
+    const codec::Rendition rendition{v1::NORMAL, 60};
     owner.hold = true;
     v1::ClientMessage command;
     command.mutable_command()->mutable_query();
     ASSERT_TRUE(client->send(command));
     ASSERT_TRUE(eventually([&] { return owner.held.load(); }));
-    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64, channel));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64, rendition));
     EXPECT_FALSE(owner.server().demands().front().newcomer);
-    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Delta, 2, 1, 64, channel));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Delta, 2, 1, 64, rendition));
     owner.hold = false;
     EXPECT_TRUE(next(*client).has_result());
     ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
-    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 2, 1, 64, channel));
+    owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 2, 1, 64, rendition));
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
 }
 

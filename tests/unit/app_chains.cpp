@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using Kind = codec::EncodedFrame::Kind;
-constexpr codec::Channel normal{v1::NORMAL, 30};
+constexpr codec::Rendition normal{v1::NORMAL, 30};
 
 // A world of spheres on the CPU device that somebody watches.
 class Watched : public testing::Test {
@@ -67,38 +67,38 @@ class Watched : public testing::Test {
 TEST_F(Watched, MakesNothingForNobodyAndAKeyframeForTheFirst) {
     EXPECT_EQ(serve({}, 1s), "");
     EXPECT_TRUE(orders_.empty());
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "K");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "K");
     ASSERT_EQ(orders_.size(), 1U);
     EXPECT_EQ(orders_[0]->content().order().ids().size(), 3 * spheres);
     EXPECT_EQ(encoded_[0].message->content().frame().order(), orders_[0]->content().order().number());
     EXPECT_EQ(encoded_[0].number, 1U);
-    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "D");
+    EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "D");
     EXPECT_EQ(encoded_[0].number, 2U);
 }
 
 TEST_F(Watched, KeepsToTheRateOfEachChain) {
-    const codec::Channel slow{v1::ECO, 10};
-    serve({{.channel = normal}, {.channel = slow}}, 1s);
+    const codec::Rendition slow{v1::ECO, 10};
+    serve({{.rendition = normal}, {.rendition = slow}}, 1s);
     std::size_t fast = 0;
     std::size_t slowly = 0;
     for (int k = 0; k < 1000; ++k) {
-        serve({{.channel = normal}, {.channel = slow}}, 2ms);
-        for (const codec::EncodedFrame& encoded : encoded_) ++(encoded.channel == slow ? slowly : fast);
+        serve({{.rendition = normal}, {.rendition = slow}}, 2ms);
+        for (const codec::EncodedFrame& encoded : encoded_) ++(encoded.rendition == slow ? slowly : fast);
     }
     EXPECT_NEAR(static_cast<double>(fast), 60, 2);
     EXPECT_NEAR(static_cast<double>(slowly), 20, 1);
 }
 
 TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
-    serve({{.channel = normal, .newcomer = true}}, 1s);
-    EXPECT_EQ(serve({{.channel = normal}}, 1s, 0), "");
+    serve({{.rendition = normal, .newcomer = true}}, 1s);
+    EXPECT_EQ(serve({{.rendition = normal}}, 1s, 0), "");
     EXPECT_FALSE(chains_.due());
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s, 0), "J");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s, 0), "J");
     EXPECT_EQ(encoded_[0].number, 1U) << "of the state that others have";
 }
 
 TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
-    serve({{.channel = normal, .newcomer = true}}, 1s);
+    serve({{.rendition = normal, .newcomer = true}}, 1s);
     for (const codec::Demand& demand : {codec::Demand{normal, true, false}, codec::Demand{normal, false, true}}) {
         std::string kinds;
         for (int k = 0; k < 6; ++k) kinds += serve({demand}, 200ms);
@@ -108,10 +108,10 @@ TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
 }
 
 TEST_F(Watched, LetsThoseWhoKeepLosingTheChainWait) {
-    serve({{.channel = normal}}, 1s);
+    serve({{.rendition = normal}}, 1s);
     int joins = 0;
     for (int k = 0; k < 200; ++k) {
-        const std::string kinds = serve({{.channel = normal, .lost = true}}, 5ms);
+        const std::string kinds = serve({{.rendition = normal, .lost = true}}, 5ms);
         joins += static_cast<int>(std::ranges::count(kinds, 'J'));
     }
     EXPECT_GE(joins, 3);
@@ -119,24 +119,24 @@ TEST_F(Watched, LetsThoseWhoKeepLosingTheChainWait) {
 }
 
 TEST_F(Watched, BeginsAnewForOtherSpheresAndForWhoComesBack) {
-    serve({{.channel = normal}}, 1s);
+    serve({{.rendition = normal}}, 1s);
     epoch_ = 2;
-    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "K");
+    EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "K");
     EXPECT_EQ(orders_.size(), 2U);
     serve({}, 40ms);
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 40ms), "K");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 40ms), "K");
     EXPECT_EQ(orders_.size(), 2U) << "the spheres are the same";
     count_ = 0;
     epoch_ = 3;
-    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "");
+    EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "");
 }
 
 TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
     const std::uint64_t before = memory::claimed().held;
     count_ = 200'000;
     memory::setLimit(1);
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "");
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
     const Result<void> refused = chains_.open(normal, scenery());
     memory::setLimit(0);
     ASSERT_EQ(complaints_.size(), 1U) << "not again and again";
@@ -147,7 +147,7 @@ TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
     ASSERT_FALSE(refused) << "a recording would be refused";
     EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
     count_ = spheres;
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 11s), "K") << "tried again";
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 11s), "K") << "tried again";
     EXPECT_GT(memory::claimed().held, before);
 }
 

@@ -62,7 +62,7 @@ class Looping : public testing::Test {
                 .viewers = [] { return 1U; },
                 .demands =
                     [] {
-                        return std::vector<codec::Demand>{{.channel = {v1::NORMAL, 60}}};
+                        return std::vector<codec::Demand>{{.rendition = {v1::NORMAL, 60}}};
                     }};
     }
 

@@ -74,7 +74,7 @@ class Stage {
             .viewers = [] { return 1U; },
             .demands =
                 [] {
-                    return std::vector<codec::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
+                    return std::vector<codec::Demand>{{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
                 }};
     }
 

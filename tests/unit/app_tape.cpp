@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = codec::EncodedFrame::Kind;
 constexpr std::uint32_t spheres = 70;
-constexpr codec::Channel channel{v1::FINE, 30};
+constexpr codec::Rendition rendition{v1::FINE, 30};
 
 // A tape, and a chain of frames like those that it would be told of.
 class Taping : public testing::Test {
@@ -47,7 +47,7 @@ class Taping : public testing::Test {
         frame.set_quantum(0.125);
         frame.set_count(spheres);
         frame.set_spb(bytes.data(), bytes.size());
-        return {channel, kind, number_, codec::share(std::move(message))};
+        return {rendition, kind, number_, codec::share(std::move(message))};
     }
     // The state once the disk has all.
     v1::Recording ended() {
