@@ -35,32 +35,32 @@ Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder,
       announceOrder_(std::move(announceOrder)),
       complain_(std::move(complain)) {}
 
-void Chains::serve(const Scenery& world, const std::vector<codec::Demand>& demands, Clock::time_point now) {
+void Chains::serve(const Scenery& world, const std::vector<codec::Subscription>& subscriptions, Clock::time_point now) {
     if (world.epoch != epoch_) chains_.clear();
     version_ = world.version;
     std::erase_if(chains_, [&](const auto& entry) {
-        return std::ranges::find(demands, entry.first, &codec::Demand::rendition) == demands.end();
+        return std::ranges::find(subscriptions, entry.first, &codec::Subscription::rendition) == subscriptions.end();
     });
     if (world.spheres == 0) return;
     for (auto& [rendition, chain] : chains_) collect(rendition, chain);
     std::vector<std::pair<codec::Rendition, Chain*>> making;
-    for (const codec::Demand& demand : demands) {
-        Chain* const chain = served(demand, world, now);
+    for (const codec::Subscription& subscription : subscriptions) {
+        Chain* const chain = served(subscription, world, now);
         if (chain == nullptr) continue;
-        if (!chain->making) begin(demand, *chain, world, now);
-        if (chain->making) making.emplace_back(demand.rendition, chain);
+        if (!chain->making) begin(subscription, *chain, world, now);
+        if (chain->making) making.emplace_back(subscription.rendition, chain);
     }
     // The device copies few at a time: whose turn was first goes first.
     std::ranges::sort(making, {}, [](const auto& entry) { return entry.second->turn; });
     for (const auto& [rendition, chain] : making) collect(rendition, *chain);
 }
 
-Chains::Chain* Chains::served(const codec::Demand& demand, const Scenery& world, Clock::time_point now) {
-    if (!chains_.contains(demand.rendition) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
-    auto chain = chainOf(demand.rendition, world);
+Chains::Chain* Chains::served(const codec::Subscription& subscription, const Scenery& world, Clock::time_point now) {
+    if (!chains_.contains(subscription.rendition) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
+    auto chain = chainOf(subscription.rendition, world);
     if (chain) return *chain;
-    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(demand.rendition.tier),
-                          demand.rendition.rate, chain.error().text()));
+    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(subscription.rendition.tier),
+                          subscription.rendition.rate, chain.error().text()));
     retry_ = now + retryEvery;
     refusedEpoch_ = world.epoch;
     return nullptr;
@@ -106,24 +106,24 @@ Result<Chains::Chain*> Chains::chainOf(const codec::Rendition& rendition, const 
 
 // A keyframe for who waits and the next frame for all others take turns where the world is so slow that the next frame
 // is always due.
-void Chains::begin(const codec::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
+void Chains::begin(const codec::Subscription& subscription, Chain& chain, const Scenery& world, Clock::time_point now) {
     using enum codec::EncodedFrame::Kind;
     const bool begun = chain.tier->number() > 0;
     const bool due = now >= chain.next && chain.version != world.version;
     const auto since = now - chain.keyframe;
     const bool waits =
-        begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
+        begun && ((subscription.newcomer && since >= newcomersEvery) || (subscription.lost && since >= keyframesEvery));
     if (waits && (!due || chain.kind == Delta)) return start(chain, Resync, chain.newest, world.source, now);
     if (begun && !due) return;
-    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.rendition.rate;
+    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / subscription.rendition.rate;
     chain.next = std::max(chain.next + interval, now - interval / 2);
     chain.version = world.version;
     chain.newest = world.head();
     chain.newest.set_epoch(epoch_);
     chain.newest.set_order(order_);
     chain.newest.set_count(world.spheres);
-    chain.newest.set_tier(demand.rendition.tier);
-    chain.newest.set_quantum(codec::quantumOf(demand.rendition.tier, world.smallestRadius));
+    chain.newest.set_tier(subscription.rendition.tier);
+    chain.newest.set_quantum(codec::quantumOf(subscription.rendition.tier, world.smallestRadius));
     start(chain, begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 

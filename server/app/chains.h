@@ -40,12 +40,13 @@ class Chains {
 
     // Hands on the frames that have arrived, and begins those that are due. A chain that there is no room for is left
     // out, which is complained of, and tried again now and then.
-    void serve(const Scenery& world, const std::vector<codec::Demand>& demands, Clock::time_point now);
+    void serve(const Scenery& world, const std::vector<codec::Subscription>& subscriptions, Clock::time_point now);
 
-    // Whether there is room for a chain: makes it where it is not there yet. The next serve() demands it, or ends it.
+    // Whether there is room for a chain: makes it where it is not there yet. The next serve() must subscribe to it, or
+    // ends it.
     Result<void> open(const codec::Rendition& rendition, const Scenery& world);
 
-    // When to call again; nothing when there is nothing to do before the world or the demands change.
+    // When to call again; nothing when there is nothing to do before the world or the subscriptions change.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
     [[nodiscard]] std::uint64_t made() const { return sequence_; }  // frames, ever
 
@@ -65,8 +66,8 @@ class Chains {
 
     Result<void> prepare(const Scenery& world);
     Result<Chain*> chainOf(const codec::Rendition& rendition, const Scenery& world);
-    Chain* served(const codec::Demand& demand, const Scenery& world, Clock::time_point now);
-    void begin(const codec::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now);
+    Chain* served(const codec::Subscription& subscription, const Scenery& world, Clock::time_point now);
+    void begin(const codec::Subscription& subscription, Chain& chain, const Scenery& world, Clock::time_point now);
     void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const sim::TierSource& source,
                Clock::time_point now);
     void collect(const codec::Rendition& rendition, Chain& chain);

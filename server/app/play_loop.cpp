@@ -140,7 +140,7 @@ void PlayLoop::produce(Chains::Clock::time_point now) {
                            *head.mutable_status() = status(now);
                            return head;
                        }},
-                  outlets_.demands(), now);
+                  outlets_.subscriptions(), now);
 }
 
 void PlayLoop::publish(const codec::EncodedFrame& encoded) {

@@ -88,7 +88,7 @@ Outlets Runtime::outlets() {
             .frame = [this](const codec::EncodedFrame& encoded) { server_->publish(encoded); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },
-            .demands = [this] { return server_->demands(); }};
+            .subscriptions = [this] { return server_->subscriptions(); }};
 }
 
 net::Handlers Runtime::handlers() {

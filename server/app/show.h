@@ -23,7 +23,7 @@ struct Outlets {
     std::function<void(const codec::EncodedFrame&)> frame;
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;
     std::function<std::uint32_t()> viewers;
-    std::function<std::vector<codec::Demand>()> demands;
+    std::function<std::vector<codec::Subscription>()> subscriptions;
 };
 
 // The answer to a command. The field of a refusal is a path that begins at the Command: `applied` names it from the

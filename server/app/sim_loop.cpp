@@ -353,15 +353,15 @@ void SimLoop::stopAtNonFinite() {
 
 // Before the frame that shows where a world has stopped: its status is that of this state.
 void SimLoop::lookAtStill() {
-    watched_ = !outlets_.demands().empty();
+    watched_ = !outlets_.subscriptions().empty();
     if (world_.running() || !watched_ || world_.simulation().midStep()) return;
     if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
 }
 
 void SimLoop::produce(Pacer::Clock::time_point now) {
-    auto demands = outlets_.demands();
-    tape_.demand(demands, now);
-    chains_.serve(scenery(now), demands, now);
+    auto subscriptions = outlets_.subscriptions();
+    tape_.subscribe(subscriptions, now);
+    chains_.serve(scenery(now), subscriptions, now);
 }
 
 Scenery SimLoop::scenery(Pacer::Clock::time_point now) {

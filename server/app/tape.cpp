@@ -204,10 +204,11 @@ void Tape::add(recording::Kind kind, const codec::SharedMessage& message) {
     ++framesLost_;
 }
 
-void Tape::demand(std::vector<codec::Demand>& demands, Clock::time_point now) const {
+void Tape::subscribe(std::vector<codec::Subscription>& subscriptions, Clock::time_point now) const {
     if (!writer_) return;
-    auto own = std::ranges::find(demands, rendition_, &codec::Demand::rendition);
-    if (own == demands.end()) own = demands.insert(demands.end(), codec::Demand{.rendition = rendition_});
+    auto own = std::ranges::find(subscriptions, rendition_, &codec::Subscription::rendition);
+    if (own == subscriptions.end())
+        own = subscriptions.insert(subscriptions.end(), codec::Subscription{.rendition = rendition_});
     own->newcomer = own->newcomer || !timed_;
     own->lost = own->lost || (!waits_ && (!number_ || (moved_ && now - keyframe_ >= keyframesEvery)));
 }

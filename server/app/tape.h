@@ -14,8 +14,8 @@
 
 namespace spherule::app {
 
-// Records what a viewer is sent: it demands a rendition as viewers do, and what it is told of, it writes. Used by the
-// simulation thread, which never waits for the disk.
+// Records what a viewer is sent: it subscribes to a rendition as viewers do, and what it is told of, it writes. Used by
+// the simulation thread, which never waits for the disk.
 class Tape {
   public:
     using Clock = std::chrono::steady_clock;
@@ -36,7 +36,7 @@ class Tape {
     void frame(const codec::EncodedFrame& encoded);
 
     // Adds its own, while it records.
-    void demand(std::vector<codec::Demand>& demands, Clock::time_point now) const;
+    void subscribe(std::vector<codec::Subscription>& subscriptions, Clock::time_point now) const;
     // How it goes, where that is not what it last said; while it records, once a second.
     std::optional<v1::Recording> news(Clock::time_point now);
     // Ends the recording, if there is one, waits for the disk, and tells how it is.

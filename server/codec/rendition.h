@@ -41,7 +41,7 @@ struct EncodedFrame {
 };
 
 // What somebody watches.
-struct Demand {
+struct Subscription {
     Rendition rendition;
     bool newcomer = false;  // somebody has had no frame yet
     bool lost = false;      // somebody has lost the chain

@@ -75,17 +75,18 @@ void Hub::publish(const codec::EncodedFrame& encoded) {
     }
 }
 
-std::vector<codec::Demand> Hub::demands() {
+std::vector<codec::Subscription> Hub::subscriptions() {
     const std::lock_guard lock(mutex_);
-    std::vector<codec::Demand> demands;
+    std::vector<codec::Subscription> subscriptions;
     for (const auto& [id, entry] : entries_) {
         if (entry.rendition.rate == 0) continue;
-        auto same = std::ranges::find(demands, entry.rendition, &codec::Demand::rendition);
-        if (same == demands.end()) same = demands.insert(demands.end(), codec::Demand{.rendition = entry.rendition});
+        auto same = std::ranges::find(subscriptions, entry.rendition, &codec::Subscription::rendition);
+        if (same == subscriptions.end())
+            same = subscriptions.insert(subscriptions.end(), codec::Subscription{.rendition = entry.rendition});
         same->newcomer = same->newcomer || entry.newcomer;
         same->lost = same->lost || entry.lost;
     }
-    return demands;
+    return subscriptions;
 }
 
 void Hub::broadcast(const codec::SharedMessage& message) {

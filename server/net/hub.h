@@ -47,7 +47,7 @@ class Hub {
 
     [[nodiscard]] std::uint32_t viewers() const { return viewers_; }
     // Of each chain that somebody watches.
-    [[nodiscard]] std::vector<codec::Demand> demands();
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions();
 
     // Closes what is open and whatever comes later.
     void drain();

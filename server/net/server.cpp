@@ -61,7 +61,7 @@ class RunningServer final : public Server {
     }
 
     [[nodiscard]] std::uint32_t viewers() const override { return context_.hub.viewers(); }
-    [[nodiscard]] std::vector<codec::Demand> demands() override { return context_.hub.demands(); }
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions() override { return context_.hub.subscriptions(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }
 
     Result<void> setSecrets(const Secrets& secrets) override {

@@ -80,7 +80,7 @@ class Server {
 
     [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want frames
     // The chains that are watched, and whether somebody waits for a keyframe: no frame comes to them before.
-    [[nodiscard]] virtual std::vector<codec::Demand> demands() = 0;
+    [[nodiscard]] virtual std::vector<codec::Subscription> subscriptions() = 0;
 
     // Closes the port; who is connected stays.
     virtual void stopAccepting() = 0;

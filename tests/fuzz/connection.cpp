@@ -120,11 +120,11 @@ class Served {
     }
 
     void sendFrames() {
-        for (const codec::Demand& demand : context_.hub.demands()) {
+        for (const codec::Subscription& subscription : context_.hub.subscriptions()) {
             v1::ServerMessage message;
             message.mutable_frame()->set_sequence(++frames_);
-            message.mutable_frame()->set_tier(demand.rendition.tier);
-            context_.hub.publish({.rendition = demand.rendition,
+            message.mutable_frame()->set_tier(subscription.rendition.tier);
+            context_.hub.publish({.rendition = subscription.rendition,
                                   .kind = codec::EncodedFrame::Kind::Keyframe,
                                   .number = frames_,
                                   .message = codec::share(std::move(message))});

@@ -79,12 +79,12 @@ std::string Owner::url() const {
 
 void Owner::publish(std::uint32_t spheres) {
     using enum codec::EncodedFrame::Kind;
-    const auto demands = server_->demands();
+    const auto subscriptions = server_->subscriptions();
     const std::uint32_t number = ++number_;
-    for (const codec::Demand& demand : demands) {
-        server_->publish(encodedFrame(Delta, number, epoch_, spheres, demand.rendition));
-        if (demand.newcomer || demand.lost)
-            server_->publish(encodedFrame(Resync, number, epoch_, spheres, demand.rendition));
+    for (const codec::Subscription& subscription : subscriptions) {
+        server_->publish(encodedFrame(Delta, number, epoch_, spheres, subscription.rendition));
+        if (subscription.newcomer || subscription.lost)
+            server_->publish(encodedFrame(Resync, number, epoch_, spheres, subscription.rendition));
     }
 }
 

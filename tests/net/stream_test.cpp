@@ -38,7 +38,8 @@ TEST(Stream, GrantsThirtyFramesWhenNoRateIsAskedAndSixtyAtMost) {
     ASSERT_TRUE(greedy->send(helloOf(1000)));
     EXPECT_TRUE(next(*greedy).has_welcome());
     EXPECT_EQ(next(*greedy).stream().rate(), 60U);
-    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 2 && owner.server().demands().size() == 2; }));
+    EXPECT_TRUE(
+        eventually([&] { return owner.server().viewers() == 2 && owner.server().subscriptions().size() == 2; }));
 }
 
 TEST(Stream, ChangesTheChainAtAWordOfTheClient) {
@@ -73,12 +74,12 @@ TEST(Stream, GivesAKeyframeToWhoSaysThatItLostTheChain) {
     ack.mutable_ack()->set_sequence(1);
     ack.mutable_ack()->set_lost(true);
     ASSERT_TRUE(client->send(ack));
-    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
+    ASSERT_TRUE(eventually([&] { return owner.server().subscriptions().front().lost; }));
     EXPECT_EQ(owner.counters().chainsLost, 1U);
     owner.publish(64);
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
     EXPECT_EQ(next(*other).frame().sequence(), 2U);
-    EXPECT_FALSE(owner.server().demands().front().lost);
+    EXPECT_FALSE(owner.server().subscriptions().front().lost);
 }
 
 // As when the io thread was busy for two frames, and only the second of them has reached the session.
@@ -93,7 +94,7 @@ TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
     give(codec::EncodedFrame::Kind::Resync, 1);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
     give(codec::EncodedFrame::Kind::Delta, 3);
-    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; })) << "though nothing is written";
+    ASSERT_TRUE(eventually([&] { return owner.server().subscriptions().front().lost; })) << "though nothing is written";
     EXPECT_EQ(owner.counters().chainsLost, 1U);
     give(codec::EncodedFrame::Kind::Resync, 3);
     EXPECT_EQ(next(*client).frame().sequence(), 3U);
@@ -111,11 +112,11 @@ TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
     ASSERT_TRUE(client->send(command));
     ASSERT_TRUE(eventually([&] { return owner.held.load(); }));
     owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64, rendition));
-    EXPECT_FALSE(owner.server().demands().front().newcomer);
+    EXPECT_FALSE(owner.server().subscriptions().front().newcomer);
     owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Delta, 2, 1, 64, rendition));
     owner.hold = false;
     EXPECT_TRUE(next(*client).has_result());
-    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
+    ASSERT_TRUE(eventually([&] { return owner.server().subscriptions().front().lost; }));
     owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 2, 1, 64, rendition));
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
 }
@@ -175,10 +176,10 @@ TEST(Stream, AsksForAKeyframeForEachNewcomer) {
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
     owner.publish(64);
     EXPECT_EQ(next(*first).frame().sequence(), 1U);
-    EXPECT_FALSE(owner.server().demands().front().newcomer);
+    EXPECT_FALSE(owner.server().subscriptions().front().newcomer);
     const auto second = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
-    EXPECT_TRUE(owner.server().demands().front().newcomer);
+    EXPECT_TRUE(owner.server().subscriptions().front().newcomer);
     owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64));
     EXPECT_EQ(next(*second).frame().sequence(), 1U);
     const auto none = first->receive(100ms);
@@ -189,7 +190,7 @@ TEST(Stream, SendsNoStatesAndCountsNoViewerForRateZero) {
     Owner owner;
     const auto client = join(owner, 0);
     EXPECT_EQ(owner.server().viewers(), 0U);
-    EXPECT_TRUE(owner.server().demands().empty());
+    EXPECT_TRUE(owner.server().subscriptions().empty());
     owner.publishEvery(10ms, 64);
     const auto received = client->receive(200ms);
     ASSERT_TRUE(received);

@@ -40,11 +40,12 @@ class Watched : public testing::Test {
     }
 
     // The world as it is after `steps` more; the kinds of the frames that came.
-    std::string serve(std::vector<codec::Demand> demands, std::chrono::milliseconds later, std::uint64_t steps = 1) {
+    std::string serve(std::vector<codec::Subscription> subscriptions, std::chrono::milliseconds later,
+                      std::uint64_t steps = 1) {
         version_ += steps;
         now_ += later;
         encoded_.clear();
-        chains_.serve(scenery(), demands, now_);
+        chains_.serve(scenery(), subscriptions, now_);
         std::string kinds;
         for (const codec::EncodedFrame& encoded : encoded_)
             kinds += encoded.kind == Kind::Keyframe ? 'K' : encoded.kind == Kind::Resync ? 'J' : 'D';
@@ -99,9 +100,10 @@ TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
 
 TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
     serve({{.rendition = normal, .newcomer = true}}, 1s);
-    for (const codec::Demand& demand : {codec::Demand{normal, true, false}, codec::Demand{normal, false, true}}) {
+    for (const codec::Subscription& subscription :
+         {codec::Subscription{normal, true, false}, codec::Subscription{normal, false, true}}) {
         std::string kinds;
-        for (int k = 0; k < 6; ++k) kinds += serve({demand}, 200ms);
+        for (int k = 0; k < 6; ++k) kinds += serve({subscription}, 200ms);
         EXPECT_NE(kinds.find('J'), std::string::npos) << kinds;
         EXPECT_NE(kinds.find('D'), std::string::npos) << kinds << ": all others go on";
     }

@@ -60,9 +60,9 @@ class Looping : public testing::Test {
                     },
                 .reply = [](std::uint64_t, const v1::CommandResult&) {},
                 .viewers = [] { return 1U; },
-                .demands =
+                .subscriptions =
                     [] {
-                        return std::vector<codec::Demand>{{.rendition = {v1::NORMAL, 60}}};
+                        return std::vector<codec::Subscription>{{.rendition = {v1::NORMAL, 60}}};
                     }};
     }
 

@@ -72,9 +72,9 @@ class Stage {
                 [this](const codec::EncodedFrame& encoded) { frames.push_back(encoded.message->content().frame()); },
             .reply = [](std::uint64_t, const v1::CommandResult&) {},
             .viewers = [] { return 1U; },
-            .demands =
+            .subscriptions =
                 [] {
-                    return std::vector<codec::Demand>{{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
+                    return std::vector<codec::Subscription>{{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
                 }};
     }
 

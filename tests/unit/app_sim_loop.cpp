@@ -74,7 +74,7 @@ class Desk {
                         look();
                     },
                 .viewers = [] { return 0U; },
-                .demands = [] { return std::vector<codec::Demand>(); }};
+                .subscriptions = [] { return std::vector<codec::Subscription>(); }};
     }
 
     Requests requests_;

@@ -59,10 +59,10 @@ class Taping : public testing::Test {
         }
         return state;
     }
-    [[nodiscard]] std::vector<codec::Demand> demands() const {
-        std::vector<codec::Demand> demands;
-        tape_->demand(demands, Tape::Clock::now());
-        return demands;
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions() const {
+        std::vector<codec::Subscription> subscriptions;
+        tape_->subscribe(subscriptions, Tape::Clock::now());
+        return subscriptions;
     }
 
     recording::Folder folder_;
@@ -74,13 +74,13 @@ class Taping : public testing::Test {
 
 TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
     open();
-    EXPECT_TRUE(demands().empty());
+    EXPECT_TRUE(subscriptions().empty());
     order();
     ASSERT_TRUE(tape_->start());
-    ASSERT_EQ(demands().size(), 1U);
-    EXPECT_TRUE(demands()[0].newcomer);
+    ASSERT_EQ(subscriptions().size(), 1U);
+    EXPECT_TRUE(subscriptions()[0].newcomer);
     tape_->frame(encoded(Kind::Keyframe, 4.0));
-    EXPECT_FALSE(demands()[0].newcomer || demands()[0].lost);
+    EXPECT_FALSE(subscriptions()[0].newcomer || subscriptions()[0].lost);
     tape_->frame(encoded(Kind::Delta, 4.1));
     tape_->frame(encoded(Kind::Resync, 4.1));
     tape_->frame(encoded(Kind::Delta, 4.2));
@@ -94,7 +94,7 @@ TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
     EXPECT_EQ(recording->frames(), 3U);
     EXPECT_EQ(recording->begin(), 4.0);
     EXPECT_EQ(recording::play(*recording).size(), 3U);
-    EXPECT_TRUE(demands().empty());
+    EXPECT_TRUE(subscriptions().empty());
 }
 
 TEST_F(Taping, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
@@ -103,7 +103,7 @@ TEST_F(Taping, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
     tape_->frame(encoded(Kind::Keyframe, 0));
     ASSERT_TRUE(tape_->start());
     tape_->frame(encoded(Kind::Delta, 0.1));
-    EXPECT_TRUE(demands()[0].newcomer);
+    EXPECT_TRUE(subscriptions()[0].newcomer);
     tape_->frame(encoded(Kind::Resync, 0.1));
     tape_->frame(encoded(Kind::Delta, 0.2));
     ASSERT_TRUE(tape_->stop());
@@ -139,14 +139,14 @@ TEST_F(Taping, WantsAKeyframeNowAndThenWhileSomethingMoves) {
     order();
     ASSERT_TRUE(tape_->start());
     tape_->frame(encoded(Kind::Keyframe, 0));
-    std::vector<codec::Demand> later;
-    tape_->demand(later, Tape::Clock::now() + 1h);
+    std::vector<codec::Subscription> later;
+    tape_->subscribe(later, Tape::Clock::now() + 1h);
     EXPECT_FALSE(later[0].lost);
     tape_->frame(encoded(Kind::Delta, 1));
     later.clear();
-    tape_->demand(later, Tape::Clock::now() + 1h);
+    tape_->subscribe(later, Tape::Clock::now() + 1h);
     EXPECT_TRUE(later[0].lost);
-    EXPECT_FALSE(demands()[0].lost);
+    EXPECT_FALSE(subscriptions()[0].lost);
 }
 
 TEST_F(Taping, AsksForAKeyframeAfterAGap) {
@@ -156,7 +156,7 @@ TEST_F(Taping, AsksForAKeyframeAfterAGap) {
     tape_->frame(encoded(Kind::Keyframe, 0));
     encoded(Kind::Delta, 1);
     tape_->frame(encoded(Kind::Delta, 2));
-    EXPECT_TRUE(demands()[0].lost);
+    EXPECT_TRUE(subscriptions()[0].lost);
     tape_->frame(encoded(Kind::Delta, 3));
     tape_->frame(encoded(Kind::Resync, 3));
     tape_->frame(encoded(Kind::Delta, 4));
@@ -292,11 +292,11 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
     tape_->frame(encoded(Kind::Keyframe, 0));
     tape_->frame(encoded(Kind::Delta, 1));
     for (int k = 0; k < 5; ++k) paused(Kind::Delta, 1);
-    EXPECT_FALSE(demands()[0].lost) << "before the world goes on";
+    EXPECT_FALSE(subscriptions()[0].lost) << "before the world goes on";
     paused(Kind::Resync, 1);
     tape_->frame(encoded(Kind::Delta, 1));  // it goes on, but has not yet
     tape_->frame(encoded(Kind::Delta, 2));
-    EXPECT_TRUE(demands()[0].lost);
+    EXPECT_TRUE(subscriptions()[0].lost);
     tape_->frame(encoded(Kind::Resync, 2));
     tape_->frame(encoded(Kind::Delta, 3));
     paused(Kind::Delta, 3);
