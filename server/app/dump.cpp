@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 
 namespace spherule::app {
 
@@ -18,7 +18,7 @@ Result<Dump> Dump::create(const std::string& path, bool replace) {
 
 Result<void> Dump::write(sim::Simulation& simulation) {
     const sim::State state = simulation.snapshot();
-    const pulse::Unwatched writing;
+    const heartbeat::Pause writing;
     const glm::dvec3 centre = simulation.scene().bounds.centre();
     std::string text;
     for (std::uint32_t id = 0; id < state.count(); ++id) {

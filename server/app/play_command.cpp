@@ -5,8 +5,8 @@
 #include "app/play_loop.h"
 #include "app/serving.h"
 #include "app/settings.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -21,7 +21,7 @@ struct PlayOptions {
 };
 
 Result<Player> playerOf(const PlayOptions& options) {
-    const pulse::Unwatched reading;
+    const heartbeat::Pause reading;
     auto recording = recording::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
     if (!recording->flaw().empty())

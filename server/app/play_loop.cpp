@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/facts.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 #include "core/text.h"
 
 namespace spherule::app {
@@ -35,7 +35,7 @@ Result<void> PlayLoop::run(const std::stop_token& stop) {
     *timeline.mutable_timeline() = player_.timeline();
     outlets_.keep(codec::share(std::move(timeline)));
     while (!stop.stop_requested()) {
-        pulse::beat("serving viewers");
+        heartbeat::beat("serving viewers");
         // All that was asked for, before anything is decoded: of several seeks only the last counts.
         while (auto request = requests_.tryPop()) serve(*request);
         for (const Request& query : requests_.takeQueries()) serve(query);

@@ -5,7 +5,7 @@
 #include "app/facts.h"
 #include "codec/order.h"
 #include "codec/rendition.h"
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -114,7 +114,7 @@ Result<void> Recorder::write(recording::Kind kind) {
 }
 
 Result<void> Recorder::add(recording::Kind kind, const v1::ServerMessage& message) {
-    const pulse::Unwatched writing;
+    const heartbeat::Pause writing;
     return writer_.add(kind, simulation_.time(), message.SerializeAsString());
 }
 

@@ -8,7 +8,7 @@
 
 #include "app/facts.h"
 #include "app/options.h"
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 #include "core/text.h"
 
 namespace spherule::app {
@@ -116,7 +116,7 @@ bool Runtime::drain() {
     const bool ended = changed_.wait_for(lock, stepPatience, [this] { return ended_; });
     const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
     lock.unlock();
-    const pulse::Unwatched leaving;  // nothing computes any more, and viewers have their time
+    const heartbeat::Pause leaving;  // nothing computes any more, and viewers have their time
     refuseWaiting();
     server_->drain();
     return ended && !lost;

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/facts.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -74,7 +74,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
 Result<void> SimLoop::simulate(const std::stop_token& stop) {
     Result<void> done;
     while (done && !stop.stop_requested()) {
-        pulse::beat("serving viewers");
+        heartbeat::beat("serving viewers");
         serveWaiting();
         const bool worked = goOn(done);
         if (!done) break;

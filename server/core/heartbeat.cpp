@@ -1,8 +1,8 @@
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 
 #include <atomic>
 
-namespace spherule::pulse {
+namespace spherule::heartbeat {
 
 namespace {
 
@@ -17,10 +17,10 @@ void beat(const char* doing) {
     beats.fetch_add(1, std::memory_order_relaxed);
 }
 
-Unwatched::Unwatched() {
+Pause::Pause() {
     ++unwatched;
 }
-Unwatched::~Unwatched() {
+Pause::~Pause() {
     --unwatched;
 }
 
@@ -30,4 +30,4 @@ Sign last() {
             .expected = unwatched == 0};
 }
 
-}  // namespace spherule::pulse
+}  // namespace spherule::heartbeat

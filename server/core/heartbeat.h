@@ -3,18 +3,18 @@
 #include <cstdint>
 
 // Signs of life of the thread that computes, for whoever watches it. Any thread; costs less than a kernel's launch.
-namespace spherule::pulse {
+namespace spherule::heartbeat {
 
 // A part of the work is done; what comes now is `doing` (a literal: "waiting for the device").
 void beat(const char* doing);
 
 // While one is there no sign is expected: a file of any size is read or written.
-class Unwatched {
+class Pause {
   public:
-    Unwatched();
-    ~Unwatched();
-    Unwatched(const Unwatched&) = delete;
-    Unwatched& operator=(const Unwatched&) = delete;
+    Pause();
+    ~Pause();
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
 };
 
 struct Sign {
@@ -24,4 +24,4 @@ struct Sign {
 };
 [[nodiscard]] Sign last();
 
-}  // namespace spherule::pulse
+}  // namespace spherule::heartbeat
