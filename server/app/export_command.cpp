@@ -95,7 +95,7 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
     for (; more && *more && !interrupt.asked(); more = recording.next()) {
         const double time = recording.time();
         if (time > range.to + sameTime) break;
-        // Of one moment there may be several, where the recording was made while the world was reset or paused.
+        // Of one snapshot there may be several, where the recording was made while the world was reset or paused.
         if (newest && time <= *newest) continue;
         if (range.every > 0) {
             const double at = (time - first + sameTime) / range.every;
@@ -103,10 +103,10 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
             due = std::floor(at) + 1;
         }
         newest = time;
-        const recording::Moment moment = recording.now();
-        if (auto done = exporter.add(moment); !done) return tl::unexpected(done.error());
+        const recording::Snapshot snapshot = recording.now();
+        if (auto done = exporter.add(snapshot); !done) return tl::unexpected(done.error());
         ++written.frames;
-        written.error = std::max(written.error, moment.error);
+        written.error = std::max(written.error, snapshot.error);
         progress.show([&] {
             return fmt::format("{} frames, at {:.2f} s of {:.2f} s ", written.frames, time,
                                std::min(range.to, recording.end()));
@@ -129,8 +129,8 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
     if (!range) return tl::unexpected(range.error());
     auto recording = recording::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
-    if (!recording->flaw().empty())
-        spdlog::warn("{} is exported up to {:g} s: {}", options.file, recording->end(), recording->flaw());
+    if (!recording->damage().empty())
+        spdlog::warn("{} is exported up to {:g} s: {}", options.file, recording->end(), recording->damage());
     if (range->from > recording->end() + sameTime || range->to < recording->begin() - sameTime)
         return fail(ErrorKind::Input, options.file,
                     fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),

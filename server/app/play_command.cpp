@@ -24,8 +24,8 @@ Result<Player> playerOf(const PlayOptions& options) {
     const heartbeat::Pause reading;
     auto recording = recording::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
-    if (!recording->flaw().empty())
-        spdlog::warn("{} is played up to {:g} s: {}", options.file, recording->end(), recording->flaw());
+    if (!recording->damage().empty())
+        spdlog::warn("{} is played up to {:g} s: {}", options.file, recording->end(), recording->damage());
     const auto now = Player::Clock::now();
     const std::string name = std::filesystem::path(options.file).filename().string();
     Player player(std::move(*recording), name, options.again, now);

@@ -63,7 +63,7 @@ void PlayLoop::serve(const Request& request) {
 Result<void> PlayLoop::advance(Chains::Clock::time_point now) {
     const Player::Moved moved = player_.advance(now);
     for (const std::string& damage : moved.damage) say(v1::Event::WARNING, "Skipped: " + damage);
-    for (const v1::ServerMessage& message : moved.passed) outlets_.everybody(codec::share(message));
+    for (const v1::ServerMessage& message : moved.skippedEvents) outlets_.everybody(codec::share(message));
     return moved.shown ? show() : Result<void>();
 }
 
@@ -76,7 +76,7 @@ Result<void> PlayLoop::show() {
     state_.position.resize(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k)
         state_.position[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
-    if (epoch_ == 0 || factsAt_ != recording.factsAt()) {
+    if (epoch_ == 0 || sceneOffset_ != recording.sceneOffset()) {
         const std::size_t bytes = state_.position.size() * sizeof(glm::vec4);
         auto made = device_->createBuffer("positions", bytes, "r");
         if (!made) return tl::unexpected(made.error());
@@ -94,7 +94,7 @@ void PlayLoop::describe() {
     v1::ServerMessage message;
     v1::SceneFacts& facts = *message.mutable_scene();
     facts = player_.recording().facts();
-    factsAt_ = player_.recording().factsAt();
+    sceneOffset_ = player_.recording().sceneOffset();
     facts.set_epoch(++epoch_);
     const auto radii = player_.recording().radii();
     smallest_ = radii.empty() ? 0 : static_cast<double>(*std::ranges::min_element(radii));

@@ -24,9 +24,9 @@ class Player {
     Result<v1::Applied> apply(const v1::Command& command, Clock::time_point now);
 
     struct Moved {
-        bool shown = false;                     // another moment is
-        std::vector<v1::ServerMessage> passed;  // events on the way
-        std::vector<std::string> damage;        // what could not be played, and was skipped
+        bool shown = false;                            // another moment is
+        std::vector<v1::ServerMessage> skippedEvents;  // events on the way
+        std::vector<std::string> damage;               // what could not be played, and was skipped
     };
     // To where it is by now.
     Moved advance(Clock::time_point now);

@@ -1,4 +1,4 @@
-// The formats that are text, all moments in one file.
+// The formats that are text, all snapshots in one file.
 #include <iterator>
 
 #include <fmt/format.h>
@@ -14,16 +14,16 @@ class TextExporter : public Exporter {
   public:
     explicit TextExporter(OutputFile file) : file_(std::move(file)) {}
 
-    Result<void> add(const Moment& moment) override {
+    Result<void> add(const Snapshot& snapshot) override {
         text_.clear();
-        print(moment, text_);
+        print(snapshot, text_);
         return file_.write(text_);
     }
     Result<void> finish() override { return file_.close(); }
     [[nodiscard]] std::string path() const override { return file_.path(); }
 
   protected:
-    virtual void print(const Moment& moment, std::string& text) = 0;
+    virtual void print(const Snapshot& snapshot, std::string& text) = 0;
 
   private:
     OutputFile file_;
@@ -35,14 +35,14 @@ class Csv : public TextExporter {
     explicit Csv(OutputFile file) : TextExporter(std::move(file)) {}
 
   private:
-    void print(const Moment& moment, std::string& text) override {
+    void print(const Snapshot& snapshot, std::string& text) override {
         if (!begun_) text += "time,id,x,y,z,radius\n";
         begun_ = true;
-        const std::string time = fmt::format("{:.9g}", moment.time);
-        for (std::size_t id = 0; id < moment.positions.size(); ++id) {
-            const glm::dvec3& p = moment.positions[id];
+        const std::string time = fmt::format("{:.9g}", snapshot.time);
+        for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
+            const glm::dvec3& p = snapshot.positions[id];
             fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", time, id, p.x, p.y, p.z,
-                           moment.radii[id]);
+                           snapshot.radii[id]);
         }
     }
     bool begun_ = false;
@@ -54,17 +54,17 @@ class Xyz : public TextExporter {
     explicit Xyz(OutputFile file) : TextExporter(std::move(file)) {}
 
   private:
-    void print(const Moment& moment, std::string& text) override {
-        const glm::dvec3 size = moment.high - moment.low;
+    void print(const Snapshot& snapshot, std::string& text) override {
+        const glm::dvec3 size = snapshot.high - snapshot.low;
         fmt::format_to(std::back_inserter(text),
                        "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
                        "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1 Time={:.9g} pbc=\"F F F\"\n",
-                       moment.positions.size(), size.x, size.y, size.z, moment.low.x, moment.low.y, moment.low.z,
-                       moment.time);
-        for (std::size_t id = 0; id < moment.positions.size(); ++id) {
-            const glm::dvec3& p = moment.positions[id];
+                       snapshot.positions.size(), size.x, size.y, size.z, snapshot.low.x, snapshot.low.y,
+                       snapshot.low.z, snapshot.time);
+        for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
+            const glm::dvec3& p = snapshot.positions[id];
             fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g} {:.9g} {}\n", p.x, p.y, p.z,
-                           moment.radii[id], id);
+                           snapshot.radii[id], id);
         }
     }
 };

@@ -1,4 +1,4 @@
-// VTK's XML files: one .vtp per moment, its arrays appended as they are, and a .pvd that says when each is.
+// VTK's XML files: one .vtp per snapshot, its arrays appended as they are, and a .pvd that says when each is.
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -24,8 +24,8 @@ void appendArray(std::string& data, std::span<const T> values) {
 }
 
 // Each point is a vertex too: without them ParaView shows nothing.
-std::string polyData(const Moment& moment) {
-    const std::size_t count = moment.positions.size();
+std::string polyData(const Snapshot& snapshot) {
+    const std::size_t count = snapshot.positions.size();
     std::vector<std::int32_t> ids(count + 1);
     std::iota(ids.begin(), ids.end(), 0);
     const std::span<const std::int32_t> all(ids);
@@ -36,7 +36,7 @@ std::string polyData(const Moment& moment) {
         "</DataArray></FieldData>\n"
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"0\">\n",
-        moment.time, count, count);
+        snapshot.time, count, count);
     std::string data;
     const auto array = [&](const char* type, const char* name, int components, const auto values) {
         fmt::format_to(std::back_inserter(head),
@@ -46,10 +46,10 @@ std::string polyData(const Moment& moment) {
         appendArray(data, values);
     };
     head += "<PointData Scalars=\"radius\">\n";
-    array("Float32", "radius", 1, moment.radii);
+    array("Float32", "radius", 1, snapshot.radii);
     array("Int32", "id", 1, all.first(count));
     head += "</PointData>\n<Points>\n";
-    array("Float64", "Points", 3, moment.positions);
+    array("Float64", "Points", 3, snapshot.positions);
     head += "</Points>\n<Verts>\n";
     array("Int32", "connectivity", 1, all.first(count));
     array("Int32", "offsets", 1, all.last(count));
@@ -135,16 +135,16 @@ class Vtk : public Exporter {
   public:
     Vtk(OutputFile list, FolderBeside folder) : list_(std::move(list)), folder_(std::move(folder)) {}
 
-    Result<void> add(const Moment& moment) override {
+    Result<void> add(const Snapshot& snapshot) override {
         const std::string name = fmt::format("{:06}.vtp", frames_++);
         const auto path = folder_.fileOf(name);
         if (!path) return tl::unexpected(path.error());
         auto file = OutputFile::create(*path, false);
         if (!file) return tl::unexpected(file.error());
-        if (auto done = file->write(polyData(moment)); !done) return done;
+        if (auto done = file->write(polyData(snapshot)); !done) return done;
         if (auto done = file->flush(); !done) return done;
         file->keep();
-        return list_.write(fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}/{}\"/>\n", moment.time,
+        return list_.write(fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}/{}\"/>\n", snapshot.time,
                                        escaped(folder_.name()), name));
     }
     Result<void> finish() override {

@@ -63,12 +63,12 @@ Contents contentsOf(const RecordFile& file) {
         }
     }
     contents.end = fileHeadBytes;
-    contents.flaw = "it was not finished";
+    contents.damage = "it was not finished";
     double time = -std::numeric_limits<double>::infinity();
     while (contents.end < file.size()) {
         const auto record = file.read(contents.end);
         if (!record || record->kind == Kind::Index || record->time < time) {
-            contents.flaw = record ? "its end is damaged" : record.error().message;
+            contents.damage = record ? "its end is damaged" : record.error().message;
             break;
         }
         contents.index.add(record->kind, record->time, contents.end);

@@ -34,7 +34,7 @@ struct Index {
 struct Contents {
     Index index;
     std::uint64_t end = 0;  // where its records end, but for the index
-    std::string flaw;       // why that is not the end that a finished recording has; empty: it is
+    std::string damage;     // why that is not the end that a finished recording has; empty: it is
 };
 
 // From the index; where there is none, from reading all the records up to the first that is cut off or damaged.

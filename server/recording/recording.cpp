@@ -32,7 +32,7 @@ Result<Recording> Recording::open(const std::string& path) {
     const auto first = std::ranges::find(entries, Kind::Keyframe, &Index::Entry::kind);
     if (recording.frames() == 0 || first == entries.end())
         return fail(ErrorKind::Input, path,
-                    "has no frames" + (recording.flaw().empty() ? "" : ": " + recording.flaw()));
+                    "has no frames" + (recording.damage().empty() ? "" : ": " + recording.damage()));
     // The first frame is looked at, so that what is wrong with it is said now.
     if (auto right = recording.enter(first->offset); !right) return tl::unexpected(right.error());
     recording.decoder_.reset();
@@ -47,9 +47,9 @@ tl::unexpected<Error> Recording::bad(std::uint64_t offset, const std::string& wh
 // To the frame of the keyframe at this offset.
 Result<void> Recording::enter(std::uint64_t offset) {
     decoder_.reset();
-    cast_.reset();
+    table_.reset();
     order_.reset();
-    passed_.clear();
+    skippedEvents_.clear();
     for (const Kind needed : {Kind::Scene, Kind::Order, Kind::Settings}) {
         const Index::Entry* newest = nullptr;
         for (const Index::Entry& entry : contents_.index.entries)
@@ -133,8 +133,8 @@ Result<bool> Recording::next() {
 void Recording::pass(const Record& record) {
     v1::ServerMessage message;
     if (!message.ParseFromString(record.payload) || !message.has_event()) return;
-    if (passed_.size() == mostPassed) passed_.erase(passed_.begin());
-    passed_.push_back(std::move(message));
+    if (skippedEvents_.size() == mostPassed) skippedEvents_.erase(skippedEvents_.begin());
+    skippedEvents_.push_back(std::move(message));
 }
 
 // Whether it was a frame.
@@ -144,10 +144,10 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
     if (!holds(record.kind, message)) return bad(offset, "its message is of another kind");
     if (record.kind == Kind::Scene || record.kind == Kind::Order) {
         decoder_.reset();
-        cast_.reset();
+        table_.reset();
         if (record.kind == Kind::Scene) {
             facts_ = std::move(*message.mutable_scene());
-            factsAt_ = offset;
+            sceneOffset_ = offset;
         }
         if (record.kind == Kind::Order) order_ = std::move(*message.mutable_order());
         return false;
@@ -166,20 +166,20 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
 
 // Before the first frame of other spheres.
 Result<void> Recording::prepare(std::uint64_t offset) {
-    if (!cast_) {
+    if (!table_) {
         if (!order_) return bad(offset, "no order comes before it");
-        auto cast = Cast::from(facts_, *order_);
-        if (!cast) return bad(offset, cast.error().text());
-        cast_ = std::move(*cast);
+        auto table = SphereTable::from(facts_, *order_);
+        if (!table) return bad(offset, table.error().text());
+        table_ = std::move(*table);
         order_.reset();
     }
-    if (!decoder_) decoder_ = std::make_unique<codec::Decoder>(cast_->spheres());
+    if (!decoder_) decoder_ = std::make_unique<codec::Decoder>(table_->spheres());
     return {};
 }
 
 Result<void> Recording::show(const v1::Frame& frame, std::uint64_t offset) {
     if (auto done = prepare(offset); !done) return done;
-    if (frame.epoch() != cast_->epoch || frame.order() != cast_->order)
+    if (frame.epoch() != table_->epoch || frame.order() != table_->order)
         return bad(offset, "its frame is of other spheres than scene and order before it");
     if (!(frame.quantum() > 0) || !std::isfinite(frame.quantum())) return bad(offset, "its frame has no quantum");
     const auto done = decoder_->apply(std::as_bytes(std::span(frame.spb())));
@@ -189,21 +189,21 @@ Result<void> Recording::show(const v1::Frame& frame, std::uint64_t offset) {
     return {};
 }
 
-Moment Recording::now() {
-    if (cast_ && decoder_) {
-        const glm::dvec3 centre = 0.5 * (cast_->low + cast_->high);
+Snapshot Recording::now() {
+    if (table_ && decoder_) {
+        const glm::dvec3 centre = 0.5 * (table_->low + table_->high);
         const auto cells = decoder_->newest();
         positions_.resize(cells.size());
         for (std::size_t k = 0; k < cells.size(); ++k)
-            positions_[cast_->ids[k]] = centre + quantum_ * glm::dvec3(cells[k]);
+            positions_[table_->ids[k]] = centre + quantum_ * glm::dvec3(cells[k]);
     }
     return {.time = time_,
             .step = step_,
             .error = quantum_ / 2,
             .positions = positions_,
-            .radii = cast_ ? std::span<const float>(cast_->radii) : std::span<const float>(),
-            .low = cast_ ? cast_->low : glm::dvec3(),
-            .high = cast_ ? cast_->high : glm::dvec3()};
+            .radii = table_ ? std::span<const float>(table_->radii) : std::span<const float>(),
+            .low = table_ ? table_->low : glm::dvec3(),
+            .high = table_ ? table_->high : glm::dvec3()};
 }
 
 }  // namespace spherule::recording

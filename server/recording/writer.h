@@ -11,7 +11,7 @@
 
 namespace spherule::recording {
 
-// Writes a recording: from its first frame on, what is in it can be read at any moment up to about a second before,
+// Writes a recording: from its first frame on, what is in it can be read at any snapshot up to about a second before,
 // whatever happens then. One without frames is removed at the end. Used by one thread. After an error nothing more is
 // to be written.
 class Writer {

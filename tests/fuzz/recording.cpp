@@ -57,11 +57,11 @@ void require(bool holds) {
 }
 
 void look(recording::Recording& recording) {
-    const recording::Moment now = recording.now();
+    const recording::Snapshot now = recording.now();
     require(now.positions.size() == recording.cells().size() && now.radii.size() == now.positions.size());
     require(recording.order().size() == now.positions.size() && std::isfinite(now.time) && now.error > 0);
     (void)recording.nextTime();
-    (void)recording.takePassed();
+    (void)recording.takeSkippedEvents();
 }
 
 // Forward to the end, or to what cannot be played.

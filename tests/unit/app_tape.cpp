@@ -90,7 +90,7 @@ TEST_F(Taping, WritesWhatAViewerIsSentFromAKeyframeOn) {
     EXPECT_NEAR(state.duration(), 0.2, 1e-9);
     auto recording = recording::Recording::open(state.file());
     ASSERT_TRUE(recording) << recording.error().text();
-    EXPECT_EQ(recording->flaw(), "");
+    EXPECT_EQ(recording->damage(), "");
     EXPECT_EQ(recording->frames(), 3U);
     EXPECT_EQ(recording->begin(), 4.0);
     EXPECT_EQ(recording::play(*recording).size(), 3U);
@@ -194,7 +194,7 @@ TEST_F(Taping, ItsFolderHasALimit) {
     EXPECT_EQ(state.failure(), "it has reached 1.1 MB, the most that it may have");
     auto recording = recording::Recording::open(state.file());
     ASSERT_TRUE(recording);
-    EXPECT_EQ(recording->flaw(), "");
+    EXPECT_EQ(recording->damage(), "");
     EXPECT_LE(std::filesystem::file_size(state.file()), 1'100'000U);
     EXPECT_NE(tape_->start().error().message.find("delete some"), std::string::npos);
     options_.folder.clear();

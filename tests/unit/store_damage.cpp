@@ -39,7 +39,7 @@ TEST_F(Damage, AFileThatIsCutAnywherePlaysUpToTheCut) {
             continue;
         }
         ASSERT_TRUE(recording) << bytes << recording.error().text();
-        EXPECT_NE(recording->flaw(), "") << bytes;
+        EXPECT_NE(recording->damage(), "") << bytes;
         EXPECT_EQ(recording->frames(), whole) << bytes;
         std::string end;
         const auto frames = play(*recording, &end);
@@ -51,13 +51,13 @@ TEST_F(Damage, AFileThatIsCutAnywherePlaysUpToTheCut) {
 
 TEST_F(Damage, WhatIsCutOffIsSaid) {
     put(path_, content_.substr(0, content_.size() - 1));
-    EXPECT_EQ(Recording::open(path_)->flaw(), "its end is damaged");
+    EXPECT_EQ(Recording::open(path_)->damage(), "its end is damaged");
     std::size_t end = fileHeadBytes;
     for (const std::string& record : film_.records) end += record.size();
     put(path_, content_.substr(0, end));
-    EXPECT_EQ(Recording::open(path_)->flaw(), "it was not finished");
+    EXPECT_EQ(Recording::open(path_)->damage(), "it was not finished");
     put(path_, content_.substr(0, end - 1));
-    EXPECT_EQ(Recording::open(path_)->flaw(),
+    EXPECT_EQ(Recording::open(path_)->damage(),
               "the record at byte " + std::to_string(end - film_.records.back().size()) + " is cut off");
 }
 
@@ -75,7 +75,7 @@ TEST_F(Damage, EveryByteThatIsFlippedIsNoticed) {
         }
         std::string end;
         const auto frames = play(*recording, &end);
-        EXPECT_TRUE(!end.empty() || !recording->flaw().empty()) << byte;
+        EXPECT_TRUE(!end.empty() || !recording->damage().empty()) << byte;
         for (std::size_t n = 0; n < frames.size(); ++n) ASSERT_LE(distance(frames[n], film_.frames[n]), bound) << byte;
     }
 }

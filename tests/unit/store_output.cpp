@@ -144,11 +144,11 @@ TEST_F(Output, ARecordingWithoutFramesLeavesNothing) {
     EXPECT_EQ(names(), Names());
 }
 
-// A scene of one sphere, at one moment.
+// A scene of one sphere, at one snapshot.
 struct Small {
     std::vector<glm::dvec3> positions{{1, 2, 3}};
     std::vector<float> radii{0.5F};
-    [[nodiscard]] Moment moment() const {
+    [[nodiscard]] Snapshot snapshot() const {
         return {.positions = positions, .radii = radii, .low = {0, 0, 0}, .high = {4, 4, 4}};
     }
 };
@@ -158,7 +158,7 @@ TEST_F(Output, AnExportThatDoesNotFinishLeavesNothing) {
     for (const Make make : {Make(csvExporter), Make(xyzExporter), Make(vtkExporter)}) {
         {
             auto exporter = make(path_, false);
-            ASSERT_TRUE(exporter && (*exporter)->add(Small().moment()));
+            ASSERT_TRUE(exporter && (*exporter)->add(Small().snapshot()));
             for (const std::string& name : names()) EXPECT_NE(name.find(".part"), std::string::npos) << name;
         }
         EXPECT_EQ(names(), Names());
@@ -168,7 +168,7 @@ TEST_F(Output, AnExportThatDoesNotFinishLeavesNothing) {
 TEST_F(Output, VtkReplacesFramesAndKeepsWhatElseIsInTheFolder) {
     for (int round = 0; round < 2; ++round) {
         auto exporter = vtkExporter(path_ + ".pvd", round > 0);
-        ASSERT_TRUE(exporter && (*exporter)->add(Small().moment()) && (*exporter)->finish());
+        ASSERT_TRUE(exporter && (*exporter)->add(Small().snapshot()) && (*exporter)->finish());
         EXPECT_EQ(names(), Names({"out", "out.pvd"}));
         if (round == 0) put(path_ + "/notes", "mine");
     }
@@ -176,7 +176,7 @@ TEST_F(Output, VtkReplacesFramesAndKeepsWhatElseIsInTheFolder) {
     EXPECT_NE(contentOf(path_ + "/000000.vtp"), "");
     fs::remove(path_ + ".pvd");
     auto exporter = vtkExporter(path_, false);
-    EXPECT_EQ((*exporter)->add(Small().moment()).error().text(),
+    EXPECT_EQ((*exporter)->add(Small().snapshot()).error().text(),
               path_ + "/000000.vtp: is there already; give --force to replace it, or another name");
 }
 

@@ -25,11 +25,11 @@ TEST_F(RoundTrip, EveryFrameComesBackInIdOrderInMetres) {
     EXPECT_EQ(recording->begin(), 0);
     EXPECT_DOUBLE_EQ(recording->end(), 2.2);
     EXPECT_EQ(recording->facts().name(), "film");
-    EXPECT_EQ(recording->flaw(), "");
+    EXPECT_EQ(recording->damage(), "");
     for (std::uint32_t n = 0; n < 23; ++n) {
         const auto more = recording->next();
         ASSERT_TRUE(more && *more) << n;
-        const Moment now = recording->now();
+        const Snapshot now = recording->now();
         EXPECT_LE(distance({now.positions.begin(), now.positions.end()}, film.frames[n]), bound) << n;
         EXPECT_EQ(now.step, 6 * n);
         EXPECT_DOUBLE_EQ(now.time, 0.1 * n);
@@ -60,7 +60,7 @@ TEST_F(RoundTrip, SeekGoesToTheFrameThatIsNotAfterTheTime) {
     for (const double time : {1.0, 0.52, 2.2, 0.0, 1.49, -3.0, 99.0, 0.5}) {
         ASSERT_TRUE(recording->seek(time));
         const auto n = static_cast<std::size_t>(std::clamp(std::floor(time / 0.1 + 1e-6), 0.0, 22.0));
-        const Moment now = recording->now();
+        const Snapshot now = recording->now();
         EXPECT_NEAR(now.time, 0.1 * static_cast<double>(n), 1e-12) << time;
         EXPECT_LE(distance({now.positions.begin(), now.positions.end()}, film.frames[n]), bound) << time;
         const auto rest = play(*recording);

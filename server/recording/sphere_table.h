@@ -11,7 +11,7 @@
 namespace spherule::recording {
 
 // Who plays in the frames: what scene facts and order say of the spheres. Any thread.
-struct Cast {
+struct SphereTable {
     std::uint32_t epoch = 0;
     glm::dvec3 low{}, high{};        // bounds, m
     std::vector<float> radii;        // by id, m
@@ -21,7 +21,7 @@ struct Cast {
     [[nodiscard]] std::uint32_t spheres() const { return static_cast<std::uint32_t>(ids.size()); }
 
     // From messages that may be hostile; takes no more memory than they have. Input where they do not fit each other.
-    static Result<Cast> from(const v1::SceneFacts& facts, const v1::Order& order);
+    static Result<SphereTable> from(const v1::SceneFacts& facts, const v1::Order& order);
 };
 
 }  // namespace spherule::recording

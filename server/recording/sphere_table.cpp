@@ -1,4 +1,4 @@
-#include "recording/cast.h"
+#include "recording/table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,24 +26,24 @@ bool set(glm::dvec3& target, const google::protobuf::RepeatedField<double>& from
 
 }  // namespace
 
-Result<Cast> Cast::from(const v1::SceneFacts& facts, const v1::Order& order) {
-    Cast cast{.epoch = facts.epoch(), .radii = {}, .order = order.number(), .ids = {}};
+Result<SphereTable> SphereTable::from(const v1::SceneFacts& facts, const v1::Order& order) {
+    SphereTable table{.epoch = facts.epoch(), .radii = {}, .order = order.number(), .ids = {}};
     if (order.epoch() != facts.epoch()) return bad("are of another epoch than the order");
-    if (!set(cast.low, facts.bounds_min()) || !set(cast.high, facts.bounds_max())) return bad("have no bounds");
+    if (!set(table.low, facts.bounds_min()) || !set(table.high, facts.bounds_max())) return bad("have no bounds");
     for (int axis = 0; axis < 3; ++axis)
-        if (cast.low[axis] > cast.high[axis]) return bad("have no bounds");
+        if (table.low[axis] > table.high[axis]) return bad("have no bounds");
     if (facts.count() == 0) return bad("have no spheres");
     auto ids = codec::idsOf(order, facts.count());
     if (!ids) return tl::unexpected(ids.error());
-    cast.ids = std::move(*ids);
-    cast.radii.assign(facts.count(), facts.radius());
+    table.ids = std::move(*ids);
+    table.radii.assign(facts.count(), facts.radius());
     if (!(facts.radius() > 0)) {
-        if (facts.radii().size() != cast.radii.size() * sizeof(float)) return bad("have radii of other spheres");
-        std::memcpy(cast.radii.data(), facts.radii().data(), facts.radii().size());
+        if (facts.radii().size() != table.radii.size() * sizeof(float)) return bad("have radii of other spheres");
+        std::memcpy(table.radii.data(), facts.radii().data(), facts.radii().size());
     }
-    if (!std::ranges::all_of(cast.radii, [](float radius) { return radius > 0 && std::isfinite(radius); }))
+    if (!std::ranges::all_of(table.radii, [](float radius) { return radius > 0 && std::isfinite(radius); }))
         return bad("have a radius that is none");
-    return cast;
+    return table;
 }
 
 }  // namespace spherule::recording
