@@ -29,7 +29,7 @@ Result<void> Dump::write(sim::Simulation& simulation) {
     }
     if (auto done = file_.write(text); !done) return done;
     auto done = file_.flush();
-    if (done) file_.keep();
+    if (done) file_.persist();
     return done;
 }
 

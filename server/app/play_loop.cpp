@@ -33,7 +33,7 @@ PlayLoop::PlayLoop(std::unique_ptr<compute::Device> device, Player player, const
 Result<void> PlayLoop::run(const std::stop_token& stop) {
     v1::ServerMessage timeline;
     *timeline.mutable_timeline() = player_.timeline();
-    outlets_.keep(codec::share(std::move(timeline)));
+    outlets_.retain(codec::share(std::move(timeline)));
     while (!stop.stop_requested()) {
         heartbeat::beat("serving viewers");
         // All that was asked for, before anything is decoded: of several seeks only the last counts.
@@ -63,7 +63,7 @@ void PlayLoop::serve(const Request& request) {
 Result<void> PlayLoop::advance(Chains::Clock::time_point now) {
     const Player::Moved moved = player_.advance(now);
     for (const std::string& damage : moved.damage) say(v1::Event::WARNING, "Skipped: " + damage);
-    for (const v1::ServerMessage& message : moved.skippedEvents) outlets_.everybody(codec::share(message));
+    for (const v1::ServerMessage& message : moved.skippedEvents) outlets_.broadcast(codec::share(message));
     return moved.shown ? show() : Result<void>();
 }
 
@@ -102,7 +102,7 @@ void PlayLoop::describe() {
         report.scene = facts.name();
         report.spheres = facts.count();
     });
-    outlets_.keep(codec::share(std::move(message)));
+    outlets_.retain(codec::share(std::move(message)));
 }
 
 void PlayLoop::sendSettings() {
@@ -112,7 +112,7 @@ void PlayLoop::sendSettings() {
     if (bytes == settings_) return;
     settings_ = std::move(bytes);
     nextReport_ = {};
-    outlets_.keep(codec::share(std::move(message)));
+    outlets_.retain(codec::share(std::move(message)));
 }
 
 void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
@@ -121,7 +121,7 @@ void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(player_.recording().step());
     message.mutable_event()->set_text(utf8(text));
-    outlets_.everybody(codec::share(std::move(message)));
+    outlets_.broadcast(codec::share(std::move(message)));
 }
 
 void PlayLoop::produce(Chains::Clock::time_point now) {

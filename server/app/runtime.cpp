@@ -82,8 +82,8 @@ std::optional<Error> Runtime::failure() const {
 }
 
 Outlets Runtime::outlets() {
-    return {.keep = [this](auto message) { server_->keep(std::move(message)); },
-            .everybody = [this](auto message) { server_->broadcast(std::move(message)); },
+    return {.retain = [this](auto message) { server_->retain(std::move(message)); },
+            .broadcast = [this](auto message) { server_->broadcast(std::move(message)); },
             .order = [this](auto message) { server_->setOrder(std::move(message)); },
             .frame = [this](const codec::EncodedFrame& encoded) { server_->publish(encoded); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },

@@ -17,8 +17,8 @@ namespace spherule::app {
 
 // Where results go; called on the show's thread.
 struct Outlets {
-    std::function<void(codec::SharedMessage)> keep;       // scene facts, settings, dial, ...: newcomers get them too
-    std::function<void(codec::SharedMessage)> everybody;  // events, diagnostics
+    std::function<void(codec::SharedMessage)> retain;     // scene facts, settings, dial, ...: newcomers get them too
+    std::function<void(codec::SharedMessage)> broadcast;  // events, diagnostics
     std::function<void(codec::SharedMessage)> order;
     std::function<void(const codec::EncodedFrame&)> frame;
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;

@@ -289,12 +289,12 @@ void SimLoop::announce() {
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
         seen_.reset();
-        keep(world_.facts());
+        retain(world_.facts());
     }
     v1::ServerMessage settings = world_.settings();
     if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
         settings_ = std::move(bytes);
-        keep(std::move(settings));
+        retain(std::move(settings));
     }
     if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
     ++version_;

@@ -118,7 +118,7 @@ Result<void> Tape::stop() {
     return {};
 }
 
-void Tape::keep(codec::SharedMessage message) {
+void Tape::retain(codec::SharedMessage message) {
     const v1::ServerMessage& content = message->content();
     if (content.has_scene()) {
         order_.reset();

@@ -30,7 +30,7 @@ class Tape {
     Result<void> stop();
 
     // What viewers are told, at the same time as they are: of what is said, events are recorded.
-    void keep(codec::SharedMessage message);
+    void retain(codec::SharedMessage message);
     void say(const codec::SharedMessage& message);
     void order(codec::SharedMessage message);
     void frame(const codec::EncodedFrame& encoded);

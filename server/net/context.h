@@ -31,7 +31,7 @@ struct Context {
         if (!leased) return;
         v1::ServerMessage message;
         *message.mutable_control() = now;
-        hub.keep(codec::share(std::move(message)));
+        hub.retain(codec::share(std::move(message)));
     }
 };
 

@@ -29,7 +29,7 @@ void Hub::join(SessionId id) {
     Entry* const entry = find(id);
     if (entry == nullptr) return;
     entry->joined = true;
-    for (const auto& [kind, message] : kept_) entry->session->send(message);
+    for (const auto& [kind, message] : retained_) entry->session->send(message);
 }
 
 void Hub::watch(SessionId id, const codec::Rendition& rendition) {
@@ -55,13 +55,13 @@ void Hub::setOrder(codec::SharedMessage order) {
         if (entry.rendition.rate > 0) entry.session->send(order_);
 }
 
-void Hub::keep(codec::SharedMessage message) {
+void Hub::retain(codec::SharedMessage message) {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
     }
     if (message->content().has_scene()) order_.reset();  // that of the spheres that were
-    kept_[message->content().kind_case()] = std::move(message);
+    retained_[message->content().kind_case()] = std::move(message);
 }
 
 void Hub::publish(const codec::EncodedFrame& encoded) {

@@ -38,7 +38,7 @@ class Hub {
     void askKeyframe(SessionId id);
 
     // For all and for newcomers, until there is a newer one of its kind.
-    void keep(codec::SharedMessage message);
+    void retain(codec::SharedMessage message);
     // For the frames that come; to whoever watches.
     void setOrder(codec::SharedMessage order);
     void publish(const codec::EncodedFrame& encoded);
@@ -72,7 +72,7 @@ class Hub {
     std::unordered_map<SessionId, Entry> entries_;
     SessionId lastId_ = 0;
     bool draining_ = false;
-    std::map<v1::ServerMessage::KindCase, codec::SharedMessage> kept_;  // in the order in which newcomers get them
+    std::map<v1::ServerMessage::KindCase, codec::SharedMessage> retained_;  // in the order in which newcomers get them
     codec::SharedMessage order_;
     std::atomic<std::uint32_t> viewers_ = 0;
 };

@@ -62,7 +62,7 @@ void Lease::pass() {
     tell();
 }
 
-void Lease::keep(SessionId session) {
+void Lease::retain(SessionId session) {
     if (!holds(session) || state_.asking_size() == 0) return;
     state_.clear_asking();
     tell();

@@ -26,7 +26,7 @@ class Lease {
     // longer.
     void yield(SessionId session, SessionId to);
     // The holder keeps them: nobody asks any more.
-    void keep(SessionId session);
+    void retain(SessionId session);
     void left(SessionId session);  // its holder's last word, as it were: whoever asks gets them
 
     [[nodiscard]] const v1::Control& state() const { return state_; }

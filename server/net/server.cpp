@@ -49,7 +49,7 @@ class RunningServer final : public Server {
 
     [[nodiscard]] std::uint16_t port() const override { return listener_->port(); }
 
-    void keep(codec::SharedMessage message) override { context_.hub.keep(std::move(message)); }
+    void retain(codec::SharedMessage message) override { context_.hub.retain(std::move(message)); }
     void setOrder(codec::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
     void publish(const codec::EncodedFrame& encoded) override { context_.hub.publish(encoded); }
     void broadcast(codec::SharedMessage message) override { context_.hub.broadcast(message); }

@@ -68,7 +68,7 @@ class Server {
 
     // Any thread from here on.
     // All clients get it, and those who come later after their welcome: the newest of each kind.
-    virtual void keep(codec::SharedMessage message) = 0;
+    virtual void retain(codec::SharedMessage message) = 0;
     // For who watches: the order of the spheres in the frames that come, once their scene facts are kept.
     virtual void setOrder(codec::SharedMessage order) = 0;
     // Lossy lane: who could not be sent the frame before has lost the chain, and is sent nothing more of it before a

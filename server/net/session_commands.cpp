@@ -78,7 +78,7 @@ void Session::onControls(const v1::ClientMessage& message) {
     }
     if (message.has_ask_control()) context_.lease.ask(id_, client_);
     if (message.has_yield_control()) context_.lease.yield(id_, message.yield_control().session());
-    if (message.has_keep_control()) context_.lease.keep(id_);
+    if (message.has_keep_control()) context_.lease.retain(id_);
 }
 
 std::string Session::who() const {

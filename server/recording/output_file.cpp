@@ -106,7 +106,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       target_(std::move(other.target_)),
       replace_(other.replace_),
       stale_(other.stale_),
-      kept_(other.kept_),
+      persistent_(other.persistent_),
       buffer_(std::move(other.buffer_)),
       size_(other.size_),
       written_(other.written_),
@@ -116,7 +116,7 @@ OutputFile::~OutputFile() {
     if (descriptor_ < 0) return;
     struct stat own {};
     struct stat named {};
-    const bool removes = !place_.empty() && !kept_ && !stale_ && fstat(descriptor_, &own) == 0 &&
+    const bool removes = !place_.empty() && !persistent_ && !stale_ && fstat(descriptor_, &own) == 0 &&
                          stat(place_.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
     if (removes) unlink(place_.c_str());
     ::close(descriptor_);
@@ -152,7 +152,7 @@ Result<void> OutputFile::close() {
     // What is no file, such as a pipe, knows no disk.
     if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) return cannot(errno);
     if (auto done = publish(); !done) return done;
-    kept_ = true;
+    persistent_ = true;
     if (::close(std::exchange(descriptor_, -1)) != 0) return cannot(errno);
     return {};
 }
@@ -189,7 +189,7 @@ tl::unexpected<Error> OutputFile::cannot(int error) {
     failed_ = Error{
         ErrorKind::Refused, path_,
         fmt::format("cannot be written on after {} bytes: {}; {}; {}", written_, std::strerror(error), adviceFor(error),
-                    kept_ || place_.empty() ? "what has been written stays as it is" : "nothing of it is kept")};
+                    persistent_ || place_.empty() ? "what has been written stays as it is" : "nothing of it is kept")};
     return tl::unexpected(*failed_);
 }
 

@@ -11,7 +11,7 @@ namespace spherule::recording {
 
 // A file that is written from beginning to end, through a buffer. Used by one thread. What goes wrong is Input where it
 // cannot be opened and Refused where it cannot be written; then nothing more is written. A file that is destroyed
-// before keep() or close() is removed.
+// before persist() or close() is removed.
 class OutputFile {
   public:
     // When there is a file of that name: from the first write on, or only once it is complete. Before, what is written
@@ -30,7 +30,7 @@ class OutputFile {
     ~OutputFile();  // what is in the buffer is not written
 
     // From here on, a file that appears at once stays as far as it is written.
-    void keep() { kept_ = true; }
+    void persist() { persistent_ = true; }
     // Refused when the file has been deleted.
     Result<void> stillThere();
 
@@ -53,7 +53,7 @@ class OutputFile {
     std::string target_;    // where it goes then; empty: it stays at its place
     bool replace_ = false;  // what is at the target
     bool stale_ = false;    // it still has the content that it had before
-    bool kept_ = false;
+    bool persistent_ = false;
     std::string buffer_;
     std::uint64_t size_ = 0;
     std::uint64_t written_ = 0;

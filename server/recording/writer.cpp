@@ -34,7 +34,7 @@ Result<void> Writer::add(Kind kind, double time, std::string_view message) {
     if (!firstFrame && now - flushed_ < flushEvery) return {};
     flushed_ = now;
     auto done = file_.flush();
-    if (done && firstFrame) file_.keep();
+    if (done && firstFrame) file_.persist();
     return done;
 }
 

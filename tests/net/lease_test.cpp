@@ -36,7 +36,7 @@ TEST_F(Controls, AreHandedOverByTheirHolderAlone) {
     lease_.ask(3, "three");
     EXPECT_EQ(asking(), (Row{2, 3}));
     lease_.yield(4, 3);  // who has nothing to give
-    lease_.keep(3);
+    lease_.retain(3);
     EXPECT_EQ(holder(), 1U);
     lease_.yield(1, 3);
     EXPECT_EQ(holder(), 3U);
@@ -48,7 +48,7 @@ TEST_F(Controls, StayWithTheirHolderWhoKeepsThem) {
     lease_.ask(2, "two");
     lease_.yield(1, 9);  // who does not ask
     EXPECT_EQ(holder(), 1U);
-    lease_.keep(1);
+    lease_.retain(1);
     EXPECT_EQ(asking(), Row{});
     EXPECT_EQ(holder(), 1U);
 }

@@ -66,7 +66,7 @@ Owner::Owner(const Options& options) {
     setEpoch(1);
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(8);
-    server_->keep(std::make_shared<codec::Message>(std::move(settings)));
+    server_->retain(std::make_shared<codec::Message>(std::move(settings)));
 }
 
 Owner::~Owner() {
@@ -102,7 +102,7 @@ void Owner::stopPublishing() {
 }
 
 void Owner::setEpoch(std::uint32_t epoch) {
-    server_->keep(factsOf(epoch, 64));
+    server_->retain(factsOf(epoch, 64));
     server_->setOrder(orderOf(epoch));
     epoch_ = epoch;
 }

@@ -226,7 +226,7 @@ TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
     const auto client = join(owner, 60);
     ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
     owner.server().publish(encodedFrame(codec::EncodedFrame::Kind::Keyframe, 1, 2, 64));
-    owner.server().keep(factsOf(2, 64));
+    owner.server().retain(factsOf(2, 64));
     owner.server().setOrder(orderOf(2));
     EXPECT_EQ(next(*client).scene().epoch(), 2U);
     EXPECT_EQ(next(*client).order().epoch(), 2U);
@@ -240,7 +240,7 @@ TEST(Stream, TellsEveryoneOfEventsAndNewSettings) {
     owner.server().broadcast(eventOf("mind the gap"));
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(9);
-    owner.server().keep(std::make_shared<codec::Message>(std::move(settings)));
+    owner.server().retain(std::make_shared<codec::Message>(std::move(settings)));
     for (Client* client : {one.get(), two.get()}) {
         EXPECT_EQ(next(*client).event().text(), "mind the gap");
         EXPECT_EQ(next(*client).settings().substeps(), 9U);

@@ -49,8 +49,8 @@ class Looping : public testing::Test {
 
   private:
     Outlets outlets() {
-        return {.keep = [](const codec::SharedMessage&) {},
-                .everybody = [](const codec::SharedMessage&) {},
+        return {.retain = [](const codec::SharedMessage&) {},
+                .broadcast = [](const codec::SharedMessage&) {},
                 .order = [](const codec::SharedMessage&) {},
                 .frame =
                     [this](const codec::EncodedFrame& encoded) {

@@ -66,7 +66,7 @@ class Stage {
                     if (message->content().has_scene()) scenes.push_back(message->content().scene());
                     if (scenes.size() > changes) stop_.request_stop();
                 },
-            .everybody = [](const codec::SharedMessage&) {},
+            .broadcast = [](const codec::SharedMessage&) {},
             .order = [](const codec::SharedMessage&) {},
             .frame =
                 [this](const codec::EncodedFrame& encoded) { frames.push_back(encoded.message->content().frame()); },

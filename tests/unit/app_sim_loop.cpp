@@ -65,7 +65,7 @@ class Desk {
                         if (message->content().has_change()) changes.push_back(message->content().change());
                         look();
                     },
-                .everybody = [](const codec::SharedMessage&) {},
+                .broadcast = [](const codec::SharedMessage&) {},
                 .order = [](const codec::SharedMessage&) {},
                 .frame = [](const codec::EncodedFrame&) {},
                 .reply =

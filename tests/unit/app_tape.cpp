@@ -26,9 +26,9 @@ class Taping : public testing::Test {
         v1::Welcome source;
         source.set_server("spherule test");
         tape_ = std::make_unique<Tape>(options_, source);
-        keep(recording::sceneMessage(1, spheres));
+        retain(recording::sceneMessage(1, spheres));
     }
-    void keep(v1::ServerMessage message) { tape_->keep(codec::share(std::move(message))); }
+    void retain(v1::ServerMessage message) { tape_->retain(codec::share(std::move(message))); }
     void order(std::uint32_t epoch = 1) { tape_->order(codec::share(recording::orderMessage(epoch, spheres))); }
 
     codec::EncodedFrame encoded(Kind kind, double time, std::uint32_t epoch = 1) {
@@ -121,7 +121,7 @@ TEST_F(Taping, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
     tape_->frame(encoded(Kind::Delta, 12));
     tape_->frame(encoded(Kind::Delta, 0));
     tape_->frame(encoded(Kind::Delta, 1));
-    keep(recording::sceneMessage(2, spheres));
+    retain(recording::sceneMessage(2, spheres));
     order(2);
     tape_->frame(encoded(Kind::Keyframe, 0.5, 2));
     tape_->frame(encoded(Kind::Delta, 0.75, 2));
@@ -301,7 +301,7 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
     tape_->frame(encoded(Kind::Delta, 3));
     paused(Kind::Delta, 3);
     paused(Kind::Delta, 0);  // it was reset
-    keep(recording::sceneMessage(2, spheres));
+    retain(recording::sceneMessage(2, spheres));
     order(2);
     paused(Kind::Keyframe, 0, 2);  // and others were loaded
     paused(Kind::Delta, 0.5, 2);   // and stepped
@@ -319,7 +319,7 @@ TEST_F(Taping, AHostileSceneNameIsNoPath) {
     open();
     v1::ServerMessage scene = recording::sceneMessage(1, spheres);
     scene.mutable_scene()->set_name("../../up/away\n;" + std::string(500, 'x'));
-    keep(scene);
+    retain(scene);
     order();
     ASSERT_TRUE(tape_->start());
     const std::filesystem::path path = tape_->news(Tape::Clock::now())->file();

@@ -43,7 +43,7 @@ TEST_F(Output, OneThatIsNotKeptLeavesNothing) {
     {
         auto file = OutputFile::create(path_, false);
         ASSERT_TRUE(file && file->write("half") && file->flush());
-        file->keep();
+        file->persist();
     }
     EXPECT_EQ(contentOf(path_), "half");
 }
@@ -113,7 +113,7 @@ TEST_F(Output, PipesAreNotWaitedForAndNotRemoved) {
 TEST_F(Output, OneThatWasDeletedIsNoticed) {
     auto file = OutputFile::create(path_, false);
     ASSERT_TRUE(file && file->write("half") && file->flush());
-    file->keep();
+    file->persist();
     fs::remove(path_);
     const auto done = file->close();
     ASSERT_FALSE(done);
