@@ -66,7 +66,7 @@ bool hasFiles(const ServingOptions& options) {
     return !options.viewerTokenFile.empty() || !options.controllerTokenFile.empty() || !options.certificateFile.empty();
 }
 
-Result<net::Secrets> secretsOf(const ServingOptions& options) {
+Result<net::Credentials> credentialsOf(const ServingOptions& options) {
     auto viewer = tokenOf("--viewer-token-file", options.viewerTokenFile, "SPHERULE_VIEWER_TOKEN");
     if (!viewer) return tl::unexpected(viewer.error());
     auto controller = tokenOf("--controller-token-file", options.controllerTokenFile, "SPHERULE_CONTROLLER_TOKEN");
@@ -80,23 +80,23 @@ Result<net::Secrets> secretsOf(const ServingOptions& options) {
     if (!certificate) return tl::unexpected(certificate.error());
     auto key = contentOf("--tls-key", options.keyFile);
     if (!key) return tl::unexpected(key.error());
-    return net::Secrets{.viewerToken = std::move(*viewer),
-                        .controllerToken = std::move(*controller),
-                        .certificate = std::move(*certificate),
-                        .key = std::move(*key)};
+    return net::Credentials{.viewerToken = std::move(*viewer),
+                            .controllerToken = std::move(*controller),
+                            .certificate = std::move(*certificate),
+                            .key = std::move(*key)};
 }
 
 Result<net::Options> netOptionsOf(const ServingOptions& options) {
     const auto endpoint = endpointOf(options.listen);
     if (!endpoint) return tl::unexpected(endpoint.error());
-    auto secrets = secretsOf(options);
-    if (!secrets) return tl::unexpected(secrets.error());
-    if (options.net.open && net::guarded(*secrets))
+    auto credentials = credentialsOf(options);
+    if (!credentials) return tl::unexpected(credentials.error());
+    if (options.net.open && net::requiresToken(*credentials))
         return fail(ErrorKind::Input, "--open", "lets everybody in, and a token keeps them out: give one of the two");
     net::Options result = options.net;
     result.host = endpoint->host;
     result.port = endpoint->port;
-    result.secrets = std::move(*secrets);
+    result.credentials = std::move(*credentials);
     return result;
 }
 

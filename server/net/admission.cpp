@@ -94,10 +94,10 @@ Result<void> checkToken(const std::string& token, const std::string& where) {
         "the token has a character that is no letter, digit or sign of ASCII; make one with: openssl rand -hex 16");
 }
 
-Admission::Admission(Places places, Secrets secrets, std::string scheme)
+Admission::Admission(Places places, Credentials credentials, std::string scheme)
     : places_(std::move(places)),
-      viewerToken_(std::move(secrets.viewerToken)),
-      controllerToken_(std::move(secrets.controllerToken)),
+      viewerToken_(std::move(credentials.viewerToken)),
+      controllerToken_(std::move(credentials.controllerToken)),
       scheme_(std::move(scheme)) {
     for (auto* list : {&places_.hosts, &places_.origins})
         for (std::string& entry : *list) entry = lower(entry);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "net/secrets.h"
+#include "net/credentials.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::net {
@@ -30,7 +30,7 @@ Result<void> checkToken(const std::string& token, const std::string& where);
 class Admission {
   public:
     // `scheme`: http or https, which this server speaks.
-    Admission(Places places, Secrets secrets, std::string scheme);
+    Admission(Places places, Credentials credentials, std::string scheme);
 
     // Whether a request with this Host header means this server. A page of somebody else's whose name leads here (DNS
     // rebinding) has its own name there.

@@ -19,12 +19,12 @@ struct Context {
     Counters counters{};
     Hub hub{};
     Refusals refusals{counters};
-    // These change with the secrets. On the io thread.
+    // These change with the credentials. On the io thread.
     std::shared_ptr<const Admission> admission{};
     Tls tls{};
     std::shared_ptr<Visitors> visitors = std::make_shared<Visitors>(options.visitors);
     // Where it is known who is who, or that anybody may come, one at a time has the controls.
-    bool leased = options.open || guarded(options.secrets);
+    bool leased = options.open || requiresToken(options.credentials);
     Lease lease{[this](const v1::Control& now) { tellControl(now); }};
 
     void tellControl(const v1::Control& now) {

@@ -46,7 +46,7 @@ Result<void> Listener::open() {
     if (error) return fail(ErrorKind::Input, address, "cannot be listened on: " + error.message());
     const tcp::endpoint endpoint = found.begin()->endpoint();
     const bool proxied = !options.places.hosts.empty() || !options.places.origins.empty();
-    if (!options.open && !guarded(options.secrets) && (proxied || !endpoint.address().is_loopback()))
+    if (!options.open && !requiresToken(options.credentials) && (proxied || !endpoint.address().is_loopback()))
         return fail(ErrorKind::Input, address,
                     "others reach it, by this address or by the names that it is given: say who may come in "
                     "(--controller-token-file FILE, --viewer-token-file "

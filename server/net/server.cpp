@@ -19,7 +19,7 @@ constexpr std::chrono::seconds dropTime{1};  // for sessions to notice that they
 class RunningServer final : public Server {
   public:
     RunningServer(const Options& options, Handlers handlers)
-        : scheme_(options.secrets.certificate.empty() ? "http" : "https"),
+        : scheme_(options.credentials.certificate.empty() ? "http" : "https"),
           context_{.options = options, .handlers = std::move(handlers)},
           listener_(std::make_shared<Listener>(io_, context_)) {}
 
@@ -37,7 +37,7 @@ class RunningServer final : public Server {
             if (auto good = checkOrigin(origin); !good) return good;
         for (const std::string& host : options.places.hosts)
             if (auto good = checkHost(host); !good) return good;
-        auto made = make(options.secrets);
+        auto made = make(options.credentials);
         if (!made) return tl::unexpected(made.error());
         take(std::move(*made));
         context_.tellControl(context_.lease.state());
@@ -64,8 +64,8 @@ class RunningServer final : public Server {
     [[nodiscard]] std::vector<codec::Subscription> subscriptions() override { return context_.hub.subscriptions(); }
     [[nodiscard]] const Counters& counters() const override { return context_.counters; }
 
-    Result<void> setSecrets(const Secrets& secrets) override {
-        auto made = make(secrets);
+    Result<void> setCredentials(const Credentials& credentials) override {
+        auto made = make(credentials);
         if (!made) return tl::unexpected(made.error());
         boost::asio::post(io_, [this, taken = std::move(*made)] { take(taken); });
         return {};
@@ -97,21 +97,21 @@ class RunningServer final : public Server {
         }
     }
 
-    // What is made of the secrets.
+    // What is made of the credentials.
     struct Keys {
         std::shared_ptr<const Admission> admission;
         Tls tls;
     };
 
-    [[nodiscard]] Result<Keys> make(const Secrets& secrets) const {
-        if (guarded(secrets) != guarded(context_.options.secrets))
+    [[nodiscard]] Result<Keys> make(const Credentials& credentials) const {
+        if (requiresToken(credentials) != requiresToken(context_.options.credentials))
             return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
         Places places = context_.options.places;
         places.hosts.push_back(context_.options.host);  // by which people were told to come
-        Keys keys{.admission = std::make_shared<Admission>(std::move(places), secrets, scheme_), .tls = nullptr};
-        if (secrets.certificate.empty() == (scheme_ == "http")) {
-            if (secrets.certificate.empty()) return keys;
-            auto tls = serverTls(secrets);
+        Keys keys{.admission = std::make_shared<Admission>(std::move(places), credentials, scheme_), .tls = nullptr};
+        if (credentials.certificate.empty() == (scheme_ == "http")) {
+            if (credentials.certificate.empty()) return keys;
+            auto tls = serverTls(credentials);
             if (!tls) return tl::unexpected(tls.error());
             keys.tls = std::move(*tls);
             return keys;

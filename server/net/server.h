@@ -26,7 +26,7 @@ struct Options {
     // Without tokens, an address that others reach is listened on only where everybody may view and command.
     bool open = false;
     Places places;
-    Secrets secrets;
+    Credentials credentials;
     VisitorLimits visitors;
     double commandsPerSecond = 100;                       // of one session; as many at once; 0: no limit
     std::chrono::milliseconds guessDelay{1'000};          // before a wrong token is answered
@@ -90,7 +90,7 @@ class Server {
 
     // Tokens and certificate for whoever comes from now on. Whether there are any cannot change. An error: the old ones
     // stay. Not from the io thread.
-    virtual Result<void> setSecrets(const Secrets& secrets) = 0;
+    virtual Result<void> setCredentials(const Credentials& credentials) = 0;
 
     [[nodiscard]] virtual const Counters& counters() const = 0;
 };

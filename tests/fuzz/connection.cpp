@@ -87,7 +87,7 @@ class Served {
 
     void wantTokens() {
         context_.admission = std::make_shared<net::Admission>(
-            net::Places{}, net::Secrets{.controllerToken = std::string(token)}, "http");
+            net::Places{}, net::Credentials{.controllerToken = std::string(token)}, "http");
     }
 
     // False when there is nothing to do before something comes, or a clock strikes.
@@ -135,7 +135,7 @@ class Served {
     std::uint32_t frames_ = 0;
     net::Context context_{.options = options(),
                           .handlers = handlers(),
-                          .admission = std::make_shared<net::Admission>(net::Places{}, net::Secrets{}, "http")};
+                          .admission = std::make_shared<net::Admission>(net::Places{}, net::Credentials{}, "http")};
 };
 
 // The other end.

@@ -70,8 +70,8 @@ class Guarded : public testing::Test {
   protected:
     static Options options() {
         Options options = quickOptions();
-        options.secrets.viewerToken = viewers;
-        options.secrets.controllerToken = controllers;
+        options.credentials.viewerToken = viewers;
+        options.credentials.controllerToken = controllers;
         options.guessDelay = 300ms;
         options.places.hosts = {"spherule.example.org"};
         return options;
@@ -239,9 +239,9 @@ TEST_F(Guarded, FiguresNeedAToken) {
 
 TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
     const auto before = joinAs(viewers);
-    Secrets secrets = options().secrets;
-    secrets.viewerToken = "the-viewers-new-token";
-    ASSERT_TRUE(owner_.server().setSecrets(secrets));
+    Credentials credentials = options().credentials;
+    credentials.viewerToken = "the-viewers-new-token";
+    ASSERT_TRUE(owner_.server().setCredentials(credentials));
     const auto late = connect(owner_);
     v1::ClientMessage hello = helloOf(0);
     hello.mutable_hello()->set_token(viewers);
@@ -249,7 +249,7 @@ TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
     EXPECT_EQ(readToEnd(*late).code, 4401);
     joinAs("the-viewers-new-token");
     EXPECT_EQ(welcome_.role(), v1::VIEWER);
-    EXPECT_FALSE(owner_.server().setSecrets({})) << "a guarded server never opens by itself";
+    EXPECT_FALSE(owner_.server().setCredentials({})) << "a guarded server never opens by itself";
 }
 
 TEST(Doors, AreNotOpenedToOthersUnasked) {

@@ -75,7 +75,7 @@ class Ends : public testing::Test {
     }
 
     Context context_{
-        .options = quick(), .handlers = {}, .admission = std::make_shared<Admission>(Places{}, Secrets{}, "http")};
+        .options = quick(), .handlers = {}, .admission = std::make_shared<Admission>(Places{}, Credentials{}, "http")};
     asio::io_context io_{1};  // what waits in it for ever knows the context
     std::array<int, 2> ends_{};
     std::string said_;

@@ -5,7 +5,7 @@
 namespace spherule::net {
 
 // What nobody else may know; may change while the server runs. Empty: there is none.
-struct Secrets {
+struct Credentials {
     std::string viewerToken{};      // lets in to watch
     std::string controllerToken{};  // lets in to watch and to command
     std::string certificate{};      // PEM, the server's own first, then those that lead from it to the root
@@ -13,8 +13,8 @@ struct Secrets {
 };
 
 // Whether they keep anybody out.
-inline bool guarded(const Secrets& secrets) {
-    return !secrets.viewerToken.empty() || !secrets.controllerToken.empty();
+inline bool requiresToken(const Credentials& credentials) {
+    return !credentials.viewerToken.empty() || !credentials.controllerToken.empty();
 }
 
 }  // namespace spherule::net
