@@ -28,13 +28,14 @@ void ServingOptions::addTo(CLI::App& command) {
                   "let everybody who reaches the address watch and command; for addresses that others reach")
         ->group(group);
     command
-        .add_option("--origin", net.places.origins,
+        .add_option("--origin", net.allowedNames.origins,
                     "a site whose pages may open the stream, such as https://spherule.example.org")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
         ->group(group);
-    command.add_option("--host", net.places.hosts, "a name that this server goes by, beside localhost and addresses")
+    command
+        .add_option("--host", net.allowedNames.hosts, "a name that this server goes by, beside localhost and addresses")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
@@ -44,14 +45,15 @@ void ServingOptions::addTo(CLI::App& command) {
     command.add_option("--tls-key", keyFile, "the certificate's private key (PEM)")->group(group);
 
     constexpr const char* limits = "Limits (0: none)";
-    command.add_option("--max-sessions", net.visitors.sessions, "viewers at a time")
-        ->capture_default_str()
-        ->group(limits);
-    command.add_option("--max-sessions-per-address", net.visitors.sessionsPerAddress, "the same, of one address")
+    command.add_option("--max-sessions", net.connectionLimits.sessions, "viewers at a time")
         ->capture_default_str()
         ->group(limits);
     command
-        .add_option("--connections-per-second", net.visitors.connectionsPerSecond,
+        .add_option("--max-sessions-per-address", net.connectionLimits.sessionsPerAddress, "the same, of one address")
+        ->capture_default_str()
+        ->group(limits);
+    command
+        .add_option("--connections-per-second", net.connectionLimits.connectionsPerSecond,
                     "new connections of one address, on average")
         ->capture_default_str()
         ->check(finiteRate)

@@ -94,14 +94,14 @@ Result<void> checkToken(const std::string& token, const std::string& where) {
         "the token has a character that is no letter, digit or sign of ASCII; make one with: openssl rand -hex 16");
 }
 
-Admission::Admission(Places places, Credentials credentials, std::string scheme)
-    : places_(std::move(places)),
+Admission::Admission(AllowedNames allowedNames, Credentials credentials, std::string scheme)
+    : allowed_(std::move(allowedNames)),
       viewerToken_(std::move(credentials.viewerToken)),
       controllerToken_(std::move(credentials.controllerToken)),
       scheme_(std::move(scheme)) {
-    for (auto* list : {&places_.hosts, &places_.origins})
+    for (auto* list : {&allowed_.hosts, &allowed_.origins})
         for (std::string& entry : *list) entry = lower(entry);
-    for (const std::string& origin : places_.origins) places_.hosts.emplace_back(hostOf(origin));
+    for (const std::string& origin : allowed_.origins) allowed_.hosts.emplace_back(hostOf(origin));
 }
 
 bool Admission::isHost(std::string_view host) const {
@@ -109,13 +109,13 @@ bool Admission::isHost(std::string_view host) const {
     if (!isHostAndPort(given)) return false;
     const std::string name(nameOf(given));
     if (name == "localhost" || isAddress(name)) return true;
-    return std::ranges::any_of(places_.hosts, [&](const std::string& one) { return one == given || one == name; });
+    return std::ranges::any_of(allowed_.hosts, [&](const std::string& one) { return one == given || one == name; });
 }
 
 bool Admission::isOrigin(std::string_view origin, std::string_view host) const {
     const std::string given = lower(origin);
     if (given == scheme_ + "://" + lower(host)) return true;
-    return std::ranges::find(places_.origins, given) != places_.origins.end();
+    return std::ranges::find(allowed_.origins, given) != allowed_.origins.end();
 }
 
 std::optional<v1::Role> Admission::roleOf(std::string_view token) const {

@@ -12,7 +12,7 @@
 namespace spherule::net {
 
 // Which names a server goes by. What is listed is compared as a whole, without regard to case: no patterns, no endings.
-struct Places {
+struct AllowedNames {
     std::vector<std::string>
         hosts{};  // "name" or "name:port", beside localhost and addresses, which need no name server
     std::vector<std::string>
@@ -30,7 +30,7 @@ Result<void> checkToken(const std::string& token, const std::string& where);
 class Admission {
   public:
     // `scheme`: http or https, which this server speaks.
-    Admission(Places places, Credentials credentials, std::string scheme);
+    Admission(AllowedNames allowedNames, Credentials credentials, std::string scheme);
 
     // Whether a request with this Host header means this server. A page of somebody else's whose name leads here (DNS
     // rebinding) has its own name there.
@@ -45,7 +45,7 @@ class Admission {
     [[nodiscard]] std::optional<v1::Role> roleOf(std::string_view token) const;
 
   private:
-    Places places_;  // lower case
+    AllowedNames allowed_;  // lower case
     std::string viewerToken_, controllerToken_;
     std::string scheme_;
 };

@@ -22,7 +22,7 @@ struct Context {
     // These change with the credentials. On the io thread.
     std::shared_ptr<const Admission> admission{};
     Tls tls{};
-    std::shared_ptr<Visitors> visitors = std::make_shared<Visitors>(options.visitors);
+    std::shared_ptr<ConnectionLimiter> limiter = std::make_shared<ConnectionLimiter>(options.connectionLimits);
     // Where it is known who is who, or that anybody may come, one at a time has the controls.
     bool leased = options.open || requiresToken(options.credentials);
     Lease lease{[this](const v1::Control& now) { tellControl(now); }};

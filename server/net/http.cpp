@@ -74,11 +74,11 @@ bool asksForSubprotocol(const http::request<http::string_body>& request) {
 
 }  // namespace
 
-HttpConnection::HttpConnection(Transport stream, std::unique_ptr<Visitors::Visit> visit, std::string peer,
+HttpConnection::HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
                                Context& context)
     : context_(context),
       stream_(std::move(stream)),
-      visit_(std::move(visit)),
+      permit_(std::move(permit)),
       peer_(std::move(peer)),
       delay_(stream_.get_executor()) {}
 
@@ -169,7 +169,7 @@ void HttpConnection::onUpgrade(const Request& request) {
     if (!context_.handlers.ready()) {
         return refuse(request, Rejection::NotReady, 503, "the scene is not ready yet: see /readyz, and try again soon");
     }
-    std::make_shared<Session>(std::move(stream_), std::move(visit_), peer_, context_)->run(request);
+    std::make_shared<Session>(std::move(stream_), std::move(permit_), peer_, context_)->run(request);
 }
 
 void HttpConnection::answer(const Request& request, HttpAnswer answer) {

@@ -20,7 +20,8 @@ namespace spherule::net {
 // refused. Everything happens on the strand of its stream.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
-    HttpConnection(Transport stream, std::unique_ptr<Visitors::Visit> visit, std::string peer, Context& context);
+    HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
+                   Context& context);
 
     void run();
 
@@ -44,7 +45,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
     Context& context_;
     Transport stream_;
-    std::unique_ptr<Visitors::Visit> visit_;
+    std::unique_ptr<ConnectionLimiter::Permit> permit_;
     std::string peer_;  // address
     boost::asio::steady_timer delay_;
     // What Beast's parser keeps back, such as an extension of a chunk that has no end, is bounded by nothing else.

@@ -45,7 +45,7 @@ Result<void> Listener::open() {
         tcp::resolver(io_).resolve(options.host, std::to_string(options.port), tcp::resolver::passive, error);
     if (error) return fail(ErrorKind::Input, address, "cannot be listened on: " + error.message());
     const tcp::endpoint endpoint = found.begin()->endpoint();
-    const bool proxied = !options.places.hosts.empty() || !options.places.origins.empty();
+    const bool proxied = !options.allowedNames.hosts.empty() || !options.allowedNames.origins.empty();
     if (!options.open && !requiresToken(options.credentials) && (proxied || !endpoint.address().is_loopback()))
         return fail(ErrorKind::Input, address,
                     "others reach it, by this address or by the names that it is given: say who may come in "
@@ -101,7 +101,7 @@ void Listener::serve(tcp::socket socket) {
     // Nothing that could be read here is worth an error: the peer may be gone already.
     error_code ignored;
     const auto address = socket.remote_endpoint(ignored).address();
-    if (const auto cause = context_.visitors->refuses(address, Visitors::Clock::now())) {
+    if (const auto cause = context_.limiter->refuses(address, ConnectionLimiter::Clock::now())) {
         context_.refusals.add(*cause, address.to_string());
         // Without this, each would leave a closed connection behind for a minute.
         socket.set_option(asio::socket_base::linger(true, 0), ignored);
@@ -112,7 +112,7 @@ void Listener::serve(tcp::socket socket) {
     socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
     setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &mostUnsent, sizeof mostUnsent);
     std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), context_.tls),
-                                     context_.visitors->admit(address), address.to_string(), context_)
+                                     context_.limiter->admit(address), address.to_string(), context_)
         ->run();
 }
 

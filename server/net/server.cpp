@@ -33,9 +33,9 @@ class RunningServer final : public Server {
 
     Result<void> start() {
         const Options& options = context_.options;
-        for (const std::string& origin : options.places.origins)
+        for (const std::string& origin : options.allowedNames.origins)
             if (auto good = checkOrigin(origin); !good) return good;
-        for (const std::string& host : options.places.hosts)
+        for (const std::string& host : options.allowedNames.hosts)
             if (auto good = checkHost(host); !good) return good;
         auto made = make(options.credentials);
         if (!made) return tl::unexpected(made.error());
@@ -106,9 +106,10 @@ class RunningServer final : public Server {
     [[nodiscard]] Result<Keys> make(const Credentials& credentials) const {
         if (requiresToken(credentials) != requiresToken(context_.options.credentials))
             return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
-        Places places = context_.options.places;
-        places.hosts.push_back(context_.options.host);  // by which people were told to come
-        Keys keys{.admission = std::make_shared<Admission>(std::move(places), credentials, scheme_), .tls = nullptr};
+        AllowedNames allowedNames = context_.options.allowedNames;
+        allowedNames.hosts.push_back(context_.options.host);  // by which people were told to come
+        Keys keys{.admission = std::make_shared<Admission>(std::move(allowedNames), credentials, scheme_),
+                  .tls = nullptr};
         if (credentials.certificate.empty() == (scheme_ == "http")) {
             if (credentials.certificate.empty()) return keys;
             auto tls = serverTls(credentials);

@@ -11,8 +11,8 @@
 #include "codec/rendition.h"
 #include "core/result.h"
 #include "net/admission.h"
+#include "net/connection_limiter.h"
 #include "net/counters.h"
-#include "net/visitors.h"
 #include "spherule/v1/control.pb.h"
 
 // One port: the page, health, metrics and the WebSocket stream. Knows nothing of the simulation.
@@ -25,9 +25,9 @@ struct Options {
     std::uint16_t port = 8080;  // 0: any free one
     // Without tokens, an address that others reach is listened on only where everybody may view and command.
     bool open = false;
-    Places places;
+    AllowedNames allowedNames;
     Credentials credentials;
-    VisitorLimits visitors;
+    ConnectionLimits connectionLimits;
     double commandsPerSecond = 100;                       // of one session; as many at once; 0: no limit
     std::chrono::milliseconds guessDelay{1'000};          // before a wrong token is answered
     std::size_t firstMessageBytes = 4096;                 // of a hello, and of all that viewers send

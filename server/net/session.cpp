@@ -24,10 +24,11 @@ constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is g
 
 }  // namespace
 
-Session::Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const std::string& peer, Context& context)
+Session::Session(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, const std::string& peer,
+                 Context& context)
     : context_(context),
       stream_(std::move(stream)),
-      visit_(std::move(visit)),
+      permit_(std::move(permit)),
       peer_(peer),
       watchTimer_(stream_.get_executor()),
       liveness_({.hello = context.options.helloTimeout,
@@ -135,7 +136,7 @@ void Session::onHello(const v1::Hello& hello) {
     liveness_.helloCame();
     const auto role = context_.admission->roleOf(hello.token());
     if (!role) return turnAway(!hello.token().empty());
-    if (const auto cause = visit_->openSession()) {
+    if (const auto cause = permit_->openSession()) {
         context_.refusals.add(*cause, who());
         return close(close_code::try_again_later,
                      *cause == Rejection::Sessions ? "as many sessions are open as may be"
@@ -205,7 +206,7 @@ void Session::finish(CloseCause cause) {
     outbox_.clear();
     beast::get_lowest_layer(stream_).close();
     --context_.counters.sessions;
-    visit_.reset();
+    permit_.reset();
     context_.hub.remove(id_);
     context_.lease.left(id_);
     context_.refusals.ended(cause, who());

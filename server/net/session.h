@@ -36,7 +36,8 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
   public:
     using Request = boost::beast::http::request<boost::beast::http::string_body>;
 
-    Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const std::string& peer, Context& context);
+    Session(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, const std::string& peer,
+            Context& context);
 
     // Answers an upgrade request and serves the client until one side leaves. Call once, on the strand.
     void run(const Request& upgrade);
@@ -104,7 +105,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
 
     Context& context_;
     boost::beast::websocket::stream<Transport, false> stream_;
-    std::unique_ptr<Visitors::Visit> visit_;
+    std::unique_ptr<ConnectionLimiter::Permit> permit_;
     std::string peer_;  // address
     boost::asio::steady_timer watchTimer_;
     boost::asio::cancellation_signal endOfRead_;

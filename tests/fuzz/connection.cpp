@@ -78,16 +78,16 @@ class Served {
   public:
     explicit Served(int socket) {
         const auto address = asio::ip::make_address("127.0.0.1");
-        require(!context_.visitors->refuses(address, net::Visitors::Clock::now()));
+        require(!context_.limiter->refuses(address, net::ConnectionLimiter::Clock::now()));
         asio::ip::tcp::socket end(asio::make_strand(io_), asio::ip::tcp::v4(), socket);
         std::make_shared<net::HttpConnection>(net::Transport(boost::beast::tcp_stream(std::move(end)), nullptr),
-                                              context_.visitors->admit(address), "127.0.0.1", context_)
+                                              context_.limiter->admit(address), "127.0.0.1", context_)
             ->run();
     }
 
     void wantTokens() {
         context_.admission = std::make_shared<net::Admission>(
-            net::Places{}, net::Credentials{.controllerToken = std::string(token)}, "http");
+            net::AllowedNames{}, net::Credentials{.controllerToken = std::string(token)}, "http");
     }
 
     // False when there is nothing to do before something comes, or a clock strikes.
@@ -133,9 +133,10 @@ class Served {
 
     asio::io_context io_{1};
     std::uint32_t frames_ = 0;
-    net::Context context_{.options = options(),
-                          .handlers = handlers(),
-                          .admission = std::make_shared<net::Admission>(net::Places{}, net::Credentials{}, "http")};
+    net::Context context_{
+        .options = options(),
+        .handlers = handlers(),
+        .admission = std::make_shared<net::Admission>(net::AllowedNames{}, net::Credentials{}, "http")};
 };
 
 // The other end.

@@ -9,8 +9,8 @@ namespace {
 const std::string viewers = "viewers-token-of-a-test";
 const std::string controllers = "controllers-token-of-a-test";
 
-Admission plain(Places places = {}) {
-    return {std::move(places), {}, "http"};
+Admission plain(AllowedNames allowedNames = {}) {
+    return {std::move(allowedNames), {}, "http"};
 }
 
 TEST(Admission, KnowsTheNamesOfThisServer) {
@@ -73,7 +73,7 @@ class Guarded : public testing::Test {
         options.credentials.viewerToken = viewers;
         options.credentials.controllerToken = controllers;
         options.guessDelay = 300ms;
-        options.places.hosts = {"spherule.example.org"};
+        options.allowedNames.hosts = {"spherule.example.org"};
         return options;
     }
 
@@ -265,7 +265,7 @@ TEST(Doors, AreNotOpenedToOthersUnasked) {
 
 TEST(Doors, LetSoManyInAndNoMore) {
     Options options = quickOptions();
-    options.visitors.sessions = 2;
+    options.connectionLimits.sessions = 2;
     Owner owner(options);
     const auto first = join(owner, 0);
     {
@@ -283,7 +283,7 @@ TEST(Doors, LetSoManyInAndNoMore) {
 
 TEST(Doors, AskThoseWhoComeTooOftenToWait) {
     Options options = quickOptions();
-    options.visitors.connectionsPerSecond = 5;
+    options.connectionLimits.connectionsPerSecond = 5;
     Owner owner(options);
     int answered = 0;
     for (int k = 0; k < 12; ++k) {
@@ -298,7 +298,7 @@ TEST(Doors, AskThoseWhoComeTooOftenToWait) {
 
 TEST(Doors, AreNotOpenedByTheNameOfAProxy) {
     Options options = quickOptions();
-    options.places.origins = {"https://spherule.example.org"};
+    options.allowedNames.origins = {"https://spherule.example.org"};
     EXPECT_FALSE(startServer(options, {}));
 }
 

@@ -8,7 +8,7 @@ namespace spherule::net {
 Options quickOptions() {
     Options options;
     options.port = 0;
-    options.visitors = {.sessions = 0, .sessionsPerAddress = 0, .connectionsPerSecond = 0};
+    options.connectionLimits = {.sessions = 0, .sessionsPerAddress = 0, .connectionsPerSecond = 0};
     options.helloTimeout = 1s;
     options.drainTimeout = 2s;
     return options;

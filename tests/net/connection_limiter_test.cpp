@@ -1,4 +1,4 @@
-#include "net/visitors.h"
+#include "net/connection_limiter.h"
 
 #include <gtest/gtest.h>
 
@@ -21,12 +21,12 @@ TEST(TokenBucket, OfNoRateLetsEverythingThrough) {
     for (int k = 0; k < 1000; ++k) EXPECT_TRUE(bucket.take({}));
 }
 
-TEST(Visitors, OfOneIPv6NetworkAreOne) {
-    const auto visitors = std::make_shared<Visitors>(VisitorLimits{.sessions = 0, .sessionsPerAddress = 2});
-    const auto now = Visitors::Clock::now();
+TEST(ConnectionLimiter, OfOneIPv6NetworkAreOne) {
+    const auto limiter = std::make_shared<ConnectionLimiter>(ConnectionLimits{.sessions = 0, .sessionsPerAddress = 2});
+    const auto now = ConnectionLimiter::Clock::now();
     const auto come = [&](const char* from) {
-        EXPECT_FALSE(visitors->refuses(make_address(from), now));
-        return visitors->admit(make_address(from));
+        EXPECT_FALSE(limiter->refuses(make_address(from), now));
+        return limiter->admit(make_address(from));
     };
     const auto first = come("2001:db8::1");
     const auto second = come("2001:db8::2");
@@ -38,31 +38,31 @@ TEST(Visitors, OfOneIPv6NetworkAreOne) {
     EXPECT_FALSE(other->openSession());
     const auto mapped = come("::ffff:10.0.0.1");
     const auto same = come("10.0.0.1");
-    EXPECT_EQ(visitors->known(), 3U);
+    EXPECT_EQ(limiter->known(), 3U);
 }
 
-TEST(Visitors, ThatAreGoneAreForgotten) {
-    const auto visitors = std::make_shared<Visitors>(VisitorLimits{});
-    auto now = Visitors::Clock::now();
+TEST(ConnectionLimiter, ThatAreGoneAreForgotten) {
+    const auto limiter = std::make_shared<ConnectionLimiter>(ConnectionLimits{});
+    auto now = ConnectionLimiter::Clock::now();
     for (unsigned k = 0; k < 100'000; ++k, now += 1ms) {
         const boost::asio::ip::address_v4 from(0x0a000000U + k);
-        if (!visitors->refuses(from, now)) visitors->admit(from);
+        if (!limiter->refuses(from, now)) limiter->admit(from);
     }
-    EXPECT_LT(visitors->known(), 10'000U);
+    EXPECT_LT(limiter->known(), 10'000U);
 }
 
-TEST(Visitors, HaveALimitOfConnectionsThatAreNoSessions) {
-    const auto visitors =
-        std::make_shared<Visitors>(VisitorLimits{.sessions = 10, .sessionsPerAddress = 0, .connectionsPerSecond = 0});
-    EXPECT_FALSE(visitors->refuses(make_address("10.0.0.2"), {}));
-    const auto session = visitors->admit(make_address("10.0.0.2"));
+TEST(ConnectionLimiter, HaveALimitOfConnectionsThatAreNoSessions) {
+    const auto limiter = std::make_shared<ConnectionLimiter>(
+        ConnectionLimits{.sessions = 10, .sessionsPerAddress = 0, .connectionsPerSecond = 0});
+    EXPECT_FALSE(limiter->refuses(make_address("10.0.0.2"), {}));
+    const auto session = limiter->admit(make_address("10.0.0.2"));
     EXPECT_FALSE(session->openSession());
-    std::vector<std::unique_ptr<Visitors::Visit>> inside;
+    std::vector<std::unique_ptr<ConnectionLimiter::Permit>> inside;
     const auto from = make_address("10.0.0.1");
-    while (!visitors->refuses(from, {})) inside.push_back(visitors->admit(from));
+    while (!limiter->refuses(from, {})) inside.push_back(limiter->admit(from));
     EXPECT_EQ(inside.size(), 256U) << "sessions are counted apart";
     inside.pop_back();
-    EXPECT_FALSE(visitors->refuses(from, {}));
+    EXPECT_FALSE(limiter->refuses(from, {}));
 }
 
 }  // namespace

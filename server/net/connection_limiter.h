@@ -14,7 +14,7 @@
 namespace spherule::net {
 
 // How much one server, and one address, may ask for. 0: no limit.
-struct VisitorLimits {
+struct ConnectionLimits {
     std::size_t sessions = 256;
     std::size_t sessionsPerAddress = 64;
     double connectionsPerSecond = 50;  // of one address; as many at once
@@ -23,39 +23,39 @@ struct VisitorLimits {
 // Who is connected, by address: an IPv4 address, or the 64 bits of an IPv6 address that name a network. Beside
 // sessions, there may be some connections more, for pages, handshakes and those of whom it is not known yet whether
 // they may come in. On the io thread.
-class Visitors : public std::enable_shared_from_this<Visitors> {
+class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter> {
   public:
     using Clock = TokenBucket::Clock;
     using Address = boost::asio::ip::address;
 
     // One connection, for as long as it lives.
-    class Visit {
+    class Permit {
       public:
-        Visit(std::shared_ptr<Visitors> visitors, const Address& place);
-        ~Visit();
-        Visit(const Visit&) = delete;
-        Visit& operator=(const Visit&) = delete;
+        Permit(std::shared_ptr<ConnectionLimiter> limiter, const Address& address);
+        ~Permit();
+        Permit(const Permit&) = delete;
+        Permit& operator=(const Permit&) = delete;
 
         // It becomes a session, unless there are too many.
         std::optional<Rejection> openSession();
 
       private:
-        std::shared_ptr<Visitors> visitors_;
-        Address place_;
+        std::shared_ptr<ConnectionLimiter> limiter_;
+        Address address_;
         bool session_ = false;
     };
 
-    explicit Visitors(const VisitorLimits& limits) : limits_(limits) {}
+    explicit ConnectionLimiter(const ConnectionLimits& limits) : limits_(limits) {}
 
     // Whether a connection from there is one too many.
     std::optional<Rejection> refuses(const Address& address, Clock::time_point now);
-    std::unique_ptr<Visit> admit(const Address& address);
+    std::unique_ptr<Permit> admit(const Address& address);
 
     // Addresses that are remembered.
-    [[nodiscard]] std::size_t known() const { return places_.size(); }
+    [[nodiscard]] std::size_t known() const { return addresses_.size(); }
 
   private:
-    struct Place {
+    struct AddressState {
         std::size_t connections = 0;
         std::size_t sessions = 0;
         TokenBucket rate;
@@ -63,8 +63,8 @@ class Visitors : public std::enable_shared_from_this<Visitors> {
 
     void forget(Clock::time_point now);
 
-    VisitorLimits limits_;
-    std::map<Address, Place> places_;
+    ConnectionLimits limits_;
+    std::map<Address, AddressState> addresses_;
     std::size_t connections_ = 0;
     std::size_t sessions_ = 0;
     std::size_t sweepAt_ = 64;

@@ -1,0 +1,86 @@
+#include "net/connection_limiter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spherule::net {
+
+namespace {
+
+// Beside sessions: those that load the page, ask for metrics, or are about to become sessions.
+constexpr std::size_t moreConnections = 256;
+constexpr std::size_t moreConnectionsPerAddress = 32;
+constexpr std::size_t fewAddresses = 64;
+
+using Address = ConnectionLimiter::Address;
+
+// Whoever has an IPv6 address has 2^64 of them.
+Address addressKey(const Address& address) {
+    if (!address.is_v6()) return address;
+    const auto v6 = address.to_v6();
+    if (v6.is_v4_mapped()) return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, v6);
+    auto bytes = v6.to_bytes();
+    std::fill(bytes.begin() + 8, bytes.end(), static_cast<unsigned char>(0));
+    return boost::asio::ip::address_v6(bytes);
+}
+
+// Without a limit of sessions, there is none of what may become one.
+bool reached(std::size_t limit, std::size_t most, std::size_t count) {
+    return limit > 0 && count >= most;
+}
+
+}  // namespace
+
+ConnectionLimiter::Permit::Permit(std::shared_ptr<ConnectionLimiter> limiter, const Address& address)
+    : limiter_(std::move(limiter)), address_(address) {
+    ++limiter_->addresses_.at(address_).connections;
+    ++limiter_->connections_;
+}
+
+ConnectionLimiter::Permit::~Permit() {
+    AddressState& address = limiter_->addresses_.at(address_);
+    --address.connections;
+    --limiter_->connections_;
+    if (!session_) return;
+    --address.sessions;
+    --limiter_->sessions_;
+}
+
+std::optional<Rejection> ConnectionLimiter::Permit::openSession() {
+    AddressState& address = limiter_->addresses_.at(address_);
+    const ConnectionLimits& limits = limiter_->limits_;
+    if (reached(limits.sessions, limits.sessions, limiter_->sessions_)) return Rejection::Sessions;
+    if (reached(limits.sessionsPerAddress, limits.sessionsPerAddress, address.sessions))
+        return Rejection::SessionsPerAddress;
+    session_ = true;
+    ++address.sessions;
+    ++limiter_->sessions_;
+    return std::nullopt;
+}
+
+std::optional<Rejection> ConnectionLimiter::refuses(const Address& address, Clock::time_point now) {
+    forget(now);
+    const auto [found, fresh] = addresses_.try_emplace(
+        addressKey(address), AddressState{.rate = TokenBucket(limits_.connectionsPerSecond, now)});
+    AddressState& address = found->second;
+    if (!address.rate.take(now)) return Rejection::ConnectionRate;
+    if (reached(limits_.sessions, moreConnections, connections_ - sessions_) ||
+        reached(limits_.sessionsPerAddress, moreConnectionsPerAddress, address.connections - address.sessions))
+        return Rejection::Connections;
+    return std::nullopt;
+}
+
+std::unique_ptr<ConnectionLimiter::Permit> ConnectionLimiter::admit(const Address& address) {
+    return std::make_unique<Permit>(shared_from_this(), addressKey(address));
+}
+
+// Whoever has left, and has been quiet for long enough, is as good as new. Swept when there are twice as many as were
+// left by the last time, so that it costs little.
+void ConnectionLimiter::forget(Clock::time_point now) {
+    if (addresses_.size() < sweepAt_) return;
+    std::erase_if(addresses_,
+                  [now](auto& entry) { return entry.second.connections == 0 && entry.second.rate.full(now); });
+    sweepAt_ = std::max(fewAddresses, 2 * addresses_.size());
+}
+
+}  // namespace spherule::net
