@@ -38,35 +38,35 @@ ConnectionLimiter::Permit::Permit(std::shared_ptr<ConnectionLimiter> limiter, co
 }
 
 ConnectionLimiter::Permit::~Permit() {
-    AddressState& address = limiter_->addresses_.at(address_);
-    --address.connections;
+    AddressState& state = limiter_->addresses_.at(address_);
+    --state.connections;
     --limiter_->connections_;
     if (!session_) return;
-    --address.sessions;
+    --state.sessions;
     --limiter_->sessions_;
 }
 
-std::optional<Rejection> ConnectionLimiter::Permit::openSession() {
-    AddressState& address = limiter_->addresses_.at(address_);
+std::optional<RejectReason> ConnectionLimiter::Permit::openSession() {
+    AddressState& state = limiter_->addresses_.at(address_);
     const ConnectionLimits& limits = limiter_->limits_;
-    if (reached(limits.sessions, limits.sessions, limiter_->sessions_)) return Rejection::Sessions;
-    if (reached(limits.sessionsPerAddress, limits.sessionsPerAddress, address.sessions))
-        return Rejection::SessionsPerAddress;
+    if (reached(limits.sessions, limits.sessions, limiter_->sessions_)) return RejectReason::Sessions;
+    if (reached(limits.sessionsPerAddress, limits.sessionsPerAddress, state.sessions))
+        return RejectReason::SessionsPerAddress;
     session_ = true;
-    ++address.sessions;
+    ++state.sessions;
     ++limiter_->sessions_;
     return std::nullopt;
 }
 
-std::optional<Rejection> ConnectionLimiter::refuses(const Address& address, Clock::time_point now) {
+std::optional<RejectReason> ConnectionLimiter::refuses(const Address& address, Clock::time_point now) {
     forget(now);
     const auto [found, fresh] = addresses_.try_emplace(
         addressKey(address), AddressState{.rate = TokenBucket(limits_.connectionsPerSecond, now)});
-    AddressState& address = found->second;
-    if (!address.rate.take(now)) return Rejection::ConnectionRate;
+    AddressState& state = found->second;
+    if (!state.rate.take(now)) return RejectReason::ConnectionRate;
     if (reached(limits_.sessions, moreConnections, connections_ - sessions_) ||
-        reached(limits_.sessionsPerAddress, moreConnectionsPerAddress, address.connections - address.sessions))
-        return Rejection::Connections;
+        reached(limits_.sessionsPerAddress, moreConnectionsPerAddress, state.connections - state.sessions))
+        return RejectReason::Connections;
     return std::nullopt;
 }
 

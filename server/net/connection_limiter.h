@@ -8,7 +8,7 @@
 
 #include <boost/asio/ip/address.hpp>
 
-#include "net/rejection.h"
+#include "net/reject_reason.h"
 #include "net/token_bucket.h"
 
 namespace spherule::net {
@@ -37,7 +37,7 @@ class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter>
         Permit& operator=(const Permit&) = delete;
 
         // It becomes a session, unless there are too many.
-        std::optional<Rejection> openSession();
+        std::optional<RejectReason> openSession();
 
       private:
         std::shared_ptr<ConnectionLimiter> limiter_;
@@ -48,7 +48,7 @@ class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter>
     explicit ConnectionLimiter(const ConnectionLimits& limits) : limits_(limits) {}
 
     // Whether a connection from there is one too many.
-    std::optional<Rejection> refuses(const Address& address, Clock::time_point now);
+    std::optional<RejectReason> refuses(const Address& address, Clock::time_point now);
     std::unique_ptr<Permit> admit(const Address& address);
 
     // Addresses that are remembered.

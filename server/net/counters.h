@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "net/rejection.h"
+#include "net/reject_reason.h"
 
 namespace spherule::net {
 
@@ -41,12 +41,14 @@ struct Counters {
     Count framesSent = 0;
     Count chainsLost = 0;  // by sessions that were still busy with the frame before, or could not decode one
     Count bytesSent = 0;   // payload of messages
-    std::array<Count, closeCauseNames.size()> closed{};   // by CloseCause
-    std::array<Count, rejectionNames.size()> rejected{};  // by Rejection
+    std::array<Count, closeCauseNames.size()> closed{};      // by CloseCause
+    std::array<Count, rejectReasonNames.size()> rejected{};  // by RejectReason
 
     Count& closedBy(CloseCause cause) { return closed[static_cast<std::size_t>(cause)]; }
-    Count& rejectedFor(Rejection cause) { return rejected[static_cast<std::size_t>(cause)]; }
-    [[nodiscard]] const Count& rejectedFor(Rejection cause) const { return rejected[static_cast<std::size_t>(cause)]; }
+    Count& rejectedFor(RejectReason cause) { return rejected[static_cast<std::size_t>(cause)]; }
+    [[nodiscard]] const Count& rejectedFor(RejectReason cause) const {
+        return rejected[static_cast<std::size_t>(cause)];
+    }
     [[nodiscard]] const Count& closedBy(CloseCause cause) const { return closed[static_cast<std::size_t>(cause)]; }
 };
 

@@ -75,8 +75,8 @@ bool asksForSubprotocol(const http::request<http::string_body>& request) {
 }  // namespace
 
 HttpConnection::HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
-                               Context& context)
-    : context_(context),
+                               ServerState& state)
+    : state_(state),
       stream_(std::move(stream)),
       permit_(std::move(permit)),
       peer_(std::move(peer)),
@@ -89,11 +89,11 @@ void HttpConnection::run() {
 void HttpConnection::shakeHands() {
     auto* const secure = stream_.secure();
     if (secure == nullptr) return read();
-    tcp().expires_after(context_.options.requestTimeout);
+    tcp().expires_after(state_.options.requestTimeout);
     secure->async_handshake(boost::asio::ssl::stream_base::server, [self = shared_from_this()](ErrorCode error) {
         if (!error) return self->read();
-        self->context_.refusals.add(error == beast::error::timeout ? Rejection::SlowRequest : Rejection::Tls,
-                                    self->peer_);
+        self->state_.rejectionLog.rejected(
+            error == beast::error::timeout ? RejectReason::SlowRequest : RejectReason::Tls, self->peer_);
     });
 }
 
@@ -101,7 +101,7 @@ void HttpConnection::read() {
     parser_.emplace();
     parser_->header_limit(headerLimit);
     parser_->body_limit(bodyLimit);
-    tcp().expires_after(context_.options.requestTimeout);
+    tcp().expires_after(state_.options.requestTimeout);
     http::async_read(stream_, incoming_, *parser_,
                      [self = shared_from_this()](ErrorCode error, std::size_t) { self->onRead(error); });
 }
@@ -109,35 +109,36 @@ void HttpConnection::read() {
 void HttpConnection::onRead(ErrorCode error) {
     if (error == http::error::end_of_stream) return shutdown();
     if (error) return refuseUnread(error);
-    ++context_.counters.httpRequests;
+    ++state_.counters.httpRequests;
     Request request = parser_->release();
     if (!hasKnownEnd(request)) {
         // Where its body ends is not known, so nothing can follow it.
         request.keep_alive(false);
-        return refuse(request, Rejection::Malformed, 501, "the only transfer encoding that is understood is chunked");
+        return refuse(request, RejectReason::Malformed, 501,
+                      "the only transfer encoding that is understood is chunked");
     }
     const std::string path = pathOf({request.target().data(), request.target().size()});
-    if (!context_.admission->isHost(fieldOf(request, http::field::host))) {
+    if (!state_.admission->isHost(fieldOf(request, http::field::host))) {
         return refuse(
-            request, Rejection::Host, 421,
+            request, RejectReason::Host, 421,
             "this server does not go by the name in the Host header: use its address, or start it with --host NAME");
     }
     if (path == streamPath) return onUpgrade(request);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
-        return refuse(request, Rejection::BadRequest, 405, "only GET and HEAD are answered here");
+        return refuse(request, RejectReason::BadRequest, 405, "only GET and HEAD are answered here");
     }
     if (path.empty() || path.front() != '/') {
-        return refuse(request, Rejection::BadRequest, 400, "the target must be a path");
+        return refuse(request, RejectReason::BadRequest, 400, "the target must be a path");
     }
     if (!mayRead(request, path)) return;
-    answer(request, context_.handlers.get(path, context_.counters));
+    answer(request, state_.handlers.get(path, state_.counters));
 }
 
 // The page is for everybody, and so is health: a probe has no token. Refuses by itself.
 bool HttpConnection::mayRead(const Request& request, const std::string& path) {
-    if (path != figuresPath || context_.admission->roleOf(bearerOf(request))) return true;
+    if (path != figuresPath || state_.admission->roleOf(bearerOf(request))) return true;
     if (bearerOf(request).empty())
-        refuse(request, Rejection::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");
+        refuse(request, RejectReason::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");
     else
         refuseLater(request);
     return false;
@@ -146,30 +147,31 @@ bool HttpConnection::mayRead(const Request& request, const std::string& path) {
 // Whoever tries many tokens waits for each.
 void HttpConnection::refuseLater(const Request& request) {
     tcp().expires_never();
-    delay_.expires_after(context_.options.guessDelay);
+    delay_.expires_after(state_.options.guessDelay);
     delay_.async_wait([self = shared_from_this(), request](ErrorCode) {
-        self->refuse(request, Rejection::WrongToken, 401, "this token is not known here");
+        self->refuse(request, RejectReason::WrongToken, 401, "this token is not known here");
     });
 }
 
 void HttpConnection::onUpgrade(const Request& request) {
     if (!beast::websocket::is_upgrade(request)) {
-        return refuse(request, Rejection::Handshake, 400,
+        return refuse(request, RejectReason::Handshake, 400,
                       "this is the stream: open it as a WebSocket with subprotocol spherule.v1");
     }
     // Only browsers say where they come from; whoever else can open the stream could say anything there.
     const std::string_view origin = fieldOf(request, http::field::origin);
-    if (!origin.empty() && !context_.admission->isOrigin(origin, fieldOf(request, http::field::host))) {
-        return refuse(request, Rejection::Origin, 403,
+    if (!origin.empty() && !state_.admission->isOrigin(origin, fieldOf(request, http::field::host))) {
+        return refuse(request, RejectReason::Origin, 403,
                       "pages of this origin may not open the stream: start the server with --origin, if they should");
     }
     if (!asksForSubprotocol(request)) {
-        return refuse(request, Rejection::Subprotocol, 400, "the WebSocket must ask for subprotocol spherule.v1");
+        return refuse(request, RejectReason::Subprotocol, 400, "the WebSocket must ask for subprotocol spherule.v1");
     }
-    if (!context_.handlers.ready()) {
-        return refuse(request, Rejection::NotReady, 503, "the scene is not ready yet: see /readyz, and try again soon");
+    if (!state_.handlers.ready()) {
+        return refuse(request, RejectReason::NotReady, 503,
+                      "the scene is not ready yet: see /readyz, and try again soon");
     }
-    std::make_shared<Session>(std::move(stream_), std::move(permit_), peer_, context_)->run(request);
+    std::make_shared<Session>(std::move(stream_), std::move(permit_), peer_, state_)->run(request);
 }
 
 void HttpConnection::answer(const Request& request, HttpAnswer answer) {
@@ -205,26 +207,26 @@ void HttpConnection::answer(const Request& request, HttpAnswer answer) {
     send(std::move(response));
 }
 
-void HttpConnection::refuse(const Request& request, Rejection cause, int status, const std::string& text) {
-    context_.refusals.add(cause, peer_);
+void HttpConnection::refuse(const Request& request, RejectReason cause, int status, const std::string& text) {
+    state_.rejectionLog.rejected(cause, peer_);
     answer(request, {.status = status, .contentType = "text/plain; charset=utf-8", .body = text + "\n"});
 }
 
 // The rest of the request is still on the wire, so the connection cannot be used again.
 void HttpConnection::refuseUnread(ErrorCode error) {
     if (error == beast::error::timeout && (parser_->got_some() || incoming_.size() > 0))
-        context_.refusals.add(Rejection::SlowRequest, peer_);
+        state_.rejectionLog.rejected(RejectReason::SlowRequest, peer_);
     if (error.category() != http::make_error_code(http::error::bad_method).category()) return;  // broken or too slow
     Request request;
     request.version(11);
     request.keep_alive(false);
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-        return refuse(request, Rejection::LongHeader, 431, "the headers are longer than 16 KiB");
+        return refuse(request, RejectReason::LongHeader, 431, "the headers are longer than 16 KiB");
     }
     if (error == http::error::body_limit) {
-        return refuse(request, Rejection::LongBody, 413, "the body is longer than 10,000 bytes");
+        return refuse(request, RejectReason::LongBody, 413, "the body is longer than 10,000 bytes");
     }
-    refuse(request, Rejection::Malformed, 400, "not an HTTP request: " + error.message());
+    refuse(request, RejectReason::Malformed, 400, "not an HTTP request: " + error.message());
 }
 
 void HttpConnection::shutdown() {

@@ -10,7 +10,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-#include "net/context.h"
+#include "net/server_state.h"
 #include "net/transport.h"
 
 namespace spherule::net {
@@ -21,7 +21,7 @@ namespace spherule::net {
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
     HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
-                   Context& context);
+                   ServerState& state);
 
     void run();
 
@@ -36,14 +36,14 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     void onUpgrade(const Request& request);
     [[nodiscard]] bool mayRead(const Request& request, const std::string& path);
     void answer(const Request& request, HttpAnswer answer);
-    void refuse(const Request& request, Rejection cause, int status, const std::string& text);
+    void refuse(const Request& request, RejectReason cause, int status, const std::string& text);
     void refuseLater(const Request& request);
     void refuseUnread(ErrorCode error);
     void shutdown();
     void discard();
     boost::beast::tcp_stream& tcp() { return stream_.next_layer(); }
 
-    Context& context_;
+    ServerState& state_;
     Transport stream_;
     std::unique_ptr<ConnectionLimiter::Permit> permit_;
     std::string peer_;  // address

@@ -32,7 +32,7 @@ void Hub::join(SessionId id) {
     for (const auto& [kind, message] : retained_) entry->session->send(message);
 }
 
-void Hub::watch(SessionId id, const codec::Rendition& rendition) {
+void Hub::subscribe(SessionId id, const codec::Rendition& rendition) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
@@ -43,7 +43,7 @@ void Hub::watch(SessionId id, const codec::Rendition& rendition) {
     countViewers();
 }
 
-void Hub::askKeyframe(SessionId id) {
+void Hub::requestKeyframe(SessionId id) {
     const std::lock_guard lock(mutex_);
     if (Entry* const entry = find(id)) entry->lost = entry->rendition.rate > 0;
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "codec/rendition.h"
-#include "net/server.h"
+#include "net/session_id.h"
 
 namespace spherule::net {
 
@@ -33,9 +33,9 @@ class Hub {
     // After the welcome: the session gets what is kept.
     void join(SessionId id);
     // The chain that the session is sent from now on, from its next keyframe on; rate 0: none.
-    void watch(SessionId id, const codec::Rendition& rendition);
+    void subscribe(SessionId id, const codec::Rendition& rendition);
     // The session has lost its chain and needs a keyframe.
-    void askKeyframe(SessionId id);
+    void requestKeyframe(SessionId id);
 
     // For all and for newcomers, until there is a newer one of its kind.
     void retain(codec::SharedMessage message);

@@ -34,11 +34,10 @@ std::string adviceOn(const error_code& error) {
 
 }  // namespace
 
-Listener::Listener(asio::io_context& io, Context& context)
-    : io_(io), context_(context), acceptor_(io), retryTimer_(io) {}
+Listener::Listener(asio::io_context& io, ServerState& state) : io_(io), state_(state), acceptor_(io), retryTimer_(io) {}
 
 Result<void> Listener::open() {
-    const Options& options = context_.options;
+    const Options& options = state_.options;
     const std::string address = options.host + ":" + std::to_string(options.port);
     error_code error;
     const auto found =
@@ -82,7 +81,7 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (error) {
         // Mostly out of file descriptors: try again when some session may have ended, rather than spin or give up.
-        context_.refusals.add(Rejection::Accept, error.message());
+        state_.rejectionLog.rejected(RejectReason::Accept, error.message());
         retryTimer_.expires_after(retryAfter);
         retryTimer_.async_wait([self = shared_from_this()](error_code cancelled) {
             if (!cancelled) self->accept();
@@ -92,7 +91,7 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
     try {
         serve(std::move(socket));
     } catch (const std::exception&) {
-        ++context_.counters.rejectedFor(Rejection::Fault);
+        ++state_.counters.rejectedFor(RejectReason::Fault);
     }
     accept();
 }
@@ -101,8 +100,8 @@ void Listener::serve(tcp::socket socket) {
     // Nothing that could be read here is worth an error: the peer may be gone already.
     error_code ignored;
     const auto address = socket.remote_endpoint(ignored).address();
-    if (const auto cause = context_.limiter->refuses(address, ConnectionLimiter::Clock::now())) {
-        context_.refusals.add(*cause, address.to_string());
+    if (const auto cause = state_.limiter->refuses(address, ConnectionLimiter::Clock::now())) {
+        state_.rejectionLog.rejected(*cause, address.to_string());
         // Without this, each would leave a closed connection behind for a minute.
         socket.set_option(asio::socket_base::linger(true, 0), ignored);
         socket.close(ignored);
@@ -111,8 +110,8 @@ void Listener::serve(tcp::socket socket) {
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
     setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &mostUnsent, sizeof mostUnsent);
-    std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), context_.tls),
-                                     context_.limiter->admit(address), address.to_string(), context_)
+    std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), state_.tls),
+                                     state_.limiter->admit(address), address.to_string(), state_)
         ->run();
 }
 

@@ -7,14 +7,14 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "core/result.h"
-#include "net/context.h"
+#include "net/server_state.h"
 
 namespace spherule::net {
 
 // Accepts connections, each with its own strand. On the io thread, except where said.
 class Listener : public std::enable_shared_from_this<Listener> {
   public:
-    Listener(boost::asio::io_context& io, Context& context);
+    Listener(boost::asio::io_context& io, ServerState& state);
 
     // Before the io thread runs. An address that cannot be bound is an error.
     Result<void> open();
@@ -30,7 +30,7 @@ class Listener : public std::enable_shared_from_this<Listener> {
     void serve(boost::asio::ip::tcp::socket socket);
 
     boost::asio::io_context& io_;
-    Context& context_;
+    ServerState& state_;
     boost::asio::ip::tcp::acceptor acceptor_;
     boost::asio::steady_timer retryTimer_;
     std::uint16_t port_ = 0;

@@ -13,12 +13,11 @@
 #include "net/admission.h"
 #include "net/connection_limiter.h"
 #include "net/counters.h"
+#include "net/session_id.h"
 #include "spherule/v1/control.pb.h"
 
 // One port: the page, health, metrics and the WebSocket stream. Knows nothing of the simulation.
 namespace spherule::net {
-
-using SessionId = std::uint64_t;
 
 struct Options {
     std::string host = "127.0.0.1";
@@ -47,15 +46,15 @@ struct HttpAnswer {
     std::string body;
 };
 
-// What the server asks of its owner. Called on the io thread: must not wait. What is thrown ends the session or the
+// What the server asks of its app. Called on the io thread: must not wait. What is thrown ends the session or the
 // connection.
 struct Handlers {
     std::function<v1::Welcome(const v1::Hello&)> welcome;
-    using WhyNot = std::optional<std::string>;  // nothing: it is taken
+    using Refusal = std::optional<std::string>;  // nothing: it is taken
     // `cost`: bytes of memory, as Preview estimates them.
-    std::function<WhyNot(SessionId, v1::Command, std::size_t cost)> submit;
+    std::function<Refusal(SessionId, v1::Command, std::size_t cost)> submit;
     // Whether a command of that cost would be taken now: asked before a long one is parsed.
-    std::function<WhyNot(SessionId, std::size_t cost)> refuses = [](SessionId, std::size_t) { return WhyNot(); };
+    std::function<Refusal(SessionId, std::size_t cost)> refuses = [](SessionId, std::size_t) { return Refusal(); };
     std::function<bool()> ready = [] { return true; };  // false: there is no stream yet, it is refused with 503
     // status 404 where there is nothing; `counters` are the server's.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;

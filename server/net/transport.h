@@ -41,7 +41,7 @@ class Transport {
     auto async_read_some(const Buffers& buffers, Token&& token) {
         return boost::asio::async_initiate<Token, void(ErrorCode, std::size_t)>(
             [this](auto handler, const auto& to) {
-                std::permit([&](auto& layer) { layer.async_read_some(to, std::move(handler)); }, layer_);
+                std::visit([&](auto& layer) { layer.async_read_some(to, std::move(handler)); }, layer_);
             },
             token, buffers);
     }
@@ -50,7 +50,7 @@ class Transport {
     auto async_write_some(const Buffers& buffers, Token&& token) {
         return boost::asio::async_initiate<Token, void(ErrorCode, std::size_t)>(
             [this](auto handler, const auto& from) {
-                std::permit([&](auto& layer) { layer.async_write_some(from, std::move(handler)); }, layer_);
+                std::visit([&](auto& layer) { layer.async_write_some(from, std::move(handler)); }, layer_);
             },
             token, buffers);
     }
@@ -58,7 +58,7 @@ class Transport {
     // What Beast's WebSocket does after the closing handshake.
     template <class Handler>
     friend void async_teardown(boost::beast::role_type role, Transport& transport, Handler&& handler) {
-        std::permit(
+        std::visit(
             [&](auto& layer) {
                 using boost::beast::websocket::async_teardown;
                 async_teardown(role, layer, std::forward<Handler>(handler));

@@ -143,7 +143,7 @@ class Vtk : public Exporter {
         if (!file) return tl::unexpected(file.error());
         if (auto done = file->write(polyData(snapshot)); !done) return done;
         if (auto done = file->flush(); !done) return done;
-        file->keep();
+        file->persist();
         return list_.write(fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}/{}\"/>\n", snapshot.time,
                                        escaped(folder_.name()), name));
     }

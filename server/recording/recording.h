@@ -13,7 +13,7 @@
 #include "codec/decoder.h"
 #include "core/result.h"
 #include "recording/index.h"
-#include "recording/table.h"
+#include "recording/sphere_table.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::recording {

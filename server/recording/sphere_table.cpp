@@ -1,4 +1,4 @@
-#include "recording/table.h"
+#include "recording/sphere_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -78,15 +78,15 @@ class Served {
   public:
     explicit Served(int socket) {
         const auto address = asio::ip::make_address("127.0.0.1");
-        require(!context_.limiter->refuses(address, net::ConnectionLimiter::Clock::now()));
+        require(!state_.limiter->refuses(address, net::ConnectionLimiter::Clock::now()));
         asio::ip::tcp::socket end(asio::make_strand(io_), asio::ip::tcp::v4(), socket);
         std::make_shared<net::HttpConnection>(net::Transport(boost::beast::tcp_stream(std::move(end)), nullptr),
-                                              context_.limiter->admit(address), "127.0.0.1", context_)
+                                              state_.limiter->admit(address), "127.0.0.1", state_)
             ->run();
     }
 
     void wantTokens() {
-        context_.admission = std::make_shared<net::Admission>(
+        state_.admission = std::make_shared<net::Admission>(
             net::AllowedNames{}, net::Credentials{.controllerToken = std::string(token)}, "http");
     }
 
@@ -94,7 +94,7 @@ class Served {
     bool work() { return io_.poll() > 0; }
     bool wait() { return io_.run_one_for(100ms) > 0; }
     [[nodiscard]] bool ended() const { return io_.stopped(); }
-    [[nodiscard]] bool isEmpty() { return context_.counters.sessions == 0 && context_.hub.waitEmpty(0ms); }
+    [[nodiscard]] bool isEmpty() { return state_.counters.sessions == 0 && state_.hub.waitEmpty(0ms); }
 
   private:
     net::Options options() {
@@ -109,7 +109,7 @@ class Served {
                     [this](net::SessionId session, const v1::Command& command, std::size_t) {
                         v1::ServerMessage message;
                         message.mutable_result()->set_id(command.id());
-                        context_.hub.sendTo(session, codec::share(std::move(message)));
+                        state_.hub.sendTo(session, codec::share(std::move(message)));
                         sendFrames();
                         return command.has_reset() ? std::optional<std::string>("the queue is full") : std::nullopt;
                     },
@@ -120,20 +120,20 @@ class Served {
     }
 
     void sendFrames() {
-        for (const codec::Subscription& subscription : context_.hub.subscriptions()) {
+        for (const codec::Subscription& subscription : state_.hub.subscriptions()) {
             v1::ServerMessage message;
             message.mutable_frame()->set_sequence(++frames_);
             message.mutable_frame()->set_tier(subscription.rendition.tier);
-            context_.hub.publish({.rendition = subscription.rendition,
-                                  .kind = codec::EncodedFrame::Kind::Keyframe,
-                                  .number = frames_,
-                                  .message = codec::share(std::move(message))});
+            state_.hub.publish({.rendition = subscription.rendition,
+                                .kind = codec::EncodedFrame::Kind::Keyframe,
+                                .number = frames_,
+                                .message = codec::share(std::move(message))});
         }
     }
 
     asio::io_context io_{1};
     std::uint32_t frames_ = 0;
-    net::Context context_{
+    net::ServerState state_{
         .options = options(),
         .handlers = handlers(),
         .admission = std::make_shared<net::Admission>(net::AllowedNames{}, net::Credentials{}, "http")};

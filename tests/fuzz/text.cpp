@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "client/url.h"
 #include "core/quantity.h"
 #include "net/admission.h"
-#include "net/text.h"
-#include "net/url.h"
+#include "net/sanitize.h"
 
 namespace {
 
@@ -35,9 +35,10 @@ void comeIn(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
     comeIn(text);
-    if (const auto url = net::parseUrl(text)) require(!url->host.empty() && !url->port.empty() && !url->path.empty());
+    if (const auto url = client::parseUrl(text))
+        require(!url->host.empty() && !url->port.empty() && !url->path.empty());
     (void)quantityOf(text);
     require(net::closeReason(text).size() <= 123);
-    require(std::ranges::all_of(net::printable(text), [](char c) { return c >= ' ' && c <= '~'; }));
+    require(std::ranges::all_of(net::sanitize(text), [](char c) { return c >= ' ' && c <= '~'; }));
     return 0;
 }

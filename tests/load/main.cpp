@@ -15,9 +15,9 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
+#include "client/client.h"
+#include "client/url.h"
 #include "crowd.h"
-#include "net/client.h"
-#include "net/url.h"
 #include "report.h"
 
 // Many viewers of one server, some of them bad, in one process: what they are sent is checked, and how old it is.
@@ -91,7 +91,7 @@ void check(const Options& options) {
 }
 
 load::Wish wishOf(const Options& options) {
-    const auto url = net::parseUrl(options.url);
+    const auto url = client::parseUrl(options.url);
     if (!url) throw std::runtime_error(url.error().text());
     boost::asio::io_context io;
     boost::system::error_code error;

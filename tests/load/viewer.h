@@ -15,8 +15,8 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "chain_check.h"
-#include "net/client.h"
-#include "net/url.h"
+#include "client/client.h"
+#include "client/url.h"
 #include "tally.h"
 
 namespace spherule::load {
@@ -24,7 +24,7 @@ namespace spherule::load {
 // What all viewers want.
 struct Wish {
     boost::asio::ip::tcp::endpoint server;
-    net::Url url;
+    client::Url url;
     std::string token{};
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 20;

@@ -1,6 +1,6 @@
 #include "net/admission.h"
 
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
@@ -78,7 +78,7 @@ class Guarded : public testing::Test {
     }
 
     std::unique_ptr<Client> joinAs(const std::string& token) {
-        auto client = connect(owner_);
+        auto client = connect(app_);
         v1::ClientMessage hello = helloOf(0);
         hello.mutable_hello()->set_token(token);
         EXPECT_TRUE(client->send(hello));
@@ -104,10 +104,10 @@ class Guarded : public testing::Test {
         return command;
     }
 
-    std::uint64_t rejected(Rejection cause) { return owner_.counters().rejectedFor(cause); }
+    std::uint64_t rejected(RejectReason cause) { return app_.counters().rejectedFor(cause); }
 
     std::string ask(const std::string& head) {
-        const RawSocket socket(owner_.server().port());
+        const RawSocket socket(app_.server().port());
         socket.send(head + "Connection: close\r\n\r\n");
         return socket.readAll();
     }
@@ -120,42 +120,42 @@ class Guarded : public testing::Test {
     }
 
     std::string open(const std::string& host, const std::string& more) {
-        const RawSocket socket(owner_.server().port());
+        const RawSocket socket(app_.server().port());
         socket.send(upgrade(host, more));
         return socket.readUntil("\r\n\r\n").substr(9, 3);
     }
 
-    Owner owner_{options()};
+    FakeApp app_{options()};
     v1::Welcome welcome_;
 };
 
 TEST_F(Guarded, NobodyComesInWithoutAToken) {
-    const auto client = connect(owner_);
+    const auto client = connect(app_);
     ASSERT_TRUE(client->send(helloOf(60)));
     const auto end = readToEnd(*client);
     EXPECT_EQ(end.code, 4401);
     EXPECT_EQ(end.reason, "this server asks for a token");
-    EXPECT_EQ(rejected(Rejection::NoToken), 1U);
-    EXPECT_TRUE(eventually([&] { return owner_.counters().closedBy(CloseCause::NoToken) == 1; }));
+    EXPECT_EQ(rejected(RejectReason::NoToken), 1U);
+    EXPECT_TRUE(eventually([&] { return app_.counters().closedBy(CloseCause::NoToken) == 1; }));
 }
 
 TEST_F(Guarded, AGuessTakesTimeAndIsCounted) {
     const auto began = std::chrono::steady_clock::now();
-    const auto client = connect(owner_);
+    const auto client = connect(app_);
     v1::ClientMessage hello = helloOf(60);
     hello.mutable_hello()->set_token("controllers-token-of-a-tesT");
     ASSERT_TRUE(client->send(hello));
     v1::ClientMessage command;
     *command.mutable_command() = pause();
     ASSERT_TRUE(client->send(command));
-    owner_.publish(64);
+    app_.publish(64);
     const auto received = client->receive(patience);
     ASSERT_FALSE(received) << "nothing of a protected stream is sent";
     EXPECT_EQ(client->closed()->code, 4401);
     EXPECT_EQ(client->closed()->reason, "this token is not known here");
     EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
-    EXPECT_EQ(rejected(Rejection::WrongToken), 1U);
-    EXPECT_TRUE(owner_.commands().empty());
+    EXPECT_EQ(rejected(RejectReason::WrongToken), 1U);
+    EXPECT_TRUE(app_.commands().empty());
 }
 
 TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
@@ -168,9 +168,9 @@ TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
     query.set_id(8);
     query.mutable_query();
     EXPECT_TRUE(give(*client, query).has_applied());
-    ASSERT_EQ(owner_.commands().size(), 1U);
-    EXPECT_TRUE(owner_.commands()[0].has_query());
-    EXPECT_EQ(rejected(Rejection::ViewersCommand), 1U);
+    ASSERT_EQ(app_.commands().size(), 1U);
+    EXPECT_TRUE(app_.commands()[0].has_query());
+    EXPECT_EQ(rejected(RejectReason::ViewersCommand), 1U);
 }
 
 TEST_F(Guarded, OneControllerAtATimeHasTheControls) {
@@ -180,7 +180,7 @@ TEST_F(Guarded, OneControllerAtATimeHasTheControls) {
     const auto second = joinAs(controllers);
     EXPECT_TRUE(give(*first, pause()).has_applied());
     EXPECT_NE(give(*second, pause()).refused().reason().find("session " + std::to_string(holder)), std::string::npos);
-    EXPECT_EQ(rejected(Rejection::ControlsHeld), 1U);
+    EXPECT_EQ(rejected(RejectReason::ControlsHeld), 1U);
     first->close();
     EXPECT_TRUE(eventually([&] { return give(*second, pause()).has_applied(); }));
 }
@@ -192,7 +192,7 @@ TEST_F(Guarded, AViewersMessagesAreShort) {
 }
 
 TEST_F(Guarded, WhatComesBeforeTheTokenIsShort) {
-    const auto client = connect(owner_);
+    const auto client = connect(app_);
     ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
     EXPECT_EQ(readToEnd(*client).code, 1009);
 }
@@ -206,13 +206,13 @@ TEST_F(Guarded, CommandsComeAtALimitedRate) {
         EXPECT_TRUE(result.has_applied() || refused);
     }
     EXPECT_TRUE(refused);
-    EXPECT_GE(rejected(Rejection::CommandRate), 1U);
+    EXPECT_GE(rejected(RejectReason::CommandRate), 1U);
 }
 
 TEST_F(Guarded, APageOfAnotherSiteCannotOpenTheStream) {
     EXPECT_EQ(open("localhost", "Origin: http://evil.example\r\n"), "403");
     EXPECT_EQ(open("localhost", "Origin: null\r\n"), "403");
-    EXPECT_EQ(rejected(Rejection::Origin), 2U);
+    EXPECT_EQ(rejected(RejectReason::Origin), 2U);
     EXPECT_EQ(open("localhost", "Origin: http://localhost\r\n"), "101");
     EXPECT_EQ(open("localhost", ""), "101") << "no browser";
 }
@@ -221,7 +221,7 @@ TEST_F(Guarded, ANameThatOnlyLeadsHereIsNotServed) {
     EXPECT_EQ(open("evil.example", "Origin: http://evil.example\r\n"), "421");
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: evil.example\r\n").substr(9, 3), "421");
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\n").substr(9, 3), "421");
-    EXPECT_EQ(rejected(Rejection::Host), 3U);
+    EXPECT_EQ(rejected(RejectReason::Host), 3U);
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: spherule.example.org\r\n").substr(9, 3), "200");
 }
 
@@ -241,15 +241,15 @@ TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
     const auto before = joinAs(viewers);
     Credentials credentials = options().credentials;
     credentials.viewerToken = "the-viewers-new-token";
-    ASSERT_TRUE(owner_.server().setCredentials(credentials));
-    const auto late = connect(owner_);
+    ASSERT_TRUE(app_.server().setCredentials(credentials));
+    const auto late = connect(app_);
     v1::ClientMessage hello = helloOf(0);
     hello.mutable_hello()->set_token(viewers);
     ASSERT_TRUE(late->send(hello));
     EXPECT_EQ(readToEnd(*late).code, 4401);
     joinAs("the-viewers-new-token");
     EXPECT_EQ(welcome_.role(), v1::VIEWER);
-    EXPECT_FALSE(owner_.server().setCredentials({})) << "a guarded server never opens by itself";
+    EXPECT_FALSE(app_.server().setCredentials({})) << "a guarded server never opens by itself";
 }
 
 TEST(Doors, AreNotOpenedToOthersUnasked) {
@@ -260,40 +260,40 @@ TEST(Doors, AreNotOpenedToOthersUnasked) {
     EXPECT_EQ(refused.error().kind, ErrorKind::Input);
     EXPECT_NE(refused.error().text().find("--open"), std::string::npos);
     options.open = true;
-    EXPECT_NO_THROW(Owner{options});
+    EXPECT_NO_THROW(FakeApp{options});
 }
 
 TEST(Doors, LetSoManyInAndNoMore) {
     Options options = quickOptions();
     options.connectionLimits.sessions = 2;
-    Owner owner(options);
-    const auto first = join(owner, 0);
+    FakeApp app(options);
+    const auto first = join(app, 0);
     {
-        const auto second = join(owner, 0);
-        const auto third = connect(owner);
+        const auto second = join(app, 0);
+        const auto third = connect(app);
         ASSERT_TRUE(third->send(helloOf(0)));
         const auto end = readToEnd(*third);
         EXPECT_EQ(end.code, 1013);
         EXPECT_EQ(end.reason, "as many sessions are open as may be");
     }
-    EXPECT_EQ(owner.counters().rejectedFor(Rejection::Sessions), 1U);
-    EXPECT_TRUE(eventually([&] { return owner.counters().sessions == 1; }));
-    join(owner, 0);
+    EXPECT_EQ(app.counters().rejectedFor(RejectReason::Sessions), 1U);
+    EXPECT_TRUE(eventually([&] { return app.counters().sessions == 1; }));
+    join(app, 0);
 }
 
 TEST(Doors, AskThoseWhoComeTooOftenToWait) {
     Options options = quickOptions();
     options.connectionLimits.connectionsPerSecond = 5;
-    Owner owner(options);
+    FakeApp app(options);
     int answered = 0;
     for (int k = 0; k < 12; ++k) {
-        const RawSocket socket(owner.server().port());
+        const RawSocket socket(app.server().port());
         socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
         if (!socket.readAll().empty()) ++answered;
     }
     EXPECT_GE(answered, 5);
     EXPECT_LT(answered, 12);
-    EXPECT_EQ(owner.counters().rejectedFor(Rejection::ConnectionRate), 12U - static_cast<unsigned>(answered));
+    EXPECT_EQ(app.counters().rejectedFor(RejectReason::ConnectionRate), 12U - static_cast<unsigned>(answered));
 }
 
 TEST(Doors, AreNotOpenedByTheNameOfAProxy) {
@@ -303,9 +303,9 @@ TEST(Doors, AreNotOpenedByTheNameOfAProxy) {
 }
 
 TEST(Doors, KeepBackALittleOfWhatHasNoEnd) {
-    Owner owner;
+    FakeApp app;
     for (const std::string& endless : {"5;" + std::string(1'000'000, 'a'), "0\r\nX: " + std::string(1'000'000, 'a')}) {
-        const RawSocket socket(owner.server().port());
+        const RawSocket socket(app.server().port());
         socket.send("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n" + endless);
         EXPECT_EQ(socket.readAll().substr(0, 12), "HTTP/1.1 431");
     }
@@ -314,11 +314,11 @@ TEST(Doors, KeepBackALittleOfWhatHasNoEnd) {
 TEST(Doors, CloseOnRequestsThatNeverEnd) {
     Options options = quickOptions();
     options.requestTimeout = 200ms;
-    Owner owner(options);
-    const RawSocket socket(owner.server().port());
+    FakeApp app(options);
+    const RawSocket socket(app.server().port());
     socket.send("GET / HTTP/1.1\r\nHost: loc");
     EXPECT_EQ(socket.readAll(), "");
-    EXPECT_TRUE(eventually([&] { return owner.counters().rejectedFor(Rejection::SlowRequest) == 1; }));
+    EXPECT_TRUE(eventually([&] { return app.counters().rejectedFor(RejectReason::SlowRequest) == 1; }));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(ConnectionLimiter, OfOneIPv6NetworkAreOne) {
     const auto other = come("2001:db8:0:1::1");
     EXPECT_FALSE(first->openSession());
     EXPECT_FALSE(second->openSession());
-    EXPECT_EQ(third->openSession(), Rejection::SessionsPerAddress);
+    EXPECT_EQ(third->openSession(), RejectReason::SessionsPerAddress);
     EXPECT_FALSE(other->openSession());
     const auto mapped = come("::ffff:10.0.0.1");
     const auto same = come("10.0.0.1");

@@ -36,10 +36,10 @@ class Ends : public testing::Test {
         if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends_.data()) != 0)
             throw std::runtime_error("no pair of sockets");
         const auto address = asio::ip::make_address("127.0.0.1");
-        if (context_.limiter->refuses(address, ConnectionLimiter::Clock::now())) throw std::runtime_error("refused");
+        if (state_.limiter->refuses(address, ConnectionLimiter::Clock::now())) throw std::runtime_error("refused");
         asio::ip::tcp::socket socket(asio::make_strand(io_), asio::ip::tcp::v4(), ends_[1]);
         std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), nullptr),
-                                         context_.limiter->admit(address), "127.0.0.1", context_)
+                                         state_.limiter->admit(address), "127.0.0.1", state_)
             ->run();
     }
     ~Ends() override { close(ends_[0]); }
@@ -64,7 +64,7 @@ class Ends : public testing::Test {
     void expectEnd() {
         io_.run_for(10s);
         EXPECT_TRUE(io_.stopped()) << "an operation waits for ever";
-        EXPECT_EQ(context_.counters.sessions, 0U);
+        EXPECT_EQ(state_.counters.sessions, 0U);
     }
 
     static Options quick() {
@@ -74,9 +74,9 @@ class Ends : public testing::Test {
         return options;
     }
 
-    Context context_{.options = quick(),
-                     .handlers = {},
-                     .admission = std::make_shared<Admission>(AllowedNames{}, Credentials{}, "http")};
+    ServerState state_{.options = quick(),
+                       .handlers = {},
+                       .admission = std::make_shared<Admission>(AllowedNames{}, Credentials{}, "http")};
     asio::io_context io_{1};  // what waits in it for ever knows the context
     std::array<int, 2> ends_{};
     std::string said_;

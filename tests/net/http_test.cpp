@@ -1,4 +1,4 @@
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
@@ -8,7 +8,7 @@ class Http : public testing::Test {
   protected:
     // One request on a connection of its own.
     std::string ask(const std::string& firstLine, const std::string& rest = "\r\n") {
-        const RawSocket socket(owner_.server().port());
+        const RawSocket socket(app_.server().port());
         socket.send(firstLine + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + rest);
         return socket.readAll();
     }
@@ -17,7 +17,7 @@ class Http : public testing::Test {
         return answer.find(part) != std::string::npos;
     }
 
-    Owner owner_;
+    FakeApp app_;
 };
 
 TEST_F(Http, GetIsAnsweredByTheOwner) {
@@ -48,7 +48,7 @@ TEST_F(Http, OtherMethodsAre405) {
 }
 
 TEST_F(Http, AConnectionServesSeveralRequests) {
-    const RawSocket socket(owner_.server().port());
+    const RawSocket socket(app_.server().port());
     for (int i = 0; i < 3; ++i) {
         socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
         EXPECT_TRUE(has(socket.readUntil("well\n"), "200 OK"));
@@ -88,8 +88,8 @@ TEST_F(Http, AnUpgradeWithoutAKeyIs400) {
                             "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                             "Sec-WebSocket-Protocol: spherule.v1\r\n\r\n");
     EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 400") << answer;
-    EXPECT_TRUE(eventually([&] { return owner_.counters().sessions == 0; }));
-    EXPECT_EQ(owner_.counters().accepted, 0U);
+    EXPECT_TRUE(eventually([&] { return app_.counters().sessions == 0; }));
+    EXPECT_EQ(app_.counters().accepted, 0U);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "app/runtime.h"
 #include "app/sim_loop.h"
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {

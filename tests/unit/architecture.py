@@ -8,12 +8,13 @@ import sys
 from pathlib import Path
 
 ALLOWED = {
-    "app": {"net", "measure", "quality", "sim", "recording", "codec", "scene", "compute", "core"},
+    "app": {"client", "net", "measure", "quality", "sim", "recording", "codec", "scene", "compute", "core"},
     "measure": {"sim", "scene", "compute", "core"},
     "sim": {"compute", "scene", "core"},
     "quality": {"scene", "core"},
     "codec": {"scene", "core"},
     "recording": {"codec", "scene", "core"},
+    "client": {"net", "core"},
     "net": {"codec", "core"},
     "scene": {"core"},
     "compute": {"core"},
