@@ -26,12 +26,12 @@ using beast::error_code;
 
 namespace {
 
-constexpr std::size_t largestMessage = std::size_t{256} << 20U;  // some 40 million spheres in one frame
+constexpr std::size_t largestMessage = std::size_t{256} << 20U;  // bytes; about 40 million spheres in one frame
 constexpr std::uint16_t closedAbnormally = 1006;
 
 }  // namespace
 
-// Every wait is an asynchronous call and a run of the io_context, because Beast's waiting calls know no timeout.
+// Each blocking call runs the io_context over an asynchronous call, because Beast's blocking calls have no timeout.
 struct Client::Connection {
     explicit Connection(net::Tls tls) : stream(beast::tcp_stream(io), std::move(tls)) {}
 
@@ -40,12 +40,12 @@ struct Client::Connection {
     beast::flat_buffer incoming{};
     std::string url{};
     Timeout timeout{};
-    bool reading = false;  // a read that outlived its receive()
+    bool reading = false;  // a read is pending, started by an earlier receive()
     std::optional<error_code> readDone{};
     std::optional<CloseFrame> closed{};
     net::Encoding receivedAs = net::Encoding::Binary;
 
-    // Runs until `done` has a value; false when the time is over.
+    // Runs until `done` has a value; returns false after `limit`.
     bool wait(const std::optional<error_code>& done, Timeout limit) {
         const auto end = std::chrono::steady_clock::now() + limit;
         io.restart();
@@ -68,11 +68,11 @@ struct Client::Connection {
         return *done;
     }
 
-    // Shakes hands, where there is TLS, with who must be `host`.
-    Result<void> meet(const std::string& host) {
+    // Does the TLS handshake, if there is TLS. The certificate must be valid for `host`.
+    Result<void> handshake(const std::string& host) {
         auto* const secure = stream.next_layer().secure();
         if (secure == nullptr) return {};
-        // Several servers may live at one address.
+        // Server name indication: several servers may share one address.
         SSL_set_tlsext_host_name(secure->native_handle(), host.c_str());
         secure->set_verify_callback(asio::ssl::host_name_verification(host));
         const error_code failed =
@@ -114,7 +114,7 @@ Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout 
         error = connection->waitFor([&](auto done) { beast::get_lowest_layer(stream).async_connect(endpoints, done); });
     }
     if (error) return tl::unexpected(connection->error("cannot be reached: " + error.message()));
-    if (auto met = connection->meet(parts->host); !met) return tl::unexpected(met.error());
+    if (auto met = connection->handshake(parts->host); !met) return tl::unexpected(met.error());
     stream.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
         if (!subprotocol.empty()) request.set(http::field::sec_websocket_protocol, subprotocol);
     }));

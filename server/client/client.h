@@ -13,19 +13,19 @@
 
 namespace spherule::client {
 
-// How the connection ended: the server's close frame, or code 1006 when there was none.
+// The server's close frame; code 1006 if there was none.
 struct CloseFrame {
     std::uint16_t code = 0;
     std::string reason;
 };
 
-// A small WebSocket client that waits. One thread. It answers pings only within receive().
+// A blocking WebSocket client. Used by one thread. Answers pings only during receive().
 class Client {
   public:
     using Timeout = std::chrono::milliseconds;
 
-    // Whom `authorities` (PEM) certify is trusted, or, without any, whom the system trusts; the certificate must be the
-    // host's.
+    // Connects to a ws:// or wss:// URL. `timeout`: for each step. `authorities`: trusted certificates (PEM); if empty,
+    // those of the system. Input for an invalid URL, Refused if the server is unreachable or not a spherule server.
     static Result<std::unique_ptr<Client>> connect(const std::string& url, Timeout timeout,
                                                    const std::string& subprotocol = "spherule.v1",
                                                    const std::string& authorities = "");
@@ -36,14 +36,14 @@ class Client {
     Result<void> send(const v1::ClientMessage& message, net::Encoding encoding = net::Encoding::Binary);
     Result<void> sendBytes(std::string_view bytes, net::Encoding encoding);
 
-    // The next message, in either encoding; nothing when none came in time; an error when the connection has ended.
+    // Returns the next message, in either encoding; nullopt after `timeout`; Refused when the connection has ended.
     Result<std::optional<v1::ServerMessage>> receive(Timeout timeout);
 
-    // How the last message came.
+    // Encoding of the last message.
     [[nodiscard]] net::Encoding receivedAs() const;
     [[nodiscard]] const std::optional<CloseFrame>& closed() const;
 
-    // Says goodbye; waits for the answer as long as for connecting.
+    // Closes the connection and waits for the server's close frame, up to the timeout of connect().
     void close();
 
   private:

@@ -41,13 +41,14 @@ namespace {
 
 using Words = std::span<const std::string>;
 
-constexpr std::uintmax_t largestScene = std::uintmax_t{16} << 20U;  // bytes; of what is sent as less than 1 MiB
+constexpr std::uintmax_t largestScene = std::uintmax_t{16}
+                                        << 20U;  // bytes of JSON; a server accepts messages up to 1 MiB
 
 tl::unexpected<Error> refuse(const std::string& what) {
     return fail(ErrorKind::Input, "command", what + "; accepted are\n" + std::string(commandForms));
 }
 
-// Of a finite number that takes up the whole word.
+// Parses a finite number that fills the whole word.
 template <class T>
 Result<T> number(const std::string& word) {
     T value{};
@@ -211,7 +212,7 @@ Result<void> record(Words words, v1::Command& command) {
     return {};
 }
 
-// The commands without words of their own.
+// A command without arguments.
 template <auto Make>
 Result<void> plain(Words words, v1::Command& command) {
     if (!words.empty()) return refuse("'" + words[0] + "' is one word too many");

@@ -10,11 +10,11 @@
 // Parses the words of `spherule ctl` into commands. Any thread.
 namespace spherule::client {
 
-// The forms that commandFrom takes, one per line.
+// The forms that commandFrom() accepts, one per line.
 extern const std::string_view commandForms;
 
-// Of `set gravity 0 0 -1.6` and the like, or of one word that is the JSON form of a Command. `load FILE.json` reads the
-// file. Anything else is an error that lists what is accepted.
+// Parses words such as `set gravity 0 0 -1.6`, or one word with the JSON form of a Command. `load FILE.json` reads the
+// file. Input, with the accepted forms, for anything else.
 Result<v1::Command> commandFrom(const std::vector<std::string>& words);
 
 }  // namespace spherule::client

@@ -12,7 +12,7 @@ namespace spherule::client {
 
 namespace {
 
-// The figures one per line, named as in `spherule run --json`.
+// JSON with one statistic per line, named as in `spherule run --json`.
 std::string figures(const v1::Statistics& statistics) {
     google::protobuf::util::JsonPrintOptions options;
     options.add_whitespace = true;
@@ -22,65 +22,66 @@ std::string figures(const v1::Statistics& statistics) {
     return status.ok() ? text : status.ToString();
 }
 
-// What a server has to say before, as far as that decides whether a command is one's to give.
-struct Standing {
+// What the server has reported about this session's right to send commands.
+struct ControlStatus {
     std::uint64_t session = 0;
     v1::Role role = v1::ROLE_UNSPECIFIED;
-    std::optional<v1::Control> control;  // of a server that gives the controls to one at a time
+    std::optional<v1::Control> control;  // set if the server has a control lock
 
-    void hear(const v1::ServerMessage& message) {
+    void update(const v1::ServerMessage& message) {
         if (message.has_welcome()) {
             session = message.welcome().session();
             role = message.welcome().role();
         }
         if (message.has_control()) control = message.control();
     }
-    [[nodiscard]] bool mustAsk() const {
+    [[nodiscard]] bool needsLock() const {
         return role == v1::CONTROLLER && control && control->has_holder() && control->holder().session() != session;
     }
 };
 
-// One connection to a server, with a limit on each wait.
+// One connection to a server, with a timeout for each wait.
 class Conversation {
   public:
     Conversation(std::unique_ptr<Client> client, const Target& target,
-                 const std::function<void(const v1::Change&)>& hears)
-        : client_(std::move(client)), target_(target), hears_(hears) {}
+                 const std::function<void(const v1::Change&)>& onProgress)
+        : client_(std::move(client)), target_(target), onProgress_(onProgress) {}
 
-    Result<void> say(const v1::ClientMessage& message) { return client_->send(message); }
+    Result<void> send(const v1::ClientMessage& message) { return client_->send(message); }
 
-    Result<v1::CommandResult> give(const v1::Command& command) {
+    Result<v1::CommandResult> execute(const v1::Command& command) {
         v1::ClientMessage message;
         *message.mutable_command() = command;
-        if (auto sent = say(message); !sent) return tl::unexpected(sent.error());
+        if (auto sent = send(message); !sent) return tl::unexpected(sent.error());
         v1::CommandResult result;
-        auto heard = hearUntil(
+        auto received = receiveUntil(
             [&](const v1::ServerMessage& answer) {
                 if (!answer.has_result() || answer.result().id() != command.id()) return false;
                 result = answer.result();
                 return true;
             },
             "gave no answer in time; the command may still apply", true);
-        if (!heard) return tl::unexpected(heard.error());
+        if (!received) return tl::unexpected(received.error());
         return result;
     }
 
-    Result<void> askForControls() {
-        v1::ClientMessage ask;
-        ask.mutable_ask_control();
-        if (auto sent = say(ask); !sent) return sent;
-        return hearUntil([&](const auto&) { return !standing.mustAsk(); }, "the controls were not handed over in time",
-                         false);
+    Result<void> requestLock() {
+        v1::ClientMessage request;
+        request.mutable_ask_control();
+        if (auto sent = send(request); !sent) return sent;
+        return receiveUntil([&](const auto&) { return !status.needsLock(); },
+                            "the controls were not handed over in time", false);
     }
 
     void end() { client_->close(); }
 
-    Standing standing;
+    ControlStatus status;
 
   private:
-    // Hears until `enough`, or fails with `late`; `patient`: not as long as some command progresses.
-    Result<void> hearUntil(const std::function<bool(const v1::ServerMessage&)>& enough, const char* late,
-                           bool patient) {
+    // Receives until `done` returns true. Refused with the text `late` after the timeout. `patient`: progress reports
+    // restart the timeout.
+    Result<void> receiveUntil(const std::function<bool(const v1::ServerMessage&)>& done, const char* late,
+                              bool patient) {
         auto end = std::chrono::steady_clock::now() + target_.timeout;
         for (;;) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
@@ -88,41 +89,41 @@ class Conversation {
             auto received = client_->receive(left);
             if (!received) return tl::unexpected(received.error());
             if (!*received) continue;
-            standing.hear(**received);
-            if (enough(**received)) return {};
+            status.update(**received);
+            if (done(**received)) return {};
             if (!patient || !(*received)->has_change() || (*received)->change().what().empty()) continue;
-            hears_((*received)->change());
+            onProgress_((*received)->change());
             end = std::chrono::steady_clock::now() + target_.timeout;
         }
     }
 
     std::unique_ptr<Client> client_;
     const Target& target_;
-    const std::function<void(const v1::Change&)>& hears_;
+    const std::function<void(const v1::Change&)>& onProgress_;
 };
 
 }  // namespace
 
 Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
-                                      const std::function<void(const v1::Person& holder)>& asks,
-                                      const std::function<void(const v1::Change& change)>& hears) {
+                                      const std::function<void(const v1::Person& holder)>& onHolder,
+                                      const std::function<void(const v1::Change& change)>& onProgress) {
     auto client = Client::connect(target.url, target.timeout, "spherule.v1", target.authorities);
     if (!client) return tl::unexpected(client.error());
-    Conversation conversation(std::move(*client), target, hears);
+    Conversation conversation(std::move(*client), target, onProgress);
     if (command.id() == 0) command.set_id(1);
 
     v1::ClientMessage hello;
     hello.mutable_hello()->set_client("spherule ctl");
     hello.mutable_hello()->set_token(target.token);
     hello.mutable_hello()->mutable_view()->set_rate(0);
-    if (auto sent = conversation.say(hello); !sent) return tl::unexpected(sent.error());
+    if (auto sent = conversation.send(hello); !sent) return tl::unexpected(sent.error());
 
-    auto result = conversation.give(command);
-    // Only now it is known who has the controls: that comes before the answer.
-    if (result && result->has_refused() && conversation.standing.mustAsk()) {
-        asks(conversation.standing.control->holder());
-        if (auto handed = conversation.askForControls(); !handed) return tl::unexpected(handed.error());
-        result = conversation.give(command);
+    auto result = conversation.execute(command);
+    // The server reports the holder of the lock before it answers the command.
+    if (result && result->has_refused() && conversation.status.needsLock()) {
+        onHolder(conversation.status.control->holder());
+        if (auto granted = conversation.requestLock(); !granted) return tl::unexpected(granted.error());
+        result = conversation.execute(command);
     }
     if (result) conversation.end();
     return result;

@@ -9,26 +9,27 @@
 #include "core/result.h"
 #include "spherule/v1/control.pb.h"
 
-// Remote control from a shell: words in, a command out, its result as text.
+// Remote control of a server from a shell. Blocks; one thread.
 namespace spherule::client {
 
-// Where to, and as whom.
+// Server and credentials.
 struct Target {
     std::string url;
     std::string token{};        // empty: none
-    std::string authorities{};  // PEM, as Client::connect wants it
-    std::chrono::milliseconds timeout{
-        30'000};  // of each of the steps; longer while the server says how far it has come
+    std::string authorities{};  // PEM, see Client::connect()
+    // For each step. Restarts when the server reports progress of the command.
+    std::chrono::milliseconds timeout{30'000};
 };
 
-// Connects, says hello without asking for states, sends the command and waits for its result. Where somebody else has
-// the controls, it asks for them first, and `asks` is called with who that is. `hears` is called with how far a command
-// that takes long has come. A refused command is a result, not an error.
+// Connects, sends the command and waits for its result. If another session holds the control lock, calls `onHolder`,
+// requests the lock and tries again. Calls `onProgress` with the progress of a long command. A refused command is a
+// result, not an error. Errors: those of Client, and Refused if no answer comes in time.
 Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
-                                      const std::function<void(const v1::Person& holder)>& asks,
-                                      const std::function<void(const v1::Change& change)>& hears);
+                                      const std::function<void(const v1::Person& holder)>& onHolder,
+                                      const std::function<void(const v1::Change& change)>& onProgress);
 
-// For people: "applied at step 120" or "refused: ..."; of a query its figures alone, as JSON. A terminal only shows it.
+// Text for users: "applied at step 120" or "refused: ..."; for a query, its statistics as JSON. Has no control
+// characters.
 std::string resultText(const v1::CommandResult& result);
 
 }  // namespace spherule::client

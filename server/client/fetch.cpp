@@ -19,7 +19,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using beast::error_code;
 
-// One request, step by step; the stream's own clock ends whichever takes too long.
+// One request as a chain of asynchronous calls; the stream's timeout covers them all.
 struct Exchange {
     asio::io_context io{1};
     net::Transport stream;
@@ -30,32 +30,32 @@ struct Exchange {
 
     explicit Exchange(net::Tls tls) : stream(beast::tcp_stream(io), std::move(tls)) {}
 
-    void run(const asio::ip::tcp::resolver::results_type& places) {
-        stream.next_layer().async_connect(places, [this](error_code failed, const auto&) {
-            if (!ended(failed)) shakeHands();
+    void run(const asio::ip::tcp::resolver::results_type& endpoints) {
+        stream.next_layer().async_connect(endpoints, [this](error_code result, const auto&) {
+            if (!failed(result)) shakeHands();
         });
         io.run();
     }
 
   private:
-    bool ended(error_code failed) {
-        error = failed;
-        return failed.failed();
+    bool failed(error_code result) {
+        error = result;
+        return result.failed();
     }
     void shakeHands() {
         if (auto* const secure = stream.secure())
-            return secure->async_handshake(asio::ssl::stream_base::client, [this](error_code failed) {
-                if (!ended(failed)) ask();
+            return secure->async_handshake(asio::ssl::stream_base::client, [this](error_code result) {
+                if (!failed(result)) send();
             });
-        ask();
+        send();
     }
-    void ask() {
-        http::async_write(stream, request, [this](error_code failed, std::size_t) {
-            if (!ended(failed)) hear();
+    void send() {
+        http::async_write(stream, request, [this](error_code result, std::size_t) {
+            if (!failed(result)) receive();
         });
     }
-    void hear() {
-        http::async_read(stream, buffer, answer, [this](error_code failed, std::size_t) { ended(failed); });
+    void receive() {
+        http::async_read(stream, buffer, answer, [this](error_code result, std::size_t) { failed(result); });
     }
 };
 
@@ -74,12 +74,12 @@ Result<Fetched> fetch(const Url& url, std::chrono::milliseconds timeout) {
     const auto refuse = [&](const error_code& error) {
         return fail(ErrorKind::Refused, where, "gives no answer: " + error.message());
     };
-    const auto places = asio::ip::tcp::resolver(exchange.io).resolve(url.host, url.port, exchange.error);
+    const auto endpoints = asio::ip::tcp::resolver(exchange.io).resolve(url.host, url.port, exchange.error);
     if (exchange.error) return refuse(exchange.error);
     exchange.request.target(url.path);
     exchange.request.set(http::field::host, url.host.find(':') == std::string::npos ? url.host : "[" + url.host + "]");
     exchange.stream.next_layer().expires_after(timeout);
-    exchange.run(places);
+    exchange.run(endpoints);
     if (exchange.error) return refuse(exchange.error);
     return Fetched{.status = static_cast<int>(exchange.answer.result_int()), .body = std::move(exchange.answer.body())};
 }

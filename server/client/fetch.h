@@ -13,8 +13,8 @@ struct Fetched {
     std::string body;
 };
 
-// Asks for a page and waits for it, at most so long. For who asks about a server on the same machine: its certificate
-// is not looked at.
+// Sends GET and waits up to `timeout` for the answer. Does not verify the certificate, so use it only for a server on
+// this machine. Refused if there is no answer. Blocks.
 Result<Fetched> fetch(const Url& url, std::chrono::milliseconds timeout);
 
 }  // namespace spherule::client

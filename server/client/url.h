@@ -13,7 +13,7 @@ struct Url {
     std::string path;
 };
 
-// Of ws://host[:port][/path], or wss:// for TLS; port 80, or 443, and path /ws where they are missing.
+// Parses ws://host[:port][/path], or wss:// for TLS. Default port 80 or 443, default path /ws. Input for other text.
 Result<Url> parseUrl(const std::string& url);
 
 }  // namespace spherule::client

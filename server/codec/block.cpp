@@ -19,7 +19,7 @@ std::uint32_t byteAt(std::span<const std::uint32_t> words, std::size_t byte) {
     return (words[byte / 4] >> (8 * (byte % 4))) & 0xffU;
 }
 
-// Of selectors and base.
+// Units of selectors and base.
 std::size_t extraUnits(Mode mode, Predictor predictor) {
     if (mode == Mode::Plain || mode == Mode::Mask) return 0;
     if (mode == Mode::Runs) return 3;
@@ -30,7 +30,7 @@ std::uint32_t unzigzag(std::uint32_t value) {
     return (value >> 1U) ^ (0U - (value & 1U));
 }
 
-// Fields of bits, one after another.
+// Reads consecutive bit fields.
 class Bits {
   public:
     Bits(const std::uint32_t* words, std::size_t bit) : words_(words), bit_(bit) {}

@@ -11,17 +11,17 @@
 
 namespace spherule::codec {
 
-// A block of a frame, read but for its values. Offsets are in units of 16 bits within `words`.
+// The header of one block of a frame. Offsets are in units of 16 bits within `words`.
 class Block {
   public:
-    // Reads the header at `unit` and what its mode asks for. False: the block goes beyond the unit `end`, or the words.
+    // Reads the header at `unit`. Returns false when the block extends beyond the unit `end`.
     bool read(std::span<const std::uint32_t> words, std::size_t unit, std::size_t end);
 
     [[nodiscard]] Mode mode() const { return mode_; }
     [[nodiscard]] Predictor predictor() const { return predictor_; }
-    [[nodiscard]] std::size_t end() const { return end_; }  // the unit behind it
+    [[nodiscard]] std::size_t end() const { return end_; }  // first unit after the block
 
-    // The new positions of its 64 spheres into `before`; `words` as above and at least one word more.
+    // Writes the new positions of the block's 64 spheres to `before`. `words` must have one more word after the block.
     void decode(const std::uint32_t* words, const glm::ivec3* newest, glm::ivec3* before) const;
 
   private:
@@ -32,10 +32,10 @@ class Block {
 
     Mode mode_{};
     Predictor predictor_{};
-    std::array<std::array<std::uint8_t, runsPerAxis>, 3> changed_{};  // in mode Mask: bit per value, by axis and run
+    std::array<std::array<std::uint8_t, runsPerAxis>, 3> changed_{};  // mode Mask: one bit per value, by axis and run
     std::array<std::array<std::uint8_t, runsPerAxis>, 3> width_{};    // bits, by axis and run
     std::array<std::uint32_t, 3> base_{};
-    std::size_t values_ = 0;  // the bit where they begin
+    std::size_t values_ = 0;  // bit offset of the values
     std::size_t end_ = 0;
 };
 

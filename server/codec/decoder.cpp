@@ -18,7 +18,7 @@ std::string blockName(std::uint32_t block) {
     return "block " + std::to_string(block);
 }
 
-// What is wrong with a block of this frame, apart from its size; null: nothing.
+// Returns the defect of a block, apart from its size; nullptr if there is none.
 const char* fault(const Block& block, bool keyframe, unsigned history) {
     const bool alone = block.predictor() == Predictor::None;
     if (alone != keyframe) return keyframe ? "is predicted in a keyframe" : "is not predicted in a delta frame";

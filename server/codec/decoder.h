@@ -11,7 +11,7 @@
 
 #include "core/result.h"
 
-// The decoder of docs/codec.md. What it is given may be hostile.
+// Decoder of docs/codec.md. The input may be hostile.
 namespace spherule::codec {
 
 struct FrameHead {
@@ -21,25 +21,26 @@ struct FrameHead {
     std::optional<std::uint32_t> hash;
 };
 
-// Of the frame's first bytes; Input where they are none.
+// Parses the first bytes of a frame. Input if they are no head.
 Result<FrameHead> headOf(std::span<const std::byte> frame);
 
-// Of spheres in the codec's order, on the grid: what a frame's hash is compared with.
+// Hash of grid positions in codec order; a frame may carry it to detect decoding errors.
 std::uint32_t hashOf(std::span<const glm::ivec3> positions);
 
-// One chain of frames. Used by one thread at a time. It allocates for its spheres, and for the longest frame that it
-// was given.
+// Decodes one chain of frames. Used by one thread at a time. Allocates memory for the spheres and for the longest frame
+// so far.
 class Decoder {
   public:
     explicit Decoder(std::uint32_t spheres);  // at least 1
 
-    // Takes the next frame. Input, with where in the frame, for one that is malformed, of other spheres, or does not
-    // follow the frame before; after that and after a hash that differs it wants a keyframe, and keeps the positions it
-    // had (after a hash that differs: those of the frame).
+    // Decodes the next frame. Input, with the place in the frame, if it is malformed, has another number of spheres,
+    // does not follow the previous frame, or its hash differs. After an error a keyframe is needed. The positions are
+    // those of the previous frame then, or of this frame if only the hash differs.
     Result<FrameHead> apply(std::span<const std::byte> frame);
 
+    // Positions of the newest frame, in codec order, on the grid.
     [[nodiscard]] std::span<const glm::ivec3> newest() const { return {newest_.data(), spheres_}; }
-    // Of the frame before; only after a delta frame.
+    // Positions of the previous frame; valid only after a delta frame.
     [[nodiscard]] std::span<const glm::ivec3> before() const { return {before_.data(), spheres_}; }
     [[nodiscard]] bool wantsKeyframe() const { return history_ == 0; }
 
@@ -50,9 +51,9 @@ class Decoder {
 
     std::uint32_t spheres_;
     std::vector<glm::ivec3> newest_, before_;  // whole blocks
-    std::vector<std::uint32_t> words_;         // of the frame, and two more, so that reading bits may look ahead
+    std::vector<std::uint32_t> words_;         // of the frame, and two more, because reading bits looks ahead
     std::uint32_t number_ = 0;
-    unsigned history_ = 0;  // states that are known, at most 2
+    unsigned history_ = 0;  // number of known states, at most 2
 };
 
 }  // namespace spherule::codec

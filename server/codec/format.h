@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// The constants of docs/codec.md.
+// Constants of docs/codec.md.
 namespace spherule::codec {
 
 constexpr std::uint32_t blockSpheres = 64;
@@ -16,7 +16,7 @@ constexpr std::uint32_t runSpheres = 8;
 constexpr std::uint32_t runsPerAxis = blockSpheres / runSpheres;
 
 constexpr std::size_t headWords = 4;
-constexpr std::uint32_t magic = 0x00015053;  // with the version; the flags are in the byte above
+constexpr std::uint32_t magic = 0x00015053;  // includes the version; the flags are in the highest byte
 constexpr std::uint32_t keyframeFlag = 0x01000000;
 constexpr std::uint32_t hashedFlag = 0x02000000;
 

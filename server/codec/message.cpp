@@ -12,7 +12,7 @@ Message::Message(v1::ServerMessage message) : message_(std::move(message)), bina
 const std::string& Message::json() const {
     std::call_once(jsonMade_, [this] {
         const auto status = google::protobuf::util::MessageToJsonString(message_, &json_);
-        // Only a string field that is not UTF-8 can fail, and every string of ours was checked when it came in.
+        // Only a string that is not UTF-8 fails, and all strings are checked when they enter the program.
         if (!status.ok()) throw std::logic_error("a server message has no JSON form: " + status.ToString());
     });
     return json_;

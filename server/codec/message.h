@@ -16,7 +16,7 @@ class Message {
 
     [[nodiscard]] const v1::ServerMessage& content() const { return message_; }
     [[nodiscard]] const std::string& binary() const { return binary_; }
-    // Protobuf's JSON form; made when first asked for.
+    // JSON form; created by the first call.
     [[nodiscard]] const std::string& json() const;
 
   private:

@@ -7,44 +7,45 @@
 #include "codec/message.h"
 #include "spherule/v1/frame.pb.h"
 
-// Chains of frames, as the simulation makes them and the network hands them on.
+// Renditions of the frame stream. Any thread.
 namespace spherule::codec {
 
-// One chain: all who watch it are sent the same frames.
+// A precision and a frame rate. All sessions with the same rendition get the same chain: a keyframe and the delta
+// frames after it.
 struct Rendition {
     v1::Tier tier = v1::NORMAL;
-    std::uint32_t rate = 0;  // frames per second, one of `rates`
+    std::uint32_t rate = 0;  // frames/s, one of `rates`; 0: no frames
 
     auto operator<=>(const Rendition&) const = default;
 };
 
-// Few, so that viewers share chains.
+// Frames per second. The list is short, so that viewers share chains.
 constexpr std::array<std::uint32_t, 5> rates = {5, 10, 20, 30, 60};
 
-// The highest that is not above what was asked; at least the lowest; 0 for 0.
+// Returns the highest of `rates` that is not above `asked`, at least the lowest; 0 for 0.
 std::uint32_t rateFor(std::uint32_t asked);
 
-// Metres per unit of the codec, for scenes whose smallest radius this is: positions are off by half of it at most.
+// Returns the grid spacing of encoded positions (m) for a smallest radius (m). The largest error is half of it.
 double quantumOf(v1::Tier tier, double smallestRadius);
 
-// A frame of a chain, with its number there.
+// A frame of a chain.
 struct EncodedFrame {
     enum class Kind : std::uint8_t {
-        Delta,     // for who has the one before
-        Keyframe,  // the chain begins anew: for all
-        Resync     // a keyframe of a state that others have already: for who waits for one
+        Delta,     // needs the previous frame
+        Keyframe,  // starts a chain; sent to all viewers
+        Resync     // keyframe of the state after the previous frame; sent to viewers that wait for one
     };
     Rendition rendition;
     Kind kind = Kind::Delta;
-    std::uint32_t number = 0;
+    std::uint32_t number = 0;  // in the chain
     SharedMessage message;
 };
 
-// What somebody watches.
+// A rendition that at least one session wants.
 struct Subscription {
     Rendition rendition;
-    bool newcomer = false;  // somebody has had no frame yet
-    bool lost = false;      // somebody has lost the chain
+    bool newcomer = false;  // a session has had no frame yet
+    bool lost = false;      // a session has lost the chain
 };
 
 }  // namespace spherule::codec

@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
-// Signs of life of the thread that computes, for whoever watches it. Any thread; costs less than a kernel's launch.
+// Heartbeat of the simulation thread, read by the watchdog. Any thread. A beat costs less than a kernel launch.
 namespace spherule::heartbeat {
 
-// A part of the work is done; what comes now is `doing` (a literal: "waiting for the device").
+// Reports progress. `doing`: the next part of the work, a string literal such as "waiting for the device".
 void beat(const char* doing);
 
-// While one is there no sign is expected: a file of any size is read or written.
+// While a Pause exists, the watchdog expects no beats: for work of any length, such as reading a file.
 class Pause {
   public:
     Pause();

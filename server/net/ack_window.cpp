@@ -6,8 +6,8 @@ namespace spherule::net {
 
 namespace {
 
-constexpr std::size_t minFrames = 3;
-constexpr std::uint32_t windowsPerSecond = 4;  // parts of a second's frames that may be on their way
+constexpr std::size_t minFrames = 3;           // limit at low rates
+constexpr std::uint32_t windowsPerSecond = 4;  // the limit is 1/4 s of frames
 constexpr std::size_t maxRemembered = 64;
 constexpr std::chrono::seconds expiry{1};
 

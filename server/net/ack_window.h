@@ -6,8 +6,8 @@
 
 namespace spherule::net {
 
-// How many frames a client has not acknowledged. A browser takes what comes in even where it cannot keep up with it, so
-// that only acks tell. One thread.
+// Limits the frames that a client has not acknowledged. A browser reads from its socket even when it cannot keep up, so
+// only its acks show the backlog. Used by one thread.
 class AckWindow {
   public:
     using Clock = std::chrono::steady_clock;
@@ -15,19 +15,19 @@ class AckWindow {
     void setRate(std::uint32_t rate);  // frames per second
 
     void sent(std::uint64_t sequence, Clock::time_point now);
-    void acked(std::uint64_t sequence);  // and all before it
+    void acked(std::uint64_t sequence);  // `sequence` and all before it
 
-    // Whether another frame may go: fewer than a quarter of a second's are on their way, or the client never says, or
-    // has not said for so long that it may have expiry.
+    // Returns true when another frame may be sent: unacknowledged frames span less than 1/4 s, the client never
+    // acknowledges, or the last frame was sent more than 1 s ago.
     [[nodiscard]] bool open(Clock::time_point now) const;
-    // The same of none on its way.
+    // Like open(), but only when no frame is unacknowledged (or the client does not acknowledge).
     [[nodiscard]] bool idle(Clock::time_point now) const;
 
   private:
-    std::deque<std::uint64_t> unacknowledged_;  // sequences, bounded while the client never acks
+    std::deque<std::uint64_t> unacknowledged_;  // sequence numbers, bounded when the client never acknowledges
     std::size_t limit_ = 3;
     bool clientAcks_ = false;
-    Clock::time_point lastSent_{};  // one was sent
+    Clock::time_point lastSent_{};
 };
 
 }  // namespace spherule::net

@@ -21,7 +21,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// Without port and brackets.
+// Removes port and brackets.
 std::string_view nameOf(std::string_view host) {
     if (host.starts_with('[')) {
         const auto end = host.find(']');
@@ -41,7 +41,7 @@ bool isName(std::string_view text) {
     });
 }
 
-// make_address() ends at a zero byte and takes any text for a zone.
+// make_address() stops at a zero byte and accepts any text as a zone.
 bool isAddress(std::string_view name) {
     const auto zone = name.find('%');
     if (zone != std::string_view::npos && !isName(name.substr(zone + 1))) return false;
@@ -120,7 +120,7 @@ bool Admission::isOrigin(std::string_view origin, std::string_view host) const {
 
 std::optional<v1::Role> Admission::roleOf(std::string_view token) const {
     if (!asksForToken()) return v1::CONTROLLER;
-    // Both are always compared.
+    // Always compare both, so that the time does not tell which token matched.
     const bool controls = !controllerToken_.empty() && same(token, controllerToken_);
     const bool views = !viewerToken_.empty() && same(token, viewerToken_);
     if (controls) return v1::CONTROLLER;

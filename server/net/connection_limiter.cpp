@@ -7,14 +7,14 @@ namespace spherule::net {
 
 namespace {
 
-// Beside sessions: those that load the page, ask for metrics, or are about to become sessions.
+// Connections that are not sessions: HTTP requests and handshakes.
 constexpr std::size_t moreConnections = 256;
 constexpr std::size_t moreConnectionsPerAddress = 32;
 constexpr std::size_t fewAddresses = 64;
 
 using Address = ConnectionLimiter::Address;
 
-// Whoever has an IPv6 address has 2^64 of them.
+// A host with one IPv6 address usually has the 2^64 addresses of its network.
 Address addressKey(const Address& address) {
     if (!address.is_v6()) return address;
     const auto v6 = address.to_v6();
@@ -24,7 +24,7 @@ Address addressKey(const Address& address) {
     return boost::asio::ip::address_v6(bytes);
 }
 
-// Without a limit of sessions, there is none of what may become one.
+// `limit` 0: no limit. `most`: the count at which the limit is reached.
 bool reached(std::size_t limit, std::size_t most, std::size_t count) {
     return limit > 0 && count >= most;
 }
@@ -59,7 +59,7 @@ std::optional<RejectReason> ConnectionLimiter::Permit::openSession() {
 }
 
 std::optional<RejectReason> ConnectionLimiter::refuses(const Address& address, Clock::time_point now) {
-    forget(now);
+    removeIdle(now);
     const auto [found, fresh] = addresses_.try_emplace(
         addressKey(address), AddressState{.rate = TokenBucket(limits_.connectionsPerSecond, now)});
     AddressState& state = found->second;
@@ -74,9 +74,9 @@ std::unique_ptr<ConnectionLimiter::Permit> ConnectionLimiter::admit(const Addres
     return std::make_unique<Permit>(shared_from_this(), addressKey(address));
 }
 
-// Whoever has left, and has been quiet for long enough, is as good as new. Swept when there are twice as many as were
-// left by the last time, so that it costs little.
-void ConnectionLimiter::forget(Clock::time_point now) {
+// Removes addresses without connections whose rate limit has recovered. Runs when the number of addresses has doubled
+// since the last run, so that the cost per connection is constant.
+void ConnectionLimiter::removeIdle(Clock::time_point now) {
     if (addresses_.size() < sweepAt_) return;
     std::erase_if(addresses_,
                   [now](auto& entry) { return entry.second.connections == 0 && entry.second.rate.full(now); });

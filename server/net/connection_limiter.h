@@ -13,22 +13,22 @@
 
 namespace spherule::net {
 
-// How much one server, and one address, may ask for. 0: no limit.
+// 0: no limit.
 struct ConnectionLimits {
     std::size_t sessions = 256;
     std::size_t sessionsPerAddress = 64;
-    double connectionsPerSecond = 50;  // of one address; as many at once
+    double connectionsPerSecond = 50;  // per address, average and burst
 };
 
-// Who is connected, by address: an IPv4 address, or the 64 bits of an IPv6 address that name a network. Beside
-// sessions, there may be some connections more, for pages, handshakes and those of whom it is not known yet whether
-// they may come in. On the io thread.
+// Limits connections and sessions, in all and per address. An address is an IPv4 address or the 64-bit network prefix
+// of an IPv6 address. Beyond the sessions, 256 connections (32 per address) may be open for HTTP requests and
+// handshakes. Used on the io thread.
 class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter> {
   public:
     using Clock = TokenBucket::Clock;
     using Address = boost::asio::ip::address;
 
-    // One connection, for as long as it lives.
+    // Counts one connection while it exists.
     class Permit {
       public:
         Permit(std::shared_ptr<ConnectionLimiter> limiter, const Address& address);
@@ -36,7 +36,7 @@ class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter>
         Permit(const Permit&) = delete;
         Permit& operator=(const Permit&) = delete;
 
-        // It becomes a session, unless there are too many.
+        // Counts the connection as a session. Returns the reason when the limit of sessions is reached.
         std::optional<RejectReason> openSession();
 
       private:
@@ -47,11 +47,12 @@ class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter>
 
     explicit ConnectionLimiter(const ConnectionLimits& limits) : limits_(limits) {}
 
-    // Whether a connection from there is one too many.
+    // Returns the reason when a new connection from `address` exceeds a limit, else nullopt.
     std::optional<RejectReason> refuses(const Address& address, Clock::time_point now);
+    // Call after refuses() has returned nullopt.
     std::unique_ptr<Permit> admit(const Address& address);
 
-    // Addresses that are remembered.
+    // Number of addresses with a state.
     [[nodiscard]] std::size_t known() const { return addresses_.size(); }
 
   private:
@@ -61,7 +62,7 @@ class ConnectionLimiter : public std::enable_shared_from_this<ConnectionLimiter>
         TokenBucket rate;
     };
 
-    void forget(Clock::time_point now);
+    void removeIdle(Clock::time_point now);
 
     ConnectionLimits limits_;
     std::map<Address, AddressState> addresses_;

@@ -4,7 +4,7 @@ namespace spherule::net {
 
 namespace {
 
-// Each is named to everybody: a row of strangers must not make that long.
+// Bounds the control message, which lists all requests and is sent to every session.
 constexpr int maxRequests = 16;
 
 }  // namespace
@@ -20,8 +20,8 @@ int ControlLock::requestIndex(SessionId session) const {
 }
 
 void ControlLock::grant(SessionId session, const std::string& client) {
-    const int place = requestIndex(session);
-    if (place >= 0) state_.mutable_asking()->DeleteSubrange(place, 1);
+    const int index = requestIndex(session);
+    if (index >= 0) state_.mutable_asking()->DeleteSubrange(index, 1);
     state_.mutable_holder()->set_session(session);
     state_.mutable_holder()->set_client(client);
     notify();
@@ -43,19 +43,19 @@ void ControlLock::request(SessionId session, const std::string& client) {
 }
 
 void ControlLock::release(SessionId session, SessionId to) {
-    const int place = requestIndex(session);
-    if (place >= 0) {
-        state_.mutable_asking()->DeleteSubrange(place, 1);
+    const int index = requestIndex(session);
+    if (index >= 0) {
+        state_.mutable_asking()->DeleteSubrange(index, 1);
         return notify();
     }
     if (!holds(session)) return;
-    const int heir = requestIndex(to);
-    if (heir >= 0) return grant(to, std::string(state_.asking(heir).client()));
-    if (to != 0) return;  // who no longer asks
+    const int next = requestIndex(to);
+    if (next >= 0) return grant(to, std::string(state_.asking(next).client()));
+    if (to != 0) return;  // that request has been withdrawn
     passOn();
 }
 
-// To who has asked longest, or to nobody.
+// To the oldest request; frees the lock if there is none.
 void ControlLock::passOn() {
     if (state_.asking_size() > 0) return grant(state_.asking(0).session(), std::string(state_.asking(0).client()));
     state_.clear_holder();

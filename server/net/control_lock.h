@@ -10,29 +10,30 @@
 
 namespace spherule::net {
 
-// The controls, which one controller has at a time: taken while they are free, handed over by their holder, free again
-// when the holder leaves. Knows nothing of roles. On the io thread.
+// Gives one session at a time the right to send commands that change the world. A session acquires the free lock, its
+// holder hands it over, and it is free when the holder's session ends. Does not check roles. Used on the io thread.
 class ControlLock {
   public:
-    // `tell` is called with each change.
+    // `notify` is called after each change, with the new state.
     explicit ControlLock(std::function<void(const v1::Control&)> notify) : notify_(std::move(notify)) {}
 
-    // Who gives a command takes the controls if they are free; false where somebody else has them.
+    // Acquires the lock if it is free. Returns false when another session holds it.
     bool acquire(SessionId session, const std::string& client);
-    // Takes them if they are free, or waits for the holder's word.
+    // Acquires the lock if it is free, else queues a request to its holder (at most 16 requests).
     void request(SessionId session, const std::string& client);
-    // The holder gives them to one who asks, with 0 to the first of those, or to nobody. One who asks does so no
-    // longer.
+    // Holder: passes the lock to `to`; if 0, to the first request, or frees it. Requester: withdraws its request.
+    // Others: no effect.
     void release(SessionId session, SessionId to);
-    // The holder keeps them: nobody asks any more.
+    // Holder: discards all requests.
     void denyRequests(SessionId session);
-    void onSessionEnded(SessionId session);  // its holder's last word, as it were: whoever asks gets them
+    // Same as release(session, 0).
+    void onSessionEnded(SessionId session);
 
     [[nodiscard]] const v1::Control& state() const { return state_; }
 
   private:
     [[nodiscard]] bool holds(SessionId session) const;
-    [[nodiscard]] int requestIndex(SessionId session) const;  // place in the row, or -1
+    [[nodiscard]] int requestIndex(SessionId session) const;  // index of the session's request, or -1
     void grant(SessionId session, const std::string& client);
     void passOn();
     void notify() const { notify_(state_); }

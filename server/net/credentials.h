@@ -4,15 +4,15 @@
 
 namespace spherule::net {
 
-// What nobody else may know; may change while the server runs. Empty: there is none.
+// Secrets of the server; they may change while it runs. An empty string: not set.
 struct Credentials {
-    std::string viewerToken{};      // lets in to watch
-    std::string controllerToken{};  // lets in to watch and to command
-    std::string certificate{};      // PEM, the server's own first, then those that lead from it to the root
-    std::string key{};              // PEM
+    std::string viewerToken{};      // grants the role viewer
+    std::string controllerToken{};  // grants the role controller
+    std::string certificate{};      // PEM: the server's certificate, then the intermediate ones
+    std::string key{};              // PEM: private key of the certificate
 };
 
-// Whether they keep anybody out.
+// Returns true when a client needs a token.
 inline bool requiresToken(const Credentials& credentials) {
     return !credentials.viewerToken.empty() || !credentials.controllerToken.empty();
 }

@@ -28,7 +28,7 @@ constexpr std::chrono::seconds goodbyeLimit{2};
 constexpr std::string_view streamPath = "/ws";
 constexpr std::string_view figuresPath = "/metrics";
 
-// The page is made of files of this server, talks to it alone, and is in nobody's frame.
+// The page loads only files of this server, connects only to it, and must not be framed.
 constexpr const char* contentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src "
     "'self'; "
@@ -43,7 +43,7 @@ std::string_view fieldOf(const http::request<http::string_body>& request, http::
     return {value.data(), value.size()};
 }
 
-// Of "Authorization: Bearer TOKEN"; empty without one.
+// Token of "Authorization: Bearer TOKEN"; empty if there is none.
 std::string_view bearerOf(const http::request<http::string_body>& request) {
     constexpr std::string_view scheme = "Bearer ";
     const std::string_view value = fieldOf(request, http::field::authorization);
@@ -51,7 +51,7 @@ std::string_view bearerOf(const http::request<http::string_body>& request) {
     return given ? value.substr(scheme.size()) : std::string_view();
 }
 
-// Beast takes any transfer encoding for one that it knows, and then finds no body.
+// Beast accepts unknown transfer encodings and then reads no body.
 bool hasKnownEnd(const http::request<http::string_body>& request) {
     const auto encodings = request.count(http::field::transfer_encoding);
     return encodings == 0 || (encodings == 1 && beast::iequals(request[http::field::transfer_encoding], "chunked"));
@@ -112,7 +112,7 @@ void HttpConnection::onRead(ErrorCode error) {
     ++state_.counters.httpRequests;
     Request request = parser_->release();
     if (!hasKnownEnd(request)) {
-        // Where its body ends is not known, so nothing can follow it.
+        // The end of the body is unknown, so the connection cannot be reused.
         request.keep_alive(false);
         return refuse(request, RejectReason::Malformed, 501,
                       "the only transfer encoding that is understood is chunked");
@@ -134,7 +134,7 @@ void HttpConnection::onRead(ErrorCode error) {
     answer(request, state_.handlers.get(path, state_.counters));
 }
 
-// The page is for everybody, and so is health: a probe has no token. Refuses by itself.
+// Only the metrics need a token: the page and the health checks are public. Sends the refusal itself.
 bool HttpConnection::mayRead(const Request& request, const std::string& path) {
     if (path != figuresPath || state_.admission->roleOf(bearerOf(request))) return true;
     if (bearerOf(request).empty())
@@ -144,7 +144,7 @@ bool HttpConnection::mayRead(const Request& request, const std::string& path) {
     return false;
 }
 
-// Whoever tries many tokens waits for each.
+// Delays the answer to a wrong token, to slow down guessing.
 void HttpConnection::refuseLater(const Request& request) {
     tcp().expires_never();
     delay_.expires_after(state_.options.guessDelay);
@@ -158,7 +158,7 @@ void HttpConnection::onUpgrade(const Request& request) {
         return refuse(request, RejectReason::Handshake, 400,
                       "this is the stream: open it as a WebSocket with subprotocol spherule.v1");
     }
-    // Only browsers say where they come from; whoever else can open the stream could say anything there.
+    // Only browsers send an origin. Other clients could send any origin, so a missing one is accepted.
     const std::string_view origin = fieldOf(request, http::field::origin);
     if (!origin.empty() && !state_.admission->isOrigin(origin, fieldOf(request, http::field::host))) {
         return refuse(request, RejectReason::Origin, 403,
@@ -212,11 +212,12 @@ void HttpConnection::refuse(const Request& request, RejectReason cause, int stat
     answer(request, {.status = status, .contentType = "text/plain; charset=utf-8", .body = text + "\n"});
 }
 
-// The rest of the request is still on the wire, so the connection cannot be used again.
+// The rest of the request has not been read, so the connection cannot be reused.
 void HttpConnection::refuseUnread(ErrorCode error) {
     if (error == beast::error::timeout && (parser_->got_some() || incoming_.size() > 0))
         state_.rejectionLog.rejected(RejectReason::SlowRequest, peer_);
-    if (error.category() != http::make_error_code(http::error::bad_method).category()) return;  // broken or too slow
+    if (error.category() != http::make_error_code(http::error::bad_method).category())
+        return;  // connection broken, or request too slow
     Request request;
     request.version(11);
     request.keep_alive(false);
@@ -231,14 +232,14 @@ void HttpConnection::refuseUnread(ErrorCode error) {
 
 void HttpConnection::shutdown() {
     tcp().expires_after(goodbyeLimit);
-    // Within TLS, this waits for the peer's goodbye, and reads what is left on the way there.
+    // The TLS shutdown waits for the peer's shutdown and reads the remaining data.
     if (auto* const secure = stream_.secure()) return secure->async_shutdown([self = shared_from_this()](ErrorCode) {});
     ErrorCode ignored;
     tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
     discard();
 }
 
-// A socket closed over unread bytes resets the connection, and the answer may be lost with it.
+// Reads the remaining data: closing a socket with unread data resets the connection, and the answer may be lost.
 void HttpConnection::discard() {
     tcp().async_read_some(boost::asio::buffer(discarded_), [self = shared_from_this()](ErrorCode error, std::size_t) {
         if (!error) self->discard();

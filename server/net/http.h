@@ -15,9 +15,8 @@
 
 namespace spherule::net {
 
-// One connection that speaks HTTP/1.1: answers GET and HEAD through Handlers.get until the client leaves or asks for
-// the stream at /ws, which makes it a Session. Whoever does not mean this server, or has no business at the stream, is
-// refused. Everything happens on the strand of its stream.
+// One HTTP/1.1 connection. Answers GET and HEAD through Handlers.get, and hands the connection over to a Session when
+// the client upgrades at /ws. Refuses requests with a foreign Host header or origin. Used on the strand of its stream.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
     HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
@@ -48,7 +47,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     std::unique_ptr<ConnectionLimiter::Permit> permit_;
     std::string peer_;  // address
     boost::asio::steady_timer delay_;
-    // What Beast's parser keeps back, such as an extension of a chunk that has no end, is bounded by nothing else.
+    // Bounds the bytes that Beast's parser buffers, such as an endless chunk extension.
     boost::beast::flat_buffer incoming_{std::size_t{64} * 1024};
     std::optional<Parser> parser_;
     std::array<char, 4096> discarded_{};

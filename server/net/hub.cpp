@@ -60,7 +60,7 @@ void Hub::retain(codec::SharedMessage message) {
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
     }
-    if (message->content().has_scene()) order_.reset();  // that of the spheres that were
+    if (message->content().has_scene()) order_.reset();  // the order belongs to the previous scene
     retained_[message->content().kind_case()] = std::move(message);
 }
 

@@ -20,8 +20,8 @@ using boost::system::error_code;
 
 namespace {
 
-// The kernel would otherwise take seconds of states for a slow client, who would then watch the past. It doubles the
-// first figure for its own bookkeeping; what it has not sent yet is kept below the second, for those who read slowly.
+// Bytes. Limits of the kernel's send buffer and of its unsent part. With the defaults, seconds of frames would queue in
+// the kernel for a slow client. The kernel doubles the first value for its bookkeeping.
 constexpr int sendBuffer = 256 * 1024;
 constexpr int mostUnsent = 32 * 1024;
 constexpr std::chrono::milliseconds retryAfter{100};
@@ -80,7 +80,7 @@ void Listener::accept() {
 void Listener::onAccept(error_code error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (error) {
-        // Mostly out of file descriptors: try again when some session may have ended, rather than spin or give up.
+        // Usually out of file descriptors: retry later, when a session may have ended.
         state_.rejectionLog.rejected(RejectReason::Accept, error.message());
         retryTimer_.expires_after(retryAfter);
         retryTimer_.async_wait([self = shared_from_this()](error_code cancelled) {
@@ -97,12 +97,12 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
 }
 
 void Listener::serve(tcp::socket socket) {
-    // Nothing that could be read here is worth an error: the peer may be gone already.
+    // Errors are ignored: the peer may have disconnected already.
     error_code ignored;
     const auto address = socket.remote_endpoint(ignored).address();
     if (const auto cause = state_.limiter->refuses(address, ConnectionLimiter::Clock::now())) {
         state_.rejectionLog.rejected(*cause, address.to_string());
-        // Without this, each would leave a closed connection behind for a minute.
+        // Reset instead of close, so that no socket stays in TIME_WAIT for a minute.
         socket.set_option(asio::socket_base::linger(true, 0), ignored);
         socket.close(ignored);
         return;

@@ -11,17 +11,18 @@
 
 namespace spherule::net {
 
-// Accepts connections, each with its own strand. On the io thread, except where said.
+// Accepts connections and gives each its own strand. Used on the io thread, unless noted.
 class Listener : public std::enable_shared_from_this<Listener> {
   public:
     Listener(boost::asio::io_context& io, ServerState& state);
 
-    // Before the io thread runs. An address that cannot be bound is an error.
+    // Binds the address. Call before the io thread runs. Errors: Input for an unusable address, or one that is
+    // reachable from outside without tokens or --open; Refused if it cannot be bound.
     Result<void> open();
     void run();
     void close();
 
-    // Any thread, once open.
+    // Any thread, after open().
     [[nodiscard]] std::uint16_t port() const { return port_; }
 
   private:

@@ -10,23 +10,24 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t lossesPerStep = 3;
+constexpr std::size_t lossesPerStep = 3;  // within lossWindow
 constexpr auto lossWindow = 3s;
 constexpr auto minPatience = 10s;
 constexpr auto maxPatience = 160s;
-constexpr auto minTimeAfterStepUp = 5s;      // for a step down after one up
-constexpr std::uint32_t minSmoothRate = 10;  // frames per second, below which precision goes first
-constexpr double minDrawnShare = 0.6;        // of the frames: with fewer pictures, frames are sent in vain
-constexpr double maxDecodeShare = 0.6;       // of the time between frames, with decoding one
-constexpr int slowAcksPerStep = 30;          // acks
+constexpr auto minTimeAfterStepUp = 5s;      // an earlier step down doubles the patience
+constexpr std::uint32_t minSmoothRate = 10;  // frames per second; below, precision is reduced before rate
+constexpr double minDrawnShare = 0.6;        // pictures per frame sent; below, frames are wasted
+constexpr double maxDecodeShare = 0.6;       // of the time between two frames
+constexpr int slowAcksPerStep = 30;          // consecutive acks
 
+// nullopt if `rate` is the lowest.
 std::optional<std::uint32_t> below(std::uint32_t rate) {
     const auto found = std::ranges::lower_bound(codec::rates, rate);
     if (found == codec::rates.begin()) return std::nullopt;
     return *(found - 1);
 }
 
-// Nothing where there is no less.
+// nullopt if there is no lower rendition.
 std::optional<codec::Rendition> nextLower(const codec::Rendition& rendition) {
     const auto rate = below(rendition.rate);
     if (rate && *rate >= minSmoothRate) return codec::Rendition{rendition.tier, *rate};
@@ -86,7 +87,7 @@ std::optional<std::string> RateController::onAck(double drawRate, double decodeM
     const bool decodesLong = decodeMs * rendition_.rate > maxDecodeShare * 1000;
     slowAcks_ = drawsLess || decodesLong ? slowAcks_ + 1 : 0;
     const auto less = nextLower(rendition_);
-    const bool fewer = less && less->rate < rendition_.rate;  // less precision would not help
+    const bool fewer = less && less->rate < rendition_.rate;  // lower precision would not help
     if (slowAcks_ >= slowAcksPerStep && fewer && stepDown(now))
         return drawsLess ? fmt::format("only {:.0f} pictures per second are minDrawnShare", drawRate)
                          : fmt::format("a frame takes {:.0f} ms to decode", decodeMs);

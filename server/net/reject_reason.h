@@ -6,38 +6,38 @@
 
 namespace spherule::net {
 
-// Why something from outside was turned away. In the order of the names below, which metrics and logs use.
+// Why a connection, a request or a command was rejected. Metrics and logs use the names below, in the same order.
 enum class RejectReason : std::uint8_t {
     // Connections, closed without an answer.
-    Connections,     // as many are open as may be
-    Accept,          // by the system: mostly, no descriptor was left
-    ConnectionRate,  // of this address, too many in a second
-    Fault,           // it could not be served, for lack of memory or by a fault of the server
-    Tls,             // no TLS, or none that is good enough
+    Connections,     // limit of open connections
+    Accept,          // accept() failed, usually for lack of file descriptors
+    ConnectionRate,  // too many from this address within a second
+    Fault,           // out of memory, or an internal error
+    Tls,             // handshake failed
     // Requests.
-    SlowRequest,  // it did not come in time
+    SlowRequest,  // not received in time
     Malformed,    // not HTTP
     LongHeader,
     LongBody,
-    BadRequest,  // a method or a target that is not answered
-    Host,        // a name that is not this server's
+    BadRequest,  // unsupported method or target
+    Host,        // unknown name in the Host header
     NoToken,
     WrongToken,
     // Handshakes of the stream.
-    Origin,  // a page of another site
+    Origin,  // page of another site
     Subprotocol,
     Handshake,           // not WebSocket
-    NotReady,            // the scene is still being made
-    Sessions,            // as many are open as may be
-    SessionsPerAddress,  // the same, of this address
+    NotReady,            // the scene is not ready
+    Sessions,            // limit of sessions
+    SessionsPerAddress,  // limit of sessions of this address
     // Commands.
     UnknownCommand,
     CommandRate,
     CommandQueue,
-    CommandCost,   // it would take too much memory
-    UnfitCommand,  // a field that is not known, or a value that is not one of the field
+    CommandCost,   // needs too much memory
+    UnfitCommand,  // unknown field or invalid value
     ViewersCommand,
-    ControlsHeld,  // by somebody else
+    ControlsHeld,  // by another session
 };
 
 constexpr std::array<std::string_view, 26> rejectReasonNames = {"connections",

@@ -9,16 +9,16 @@
 
 namespace spherule::net {
 
-// Counts what is turned away and what ends, and logs it: each cause at most once in ten seconds, so that nobody fills
-// the disk with it. On the io thread.
+// Counts and logs rejected requests and ended sessions. Logs each cause at most once in 10 s, so that clients cannot
+// fill the disk. Used on the io thread.
 class RejectionLog {
   public:
     explicit RejectionLog(Counters& counters) : counters_(counters) {}
 
-    // `who`: an address, or an address and a name; printable.
-    void rejected(RejectReason cause, const std::string& who);
-    // A session that had begun.
-    void ended(CloseCause cause, const std::string& who);
+    // `peer`: an address, or an address and a client name; printable.
+    void rejected(RejectReason cause, const std::string& peer);
+    // Records the end of a session that had started.
+    void ended(CloseCause cause, const std::string& peer);
 
   private:
     Counters& counters_;

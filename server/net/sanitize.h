@@ -5,10 +5,11 @@
 
 namespace spherule::net {
 
-// What a stranger sent, made fit for one line of the log.
+// Returns at most 64 characters of a client's text for one log line. Replaces each byte that is not printable ASCII by
+// '?'.
 std::string sanitize(std::string_view text);
 
-// Valid UTF-8, cut between characters to the 123 bytes that a close frame holds.
+// Returns valid UTF-8 of at most 123 bytes, the limit of a WebSocket close frame.
 std::string closeReason(std::string_view reason);
 
 }  // namespace spherule::net

@@ -7,7 +7,7 @@ namespace spherule::net {
 
 namespace {
 
-// Of these an older one has nothing to say any more.
+// Kinds of which only the newest message matters: a new one replaces a queued one.
 bool replaceable(v1::ServerMessage::KindCase kind) {
     using enum v1::ServerMessage::KindCase;
     return kind == kScene || kind == kOrder || kind == kSettings || kind == kDial || kind == kDiagnostics ||
@@ -50,8 +50,8 @@ SendQueue::OfferResult SendQueue::offer(const codec::EncodedFrame& encoded) {
     if (rendition_.rate == 0 || encoded.rendition != rendition_) return OfferResult::Accepted;
     const bool keyframe = encoded.kind != codec::EncodedFrame::Kind::Delta;
     if (lastEpoch_ != encoded.message->content().frame().epoch()) breakChain();
-    if (keyframe && lastNumber_ == encoded.number) return OfferResult::Accepted;  // for those who lack it
-    if (!keyframe && !lastNumber_) return OfferResult::Accepted;                  // lost before
+    if (keyframe && lastNumber_ == encoded.number) return OfferResult::Accepted;  // a resync for other viewers
+    if (!keyframe && !lastNumber_) return OfferResult::Accepted;                  // chain lost already
     if (!keyframe && (frame_ || encoded.number != *lastNumber_ + 1)) {
         const OfferResult why = frame_ ? OfferResult::Busy : OfferResult::Gap;
         breakChain();

@@ -14,7 +14,7 @@ namespace spherule::net {
 
 namespace {
 
-constexpr std::chrono::seconds dropTime{1};  // for sessions to notice that they were dropped
+constexpr std::chrono::seconds dropTime{1};  // for dropped sessions to end
 
 class RunningServer final : public Server {
   public:
@@ -67,7 +67,7 @@ class RunningServer final : public Server {
     Result<void> setCredentials(const Credentials& credentials) override {
         auto loaded = load(credentials);
         if (!loaded) return tl::unexpected(loaded.error());
-        boost::asio::post(io_, [this, credentials = std::move(*loaded)] { apply(credentials); });
+        boost::asio::post(io_, [this, next = std::move(*loaded)] { apply(next); });
         return {};
     }
 
@@ -84,20 +84,20 @@ class RunningServer final : public Server {
     }
 
   private:
-    // What a handler throws ends what the handler was for, and nothing else.
+    // An exception of a handler ends only its session or connection, so the loop goes on.
     void runIo() {
         while (!io_.stopped()) {
             try {
                 io_.run();
             } catch (const std::bad_alloc&) {
-                ++state_.counters.rejectedFor(RejectReason::Fault);  // to tell of it takes memory
+                ++state_.counters.rejectedFor(RejectReason::Fault);  // logging would need memory
             } catch (const std::exception& error) {
                 state_.rejectionLog.rejected(RejectReason::Fault, error.what());
             }
         }
     }
 
-    // What is loaded of the credentials.
+    // Credentials in the form that connections use.
     struct LoadedCredentials {
         std::shared_ptr<const Admission> admission;
         Tls tls;
@@ -107,7 +107,7 @@ class RunningServer final : public Server {
         if (requiresToken(credentials) != requiresToken(state_.options.credentials))
             return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
         AllowedNames allowedNames = state_.options.allowedNames;
-        allowedNames.hosts.push_back(state_.options.host);  // by which people were told to come
+        allowedNames.hosts.push_back(state_.options.host);  // the address that was announced to users
         LoadedCredentials loaded{
             .admission = std::make_shared<Admission>(std::move(allowedNames), credentials, scheme_), .tls = nullptr};
         if (credentials.certificate.empty() == (scheme_ == "http")) {
@@ -127,7 +127,7 @@ class RunningServer final : public Server {
 
     boost::asio::io_context io_{1};
     std::string scheme_;
-    ServerState state_;  // after io_: the hub lets go of its sessions while their executor still exists
+    ServerState state_;  // after io_: sessions must be destroyed before their executor
     std::shared_ptr<Listener> listener_;
     std::thread thread_;
 };

@@ -12,21 +12,22 @@
 
 namespace spherule::net {
 
-// What listener, HTTP connections and sessions share; outlives them all.
+// State shared by the listener, HTTP connections and sessions; must outlive them.
 struct ServerState {
     Options options;
     Handlers handlers;
     Counters counters{};
     Hub hub{};
     RejectionLog rejectionLog{counters};
-    // These change with the credentials. On the io thread.
+    // Replaced when the credentials change. Used on the io thread.
     std::shared_ptr<const Admission> admission{};
     Tls tls{};
     std::shared_ptr<ConnectionLimiter> limiter = std::make_shared<ConnectionLimiter>(options.connectionLimits);
-    // Where it is known who is who, or that anybody may come, one at a time has the controls.
+    // One session at a time controls the world, if clients have tokens or the server is open to all.
     bool exclusiveControl = options.open || requiresToken(options.credentials);
     ControlLock controlLock{[this](const v1::Control& now) { publishControl(now); }};
 
+    // Sends the state of the control lock to all sessions.
     void publishControl(const v1::Control& now) {
         if (!exclusiveControl) return;
         v1::ServerMessage message;

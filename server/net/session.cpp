@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t defaultRate = 30;
 constexpr auto tokenWanted = static_cast<close_code>(4401);
 constexpr double viewsPerSecond = 10;
-constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is given back after the message
+constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // bytes; a larger read buffer is freed after the message
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void Session::begin(const Request& upgrade) {
 
 void Session::configure() {
     beast::get_lowest_layer(stream_).expires_never();
-    // SessionTimeouts keeps the time of an open session; Beast's own limit is left for the handshakes.
+    // SessionTimeouts covers an open session; Beast's timeout covers only the handshakes.
     stream_.set_option(websocket::stream_base::timeout{
         .handshake_timeout = state_.options.helloTimeout,
         .idle_timeout = websocket::stream_base::none(),
@@ -75,7 +75,7 @@ void Session::onAccepted(ErrorCode error) {
     }
     if (finished_) return;
     ++state_.counters.accepted;
-    pump();  // a drain may have come meanwhile
+    pump();  // drain() may have been called meanwhile
     read();
 }
 
@@ -84,7 +84,7 @@ void Session::read() {
 }
 
 void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
-    if (finished_) return;  // what had come before the end may be read after it
+    if (finished_) return;  // data received before the end may be read after it
     if (error) return finish(causeOf(error));
     if (!closing_) {
         const auto bytes = incoming_.cdata();
@@ -93,7 +93,7 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
     }
     incoming_.clear();
     if (incoming_.capacity() > keptBuffer) incoming_.shrink_to_fit();
-    if (!tokenRejected_ && !closing_) read();  // the peer's goodbye is read by what closes
+    if (!tokenRejected_ && !closing_) read();  // async_close() reads the peer's close frame
 }
 
 void Session::onBytes(std::string_view bytes, Encoding encoding) {
@@ -125,7 +125,7 @@ void Session::onMessage(v1::ClientMessage message, std::size_t cost) {
         case v1::ClientMessage::kKeepControl:
             return onControlRequest(message);
         case v1::ClientMessage::kCommand:
-        case v1::ClientMessage::KIND_NOT_SET:  // of a newer protocol: a command, at least, is answered
+        case v1::ClientMessage::KIND_NOT_SET:  // of a newer protocol: a command gets an answer
             return onCommand(std::move(*message.mutable_command()), cost);
     }
 }
@@ -159,7 +159,7 @@ void Session::admit(const v1::Hello& hello, v1::Role role) {
     onView(hello.view());
 }
 
-// Whoever tries many tokens waits for each; meanwhile nothing more is read.
+// Delays the close after a wrong token, to slow down guessing. Nothing is read meanwhile.
 void Session::rejectToken(bool guessed) {
     state_.rejectionLog.rejected(guessed ? RejectReason::WrongToken : RejectReason::NoToken, peer_);
     if (!guessed) return close(tokenWanted, "this server asks for a token", CloseCause::NoToken);
@@ -173,7 +173,7 @@ void Session::rejectToken(bool guessed) {
     }));
 }
 
-// What comes too often waits, and only the last of it counts: each change begins a chain anew.
+// Each change starts a new chain. Views above the rate limit wait, and only the newest is applied.
 void Session::onView(const v1::View& view) {
     if (!views_.take(TokenBucket::Clock::now())) {
         pendingView_ = view;
@@ -182,7 +182,7 @@ void Session::onView(const v1::View& view) {
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
     const codec::Rendition wish{known ? view.tier() : v1::NORMAL,
                                 codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
-    // Whoever says the same again begins nothing anew.
+    // An unchanged view does not restart the chain.
     if (rateController_.setTarget(wish, view.fixed(), RateController::Clock::now()))
         switchRendition("");
     else

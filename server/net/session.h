@@ -31,7 +31,7 @@ namespace spherule::net {
 
 constexpr std::string_view subprotocol = "spherule.v1";
 
-// One WebSocket client. Everything happens on the strand of its stream; the Subscriber's calls post there.
+// One WebSocket client. Runs on the strand of its stream; the calls of Subscriber may come from any thread.
 class Session : public Subscriber, public std::enable_shared_from_this<Session> {
   public:
     using Request = boost::beast::http::request<boost::beast::http::string_body>;
@@ -39,7 +39,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     Session(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, const std::string& peer,
             ServerState& state);
 
-    // Answers an upgrade request and serves the client until one side leaves. Call once, on the strand.
+    // Answers an upgrade request and serves the client until one side closes. Call once, on the strand.
     void run(const Request& upgrade);
 
     void send(codec::SharedMessage message) override;
@@ -86,7 +86,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void finish(CloseCause cause);
     [[nodiscard]] CloseCause causeOf(ErrorCode error) const;
 
-    // Keeps the session alive until the handler has run. What the handler throws ends the session, and nothing else.
+    // Keeps the session alive until the handler has run. An exception of the handler ends only this session.
     template <class Handler>
     auto protect(Handler handler) {
         return [self = shared_from_this(), handler = std::move(handler)](auto&&... results) mutable {
@@ -120,17 +120,17 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     Encoding encoding_ = Encoding::Binary;
     TokenBucket commands_;
     TokenBucket views_;
-    std::optional<v1::View> pendingView_;  // that came too soon after others
+    std::optional<v1::View> pendingView_;  // received too soon after others; applied later
     v1::Role role_ = v1::ROLE_UNSPECIFIED;
     SessionId id_ = 0;
     std::string client_ = "a client";
     CloseCause cause_ = CloseCause::Left;
     bool helloDone_ = false;
-    bool tokenRejected_ = false;      // and will be told so
-    bool keyframeRequested_ = false;  // for a keyframe
+    bool tokenRejected_ = false;      // the session will close after guessDelay
+    bool keyframeRequested_ = false;  // a keyframe is on its way
     bool pinging_ = false;
     bool draining_ = false;
-    bool closing_ = false;  // a close frame is on its way: nothing else may be written
+    bool closing_ = false;  // a close frame is being sent: nothing else may be written
     bool finished_ = false;
 };
 

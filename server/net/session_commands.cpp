@@ -1,4 +1,4 @@
-// What a session may command.
+// Checks and forwards the commands of a session.
 #include <utility>
 
 #include "net/session.h"
@@ -16,7 +16,7 @@ bool changes(v1::Command::KindCase kind) {
 
 }  // namespace
 
-// Parsing takes time and memory: for a long message, only when what it asks for may then wait.
+// Refuses a message before it is parsed: when it needs too much memory, or is long and its command could not be queued.
 bool Session::refusedUnparsed(const Preview& preview, std::size_t bytes) {
     const Options& options = state_.options;
     if (preview.cost > options.maxMessageCost) {
@@ -70,7 +70,7 @@ void Session::refuse(std::uint64_t command, RejectReason cause, const std::strin
     queue(std::make_shared<codec::Message>(std::move(message)));
 }
 
-// Where everybody has the controls, there is nothing to ask for.
+// Without exclusive control every controller may send commands, so requests have no effect.
 void Session::onControlRequest(const v1::ClientMessage& message) {
     if (!state_.exclusiveControl) return;
     if (role_ != v1::CONTROLLER || !commands_.take(TokenBucket::Clock::now())) {

@@ -1,4 +1,4 @@
-// The sending half of a session: its lanes, its clock, its end.
+// The sending half of a session: queue, timer, close.
 #include <utility>
 
 #include <boost/asio/bind_cancellation_slot.hpp>
@@ -22,14 +22,14 @@ void Session::send(codec::SharedMessage message) {
                protect([message = std::move(message)](Session& self) mutable { self.queue(std::move(message)); }));
 }
 
-// However long the io thread is busy, one frame waits for it, not a row of them.
+// At most one frame waits for the io thread: a newer one replaces it.
 void Session::offer(codec::EncodedFrame encoded) {
     if (offered_.put(std::move(encoded))) return;
     asio::post(stream_.get_executor(), protect([](Session& self) {
                    const auto newest = self.offered_.take();
                    if (self.closing_ || self.finished_) return;
-                   // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on
-                   // its way here.
+                   // The hub sends a delta frame only if no keyframe is pending, or after the keyframe. So any frame
+                   // ends the wait for a keyframe.
                    if (newest->rendition == self.rateController_.rendition()) self.keyframeRequested_ = false;
                    const auto offered = self.sendQueue_.offer(*newest);
                    if (offered == SendQueue::OfferResult::Busy) self.onFrameLost();
@@ -39,13 +39,13 @@ void Session::offer(codec::EncodedFrame encoded) {
                }));
 }
 
-// The client lost the chain, because it did not take the frame before or could not decode it.
+// The client lost the chain: the previous frame was not sent in time, or the client could not decode it.
 void Session::onFrameLost() {
     ++state_.counters.chainsLost;
     if (const auto reason = rateController_.onLoss(Clock::now())) switchRendition(*reason);
 }
 
-// Only when it can go at once, and alone: what waits gets old, here as on the way to a slow client.
+// Requests a keyframe only when it can be sent at once: a queued keyframe gets stale.
 void Session::requestKeyframe() {
     if (keyframeRequested_ || writing_ || !sendQueue_.wantsKeyframe() || !ackWindow_.idle(Clock::now())) return;
     keyframeRequested_ = true;
@@ -56,7 +56,7 @@ void Session::switchRendition(const std::string& reason) {
     const codec::Rendition rendition = rateController_.rendition();
     sendQueue_.follow(rendition);
     ackWindow_.setRate(rendition.rate);
-    keyframeRequested_ = true;  // who comes to a chain is sent a keyframe of it
+    keyframeRequested_ = true;  // the hub sends a keyframe of the new rendition
     reportStream(reason);
     state_.hub.subscribe(id_, rendition);
 }
@@ -109,7 +109,7 @@ void Session::pump() {
 void Session::onWritten(ErrorCode error, std::size_t bytes) {
     timeouts_.writeEnded();
     const auto written = std::exchange(writing_, nullptr);
-    if (error) return;  // the read under way fails too, and knows more
+    if (error) return;  // the pending read fails too, with a more precise error
     state_.counters.bytesSent += bytes;
     if (written->content().has_frame()) ++state_.counters.framesSent;
     requestKeyframe();
@@ -168,9 +168,8 @@ void Session::fault(const std::exception& error) {
     state_.rejectionLog.rejected(RejectReason::Fault, description() + ": " + error.what());
 }
 
-// For a peer that does not take what is sent: a close frame would wait behind it, and so would the kernel's copy.
-// Beast's read and close wait for each other for ever when the peer breaks the protocol as it is told goodbye, and no
-// end of the socket ends them.
+// Resets the connection of a peer that does not read: a close frame would wait behind the unsent data. Cancels Beast's
+// read and close, which wait for each other forever if the peer breaks the protocol during the closing handshake.
 void Session::abort(CloseCause cause) {
     if (finished_) return;
     ErrorCode ignored;

@@ -25,8 +25,8 @@ SessionTimeouts::Verdict SessionTimeouts::check(const TcpProgress& progress, Clo
     const bool acknowledged = progress.acknowledged != seen_.acknowledged;
     seen_ = progress;
     if (acknowledged) advanced_ = now;
-    // A kernel confirms small messages for a program that hangs; only while it drains a write that did not fit its
-    // buffers does a confirmation mean that somebody reads.
+    // The peer's kernel confirms small messages even if its program hangs. A confirmation shows that the program reads
+    // only while a write is larger than the kernel's buffers.
     if (heard || (acknowledged && writing_)) {
         alive_ = now;
         pinged_ = false;

@@ -7,27 +7,28 @@
 
 namespace spherule::net {
 
-// The clock rules of one session, told what happened and asked what to do; knows no sockets. One thread.
+// The timeouts of one session. The session reports events and calls check(); there is no socket here. Used by one
+// thread.
 //
-// Beast's own idle timeout is not used: its ping waits behind the message being written, so that a large frame which is
-// read slowly but steadily would end a healthy session.
+// Beast's own idle timeout is not used. Its ping waits behind the message being written, so a large frame that is read
+// slowly but steadily would end a healthy session.
 class SessionTimeouts {
   public:
     using Clock = std::chrono::steady_clock;
     using Duration = std::chrono::milliseconds;
 
     struct Limits {
-        Duration hello;     // from the start to the client's first message
-        Duration progress;  // of a write, and of the closing handshake
-        Duration idle;      // without a sign of life
+        Duration hello;     // until the client's first message
+        Duration progress;  // for a write or the closing handshake to advance
+        Duration idle;      // without data from the peer
     };
 
     enum class Verdict {
         Fine,
-        Ping,     // silent for half the idle time: ask
-        NoHello,  // close
-        Stalled,  // drop
-        Silent,   // drop
+        Ping,     // send a ping: the peer was silent for half the idle time
+        NoHello,  // close the session
+        Stalled,  // drop the session: a write made no progress
+        Silent,   // drop the session
     };
 
     SessionTimeouts(const Limits& limits, Clock::time_point now);
@@ -37,7 +38,7 @@ class SessionTimeouts {
     void writeEnded() { writing_ = false; }
     void closeBegan(Clock::time_point now) { closeBegan_ = now; }
 
-    // To be called every `interval()`.
+    // Call every interval(), with the current counts of the socket.
     Verdict check(const TcpProgress& progress, Clock::time_point now);
     [[nodiscard]] Duration interval() const;
 
@@ -45,8 +46,8 @@ class SessionTimeouts {
     Limits limits_;
     TcpProgress seen_;
     Clock::time_point began_;
-    Clock::time_point alive_;     // last sign of life
-    Clock::time_point advanced_;  // last progress of the write under way
+    Clock::time_point alive_;     // last data or confirmation from the peer
+    Clock::time_point advanced_;  // last progress of the current write
     std::optional<Clock::time_point> closeBegan_;
     bool helloDone_ = false;
     bool writing_ = false;

@@ -30,7 +30,7 @@ Result<Tls> serverTls(const Credentials& credentials) {
     error_code error;
     context->use_certificate_chain(asio::buffer(credentials.certificate), error);
     if (error) return refuse("--tls-certificate", "is no chain of certificates in PEM form", error);
-    // Else OpenSSL would ask for the passphrase of an encrypted key on the terminal.
+    // Without a callback, OpenSSL asks for the passphrase of an encrypted key on the terminal.
     context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); }, error);
     context->use_private_key(asio::buffer(credentials.key), ssl::context::pem, error);
     if (error)

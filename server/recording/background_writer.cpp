@@ -10,12 +10,12 @@ namespace spherule::recording {
 
 namespace {
 
-// Bytes that may wait for the disk: frames, then what frames need.
+// Limits of the queue (bytes): for frames, and for all records.
 constexpr std::size_t mostWaiting = 64U << 20U;
 constexpr std::size_t mostNeeded = 256U << 20U;
 
 using namespace std::chrono_literals;
-constexpr auto looksEvery = 1s;  // whether the file is still there, while nothing comes
+constexpr auto checkEvery = 1s;  // checks that the file still exists, while no record comes
 
 constexpr bool frameNeeds(Kind kind) {
     return kind == Kind::Scene || kind == Kind::Order || kind == Kind::Settings;
@@ -76,9 +76,9 @@ void BackgroundWriter::write() {
     try {
         std::vector<Item> items;
         while (done) {
-            const auto more = take(items);
+            const auto more = waitForItems(items);
             if (more && !*more) break;
-            done = more ? put(items) : tl::unexpected(more.error());
+            done = more ? writeItems(items) : tl::unexpected(more.error());
         }
     } catch (const std::exception& error) {
         done = fail(ErrorKind::Refused, "", error.what());
@@ -86,10 +86,10 @@ void BackgroundWriter::write() {
     end(done);
 }
 
-// False when there is nothing more to come.
-Result<bool> BackgroundWriter::take(std::vector<Item>& items) {
+// Returns false when no record follows.
+Result<bool> BackgroundWriter::waitForItems(std::vector<Item>& items) {
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, looksEvery, [this] { return !waiting_.empty() || finishing_; })) {
+    while (!changed_.wait_for(lock, checkEvery, [this] { return !waiting_.empty() || finishing_; })) {
         lock.unlock();
         if (auto there = writer_.stillThere(); !there) return tl::unexpected(there.error());
         lock.lock();
@@ -100,7 +100,7 @@ Result<bool> BackgroundWriter::take(std::vector<Item>& items) {
     return !items.empty();
 }
 
-Result<void> BackgroundWriter::put(const std::vector<Item>& items) {
+Result<void> BackgroundWriter::writeItems(const std::vector<Item>& items) {
     for (const Item& item : items) {
         const std::string& bytes = item.message->binary();
         if (mostBytes_ > 0 && writer_.bytesWith(bytes.size()) > mostBytes_) {
@@ -119,7 +119,7 @@ Result<void> BackgroundWriter::put(const std::vector<Item>& items) {
     return {};
 }
 
-// What could not be written stays as it is: a recording that was cut off.
+// After an error the file stays as it is: a recording that is cut off.
 void BackgroundWriter::end(const Result<void>& done) {
     const Result<void> finished = done ? writer_.finish() : done;
     const std::lock_guard lock(mutex_);

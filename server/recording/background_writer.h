@@ -16,29 +16,29 @@
 
 namespace spherule::recording {
 
-// Writes a recording on a thread of its own, so that who records never waits for a disk. Used by one thread.
+// Writes a recording on its own thread, so that the caller never waits for the disk. Used by one thread.
 class BackgroundWriter {
   public:
-    // As Writer::create, and refused where there is no memory for what waits. The recording ends, and says so, where it
-    // has `mostBytes`; 0: it may have any.
+    // Same as Writer::create, and Refused if there is no memory for the queue. The recording ends with a failure when
+    // it reaches `mostBytes`; 0: no limit.
     static Result<std::unique_ptr<BackgroundWriter>> create(const std::string& path, bool replace,
                                                             std::uint64_t mostBytes);
-    ~BackgroundWriter();  // finishes it, and waits for that
+    ~BackgroundWriter();  // finishes the recording and waits for the thread
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
-    // As Writer::add. False where the record is left out, because very much still waits to be written. What frames need
-    // is never left out: where that would take up too much memory, the recording ends.
+    // Queues a record, see Writer::add. Returns false when the queue is full and the record is dropped. Scene, order
+    // and settings are never dropped; the recording ends when they need too much memory.
     [[nodiscard]] bool add(Kind kind, double time, codec::SharedMessage message);
-    // No record follows.
+    // Ends the recording after the queued records.
     void finish();
-    void wait();  // until all is written that will be
+    void wait();  // until the recording has ended
 
     struct Progress {
         std::uint64_t bytes = 0;
         std::uint64_t frames = 0;
-        bool ended = false;   // nothing is written any more
-        std::string failure;  // why it has ended before finish(); empty: it has not
+        bool ended = false;   // nothing more is written
+        std::string failure;  // why it ended before finish(); empty: it did not
     };
     [[nodiscard]] Progress progress();
 
@@ -51,12 +51,12 @@ class BackgroundWriter {
 
     BackgroundWriter(Writer writer, std::uint64_t mostBytes, memory::Claim queue);
     void write();
-    Result<bool> take(std::vector<Item>& items);
-    Result<void> put(const std::vector<Item>& items);
+    Result<bool> waitForItems(std::vector<Item>& items);
+    Result<void> writeItems(const std::vector<Item>& items);
     void end(const Result<void>& done);
 
     const memory::Claim queue_;
-    Writer writer_;  // of the thread
+    Writer writer_;  // used by the thread
     const std::uint64_t mostBytes_;
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -9,13 +9,13 @@ namespace spherule::recording {
 
 static_assert(std::endian::native == std::endian::little, "files are little endian");
 
-// The bytes of a number, little endian, at the end of `bytes`.
+// Appends the bytes of a number, little endian.
 template <class T>
 void append(std::string& bytes, T number) {
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-// The number at `offset`, which must lie within.
+// Returns the number at `offset`, which must lie within `bytes`.
 template <class T>
 T numberAt(std::string_view bytes, std::size_t offset) {
     T number;

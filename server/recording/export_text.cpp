@@ -1,4 +1,4 @@
-// The formats that are text, all snapshots in one file.
+// Text formats: all snapshots in one file.
 #include <iterator>
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ class Csv : public TextExporter {
     bool begun_ = false;
 };
 
-// All spheres are of the species X, which is ASE's for what is no element.
+// Species X is ASE's name for a particle that is no element.
 class Xyz : public TextExporter {
   public:
     explicit Xyz(OutputFile file) : TextExporter(std::move(file)) {}

@@ -1,4 +1,4 @@
-// VTK's XML files: one .vtp per snapshot, its arrays appended as they are, and a .pvd that says when each is.
+// VTK's XML formats: one .vtp per snapshot with raw appended arrays, and a .pvd that lists their times.
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -16,14 +16,14 @@ namespace spherule::recording {
 
 namespace {
 
-// An array of the appended data: its size in bytes, then its bytes.
+// Appends an array: its size in bytes, then its bytes.
 template <class T>
 void appendArray(std::string& data, std::span<const T> values) {
     append(data, std::uint64_t{values.size_bytes()});
     data.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
-// Each point is a vertex too: without them ParaView shows nothing.
+// Each point is also a vertex, because ParaView draws only vertices.
 std::string polyData(const Snapshot& snapshot) {
     const std::size_t count = snapshot.positions.size();
     std::vector<std::int32_t> ids(count + 1);
@@ -57,7 +57,7 @@ std::string polyData(const Snapshot& snapshot) {
     return head + data + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-// As the value of an attribute.
+// Escapes text for an XML attribute.
 std::string escaped(const std::string& text) {
     std::string safe;
     for (const char c : text) {
@@ -75,8 +75,8 @@ std::string escaped(const std::string& text) {
 
 namespace fs = std::filesystem;
 
-// A folder beside another, which gets its name or its files in the end. Removed with what is in it, unless it was
-// moved.
+// A temporary folder next to the target. move() renames it, or moves its files into an existing target. Without move(),
+// the destructor removes it.
 class FolderBeside {
   public:
     static Result<FolderBeside> create(fs::path target, bool replace) {
@@ -100,7 +100,7 @@ class FolderBeside {
         if (!place_.empty()) fs::remove_all(place_, ignored);
     }
 
-    // Where a file of it is written. Refused where the target has one of that name.
+    // Path for a file of the folder. Input if the target has a file of this name and must not be replaced.
     Result<std::string> fileOf(const std::string& name) const {
         std::error_code ignored;
         if (!replace_ && fs::exists(target_ / name, ignored))

@@ -8,26 +8,25 @@
 
 namespace spherule::recording {
 
-// Writes snapshots of a recording in a format that other tools read. Nothing is there under the names of its files
-// before finish(), and nothing is left of one that is destroyed before. Used by one thread. What goes wrong is as
-// OutputFile says.
+// Writes snapshots of a recording in a format of other tools. The files appear under their names with finish(). An
+// exporter that is destroyed before leaves no files. Used by one thread. Errors are those of OutputFile.
 class Exporter {
   public:
     virtual ~Exporter() = default;
-    // In the order of time.
+    // Snapshots must come in the order of time.
     virtual Result<void> add(const Snapshot& snapshot) = 0;
     virtual Result<void> finish() = 0;
-    // What somebody who wants to open it must open.
+    // Returns the file to open in another tool.
     [[nodiscard]] virtual std::string path() const = 0;
 };
 
 using MadeExporter = Result<std::unique_ptr<Exporter>>;
 
-// Extended XYZ, all snapshots in one file: what OVITO and ASE read. `path` "-" is standard output.
+// Extended XYZ for OVITO and ASE, all snapshots in one file. `path` "-": standard output.
 MadeExporter xyzExporter(const std::string& path, bool replace);
-// CSV, all snapshots in one file: time,id,x,y,z,radius in SI units. `path` "-" is standard output.
+// CSV with the columns time,id,x,y,z,radius in SI units, all snapshots in one file. `path` "-": standard output.
 MadeExporter csvExporter(const std::string& path, bool replace);
-// VTK: `path` (.pvd is added where it is missing) lists the files of the snapshots, PolyData (.vtp) in a folder beside
+// VTK. `path` (.pvd is appended if it is missing) lists the files of the snapshots, PolyData (.vtp) in a folder next to
 // it.
 MadeExporter vtkExporter(const std::string& path, bool replace);
 

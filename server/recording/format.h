@@ -4,29 +4,29 @@
 #include <cstddef>
 #include <cstdint>
 
-// The constants of docs/recordings.md.
+// Constants of docs/recordings.md.
 namespace spherule::recording {
 
 constexpr std::array<unsigned char, 8> fileMagic = {'S', 'P', 'H', 'R', 'E', 'C', '\r', '\n'};
 constexpr std::array<unsigned char, 8> endMagic = {'S', 'P', 'H', 'E', 'N', 'D', '\r', '\n'};
 constexpr std::uint32_t formatVersion = 1;
 
-// What a record is, so that a reader finds its way without parsing what it does not need.
+// Kind of a record, so that a reader can skip records without parsing them.
 enum class Kind : std::uint32_t {
-    Scene = 1,     // SceneFacts: of the frames that follow
-    Order = 2,     // likewise
-    Settings = 3,  // as they are from here on
-    Other = 4,     // welcome, event, diagnostics, ...: nothing that a frame needs
-    Keyframe = 5,  // a frame with which the chain begins
-    Resync = 6,    // the frame before once more, as a keyframe: for who begins here
-    Delta = 7,     // a frame that needs the one before
-    Index = 8,     // of the whole file; the last record
+    Scene = 1,     // SceneFacts of the frames that follow
+    Order = 2,     // Order of the frames that follow
+    Settings = 3,  // Settings from here on
+    Other = 4,     // welcome, event, diagnostics, ...; not needed by frames
+    Keyframe = 5,  // a frame that starts a chain
+    Resync = 6,    // the previous frame as a keyframe, for readers that start here
+    Delta = 7,     // a frame that needs the previous one
+    Index = 8,     // index of the file; the last record
 };
 
 constexpr bool isFrame(Kind kind) {
     return kind == Kind::Keyframe || kind == Kind::Delta;
 }
-// Where a reader can begin, or what it must know of before it does.
+// Returns true for records where a reader can start, or that it needs before it starts.
 constexpr bool isIndexed(Kind kind) {
     return kind == Kind::Scene || kind == Kind::Order || kind == Kind::Settings || kind == Kind::Keyframe ||
            kind == Kind::Resync;

@@ -10,7 +10,7 @@
 
 namespace spherule::recording {
 
-// Where in a recording one can begin, and what must be known there.
+// Records of a recording where a reader can start, or that it needs to start.
 struct Index {
     struct Entry {
         std::uint64_t offset = 0;  // of the record
@@ -22,22 +22,22 @@ struct Index {
     double begin = 0, end = 0;  // times of the first and the last frame, s simulated
     std::vector<Entry> entries;
 
-    // Takes the next record of the file in.
+    // Adds the next record of the file.
     void add(Kind kind, double time, std::uint64_t offset);
     [[nodiscard]] std::string payload() const;
 
-    // Of a file's index record that begins at `offset`; Input for one that cannot be.
+    // Parses an index record that begins at `offset`. Input if it is invalid.
     static Result<Index> from(std::string_view payload, std::uint64_t offset);
 };
 
-// What there is to play in a file.
+// The playable part of a file.
 struct Contents {
     Index index;
-    std::uint64_t end = 0;  // where its records end, but for the index
-    std::string damage;     // why that is not the end that a finished recording has; empty: it is
+    std::uint64_t end = 0;  // end of the records before the index
+    std::string damage;     // why the file is incomplete; empty: it is complete
 };
 
-// From the index; where there is none, from reading all the records up to the first that is cut off or damaged.
+// Reads the index. If there is none, reads all records up to the first that is cut off or damaged.
 Contents contentsOf(const RecordFile& file);
 
 }  // namespace spherule::recording

@@ -37,7 +37,7 @@ const char* adviceFor(int error) {
     }
 }
 
-// The first that is free of path.part, path.part2, ...; -1 and errno where none can be made.
+// Creates the first free of path.part, path.part2, ... Returns -1 and sets errno if it fails.
 int openBeside(const std::string& path, std::string& place) {
     constexpr int mostNames = 100;
     int descriptor = -1;
@@ -64,10 +64,10 @@ Result<OutputFile> OutputFile::create(const std::string& path, bool replace, App
     struct stat about {};
     const bool exists = lstat(path.c_str(), &about) == 0;
     if (exists && !replace) return isThere(path);
-    const bool reached = exists && stat(path.c_str(), &about) == 0;  // a link may lead nowhere
+    const bool reached = exists && stat(path.c_str(), &about) == 0;  // a link may be dangling
     if (appears == Appears::WhenClosed && (!exists || (reached && S_ISREG(about.st_mode)))) {
         std::error_code error;
-        // Of a link, what it leads to is replaced.
+        // The target of a link is replaced, not the link.
         const std::string target = exists ? std::filesystem::canonical(path, error).string() : path;
         std::string place;
         const int descriptor = openBeside(target, place);
@@ -78,7 +78,7 @@ Result<OutputFile> OutputFile::create(const std::string& path, bool replace, App
         file.replace_ = replace;
         return file;
     }
-    // O_NONBLOCK: opening a pipe would wait for somebody who reads it.
+    // O_NONBLOCK: without it, opening a pipe waits for a reader.
     const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (replace ? 0 : O_EXCL);
     const int descriptor = open(path.c_str(), mode, 0666);
     if (descriptor < 0 && errno == EEXIST) return isThere(path);
@@ -138,18 +138,18 @@ Result<void> OutputFile::write(std::string_view bytes) {
         return {};
     }
     if (auto done = flush(); !done) return done;
-    return put(bytes);
+    return writeBytes(bytes);
 }
 
 Result<void> OutputFile::flush() {
-    auto done = put(buffer_);
+    auto done = writeBytes(buffer_);
     buffer_.clear();
     return done ? stillThere() : done;
 }
 
 Result<void> OutputFile::close() {
     if (auto done = flush(); !done) return done;
-    // What is no file, such as a pipe, knows no disk.
+    // Pipes and some file systems do not support fsync.
     if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) return cannot(errno);
     if (auto done = publish(); !done) return done;
     persistent_ = true;
@@ -157,21 +157,21 @@ Result<void> OutputFile::close() {
     return {};
 }
 
-// Gives it its name.
+// Moves the temporary file to the target.
 Result<void> OutputFile::publish() {
     if (target_.empty()) return {};
     if (!replace_) {
         if (renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return {};
         if (errno == EEXIST) return isThere(path_);
         if (errno != EINVAL && errno != ENOSYS) return cannot(errno);
-        // This file system can only replace.
+        // This file system does not support RENAME_NOREPLACE.
         if (access(target_.c_str(), F_OK) == 0) return isThere(path_);
     }
     if (std::rename(place_.c_str(), target_.c_str()) != 0) return cannot(errno);
     return {};
 }
 
-Result<void> OutputFile::put(std::string_view bytes) {
+Result<void> OutputFile::writeBytes(std::string_view bytes) {
     if (failed_) return tl::unexpected(*failed_);
     if (stale_ && !place_.empty() && ftruncate(descriptor_, 0) != 0) return cannot(errno);
     stale_ = false;

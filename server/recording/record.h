@@ -18,27 +18,27 @@ struct Record {
     std::uint64_t end = 0;  // where the next record begins in the file
 };
 
-// With head and checksum, as it stands in the file. The payload is at most mostPayload long.
+// Returns a record with head and checksum, as in the file. The payload has at most mostPayload bytes.
 std::string recordBytes(Kind kind, double time, std::string_view payload);
 
 std::string fileHead();
 
-// The records of a file, which may be hostile or cut off anywhere. Used by one thread.
+// Reads the records of a file, which may be hostile or cut off. Used by one thread.
 class RecordFile {
   public:
-    // Input for what is no recording, and why.
+    // Input if the file is no recording.
     static Result<RecordFile> open(const std::string& path);
 
-    // What begins at this offset; Input where that is no whole and sound record. Takes memory for its payload only
-    // where the file is as long as the record says.
+    // Reads the record at `offset`. Input if it is cut off or damaged. Allocates memory for the payload only if the
+    // file is long enough for it.
     [[nodiscard]] Result<Record> read(std::uint64_t offset) const;
-    // The same without the payload, which is not looked at.
+    // Same as read(), but without the payload and its checksum.
     [[nodiscard]] Result<Record> readHead(std::uint64_t offset) const;
 
-    // Where the index begins by the file's last bytes; 0: they say nothing of it.
+    // Offset of the index, from the trailer; 0 if there is no trailer.
     [[nodiscard]] std::uint64_t indexOffset() const;
 
-    [[nodiscard]] std::uint64_t size() const { return file_.size(); }  // bytes, when it was opened
+    [[nodiscard]] std::uint64_t size() const { return file_.size(); }  // bytes, at the time of open()
     [[nodiscard]] const std::string& path() const { return file_.path(); }
 
   private:

@@ -9,11 +9,11 @@ namespace spherule::recording {
 
 namespace {
 
-constexpr double sameTime = 1e-9;  // s; times that differ by less are meant to be one
+constexpr double sameTime = 1e-9;  // s; times that differ by less are equal
 constexpr std::size_t mostPassed = 64;
-constexpr int mostTries = 64;  // each may read an order anew
+constexpr int mostTries = 64;  // each may read another order
 
-// What a record of this kind must hold.
+// Returns true when the message fits the kind of the record.
 bool holds(Kind kind, const v1::ServerMessage& message) {
     if (kind == Kind::Scene) return message.has_scene();
     if (kind == Kind::Order) return message.has_order();
@@ -33,7 +33,7 @@ Result<Recording> Recording::open(const std::string& path) {
     if (recording.frames() == 0 || first == entries.end())
         return fail(ErrorKind::Input, path,
                     "has no frames" + (recording.damage().empty() ? "" : ": " + recording.damage()));
-    // The first frame is looked at, so that what is wrong with it is said now.
+    // Read the first frame now, so that open() reports its errors.
     if (auto right = recording.enter(first->offset); !right) return tl::unexpected(right.error());
     recording.decoder_.reset();
     recording.offset_ = first->offset;
@@ -44,7 +44,7 @@ tl::unexpected<Error> Recording::bad(std::uint64_t offset, const std::string& wh
     return fail(ErrorKind::Input, file_.path(), fmt::format("the record at byte {} is damaged: {}", offset, what));
 }
 
-// To the frame of the keyframe at this offset.
+// Moves to the keyframe at this offset.
 Result<void> Recording::enter(std::uint64_t offset) {
     decoder_.reset();
     table_.reset();
@@ -117,7 +117,7 @@ Result<bool> Recording::next() {
         const auto record = file_.read(offset_);
         if (!record) return tl::unexpected(record.error());
         if (record->kind == Kind::Other) pass(*record);
-        // Of a join, the frame is had already.
+        // A resync repeats the previous frame.
         if (record->kind == Kind::Resync || record->kind == Kind::Other || record->kind == Kind::Index) {
             offset_ = record->end;
             continue;
@@ -137,7 +137,7 @@ void Recording::pass(const Record& record) {
     skippedEvents_.push_back(std::move(message));
 }
 
-// Whether it was a frame.
+// Returns true when the record is a frame.
 Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
     v1::ServerMessage message;
     if (!message.ParseFromString(record.payload)) return bad(offset, "it is no message");
@@ -164,7 +164,7 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
     return true;
 }
 
-// Before the first frame of other spheres.
+// Builds table_ and decoder_ for a new scene or order.
 Result<void> Recording::prepare(std::uint64_t offset) {
     if (!table_) {
         if (!order_) return bad(offset, "no order comes before it");

@@ -18,56 +18,58 @@
 
 namespace spherule::recording {
 
-// Where the spheres were at one time. Holds until the recording is moved to another.
+// Positions at one time. Valid until the recording moves to another frame.
 struct Snapshot {
     double time = 0;  // s simulated
     std::uint64_t step = 0;
-    double error = 0;                       // m; positions are those of the simulation to within this, on each axis
+    double error = 0;                       // largest error of a coordinate, m
     std::span<const glm::dvec3> positions;  // by id, m
     std::span<const float> radii;           // by id, m
     glm::dvec3 low{}, high{};               // bounds of the scene, m
 };
 
-// A recording to be played; the file may be cut off or hostile. Used by one thread. It takes memory for its index, its
+// Plays a recording. The file may be cut off or hostile. Used by one thread. Allocates memory for the index, the
 // spheres and one frame.
 class Recording {
   public:
-    // Input for what cannot be played, and why.
+    // Input if the file cannot be played.
     static Result<Recording> open(const std::string& path);
 
-    [[nodiscard]] const v1::SceneFacts& facts() const { return facts_; }      // of the newest snapshot
-    [[nodiscard]] const v1::Settings& settings() const { return settings_; }  // likewise
+    [[nodiscard]] const v1::SceneFacts& facts() const { return facts_; }      // of the current frame
+    [[nodiscard]] const v1::Settings& settings() const { return settings_; }  // of the current frame
     [[nodiscard]] std::uint64_t frames() const { return contents_.index.frames; }
-    [[nodiscard]] double begin() const { return contents_.index.begin; }  // s simulated: of the first frame
-    [[nodiscard]] double end() const { return contents_.index.end; }      // of the last one
-    // Why it ends before the end of the file, or has none that was meant; empty: nothing is wrong with it.
+    [[nodiscard]] double begin() const { return contents_.index.begin; }  // time of the first frame (s)
+    [[nodiscard]] double end() const { return contents_.index.end; }      // time of the last frame (s)
+    // Why the recording is incomplete; empty if it is complete.
     [[nodiscard]] const std::string& damage() const { return contents_.damage; }
 
-    // To the last frame that is not after `time` (s), or to the first one.
+    // Moves to the last frame that is not after `time` (s), or to the first frame.
     Result<void> seek(double time);
-    // To the next frame, after open() the first; false at the end. After an error only seek() and recover() go on.
+    // Moves to the next frame; after open(), to the first. Returns false at the end. After an error only seek() and
+    // recover() may be called.
     Result<bool> next();
-    // To the first sound keyframe after `time` (s), for going on behind what is damaged; false when there is none, or
-    // only behind very many that are damaged too.
+    // Moves to the first readable keyframe after `time` (s), to skip damaged records. Returns false if there is none
+    // among the next 64 keyframes.
     bool recover(double time);
 
-    // After next(), seek() or recover(), until the next of them.
+    // Call after next(), seek() or recover(); valid until the next such call.
     [[nodiscard]] Snapshot now();
     [[nodiscard]] double time() const { return time_; }  // s simulated
     [[nodiscard]] std::uint64_t step() const { return step_; }
-    // When the frame after it comes, s simulated; nothing at the end.
+    // Time of the next frame (s); nullopt at the end.
     [[nodiscard]] Result<std::optional<double>> nextTime() const;
-    // Whether there is a snapshot; not after an error that came before the first frame behind a keyframe.
+    // Returns true when now() has positions. False after an error, until a keyframe has been read.
     [[nodiscard]] bool shows() const { return table_ && decoder_ && !decoder_->wantsKeyframe(); }
-    // Where in the file the present facts are; elsewhere are those of other spheres, whatever epoch they name.
+    // Offset in the file of the current scene facts. Another offset means another scene, even with the same epoch.
     [[nodiscard]] std::uint64_t sceneOffset() const { return sceneOffset_; }
-    [[nodiscard]] std::span<const glm::ivec3> cells() const { return decoder_->newest(); }  // by place in the codec
-    [[nodiscard]] std::span<const std::uint32_t> order() const { return table_->ids; }  // ids, by place in the codec
+    [[nodiscard]] std::span<const glm::ivec3> cells() const {
+        return decoder_->newest();
+    }  // grid positions, in codec order
+    [[nodiscard]] std::span<const std::uint32_t> order() const { return table_->ids; }  // ids, in codec order
     [[nodiscard]] std::span<const float> radii() const { return table_->radii; }        // by id, m
     [[nodiscard]] double quantum() const { return quantum_; }                           // m
 
-    // Events that next() and a seek() forward went past, newest last, since they were last taken; of very many, the
-    // newest.
+    // Returns and clears the events that next() and seek() skipped since the last call, newest last; at most 64.
     std::vector<v1::ServerMessage> takeSkippedEvents() { return std::exchange(skippedEvents_, {}); }
 
   private:
@@ -83,16 +85,16 @@ class Recording {
 
     RecordFile file_;
     Contents contents_;
-    std::uint64_t offset_ = fileHeadBytes;  // of what comes next
+    std::uint64_t offset_ = fileHeadBytes;  // of the next record
     v1::SceneFacts facts_;
-    std::uint64_t sceneOffset_ = 0;   // byte of the file
-    std::optional<v1::Order> order_;  // until the table is made of it
+    std::uint64_t sceneOffset_ = 0;   // bytes
+    std::optional<v1::Order> order_;  // until table_ is built from it
     std::optional<SphereTable> table_;
     std::unique_ptr<codec::Decoder> decoder_;
     double time_ = 0;
     std::uint64_t step_ = 0;
     double quantum_ = 0;
-    std::vector<glm::dvec3> positions_;  // when somebody asks
+    std::vector<glm::dvec3> positions_;  // filled by now()
     v1::Settings settings_;
     std::vector<v1::ServerMessage> skippedEvents_;
 };

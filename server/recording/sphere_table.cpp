@@ -14,7 +14,7 @@ tl::unexpected<Error> bad(const char* what) {
     return fail(ErrorKind::Input, "scene facts", what);
 }
 
-// False where it is no place.
+// Returns false when `from` is not a finite position.
 bool set(glm::dvec3& target, const google::protobuf::RepeatedField<double>& from) {
     if (from.size() != 3) return false;
     for (int axis = 0; axis < 3; ++axis) {

@@ -11,25 +11,24 @@
 
 namespace spherule::recording {
 
-// Writes a recording: from its first frame on, what is in it can be read at any snapshot up to about a second before,
-// whatever happens then. One without frames is removed at the end. Used by one thread. After an error nothing more is
-// to be written.
+// Writes a recording. After a crash the file is readable up to about 1 s before. A recording without frames is removed
+// at the end. Used by one thread. After an error nothing more may be written.
 class Writer {
   public:
-    // Refuses a file that is there, unless it may be replaced.
+    // Input if the file exists and `replace` is false.
     static Result<Writer> create(const std::string& path, bool replace);
 
-    // `time`: s simulated, never less than the last. `message`: a ServerMessage in protobuf's binary form. Frames need
-    // their scene and order before them.
+    // `time` (s simulated) must not decrease. `message`: a ServerMessage in binary form. Scene and order must come
+    // before their frames.
     Result<void> add(Kind kind, double time, std::string_view message);
 
-    // Refused when the file has been deleted.
+    // Refused if the file has been deleted.
     Result<void> stillThere() { return file_.stillThere(); }
-    // Index and trailer, and all of it to the disk.
+    // Writes index and trailer, and syncs the file to the disk.
     Result<void> finish();
 
     [[nodiscard]] std::uint64_t bytes() const { return file_.size(); }
-    // Of the file once it is finished, if another record of so long a payload comes.
+    // Size of the finished file (bytes) after one more record with a payload of this size (bytes).
     [[nodiscard]] std::uint64_t bytesWith(std::size_t payload) const;
     [[nodiscard]] std::uint64_t frames() const { return index_.frames; }
 
