@@ -1,5 +1,5 @@
-// A chain of frames as a page gets them: two bytes say for how many spheres, then each frame comes behind two bytes
-// with its length.
+// Fuzzes Decoder with a chain of frames: two bytes with the number of spheres, then frames, each after two bytes with
+// its length.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

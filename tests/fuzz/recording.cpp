@@ -1,6 +1,6 @@
-// A file as a recording, opened and played from end to end, by seeking, and behind what is damaged. Bit 0 of the first
-// byte makes checksums and the beginning right, as a hostile writer would: nothing behind them was ever reached
-// otherwise. Bit 1 makes the place of the index right. The others say where to seek.
+// Fuzzes Recording: opens a file, plays it to the end, seeks, and continues after damaged records. Bit 0 of the first
+// byte corrects checksums and the file head, because a fuzzer does not get past them. Bit 1 corrects the offset of the
+// index. The other bits give the time to seek.
 #include <google/protobuf/stubs/logging.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@ void overwrite(std::string& content, std::size_t at, const std::string& with) {
     content.replace(at, with.size(), with);
 }
 
-// Records are walked by the lengths that they say; one that would go beyond the end is let be.
+// Walks the records by their lengths; stops at a record that extends beyond the end.
 void makeSound(std::string& content, bool index) {
     if (content.size() < recording::fileHeadBytes) return;
     overwrite(content, 0, recording::fileHead());
@@ -64,7 +64,7 @@ void look(recording::Recording& recording) {
     (void)recording.takeSkippedEvents();
 }
 
-// Forward to the end, or to what cannot be played.
+// Plays to the end, or to the first error.
 void play(recording::Recording& recording) {
     constexpr int most = 300;  // frames
     for (int k = 0; k < most; ++k) {
@@ -91,7 +91,7 @@ void playFile(const std::string& path, unsigned where) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const auto quiet = google::protobuf::SetLogHandler(nullptr);  // of names that are no UTF-8
+    static const auto quiet = google::protobuf::SetLogHandler(nullptr);  // silences warnings about invalid UTF-8
     (void)quiet;
     if (size == 0) return 0;
     static const int file = memfd_create("recording", MFD_CLOEXEC);

@@ -1,5 +1,4 @@
-// Short texts that clients and addresses bring: names of hosts and origins, tokens, URLs, quantities, and what is
-// logged.
+// Fuzzes functions on short texts of clients: hosts, origins, tokens, URLs, quantities and log texts.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +22,7 @@ void comeIn(const std::string& text) {
     static const net::Admission gate({.hosts = {"spherule.example.org"}, .origins = {"https://example.org:8443"}},
                                      {.viewerToken = "0123456789abcdef", .controllerToken = "fedcba9876543210"},
                                      "http");
-    // Whoever is let in by name goes by one of those that were given, or by an address.
+    // An accepted host is a configured name or an address.
     if (gate.isHost(text)) require(net::checkHost(text).has_value());
     if (gate.isOrigin(text, "localhost:8080")) require(net::checkOrigin(text).has_value());
     require(gate.roleOf(text).has_value() == (text == "0123456789abcdef" || text == "fedcba9876543210"));

@@ -36,7 +36,7 @@ std::optional<std::string> ChainCheck::take(const v1::ServerMessage& message) {
         case v1::ServerMessage::kOrder:
             return order(message.order());
         case v1::ServerMessage::kStream:
-            // Another chain, which begins with a keyframe of it.
+            // A new chain starts with a keyframe.
             stream_ = message.stream();
             chain_.reset();
             return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<std::string> ChainCheck::scene(const v1::SceneFacts& facts) {
 }
 
 std::optional<std::string> ChainCheck::order(const v1::Order& order) {
-    // That of an epoch which is over or has yet to be described belongs to no frame that may come now.
+    // An order of another epoch belongs to no frame that may come now.
     if (epoch_ != order.epoch()) return std::nullopt;
     if (order.ids().size() != idBytes * spheres_)
         return fmt::format("an order of {} bytes for {} spheres", order.ids().size(), spheres_);

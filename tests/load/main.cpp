@@ -20,7 +20,7 @@
 #include "crowd.h"
 #include "report.h"
 
-// Many viewers of one server, some of them bad, in one process: what they are sent is checked, and how old it is.
+// Connects many viewers to one server, some of them misbehaving. Checks the received messages and their age.
 
 namespace {
 
@@ -97,7 +97,7 @@ load::Wish wishOf(const Options& options) {
     boost::system::error_code error;
     const auto found = boost::asio::ip::tcp::resolver(io).resolve(url->host, url->port, error);
     if (error) throw std::runtime_error(options.url + ": " + error.message());
-    // One that answers: a name may stand for addresses that nobody listens at.
+    // Choose an address that answers: a name may have addresses without a server.
     boost::asio::ip::tcp::socket socket(io);
     const auto server = boost::asio::connect(socket, found, error);
     if (error) throw std::runtime_error(options.url + ": cannot be reached: " + error.message());
@@ -144,7 +144,7 @@ load::Outcome run(const Options& options) {
     outcome.cpuSeconds = ownCpuSeconds() - cpu;
     outcome.tallies = crowd.stop();
     if (outcome.server) {
-        std::this_thread::sleep_for(2s);  // for the server to notice
+        std::this_thread::sleep_for(2s);  // lets the server notice the disconnects
         outcome.server->after = look();
     }
     return outcome;

@@ -13,7 +13,7 @@ Admission plain(AllowedNames allowedNames = {}) {
     return {std::move(allowedNames), {}, "http"};
 }
 
-TEST(Admission, KnowsTheNamesOfThisServer) {
+TEST(Admission, AcceptsHostNamesOfThisServer) {
     const Admission here = plain({.hosts = {"Spherule.Example.org", "other.example:8443"}});
     for (const std::string host :
          {"localhost", "localhost:8080", "LOCALHOST", "127.0.0.1:8080", "[::1]:8080", "10.1.2.3",
@@ -26,11 +26,11 @@ TEST(Admission, KnowsTheNamesOfThisServer) {
         EXPECT_FALSE(here.isHost(host)) << host;
 }
 
-TEST(Admission, KnowsTheSitesWhosePagesMayOpenTheStream) {
+TEST(Admission, AcceptsListedOrigins) {
     const Admission here = plain({.origins = {"https://Spherule.example.org"}});
     EXPECT_TRUE(here.isOrigin("http://localhost:8080", "localhost:8080"));
     EXPECT_TRUE(here.isOrigin("https://spherule.example.org", "localhost:8080"));
-    EXPECT_TRUE(here.isHost("spherule.example.org")) << "its host goes without saying";
+    EXPECT_TRUE(here.isHost("spherule.example.org")) << "the host of an accepted origin is accepted";
     for (const std::string origin : {"null", "http://localhost", "http://localhost:8081", "https://localhost:8080",
                                      "http://evil.example", "http://spherule.example.org",
                                      "https://spherule.example.org:444", "https://spherule.example.org.evil.example",
@@ -38,8 +38,8 @@ TEST(Admission, KnowsTheSitesWhosePagesMayOpenTheStream) {
         EXPECT_FALSE(here.isOrigin(origin, "localhost:8080")) << origin;
 }
 
-TEST(Admission, GivesRolesForTokens) {
-    EXPECT_EQ(plain().roleOf(""), v1::CONTROLLER) << "without tokens, everybody is let in";
+TEST(Admission, GrantsRoleForToken) {
+    EXPECT_EQ(plain().roleOf(""), v1::CONTROLLER) << "without tokens every client is a controller";
     const Admission both({}, {.viewerToken = viewers, .controllerToken = controllers}, "http");
     EXPECT_EQ(both.roleOf(viewers), v1::VIEWER);
     EXPECT_EQ(both.roleOf(controllers), v1::CONTROLLER);
@@ -47,12 +47,12 @@ TEST(Admission, GivesRolesForTokens) {
          {std::string(), viewers + "x", viewers.substr(1), controllers + std::string(1, '\0')})
         EXPECT_FALSE(both.roleOf(token)) << token;
     const Admission watched({}, {.viewerToken = viewers}, "http");
-    EXPECT_FALSE(watched.roleOf("")) << "a token that nobody has is not the empty one";
+    EXPECT_FALSE(watched.roleOf("")) << "an unset token does not match an empty one";
     const Admission steered({}, {.controllerToken = controllers}, "http");
     EXPECT_FALSE(steered.roleOf(""));
 }
 
-TEST(Admission, RefusesWhatCannotBeMeant) {
+TEST(Admission, RefusesInvalidHostsOriginsAndTokens) {
     EXPECT_TRUE(checkOrigin("https://spherule.example.org:8443"));
     EXPECT_TRUE(checkOrigin("http://[::1]:8080"));
     for (const std::string origin : {"", "*", "spherule.example.org", "https://", "https://a/", "https://*.example.org",
@@ -66,7 +66,7 @@ TEST(Admission, RefusesWhatCannotBeMeant) {
         EXPECT_FALSE(checkToken(token, "here")) << token;
 }
 
-class Guarded : public testing::Test {
+class Tokens : public testing::Test {
   protected:
     static Options options() {
         Options options = quickOptions();
@@ -86,7 +86,7 @@ class Guarded : public testing::Test {
         return client;
     }
 
-    // The answer to a command, whatever comes before.
+    // Reads the result of a command and skips other messages.
     static v1::CommandResult give(Client& client, const v1::Command& command) {
         v1::ClientMessage message;
         *message.mutable_command() = command;
@@ -129,7 +129,7 @@ class Guarded : public testing::Test {
     v1::Welcome welcome_;
 };
 
-TEST_F(Guarded, NobodyComesInWithoutAToken) {
+TEST_F(Tokens, RejectsMissingToken) {
     const auto client = connect(app_);
     ASSERT_TRUE(client->send(helloOf(60)));
     const auto end = readToEnd(*client);
@@ -139,7 +139,7 @@ TEST_F(Guarded, NobodyComesInWithoutAToken) {
     EXPECT_TRUE(eventually([&] { return app_.counters().closedBy(CloseCause::NoToken) == 1; }));
 }
 
-TEST_F(Guarded, AGuessTakesTimeAndIsCounted) {
+TEST_F(Tokens, DelaysAndCountsWrongTokens) {
     const auto began = std::chrono::steady_clock::now();
     const auto client = connect(app_);
     v1::ClientMessage hello = helloOf(60);
@@ -150,7 +150,7 @@ TEST_F(Guarded, AGuessTakesTimeAndIsCounted) {
     ASSERT_TRUE(client->send(command));
     app_.publish(64);
     const auto received = client->receive(patience);
-    ASSERT_FALSE(received) << "nothing of a protected stream is sent";
+    ASSERT_FALSE(received) << "a protected stream was sent";
     EXPECT_EQ(client->closed()->code, 4401);
     EXPECT_EQ(client->closed()->reason, "this token is not known here");
     EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
@@ -158,7 +158,7 @@ TEST_F(Guarded, AGuessTakesTimeAndIsCounted) {
     EXPECT_TRUE(app_.commands().empty());
 }
 
-TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
+TEST_F(Tokens, LetsViewersWatchOnly) {
     const auto client = joinAs(viewers);
     EXPECT_EQ(welcome_.role(), v1::VIEWER);
     const auto result = give(*client, pause());
@@ -173,7 +173,7 @@ TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
     EXPECT_EQ(rejected(RejectReason::ViewersCommand), 1U);
 }
 
-TEST_F(Guarded, OneControllerAtATimeHasTheControls) {
+TEST_F(Tokens, GivesControlToOneSessionAtATime) {
     const auto first = joinAs(controllers);
     EXPECT_EQ(welcome_.role(), v1::CONTROLLER);
     const std::uint64_t holder = welcome_.session();
@@ -185,19 +185,19 @@ TEST_F(Guarded, OneControllerAtATimeHasTheControls) {
     EXPECT_TRUE(eventually([&] { return give(*second, pause()).has_applied(); }));
 }
 
-TEST_F(Guarded, AViewersMessagesAreShort) {
+TEST_F(Tokens, LimitsMessagesOfViewers) {
     const auto client = joinAs(viewers);
     ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
     EXPECT_EQ(readToEnd(*client).code, 1009);
 }
 
-TEST_F(Guarded, WhatComesBeforeTheTokenIsShort) {
+TEST_F(Tokens, LimitsTheFirstMessage) {
     const auto client = connect(app_);
     ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
     EXPECT_EQ(readToEnd(*client).code, 1009);
 }
 
-TEST_F(Guarded, CommandsComeAtALimitedRate) {
+TEST_F(Tokens, LimitsTheCommandRate) {
     const auto client = joinAs(controllers);
     bool refused = false;
     for (int k = 0; k < 300 && !refused; ++k) {
@@ -209,15 +209,15 @@ TEST_F(Guarded, CommandsComeAtALimitedRate) {
     EXPECT_GE(rejected(RejectReason::CommandRate), 1U);
 }
 
-TEST_F(Guarded, APageOfAnotherSiteCannotOpenTheStream) {
+TEST_F(Tokens, RefusesForeignOrigins) {
     EXPECT_EQ(open("localhost", "Origin: http://evil.example\r\n"), "403");
     EXPECT_EQ(open("localhost", "Origin: null\r\n"), "403");
     EXPECT_EQ(rejected(RejectReason::Origin), 2U);
     EXPECT_EQ(open("localhost", "Origin: http://localhost\r\n"), "101");
-    EXPECT_EQ(open("localhost", ""), "101") << "no browser";
+    EXPECT_EQ(open("localhost", ""), "101") << "not a browser";
 }
 
-TEST_F(Guarded, ANameThatOnlyLeadsHereIsNotServed) {
+TEST_F(Tokens, RefusesForeignHostNames) {
     EXPECT_EQ(open("evil.example", "Origin: http://evil.example\r\n"), "421");
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: evil.example\r\n").substr(9, 3), "421");
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\n").substr(9, 3), "421");
@@ -225,7 +225,7 @@ TEST_F(Guarded, ANameThatOnlyLeadsHereIsNotServed) {
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: spherule.example.org\r\n").substr(9, 3), "200");
 }
 
-TEST_F(Guarded, FiguresNeedAToken) {
+TEST_F(Tokens, RequiresTokenForMetrics) {
     const std::string request = "GET /metrics HTTP/1.1\r\nHost: localhost\r\n";
     const auto answer = ask(request);
     EXPECT_EQ(answer.substr(9, 3), "401");
@@ -233,11 +233,11 @@ TEST_F(Guarded, FiguresNeedAToken) {
     const auto began = std::chrono::steady_clock::now();
     EXPECT_EQ(ask(request + "Authorization: Bearer nonsense\r\n").substr(9, 3), "401");
     EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
-    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "404") << "past the door";
+    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "404") << "admitted";
     EXPECT_EQ(ask("GET /metrics?token=" + viewers + " HTTP/1.1\r\nHost: localhost\r\n").substr(9, 3), "401");
 }
 
-TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
+TEST_F(Tokens, AppliesNewTokensToNewSessions) {
     const auto before = joinAs(viewers);
     Credentials credentials = options().credentials;
     credentials.viewerToken = "the-viewers-new-token";
@@ -249,10 +249,10 @@ TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
     EXPECT_EQ(readToEnd(*late).code, 4401);
     joinAs("the-viewers-new-token");
     EXPECT_EQ(welcome_.role(), v1::VIEWER);
-    EXPECT_FALSE(app_.server().setCredentials({})) << "a guarded server never opens by itself";
+    EXPECT_FALSE(app_.server().setCredentials({})) << "a server with tokens never runs without them";
 }
 
-TEST(Doors, AreNotOpenedToOthersUnasked) {
+TEST(Exposure, RefusesPublicAddressWithoutTokens) {
     Options options = quickOptions();
     options.host = "0.0.0.0";
     const auto refused = startServer(options, {});
@@ -263,7 +263,7 @@ TEST(Doors, AreNotOpenedToOthersUnasked) {
     EXPECT_NO_THROW(FakeApp{options});
 }
 
-TEST(Doors, LetSoManyInAndNoMore) {
+TEST(Exposure, LimitsSessions) {
     Options options = quickOptions();
     options.connectionLimits.sessions = 2;
     FakeApp app(options);
@@ -281,7 +281,7 @@ TEST(Doors, LetSoManyInAndNoMore) {
     join(app, 0);
 }
 
-TEST(Doors, AskThoseWhoComeTooOftenToWait) {
+TEST(Exposure, LimitsConnectionRate) {
     Options options = quickOptions();
     options.connectionLimits.connectionsPerSecond = 5;
     FakeApp app(options);
@@ -296,13 +296,13 @@ TEST(Doors, AskThoseWhoComeTooOftenToWait) {
     EXPECT_EQ(app.counters().rejectedFor(RejectReason::ConnectionRate), 12U - static_cast<unsigned>(answered));
 }
 
-TEST(Doors, AreNotOpenedByTheNameOfAProxy) {
+TEST(Exposure, RefusesProxyNamesWithoutTokens) {
     Options options = quickOptions();
     options.allowedNames.origins = {"https://spherule.example.org"};
     EXPECT_FALSE(startServer(options, {}));
 }
 
-TEST(Doors, KeepBackALittleOfWhatHasNoEnd) {
+TEST(Exposure, BoundsBufferOfEndlessRequest) {
     FakeApp app;
     for (const std::string& endless : {"5;" + std::string(1'000'000, 'a'), "0\r\nX: " + std::string(1'000'000, 'a')}) {
         const RawSocket socket(app.server().port());
@@ -311,7 +311,7 @@ TEST(Doors, KeepBackALittleOfWhatHasNoEnd) {
     }
 }
 
-TEST(Doors, CloseOnRequestsThatNeverEnd) {
+TEST(Exposure, ClosesUnfinishedRequests) {
     Options options = quickOptions();
     options.requestTimeout = 200ms;
     FakeApp app(options);

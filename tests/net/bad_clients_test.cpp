@@ -8,7 +8,7 @@
 namespace spherule::net {
 namespace {
 
-TEST(BadClients, AreRefusedWithoutTheSubprotocol) {
+TEST(BadClients, WithoutSubprotocolAreRefused) {
     FakeApp app;
     for (const std::string asked : {"", "chat", "spherule.v2", "spherule.v10"}) {
         const auto client = Client::connect(app.url(), patience, asked);
@@ -20,7 +20,7 @@ TEST(BadClients, AreRefusedWithoutTheSubprotocol) {
     EXPECT_EQ(app.counters().rejectedFor(RejectReason::Subprotocol), 4U);
 }
 
-TEST(BadClients, AreClosedWhenTheySayNoHello) {
+TEST(BadClients, WithoutHelloAreClosed) {
     Options options = quickOptions();
     options.helloTimeout = 200ms;
     FakeApp app(options);
@@ -31,7 +31,7 @@ TEST(BadClients, AreClosedWhenTheySayNoHello) {
     EXPECT_TRUE(eventually([&] { return app.counters().closedBy(CloseCause::NoHello) == 1; }));
 }
 
-TEST(BadClients, AreClosedWhenTheyDoNotBeginWithHello) {
+TEST(BadClients, WithAnotherFirstMessageAreClosed) {
     FakeApp app;
     const auto client = connect(app);
     v1::ClientMessage message;
@@ -41,14 +41,14 @@ TEST(BadClients, AreClosedWhenTheyDoNotBeginWithHello) {
     EXPECT_TRUE(app.commands().empty());
 }
 
-TEST(BadClients, AreClosedWhenTheySayHelloTwice) {
+TEST(BadClients, WithTwoHellosAreClosed) {
     FakeApp app;
     const auto client = join(app, 0);
     ASSERT_TRUE(client->send(helloOf(10)));
     EXPECT_EQ(readToEnd(*client).code, 1008);
 }
 
-TEST(BadClients, AreClosedWith1009ForAMessageOverTheLimit) {
+TEST(BadClients, WithTooLongMessageAreClosedWith1009) {
     FakeApp app;
     const auto client = join(app, 0);
     ASSERT_TRUE(client->sendBytes(std::string(Options().maxMessageBytes + 1, '\0'), Encoding::Binary));
@@ -56,7 +56,7 @@ TEST(BadClients, AreClosedWith1009ForAMessageOverTheLimit) {
     EXPECT_TRUE(eventually([&] { return app.counters().closedBy(CloseCause::TooBig) == 1; }));
 }
 
-TEST(BadClients, AreClosedWith1007ForBytesThatAreNoMessage) {
+TEST(BadClients, WithInvalidBytesAreClosedWith1007) {
     FakeApp app;
     const auto client = join(app, 0);
     ASSERT_TRUE(client->sendBytes("\xff\xff\xff", Encoding::Binary));
@@ -66,7 +66,7 @@ TEST(BadClients, AreClosedWith1007ForBytesThatAreNoMessage) {
     EXPECT_TRUE(eventually([&] { return app.counters().closedBy(CloseCause::Undecodable) == 1; }));
 }
 
-TEST(BadClients, AreClosedWith1007ForTextThatIsNoMessage) {
+TEST(BadClients, WithInvalidTextAreClosedWith1007) {
     FakeApp app;
     const std::string accented = R"({"command":{"pause":{}, ")" + std::string(200, '\xc3') + R"(": 1}})";
     for (const std::string text : {"rubbish", "{", "", R"({"command":{"id":1,"set":{"friction":nothing}}})"}) {
@@ -81,7 +81,7 @@ TEST(BadClients, AreClosedWith1007ForTextThatIsNoMessage) {
     EXPECT_EQ(readToEnd(*client).code, 1007) << "text that is not UTF-8";
 }
 
-TEST(BadClients, GetAReasonCutBetweenCharacters) {
+TEST(BadClients, GetCloseReasonCutBetweenCharacters) {
     FakeApp app;
     for (const std::string before : {"", "a"}) {
         const auto client = connect(app);
@@ -95,8 +95,8 @@ TEST(BadClients, GetAReasonCutBetweenCharacters) {
     }
 }
 
-// A parser quotes what is around a fault, and counts bytes.
-TEST(BadClients, GetAReasonOfWholeCharacters) {
+// The parser's error quotes the text around a fault and may cut a character.
+TEST(BadClients, GetCloseReasonInValidUtf8) {
     FakeApp app;
     for (int shift = 0; shift < 4; ++shift) {
         const auto client = join(app, 0, Encoding::Text);
@@ -113,7 +113,7 @@ TEST(BadClients, GetAReasonOfWholeCharacters) {
     EXPECT_EQ(reason.size(), 122U) << reason;
 }
 
-TEST(BadClients, ThatCannotBeServedAreDroppedAlone) {
+TEST(BadClients, FaultEndsOnlyItsSession) {
     FakeApp app;
     const auto other = join(app, 0);
     const auto client = join(app, 0);
@@ -131,10 +131,10 @@ TEST(BadClients, ThatCannotBeServedAreDroppedAlone) {
     EXPECT_EQ(app.counters().sessions, 1U);
     ASSERT_TRUE(other->send(message));
     EXPECT_TRUE(next(*other).result().has_applied());
-    EXPECT_TRUE(join(app, 0)) << "who comes later is served";
+    EXPECT_TRUE(join(app, 0)) << "later clients are served";
 }
 
-TEST(BadClients, ThatSendGarbageInsteadOfHttpAreAnsweredAndForgotten) {
+TEST(BadClients, WithInvalidHttpAreAnsweredAndClosed) {
     FakeApp app;
     const auto healthy = join(app, 60);
     std::mt19937 random(1);
@@ -149,7 +149,7 @@ TEST(BadClients, ThatSendGarbageInsteadOfHttpAreAnsweredAndForgotten) {
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
-TEST(BadClients, ThatSendGarbageInsteadOfFramesAreClosedAndForgotten) {
+TEST(BadClients, WithInvalidFramesAreClosed) {
     FakeApp app;
     const auto healthy = join(app, 60);
     std::mt19937 random(2);
@@ -158,7 +158,7 @@ TEST(BadClients, ThatSendGarbageInsteadOfFramesAreClosedAndForgotten) {
         ASSERT_EQ(socket.openStream().substr(0, 12), "HTTP/1.1 101");
         std::string garbage(300, '\0');
         for (char& c : garbage) c = static_cast<char>(random());
-        garbage[0] = static_cast<char>(0xf0);  // reserved bits that mean nothing here
+        garbage[0] = static_cast<char>(0xf0);  // reserved bits without a meaning
         socket.send(garbage);
         const std::string answer = socket.readAll();
         ASSERT_GE(answer.size(), 4U);
@@ -169,7 +169,7 @@ TEST(BadClients, ThatSendGarbageInsteadOfFramesAreClosedAndForgotten) {
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
-TEST(BadClients, ThatAskForCompressionGetNone) {
+TEST(BadClients, CompressionIsDeclined) {
     FakeApp app;
     const RawSocket socket(app.server().port());
     socket.send(

@@ -1,7 +1,4 @@
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +6,7 @@
 #include "client/command_parser.h"
 #include "client/ctl.h"
 #include "client/url.h"
+#include "temporary_folder.h"
 
 namespace spherule::client {
 namespace {
@@ -20,7 +18,7 @@ std::string parsed(const Words& words) {
     return command ? command->ShortDebugString() : "error: " + command.error().text();
 }
 
-TEST(CommandWords, BecomeCommands) {
+TEST(CommandParser, ParsesEveryCommand) {
     EXPECT_EQ(parsed({"pause"}), "pause { }");
     EXPECT_EQ(parsed({"resume"}), "resume { }");
     EXPECT_EQ(parsed({"reset"}), "reset { }");
@@ -48,21 +46,20 @@ TEST(CommandWords, BecomeCommands) {
     EXPECT_EQ(parsed({R"({"id":3,"step":{"count":10}})"}), "id: 3 step { count: 10 }");
 }
 
-TEST(CommandWords, LoadAFileAsAnInlineScene) {
-    const auto path =
-        std::filesystem::temp_directory_path() / ("spherule-command-words-" + std::to_string(getpid()) + ".json");
-    std::ofstream(path) << R"({"name":"from a file"})";
-    EXPECT_EQ(parsed({"load", path.string()}), "load { scene { name: \"from a file\" } }");
-    std::ofstream(path) << R"({"nam":"from a file"})";
-    EXPECT_EQ(parsed({"load", path.string()}).find("error: " + path.string() + ": "), 0U);
+TEST(CommandParser, LoadsFileAsInlineScene) {
+    const support::TemporaryFolder folder;
+    const std::string path = folder.write("scene.json", R"({"name":"from a file"})");
+    EXPECT_EQ(parsed({"load", path}), "load { scene { name: \"from a file\" } }");
+    folder.write("scene.json", R"({"nam":"from a file"})");
+    EXPECT_EQ(parsed({"load", path}).find("error: " + path + ": "), 0U);
     std::filesystem::remove(path);
-    EXPECT_EQ(parsed({"load", path.string()}),
-              "error: " + path.string() +
+    EXPECT_EQ(parsed({"load", path}),
+              "error: " + path +
                   ": there is no such file; give the path of a scene file on this machine, which is sent, or the name "
                   "of a scene of the server, without .json");
 }
 
-TEST(CommandWords, ThatAreWrongAreAnErrorThatListsWhatIsAccepted) {
+TEST(CommandParser, ReportsAcceptedForms) {
     const std::vector<Words> wrong = {
         {},
         {"dance"},
@@ -101,7 +98,7 @@ TEST(CommandWords, ThatAreWrongAreAnErrorThatListsWhatIsAccepted) {
     EXPECT_EQ(parsed({R"({"pause":{"x":1}})"}).find("error: command: "), 0U);
 }
 
-TEST(CommandResults, AreTextForPeople) {
+TEST(CommandResult, IsReadable) {
     v1::CommandResult result;
     result.mutable_refused()->set_field("set.speed");
     result.mutable_refused()->set_reason("-1 is negative");
@@ -117,7 +114,7 @@ TEST(CommandResults, AreTextForPeople) {
     EXPECT_NE(text.find("\"contacts\": \"0\""), std::string::npos) << text;
 }
 
-TEST(CommandResults, MoveNoTerminal) {
+TEST(CommandResult, ReplacesControlCharacters) {
     v1::CommandResult result;
     result.mutable_refused()->set_field("\x1b]0;title\x07");
     result.mutable_refused()->set_reason(
@@ -126,7 +123,7 @@ TEST(CommandResults, MoveNoTerminal) {
     EXPECT_EQ(resultText(result), "refused: ?]0;title?: ?[2J red? ?31m zu gro\xc3\x9f ?\nnext");
 }
 
-TEST(Urls, AreTakenApart) {
+TEST(Url, ParsesParts) {
     const auto full = parseUrl("ws://example.org:8080/ws");
     ASSERT_TRUE(full);
     EXPECT_EQ(full->host, "example.org");

@@ -14,7 +14,7 @@ v1::ClientMessage pauseOf(std::uint64_t id) {
     return message;
 }
 
-TEST(Commands, AreHandedToTheOwnerAndAnsweredToTheSender) {
+TEST(Commands, ReachTheAppAndAnswerTheSender) {
     FakeApp app;
     const auto sender = join(app, 0);
     const auto other = join(app, 0);
@@ -28,7 +28,7 @@ TEST(Commands, AreHandedToTheOwnerAndAnsweredToTheSender) {
     EXPECT_EQ(next(*other).event().text(), "only this");
 }
 
-TEST(Commands, AreTakenAsTextToo) {
+TEST(Commands, MayBeText) {
     FakeApp app;
     const auto client = join(app, 0, Encoding::Text);
     ASSERT_TRUE(client->sendBytes(R"({"command":{"id":5,"set":{"gravity":[0,0,-1.6]}}})", Encoding::Text));
@@ -37,7 +37,7 @@ TEST(Commands, AreTakenAsTextToo) {
     EXPECT_EQ(app.commands()[0].set().gravity(2), -1.6);
 }
 
-TEST(Commands, AreRefusedWhenTheOwnersQueueIsFull) {
+TEST(Commands, AreRefusedWhenTheQueueIsFull) {
     FakeApp app;
     app.takesCommands = false;
     const auto client = join(app, 0);
@@ -47,7 +47,7 @@ TEST(Commands, AreRefusedWhenTheOwnersQueueIsFull) {
     EXPECT_EQ(answer.result().refused().reason(), "the command queue is full");
 }
 
-TEST(Commands, OfANewerClientAreRefusedAndTheSessionGoesOn) {
+TEST(Commands, UnknownToTheServerAreRefused) {
     FakeApp app;
     const auto client = join(app, 0);
     // A ClientMessage whose command has id 4 and, in the unknown field 100, an empty message.
@@ -61,7 +61,7 @@ TEST(Commands, OfANewerClientAreRefusedAndTheSessionGoesOn) {
     EXPECT_EQ(next(*client).result().applied().step(), 7U);
 }
 
-TEST(Commands, ThatDoNotFitAreRefusedWithFieldAndReasonAndTheSessionGoesOn) {
+TEST(Commands, InvalidOnesAreRefusedWithFieldAndReason) {
     FakeApp app;
     const auto client = join(app, 0, Encoding::Text);
     struct Case {
@@ -94,8 +94,8 @@ TEST(Commands, ThatDoNotFitAreRefusedWithFieldAndReasonAndTheSessionGoesOn) {
     EXPECT_EQ(next(*client).result().id(), 99U);
 }
 
-// As Python and JavaScript libraries write them; the app refuses them with the field.
-TEST(Commands, MayHoldNumbersThatAreNotFinite) {
+// NaN and Infinity as Python and JavaScript libraries write them. The application refuses them with the field.
+TEST(Commands, MayHaveNonFiniteNumbers) {
     FakeApp app;
     const auto client = join(app, 0, Encoding::Text);
     ASSERT_TRUE(client->sendBytes(R"({"command":{"id":1,"set":{"friction":NaN,"speed":-Infinity}}})", Encoding::Text));
@@ -106,7 +106,7 @@ TEST(Commands, MayHoldNumbersThatAreNotFinite) {
     EXPECT_TRUE(std::isinf(command.set().speed()));
 }
 
-TEST(Commands, ThatTakeTooMuchMemoryAreRefusedAndTheSessionGoesOn) {
+TEST(Commands, NeedingTooMuchMemoryAreRefused) {
     FakeApp app;
     for (const Encoding encoding : {Encoding::Binary, Encoding::Text}) {
         const auto client = join(app, 0, encoding);
@@ -124,14 +124,14 @@ TEST(Commands, ThatTakeTooMuchMemoryAreRefusedAndTheSessionGoesOn) {
     EXPECT_EQ(app.counters().rejectedFor(RejectReason::CommandCost), 2U);
 }
 
-TEST(Commands, ThatAreLongAreNotParsedWhereTheyCouldNotWait) {
+TEST(Commands, LongOnesAreNotParsedWhenTheQueueIsFull) {
     FakeApp app;
     app.takesLong = false;
     const auto client = join(app, 0);
     v1::ClientMessage message;
     message.mutable_command()->set_id(8);
     message.mutable_command()->mutable_load()->mutable_scene()->set_description(std::string(10'000, 'x'));
-    // Were it parsed, the session would end here.
+    // If it were parsed, the session would end here.
     ASSERT_TRUE(client->sendBytes(message.SerializeAsString() + '\xff', Encoding::Binary));
     const v1::CommandResult result = next(*client).result();
     EXPECT_EQ(result.id(), 8U);
@@ -140,19 +140,19 @@ TEST(Commands, ThatAreLongAreNotParsedWhereTheyCouldNotWait) {
     EXPECT_EQ(next(*client).result().id(), 9U);
 }
 
-TEST(Commands, MayBeAsLongAsTheLimitAllows) {
+TEST(Commands, MayHaveTheLargestSize) {
     FakeApp app;
     const auto client = join(app, 0);
     v1::ClientMessage message;
     message.mutable_command()->set_id(1);
-    const std::size_t frame = 64;  // generously, for everything around the text
+    const std::size_t frame = 64;  // bytes for everything around the text, at most
     message.mutable_command()->mutable_load()->mutable_scene()->set_description(
         std::string(Options().maxMessageBytes - frame, 'x'));
     ASSERT_TRUE(client->send(message));
     EXPECT_TRUE(next(*client).result().has_applied());
 }
 
-TEST(Commands, OfASessionThatLeftAreAnsweredIntoTheVoid) {
+TEST(Commands, OfAClosedSessionHaveNoAnswer) {
     FakeApp app;
     app.server().reply(12345, v1::CommandResult());
     const auto client = join(app, 0);
@@ -179,7 +179,7 @@ TEST(Ctl, ReturnsARefusalAsAResult) {
     EXPECT_EQ(client::resultText(*result), "refused: the command queue is full");
 }
 
-TEST(Ctl, SaysThatNobodyListens) {
+TEST(Ctl, ReportsThatNoServerListens) {
     std::string url;
     {
         const FakeApp app;
@@ -190,7 +190,7 @@ TEST(Ctl, SaysThatNobodyListens) {
     EXPECT_NE(result.error().text().find("cannot be reached"), std::string::npos) << result.error().text();
 }
 
-TEST(Ctl, SaysWhyTheServerClosed) {
+TEST(Ctl, ReportsCloseReason) {
     FakeApp app;
     v1::Command command;
     command.mutable_load()->mutable_scene()->set_description(std::string(Options().maxMessageBytes, 'x'));

@@ -8,20 +8,20 @@ namespace {
 using namespace std::chrono_literals;
 using boost::asio::ip::make_address;
 
-TEST(TokenBucket, LetsThroughWhatComesOnAverage) {
+TEST(TokenBucket, PassesAverageRate) {
     auto now = TokenBucket::Clock::time_point();
     TokenBucket bucket(10, now);
     int taken = 0;
     for (int k = 0; k < 1000; ++k, now += 10ms) taken += bucket.take(now) ? 1 : 0;
-    EXPECT_NEAR(taken, 110, 1) << "ten a second for ten seconds, and a second's worth at once";
+    EXPECT_NEAR(taken, 110, 1) << "10/s for 10 s, plus the burst of one second";
 }
 
-TEST(TokenBucket, OfNoRateLetsEverythingThrough) {
+TEST(TokenBucket, WithRateZeroHasNoLimit) {
     TokenBucket bucket(0, {});
     for (int k = 0; k < 1000; ++k) EXPECT_TRUE(bucket.take({}));
 }
 
-TEST(ConnectionLimiter, OfOneIPv6NetworkAreOne) {
+TEST(ConnectionLimiter, CountsAnIPv6NetworkAsOneAddress) {
     const auto limiter = std::make_shared<ConnectionLimiter>(ConnectionLimits{.sessions = 0, .sessionsPerAddress = 2});
     const auto now = ConnectionLimiter::Clock::now();
     const auto come = [&](const char* from) {
@@ -41,7 +41,7 @@ TEST(ConnectionLimiter, OfOneIPv6NetworkAreOne) {
     EXPECT_EQ(limiter->known(), 3U);
 }
 
-TEST(ConnectionLimiter, ThatAreGoneAreForgotten) {
+TEST(ConnectionLimiter, RemovesIdleAddresses) {
     const auto limiter = std::make_shared<ConnectionLimiter>(ConnectionLimits{});
     auto now = ConnectionLimiter::Clock::now();
     for (unsigned k = 0; k < 100'000; ++k, now += 1ms) {
@@ -51,7 +51,7 @@ TEST(ConnectionLimiter, ThatAreGoneAreForgotten) {
     EXPECT_LT(limiter->known(), 10'000U);
 }
 
-TEST(ConnectionLimiter, HaveALimitOfConnectionsThatAreNoSessions) {
+TEST(ConnectionLimiter, LimitsConnectionsThatAreNoSessions) {
     const auto limiter = std::make_shared<ConnectionLimiter>(
         ConnectionLimits{.sessions = 10, .sessionsPerAddress = 0, .connectionsPerSecond = 0});
     EXPECT_FALSE(limiter->refuses(make_address("10.0.0.2"), {}));
@@ -60,7 +60,7 @@ TEST(ConnectionLimiter, HaveALimitOfConnectionsThatAreNoSessions) {
     std::vector<std::unique_ptr<ConnectionLimiter::Permit>> inside;
     const auto from = make_address("10.0.0.1");
     while (!limiter->refuses(from, {})) inside.push_back(limiter->admit(from));
-    EXPECT_EQ(inside.size(), 256U) << "sessions are counted apart";
+    EXPECT_EQ(inside.size(), 256U) << "sessions are counted separately";
     inside.pop_back();
     EXPECT_FALSE(limiter->refuses(from, {}));
 }

@@ -5,7 +5,7 @@
 namespace spherule::net {
 namespace {
 
-class Controls : public testing::Test {
+class ControlLockTest : public testing::Test {
   protected:
     std::uint64_t holder() const { return lock_.state().holder().session(); }
     std::vector<std::uint64_t> asking() const {
@@ -20,7 +20,7 @@ class Controls : public testing::Test {
 
 using Row = std::vector<std::uint64_t>;
 
-TEST_F(Controls, GoToWhoGivesACommandFirst) {
+TEST_F(ControlLockTest, IsAcquiredByTheFirstCommand) {
     EXPECT_TRUE(lock_.acquire(1, "one"));
     EXPECT_TRUE(lock_.acquire(1, "one"));
     EXPECT_FALSE(lock_.acquire(2, "two"));
@@ -29,13 +29,13 @@ TEST_F(Controls, GoToWhoGivesACommandFirst) {
     EXPECT_EQ(told_, 1);
 }
 
-TEST_F(Controls, AreHandedOverByTheirHolderAlone) {
+TEST_F(ControlLockTest, IsPassedOnOnlyByItsHolder) {
     lock_.acquire(1, "one");
     lock_.request(2, "two");
     lock_.request(2, "two");
     lock_.request(3, "three");
     EXPECT_EQ(asking(), (Row{2, 3}));
-    lock_.release(4, 3);  // who has nothing to give
+    lock_.release(4, 3);  // not the holder
     lock_.denyRequests(3);
     EXPECT_EQ(holder(), 1U);
     lock_.release(1, 3);
@@ -43,17 +43,17 @@ TEST_F(Controls, AreHandedOverByTheirHolderAlone) {
     EXPECT_EQ(asking(), (Row{2}));
 }
 
-TEST_F(Controls, StayWithTheirHolderWhoKeepsThem) {
+TEST_F(ControlLockTest, StaysWhenTheHolderDeniesRequests) {
     lock_.acquire(1, "one");
     lock_.request(2, "two");
-    lock_.release(1, 9);  // who does not ask
+    lock_.release(1, 9);  // has not requested the lock
     EXPECT_EQ(holder(), 1U);
     lock_.denyRequests(1);
     EXPECT_EQ(asking(), Row{});
     EXPECT_EQ(holder(), 1U);
 }
 
-TEST_F(Controls, GoToWhoAskedFirstWhenTheirHolderLeaves) {
+TEST_F(ControlLockTest, GoesToTheOldestRequestWhenTheHolderLeaves) {
     lock_.acquire(1, "one");
     lock_.request(2, "two");
     lock_.request(3, "three");
@@ -66,7 +66,7 @@ TEST_F(Controls, GoToWhoAskedFirstWhenTheirHolderLeaves) {
     EXPECT_TRUE(lock_.acquire(4, "four"));
 }
 
-TEST_F(Controls, AreWithdrawnFromByWhoAsks) {
+TEST_F(ControlLockTest, RequestCanBeWithdrawn) {
     lock_.acquire(1, "one");
     lock_.request(2, "two");
     lock_.release(2, 0);
@@ -76,7 +76,7 @@ TEST_F(Controls, AreWithdrawnFromByWhoAsks) {
     EXPECT_FALSE(lock_.state().has_holder());
 }
 
-TEST_F(Controls, AreAskedForByAFewAtATime) {
+TEST_F(ControlLockTest, LimitsRequests) {
     lock_.acquire(1, "one");
     for (std::uint64_t id = 2; id < 100; ++id) lock_.request(id, "many");
     EXPECT_EQ(asking().size(), 16U);

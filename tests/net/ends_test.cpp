@@ -1,5 +1,5 @@
-// Nothing that a server does for a client outlives it. A connection of its own, over a pair of sockets: where an
-// operation has not ended, the io_context still has work.
+// All operations of a session end with it. Each test serves one connection over a pair of sockets. If an operation has
+// not ended, the io_context still has work.
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ constexpr std::string_view upgrade =
     "GET /ws HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
     "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Protocol: spherule.v1\r\n\r\n";
 
-class Ends : public testing::Test {
+class SessionEnd : public testing::Test {
   protected:
     Ends() {
         if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends_.data()) != 0)
@@ -47,7 +47,7 @@ class Ends : public testing::Test {
     void send(std::string_view bytes) {
         ASSERT_EQ(::send(ends_[0], bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
     }
-    // Serves until the server has said it.
+    // Serves until the server has sent this text.
     void await(std::string_view what) {
         while (said_.find(what) == std::string::npos && io_.run_one_for(10s) > 0) {
             std::array<char, 4096> bytes{};
@@ -60,10 +60,10 @@ class Ends : public testing::Test {
         send(upgrade);
         await("\r\n\r\n");
     }
-    // Until nothing more comes by itself, or 10 s have passed.
+    // Serves until no work is left, or for 10 s.
     void expectEnd() {
         io_.run_for(10s);
-        EXPECT_TRUE(io_.stopped()) << "an operation waits for ever";
+        EXPECT_TRUE(io_.stopped()) << "an operation never ended";
         EXPECT_EQ(state_.counters.sessions, 0U);
     }
 
@@ -77,26 +77,26 @@ class Ends : public testing::Test {
     ServerState state_{.options = quick(),
                        .handlers = {},
                        .admission = std::make_shared<Admission>(AllowedNames{}, Credentials{}, "http")};
-    asio::io_context io_{1};  // what waits in it for ever knows the context
+    asio::io_context io_{1};  // last: pending operations refer to the state
     std::array<int, 2> ends_{};
     std::string said_;
 };
 
-TEST_F(Ends, WhenThePeerBreaksTheProtocolInTheSameBreathAsItIsToldGoodbye) {
+TEST_F(SessionEnd, WhenThePeerViolatesTheProtocolDuringTheCloseHandshake) {
     openStream();
     send("\x82\x83\0\0\0\0\xff\xff\xff\xf0\x80\0\0\0\0"s);
     expectEnd();
 }
 
-TEST_F(Ends, WhenThePeerBreaksTheProtocolWithTheRestOfAMessageThatIsUnderWay) {
+TEST_F(SessionEnd, WhenThePeerViolatesTheProtocolWithinAMessage) {
     openStream();
     send("\x81\x8a\0\0\0\0a"s);
     await("no hello came in time");
-    send("\xc3\xc3\xc3\xc3\xc3\xc3\xc3\xc3\xc3");  // no UTF-8
+    send("\xc3\xc3\xc3\xc3\xc3\xc3\xc3\xc3\xc3");  // invalid UTF-8
     expectEnd();
 }
 
-TEST_F(Ends, WhenThePeerNeitherReadsNorLeaves) {
+TEST_F(SessionEnd, WhenThePeerNeitherReadsNorCloses) {
     openStream();
     expectEnd();
 }

@@ -21,22 +21,22 @@ using client::Client;
 using client::CloseFrame;
 using namespace std::chrono_literals;
 
-constexpr auto patience = 10s;  // for what must happen; only a failing test waits that long
+constexpr auto patience = 10s;  // timeout; only a failing test waits this long
 
-// Limits short enough for a test that waits for them, long enough for a busy machine.
+// Timeouts that are short enough for tests and long enough for a busy machine. No limits per address.
 Options quickOptions();
 
 codec::SharedMessage factsOf(std::uint32_t epoch, std::uint32_t spheres);
-codec::SharedMessage orderOf(std::uint32_t epoch);  // with the epoch's number
-// Of a chain of rendition `normal`.
+codec::SharedMessage orderOf(std::uint32_t epoch);  // its number is the epoch
+// A frame with `number` as sequence, step and content.
 codec::EncodedFrame encodedFrame(codec::EncodedFrame::Kind kind, std::uint32_t number, std::uint32_t epoch,
                                  std::uint32_t spheres, const codec::Rendition& rendition = {v1::NORMAL, 60});
 codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1::Event::WARNING);
 
-// True as soon as `condition` holds; false when patience is over.
+// Waits until `condition` holds; returns false when `patience` has passed.
 bool eventually(const std::function<bool()>& condition);
 
-// A server on any free port, with an app that simulates nothing.
+// A server on a free port, with an application that simulates nothing.
 class FakeApp {
   public:
     explicit FakeApp(const Options& options = quickOptions());
@@ -48,21 +48,19 @@ class FakeApp {
     const Counters& counters() { return server_->counters(); }
     [[nodiscard]] std::string url() const;
 
-    // Publishes to each chain that is watched the next frame, of the current epoch, and a keyframe to who waits for
-    // one.
+    // Publishes the next frame of each rendition, and a resync keyframe if a session waits for one.
     void publish(std::uint32_t spheres);
-    // The same from a thread of its own.
+    // Calls publish() periodically from its own thread.
     void publishEvery(std::chrono::milliseconds period, std::uint32_t spheres);
     void stopPublishing();
     [[nodiscard]] std::uint32_t published() const { return number_; }
     void setEpoch(std::uint32_t epoch);
 
-    // What submit answers.
-    std::atomic<bool> takesCommands = true;
-    std::atomic<bool> takesLong = true;  // or has no room for what is long
-    std::atomic<bool> throws = false;    // it, and what is asked by HTTP, runs out of memory instead
+    std::atomic<bool> takesCommands = true;  // false: submit() refuses
+    std::atomic<bool> takesLong = true;      // false: refuses() refuses
+    std::atomic<bool> throws = false;        // submit() and get() throw std::bad_alloc
     std::vector<v1::Command> commands();
-    // Keeps the io thread busy with the next command until it is false again.
+    // While true, the next command blocks the io thread; `held` is true then.
     std::atomic<bool> hold = false;
     std::atomic<bool> held = false;
 
@@ -79,14 +77,14 @@ class FakeApp {
 
 v1::ClientMessage helloOf(std::uint32_t rate);
 
-// Connected, no hello yet.
+// Connects; does not send hello.
 std::unique_ptr<Client> connect(const FakeApp& app);
-// After welcome, what is said of the stream, facts, settings, and the order where there is a rate.
+// Connects and reads welcome, stream, facts, settings, and the order if `rate` > 0.
 std::unique_ptr<Client> join(const FakeApp& app, std::uint32_t rate, Encoding encoding = Encoding::Binary);
 
-// The next message; a failed expectation and an empty one when there is none.
+// Returns the next message. If there is none, the test fails and the message is empty.
 v1::ServerMessage next(Client& client);
-// Reads on until the server closes; the close frame.
+// Reads until the server closes, and returns its close frame.
 CloseFrame readToEnd(Client& client);
 
 }  // namespace spherule::net

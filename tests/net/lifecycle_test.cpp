@@ -12,7 +12,7 @@ std::ptrdiff_t openFiles() {
     return std::distance(begin(files), end(files));
 }
 
-TEST(Lifecycle, ManyClientsComeAndGoWithoutALeak) {
+TEST(Lifecycle, ManyClientsLeaveNoLeak) {
     FakeApp app;
     app.publishEvery(5ms, 64);
     const auto files = openFiles();
@@ -27,7 +27,7 @@ TEST(Lifecycle, ManyClientsComeAndGoWithoutALeak) {
     EXPECT_TRUE(eventually([&] { return openFiles() == files; }));
 }
 
-TEST(Lifecycle, DrainingSendsWhatIsQueuedThenClosesWith1012) {
+TEST(Lifecycle, DrainSendsTheQueueThenClosesWith1012) {
     FakeApp app;
     app.publishEvery(5ms, 64);
     const auto viewer = join(app, 60);
@@ -45,12 +45,12 @@ TEST(Lifecycle, DrainingSendsWhatIsQueuedThenClosesWith1012) {
     EXPECT_EQ(viewer->closed()->code, 1012);
     EXPECT_EQ(viewer->closed()->reason, "the server is stopping");
     EXPECT_EQ(readToEnd(*silent).code, 1012);
-    EXPECT_EQ(draining.wait_for(1s), std::future_status::ready) << "nobody was left to wait for";
+    EXPECT_EQ(draining.wait_for(1s), std::future_status::ready) << "no session was left";
     EXPECT_EQ(app.counters().closedBy(CloseCause::Drained), 2U);
-    EXPECT_FALSE(Client::connect(app.url(), patience)) << "it still accepts";
+    EXPECT_FALSE(Client::connect(app.url(), patience)) << "the server still accepts";
 }
 
-TEST(Lifecycle, DrainingDoesNotWaitForeverForAClientThatDoesNotRead) {
+TEST(Lifecycle, DrainTimesOutForAClientThatDoesNotRead) {
     Options options = quickOptions();
     options.drainTimeout = 500ms;
     FakeApp app(options);
@@ -63,7 +63,7 @@ TEST(Lifecycle, DrainingDoesNotWaitForeverForAClientThatDoesNotRead) {
     EXPECT_EQ(app.counters().sessions, 0U);
 }
 
-TEST(Lifecycle, AServerMayGoWhileClientsAndRequestsAreOpen) {
+TEST(Lifecycle, ServerMayBeDestroyedWithOpenConnections) {
     auto app = std::make_unique<FakeApp>();
     app->publishEvery(5ms, 40'000);
     const auto viewer = join(*app, 60);
@@ -75,7 +75,7 @@ TEST(Lifecycle, AServerMayGoWhileClientsAndRequestsAreOpen) {
     EXPECT_EQ(request.readAll(), "");
 }
 
-TEST(Lifecycle, APortInUseIsAnErrorThatSaysSo) {
+TEST(Lifecycle, PortInUseIsAnError) {
     FakeApp app;
     Options options = quickOptions();
     options.port = app.server().port();
@@ -85,7 +85,7 @@ TEST(Lifecycle, APortInUseIsAnErrorThatSaysSo) {
     EXPECT_NE(second.error().message.find("Address already in use"), std::string::npos) << second.error().message;
 }
 
-TEST(Lifecycle, AHostThatIsNotOursIsAnError) {
+TEST(Lifecycle, ForeignHostIsAnError) {
     Options options = quickOptions();
     options.host = "192.0.2.1";
     EXPECT_FALSE(startServer(options, {}));

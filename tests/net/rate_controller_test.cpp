@@ -1,4 +1,4 @@
-// What a client is sent while it keeps up, and while it does not.
+// Tests of RateController, AckWindow and renditions.
 #include "net/rate_controller.h"
 
 #include <gtest/gtest.h>
@@ -17,14 +17,14 @@ RateController wanting(const codec::Rendition& rendition, bool fixed = false) {
     return controller;
 }
 
-// Loses frames, a tenth of a second apart, until it steps down; false where it does not.
+// Reports losses at intervals of 0.1 s until the controller steps down; returns false if it does not.
 bool stepsDown(RateController& controller, RateController::Clock::time_point& now) {
     for (int k = 0; k < 10; ++k)
         if (controller.onLoss(now += 100ms)) return true;
     return false;
 }
 
-TEST(RateController, StepsDownInRateFirstThenInPrecision) {
+TEST(RateController, ReducesRateBeforePrecision) {
     RateController controller = wanting({v1::NORMAL, 30});
     auto now = start;
     std::vector<codec::Rendition> down;
@@ -33,13 +33,13 @@ TEST(RateController, StepsDownInRateFirstThenInPrecision) {
     EXPECT_TRUE(controller.reduced());
 }
 
-TEST(RateController, BearsALossNowAndThen) {
+TEST(RateController, ToleratesRareLosses) {
     RateController controller = wanting({v1::NORMAL, 30});
     for (int k = 0; k < 20; ++k) EXPECT_FALSE(controller.onLoss(start + k * 2s));
     EXPECT_FALSE(controller.reduced());
 }
 
-TEST(RateController, StepsUpAfterAQuietTimeTheWayItCameDown) {
+TEST(RateController, StepsUpInReverseOrderAfterAQuietTime) {
     RateController controller = wanting({v1::FINE, 10});
     auto now = start;
     ASSERT_TRUE(stepsDown(controller, now));
@@ -50,10 +50,10 @@ TEST(RateController, StepsUpAfterAQuietTimeTheWayItCameDown) {
     EXPECT_EQ(controller.rendition(), (codec::Rendition{v1::NORMAL, 10}));
     EXPECT_TRUE(controller.onAck(60, 1, now + 22s));
     EXPECT_FALSE(controller.reduced());
-    EXPECT_FALSE(controller.onAck(60, 1, now + 100s)) << "that is what was wanted";
+    EXPECT_FALSE(controller.onAck(60, 1, now + 100s)) << "the target is reached";
 }
 
-TEST(RateController, WaitsLongerAfterAStepUpThatWasTooMuch) {
+TEST(RateController, WaitsLongerAfterAFailedStepUp) {
     RateController controller = wanting({v1::NORMAL, 30});
     auto now = start;
     ASSERT_TRUE(stepsDown(controller, now));
@@ -64,7 +64,7 @@ TEST(RateController, WaitsLongerAfterAStepUpThatWasTooMuch) {
     EXPECT_TRUE(controller.onAck(60, 1, now + 21s));
 }
 
-TEST(RateController, LowersTheRateForWhoDrawsSlowly) {
+TEST(RateController, ReducesRateForSlowDrawing) {
     RateController controller = wanting({v1::NORMAL, 30});
     int acks = 1;
     while (!controller.onAck(4, 1, start + acks * 33ms) && acks < 100) ++acks;
@@ -74,7 +74,7 @@ TEST(RateController, LowersTheRateForWhoDrawsSlowly) {
     for (int k = 0; k < 100; ++k) EXPECT_FALSE(unknown.acked(0, 1, start + k * 33ms));
 }
 
-TEST(RateController, WaitsLongerWithAStepUpForWhoDrawsSlowly) {
+TEST(RateController, WaitsLongerForSlowDrawing) {
     RateController controller = wanting({v1::NORMAL, 60});
     auto now = start;
     const auto slowly = [&](std::chrono::seconds time) {
@@ -88,7 +88,7 @@ TEST(RateController, WaitsLongerWithAStepUpForWhoDrawsSlowly) {
     EXPECT_EQ(slowly(15s), 0);
 }
 
-TEST(RateController, LowersTheRateForWhoDecodesSlowly) {
+TEST(RateController, ReducesRateForSlowDecoding) {
     RateController controller = wanting({v1::NORMAL, 30});
     std::optional<std::string> reason;
     for (int k = 0; k < 100 && !reason; ++k) reason = controller.onAck(60, 25, start + k * 33ms);
@@ -96,7 +96,7 @@ TEST(RateController, LowersTheRateForWhoDecodesSlowly) {
     EXPECT_EQ(controller.rendition().rate, 20U);
 }
 
-TEST(RateController, StepsUpWithoutAcksToo) {
+TEST(RateController, StepsUpWithoutAcks) {
     RateController controller = wanting({v1::NORMAL, 30});
     auto now = start;
     ASSERT_TRUE(stepsDown(controller, now));
@@ -105,14 +105,14 @@ TEST(RateController, StepsUpWithoutAcksToo) {
     EXPECT_FALSE(controller.reduced());
 }
 
-TEST(RateController, LeavesWhatIsFixed) {
+TEST(RateController, KeepsAFixedRendition) {
     RateController controller = wanting({v1::FINE, 60}, true);
     auto now = start;
     EXPECT_FALSE(stepsDown(controller, now));
     EXPECT_EQ(controller.rendition(), (codec::Rendition{v1::FINE, 60}));
 }
 
-TEST(Rendition, RatesAreTheNextOneBelow) {
+TEST(Rendition, RateIsTheNextLowerOne) {
     EXPECT_EQ(codec::rateFor(0), 0U);
     EXPECT_EQ(codec::rateFor(1), 5U);
     EXPECT_EQ(codec::rateFor(29), 20U);
@@ -120,13 +120,13 @@ TEST(Rendition, RatesAreTheNextOneBelow) {
     EXPECT_EQ(codec::rateFor(1000), 60U);
 }
 
-TEST(Rendition, QuantaAreTwiceTheErrors) {
+TEST(Rendition, QuantumIsTwiceTheError) {
     EXPECT_DOUBLE_EQ(codec::quantumOf(v1::FINE, 0.05), 2 * 0.05 / 500);
     EXPECT_DOUBLE_EQ(codec::quantumOf(v1::NORMAL, 0.05), 2 * 0.05 / 50);
     EXPECT_DOUBLE_EQ(codec::quantumOf(v1::ECO, 0.05), 2 * 0.05 / 16);
 }
 
-TEST(AckWindow, EndsWithAQuarterOfASecondOfFramesOnTheirWay) {
+TEST(AckWindow, IsAQuarterOfASecondOfFrames) {
     AckWindow window;
     window.setRate(60);
     window.sent(1, start);
@@ -136,14 +136,14 @@ TEST(AckWindow, EndsWithAQuarterOfASecondOfFramesOnTheirWay) {
         window.sent(sequence, start);
     }
     EXPECT_FALSE(window.open(start));
-    EXPECT_TRUE(window.open(start + 1s)) << "acks that are missing do not end it for good";
+    EXPECT_TRUE(window.open(start + 1s)) << "missing acks close the window only for a time";
     window.acked(9);
     EXPECT_TRUE(window.open(start));
     EXPECT_FALSE(window.idle(start));
     EXPECT_TRUE(window.idle(start + 1s));
 }
 
-TEST(AckWindow, IsWithoutEndForWhoNeverSays) {
+TEST(AckWindow, IsUnlimitedWithoutAcks) {
     AckWindow window;
     window.setRate(30);
     for (std::uint64_t sequence = 1; sequence < 1000; ++sequence) window.sent(sequence, start);

@@ -14,7 +14,7 @@ void describe(SendQueue& queue, std::uint32_t epoch) {
     ASSERT_TRUE(queue.next(true)->content().has_order());
 }
 
-// That follows a chain, and knows its scene.
+// A queue that follows a rendition and has sent its facts and order.
 SendQueue following(std::size_t capacity = 4) {
     SendQueue queue(capacity);
     queue.follow({v1::NORMAL, 60});
@@ -52,7 +52,7 @@ TEST(SendQueue, IsFullAtItsCapacity) {
     EXPECT_FALSE(queue.push(eventOf("3")));
 }
 
-TEST(SendQueue, KeepsOnlyTheNewestFactsThatWait) {
+TEST(SendQueue, ReplacesQueuedFacts) {
     SendQueue queue(3);
     const auto event = eventOf("between");
     EXPECT_TRUE(queue.push(factsOf(1, 64)));
@@ -63,7 +63,7 @@ TEST(SendQueue, KeepsOnlyTheNewestFactsThatWait) {
     EXPECT_EQ(queue.next(true), nullptr);
 }
 
-TEST(SendQueue, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
+TEST(SendQueue, ReplacesQueuedDialAndDiagnostics) {
     SendQueue queue(2);
     for (std::uint32_t substeps = 1; substeps < 100; ++substeps) {
         v1::ServerMessage dial;
@@ -78,28 +78,28 @@ TEST(SendQueue, KeepsOnlyTheNewestDialAndDiagnosticsThatWait) {
     EXPECT_EQ(queue.next(true), nullptr);
 }
 
-TEST(SendQueue, FollowsAChainFromItsKeyframeOn) {
+TEST(SendQueue, StartsAChainAtAKeyframe) {
     SendQueue queue = following();
     EXPECT_TRUE(queue.wantsKeyframe());
     queue.offer(encoded(Delta, 6));
-    EXPECT_EQ(nextFrame(queue), 0U) << "the one before is missing";
+    EXPECT_EQ(nextFrame(queue), 0U) << "the previous frame is missing";
     EXPECT_EQ(queue.offer(encoded(Resync, 6)), SendQueue::OfferResult::Accepted);
     EXPECT_FALSE(queue.wantsKeyframe());
     EXPECT_EQ(nextFrame(queue), 6U);
-    EXPECT_EQ(queue.offer(encoded(Resync, 6)), SendQueue::OfferResult::Accepted) << "for somebody else";
+    EXPECT_EQ(queue.offer(encoded(Resync, 6)), SendQueue::OfferResult::Accepted) << "a resync for other sessions";
     EXPECT_EQ(nextFrame(queue), 0U);
     EXPECT_EQ(queue.offer(encoded(Delta, 7)), SendQueue::OfferResult::Accepted);
     EXPECT_EQ(nextFrame(queue), 7U);
-    EXPECT_EQ(queue.offer(encoded(Keyframe, 8)), SendQueue::OfferResult::Accepted) << "the chain begins anew";
+    EXPECT_EQ(queue.offer(encoded(Keyframe, 8)), SendQueue::OfferResult::Accepted) << "the chain restarts";
     EXPECT_EQ(nextFrame(queue), 8U);
 }
 
-TEST(SendQueue, LosesTheChainWhenAFrameCouldNotGoInTime) {
+TEST(SendQueue, LosesTheChainWhenTheFrameSlotIsBusy) {
     SendQueue queue = following();
     EXPECT_EQ(queue.offer(encoded(Keyframe, 1)), SendQueue::OfferResult::Accepted);
-    EXPECT_EQ(queue.offer(encoded(Delta, 2)), SendQueue::OfferResult::Busy) << "1 still waits";
+    EXPECT_EQ(queue.offer(encoded(Delta, 2)), SendQueue::OfferResult::Busy) << "frame 1 is still queued";
     EXPECT_TRUE(queue.wantsKeyframe());
-    EXPECT_EQ(nextFrame(queue), 0U) << "it is old";
+    EXPECT_EQ(nextFrame(queue), 0U) << "the frame is stale";
     EXPECT_EQ(queue.offer(encoded(Delta, 3)), SendQueue::OfferResult::Accepted) << "lost already";
     EXPECT_EQ(nextFrame(queue), 0U);
     EXPECT_EQ(queue.offer(encoded(Resync, 3)), SendQueue::OfferResult::Accepted);
@@ -114,7 +114,7 @@ TEST(SendQueue, LosesTheChainAtAGap) {
     EXPECT_TRUE(queue.wantsKeyframe());
 }
 
-TEST(SendQueue, HearsOfALossOnlyOnce) {
+TEST(SendQueue, ReportsALossOnce) {
     SendQueue queue = following();
     EXPECT_EQ(queue.offer(encoded(Keyframe, 4)), SendQueue::OfferResult::Accepted);
     EXPECT_FALSE(queue.reportLoss(3)) << "before the keyframe";
@@ -122,10 +122,10 @@ TEST(SendQueue, HearsOfALossOnlyOnce) {
     EXPECT_TRUE(queue.reportLoss(4));
     EXPECT_TRUE(queue.wantsKeyframe());
     queue.follow({});
-    EXPECT_FALSE(queue.reportLoss(5)) << "it follows none";
+    EXPECT_FALSE(queue.reportLoss(5)) << "it follows no rendition";
 }
 
-TEST(SendQueue, TakesANewerKeyframeInPlaceOfOneThatWaits) {
+TEST(SendQueue, ReplacesAQueuedKeyframe) {
     SendQueue queue = following();
     queue.offer(encoded(Keyframe, 1));
     EXPECT_EQ(queue.offer(encoded(Keyframe, 2)), SendQueue::OfferResult::Accepted);
@@ -133,12 +133,12 @@ TEST(SendQueue, TakesANewerKeyframeInPlaceOfOneThatWaits) {
     EXPECT_EQ(nextFrame(queue), 0U);
 }
 
-TEST(SendQueue, TakesNoFrameOfAnotherEpochForOneOfTheChain) {
+TEST(SendQueue, RejectsFramesOfAnotherEpoch) {
     SendQueue queue = following();
     queue.offer(encoded(Keyframe, 1));
     EXPECT_EQ(nextFrame(queue), 1U);
     describe(queue, 2);
-    EXPECT_EQ(queue.offer(encoded(Delta, 2, 2)), SendQueue::OfferResult::Accepted) << "nothing is lost that had begun";
+    EXPECT_EQ(queue.offer(encoded(Delta, 2, 2)), SendQueue::OfferResult::Accepted) << "no chain had started";
     EXPECT_EQ(queue.next(true), nullptr);
     EXPECT_TRUE(queue.wantsKeyframe());
     EXPECT_EQ(queue.offer(encoded(Keyframe, 1, 2)), SendQueue::OfferResult::Accepted);
@@ -148,7 +148,7 @@ TEST(SendQueue, TakesNoFrameOfAnotherEpochForOneOfTheChain) {
     EXPECT_EQ(nextFrame(queue), 1U);
 }
 
-TEST(SendQueue, KnowsNothingOfOtherChains) {
+TEST(SendQueue, IgnoresOtherRenditions) {
     SendQueue queue = following();
     EXPECT_EQ(queue.offer(encodedFrame(Keyframe, 1, 1, 64, {v1::ECO, 60})), SendQueue::OfferResult::Accepted);
     EXPECT_EQ(queue.offer(encodedFrame(Keyframe, 1, 1, 64, {v1::NORMAL, 30})), SendQueue::OfferResult::Accepted);
@@ -160,7 +160,7 @@ TEST(SendQueue, KnowsNothingOfOtherChains) {
     EXPECT_FALSE(queue.wantsKeyframe());
 }
 
-TEST(SendQueue, HoldsFramesBackWhileTheClientHasNoCredit) {
+TEST(SendQueue, HoldsFramesWhileTheAckWindowIsClosed) {
     SendQueue queue = following();
     const auto event = eventOf("first");
     queue.offer(encoded(Keyframe, 1));
@@ -170,13 +170,13 @@ TEST(SendQueue, HoldsFramesBackWhileTheClientHasNoCredit) {
     EXPECT_EQ(nextFrame(queue), 1U);
 }
 
-TEST(SendQueue, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochAreSent) {
+TEST(SendQueue, HoldsAFrameUntilItsFactsAndOrderAreSent) {
     SendQueue queue = following();
     queue.offer(encoded(Keyframe, 1, 2));
     EXPECT_EQ(queue.next(true), nullptr);
     ASSERT_TRUE(queue.push(factsOf(2, 64)));
     EXPECT_TRUE(queue.next(true)->content().has_scene());
-    EXPECT_EQ(queue.next(true), nullptr) << "the order of the scene before does not count";
+    EXPECT_EQ(queue.next(true), nullptr) << "the order belongs to the previous scene";
     ASSERT_TRUE(queue.push(orderOf(2)));
     EXPECT_TRUE(queue.next(true)->content().has_order());
     EXPECT_EQ(queue.next(true)->content().frame().epoch(), 2U);

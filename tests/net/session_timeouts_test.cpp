@@ -13,13 +13,13 @@ using Verdict = SessionTimeouts::Verdict;
 const SessionTimeouts::Clock::time_point start = SessionTimeouts::Clock::now();
 const SessionTimeouts::Limits limits{.hello = 10s, .progress = 10s, .idle = 60s};
 
-TEST(SessionTimeouts, IsTenSecondsForProgressAndSixtyForSilenceUnlessAskedOtherwise) {
+TEST(SessionTimeouts, DefaultsAreTenAndSixtySeconds) {
     EXPECT_EQ(Options{}.progressTimeout, 10s);
     EXPECT_EQ(Options{}.idleTimeout, 60s);
     EXPECT_EQ(Options{}.maxMessageBytes, 1024U * 1024U);
 }
 
-TEST(SessionTimeouts, WantsAHelloInTime) {
+TEST(SessionTimeouts, RequiresHelloInTime) {
     SessionTimeouts timeouts(limits, start);
     EXPECT_EQ(timeouts.check({}, start + 9s), Verdict::Fine);
     EXPECT_EQ(timeouts.check({}, start + 11s), Verdict::NoHello);
@@ -27,17 +27,17 @@ TEST(SessionTimeouts, WantsAHelloInTime) {
     EXPECT_EQ(timeouts.check({}, start + 11s), Verdict::Fine);
 }
 
-TEST(SessionTimeouts, PingsOnceAtHalfTheIdleTimeAndGivesUpAtItsEnd) {
+TEST(SessionTimeouts, PingsAtHalfTheIdleTimeAndThenDrops) {
     SessionTimeouts timeouts(limits, start);
     timeouts.helloReceived();
     EXPECT_EQ(timeouts.check({}, start + 31s), Verdict::Ping);
     EXPECT_EQ(timeouts.check({}, start + 32s), Verdict::Fine);
     EXPECT_EQ(timeouts.check({.acknowledged = 2}, start + 33s), Verdict::Fine);
     EXPECT_EQ(timeouts.check({.acknowledged = 2}, start + 61s), Verdict::Silent)
-        << "that the kernel took the ping is no sign of life";
+        << "the kernel's confirmation of the ping does not count";
 }
 
-TEST(SessionTimeouts, StartsAnewWhenSomethingIsHeard) {
+TEST(SessionTimeouts, RestartsWhenDataArrives) {
     SessionTimeouts timeouts(limits, start);
     timeouts.helloReceived();
     EXPECT_EQ(timeouts.check({}, start + 31s), Verdict::Ping);
@@ -46,7 +46,7 @@ TEST(SessionTimeouts, StartsAnewWhenSomethingIsHeard) {
     EXPECT_EQ(timeouts.check({.received = 6}, start + 71s), Verdict::Ping);
 }
 
-TEST(SessionTimeouts, EndsAWriteWithoutProgress) {
+TEST(SessionTimeouts, DropsAWriteWithoutProgress) {
     SessionTimeouts timeouts(limits, start);
     timeouts.helloReceived();
     timeouts.writeBegan(start + 1s);
@@ -55,7 +55,7 @@ TEST(SessionTimeouts, EndsAWriteWithoutProgress) {
     EXPECT_EQ(timeouts.check({.acknowledged = 1000}, start + 16s), Verdict::Stalled);
 }
 
-TEST(SessionTimeouts, KeepsAWriteThatTakesLongButAdvances) {
+TEST(SessionTimeouts, AllowsASlowWriteWithProgress) {
     SessionTimeouts timeouts(limits, start);
     timeouts.helloReceived();
     timeouts.writeBegan(start);

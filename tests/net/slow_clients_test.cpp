@@ -9,7 +9,7 @@ namespace spherule::net {
 namespace {
 
 #ifdef SANITIZED
-constexpr bool memoryIsMeasurable = false;  // the sanitizers keep what is freed
+constexpr bool memoryIsMeasurable = false;  // sanitizers do not return freed memory
 #else
 constexpr bool memoryIsMeasurable = true;
 #endif
@@ -28,14 +28,14 @@ std::string helloBytes(std::uint32_t rate) {
     return helloOf(rate).SerializeAsString();
 }
 
-TEST(SlowClients, ThatStopReadingLoseStatesThenTheConnectionAndOthersNoticeNothing) {
+TEST(SlowClients, ThatStopReadingAreDroppedWithoutDelayingOthers) {
     Options options = quickOptions();
     options.progressTimeout = 2s;
     FakeApp app(options);
-    constexpr std::uint32_t spheres = 40'000;  // 240 kB a state
+    constexpr std::uint32_t spheres = 40'000;  // 240 kB per frame
     app.publishEvery(25ms, spheres);
     const auto healthy = join(app, 60);
-    for (int i = 0; i < 10; ++i) next(*healthy);  // the memory that a running server takes anyway
+    for (int i = 0; i < 10; ++i) next(*healthy);  // lets the server reach its normal memory
 
     const auto stalled = join(app, 60);
     const double before = residentMegabytes();
@@ -54,14 +54,14 @@ TEST(SlowClients, ThatStopReadingLoseStatesThenTheConnectionAndOthersNoticeNothi
     EXPECT_GE(app.counters().chainsLost, 1U);
     EXPECT_GT(states / seconds, 30) << "of 40 published per second";
     if (memoryIsMeasurable) {
-        EXPECT_LT(most - before, 8) << "MB more; the states of that time take 20";
+        EXPECT_LT(most - before, 8) << "MB more; the frames of that time take 20 MB";
     }
     EXPECT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
-// What the kernel has taken gets old there.
-TEST(SlowClients, ThatReadNothingHaveLittleUnderWay) {
+// Frames in the kernel's buffer get stale.
+TEST(SlowClients, ThatReadNothingHaveFewBytesInFlight) {
     FakeApp app;
     const RawSocket slow(app.server().port(), 16 * 1024);
     ASSERT_EQ(slow.openStream().substr(0, 12), "HTTP/1.1 101");
@@ -69,11 +69,11 @@ TEST(SlowClients, ThatReadNothingHaveLittleUnderWay) {
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
     app.publishEvery(5ms, 20'000);  // 120 kB each
     ASSERT_TRUE(eventually([&] { return app.published() > 60; }));
-    EXPECT_EQ(app.counters().framesSent, 0U) << "not even one could be handed to the kernel whole";
+    EXPECT_EQ(app.counters().framesSent, 0U) << "no frame fits into the kernel's buffer";
     EXPECT_GE(app.counters().chainsLost, 1U);
 }
 
-TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
+TEST(SlowClients, ThatReadSteadilyStayConnected) {
     Options options = quickOptions();
     options.progressTimeout = 1s;
     options.idleTimeout = 1500ms;
@@ -98,7 +98,7 @@ TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
     EXPECT_EQ(app.counters().closedBy(CloseCause::Stalled) + app.counters().closedBy(CloseCause::Silent), 0U);
 }
 
-TEST(SlowClients, ThatVanishAreDroppedAndThoseThatAnswerPingsAreKept) {
+TEST(SlowClients, ThatVanishAreDropped) {
     Options options = quickOptions();
     options.idleTimeout = 600ms;
     FakeApp app(options);
@@ -128,7 +128,7 @@ TEST(SlowClients, ArePingedAtHalfTheIdleTime) {
     EXPECT_EQ(app.counters().closedBy(CloseCause::Silent), 0U);
 }
 
-TEST(SlowClients, ThatLeaveMessagesUnreadAreClosedWith1013) {
+TEST(SlowClients, WithAFullSendQueueAreClosedWith1013) {
     Options options = quickOptions();
     options.controlQueue = 8;
     FakeApp app(options);
@@ -141,7 +141,7 @@ TEST(SlowClients, ThatLeaveMessagesUnreadAreClosedWith1013) {
     EXPECT_TRUE(eventually([&] { return app.counters().closedBy(CloseCause::Overflow) == 1; }));
 }
 
-TEST(SlowClients, ThatNeverReadTheirCloseFrameAreDropped) {
+TEST(SlowClients, ThatIgnoreTheCloseFrameAreDropped) {
     Options options = quickOptions();
     options.controlQueue = 8;
     options.progressTimeout = 500ms;

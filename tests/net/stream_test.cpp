@@ -3,7 +3,7 @@
 namespace spherule::net {
 namespace {
 
-TEST(Stream, GreetsWithAllThatFramesNeedAndThenSendsThemWithoutAGap) {
+TEST(Stream, SendsStateBeforeFramesWithoutGap) {
     FakeApp app;
     const auto client = connect(app);
     ASSERT_TRUE(client->send(helloOf(60)));
@@ -23,7 +23,7 @@ TEST(Stream, GreetsWithAllThatFramesNeedAndThenSendsThemWithoutAGap) {
     EXPECT_EQ(next(*client).frame().sequence(), first.frame().sequence() + 1);
 }
 
-TEST(Stream, GrantsThirtyFramesWhenNoRateIsAskedAndSixtyAtMost) {
+TEST(Stream, DefaultsToThirtyFramesAndAllowsSixty) {
     FakeApp app;
     v1::ClientMessage hello;
     hello.mutable_hello();
@@ -41,7 +41,7 @@ TEST(Stream, GrantsThirtyFramesWhenNoRateIsAskedAndSixtyAtMost) {
     EXPECT_TRUE(eventually([&] { return app.server().viewers() == 2 && app.server().subscriptions().size() == 2; }));
 }
 
-TEST(Stream, ChangesTheChainAtAWordOfTheClient) {
+TEST(Stream, ChangesRenditionOnRequest) {
     FakeApp app;
     app.publishEvery(10ms, 64);
     const auto client = join(app, 60);
@@ -61,7 +61,7 @@ TEST(Stream, ChangesTheChainAtAWordOfTheClient) {
     EXPECT_TRUE(eventually([&] { return app.server().viewers() == 0; }));
 }
 
-TEST(Stream, GivesAKeyframeToWhoSaysThatItLostTheChain) {
+TEST(Stream, SendsKeyframeAfterClientReportsLoss) {
     FakeApp app;
     const auto client = join(app, 60);
     const auto other = join(app, 60);
@@ -81,8 +81,8 @@ TEST(Stream, GivesAKeyframeToWhoSaysThatItLostTheChain) {
     EXPECT_FALSE(app.server().subscriptions().front().lost);
 }
 
-// As when the io thread was busy for two frames, and only the second of them has reached the session.
-TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
+// The io thread is busy during two frames, so only the second one reaches the session.
+TEST(Stream, RequestsKeyframeWhenAFrameWasReplaced) {
     FakeApp app;
     const auto client = join(app, 60);
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
@@ -93,14 +93,14 @@ TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
     give(codec::EncodedFrame::Kind::Resync, 1);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
     give(codec::EncodedFrame::Kind::Delta, 3);
-    ASSERT_TRUE(eventually([&] { return app.server().subscriptions().front().lost; })) << "though nothing is written";
+    ASSERT_TRUE(eventually([&] { return app.server().subscriptions().front().lost; })) << "no write is in progress";
     EXPECT_EQ(app.counters().chainsLost, 1U);
     give(codec::EncodedFrame::Kind::Resync, 3);
     EXPECT_EQ(next(*client).frame().sequence(), 3U);
 }
 
-// A keyframe that a delta has overtaken must be asked for again, or nothing ever comes.
-TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
+// A keyframe replaced by a delta frame must be requested again, or no frame ever comes.
+TEST(Stream, RequestsAReplacedKeyframeAgain) {
     FakeApp app;
     const auto client = join(app, 60);
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
@@ -120,7 +120,7 @@ TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
 }
 
-TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
+TEST(Stream, SendsAQuarterOfASecondWithoutAcks) {
     FakeApp app;
     const auto client = join(app, 60);
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
@@ -142,7 +142,7 @@ TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
     EXPECT_GE(app.counters().chainsLost, 1U);
 }
 
-TEST(Stream, SpeaksJsonToAClientThatSaidHelloInText) {
+TEST(Stream, AnswersATextHelloInJson) {
     FakeApp app;
     app.publishEvery(10ms, 64);
     const auto client = connect(app);
@@ -159,7 +159,7 @@ TEST(Stream, SpeaksJsonToAClientThatSaidHelloInText) {
     EXPECT_EQ(state.frame().spb(), expected);
 }
 
-TEST(Stream, ShowsTwoClientsTheSameStates) {
+TEST(Stream, SendsTheSameStatesToTwoClients) {
     FakeApp app;
     const auto one = join(app, 60);
     const auto two = join(app, 60);
@@ -169,7 +169,7 @@ TEST(Stream, ShowsTwoClientsTheSameStates) {
     }
 }
 
-TEST(Stream, AsksForAKeyframeForEachNewcomer) {
+TEST(Stream, RequestsKeyframeForEachNewSession) {
     FakeApp app;
     const auto first = join(app, 60);
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
@@ -182,10 +182,10 @@ TEST(Stream, AsksForAKeyframeForEachNewcomer) {
     app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64));
     EXPECT_EQ(next(*second).frame().sequence(), 1U);
     const auto none = first->receive(100ms);
-    EXPECT_TRUE(none && !*none) << "it has that state";
+    EXPECT_TRUE(none && !*none) << "this client has that state already";
 }
 
-TEST(Stream, SendsNoStatesAndCountsNoViewerForRateZero) {
+TEST(Stream, SendsNothingForRateZero) {
     FakeApp app;
     const auto client = join(app, 0);
     EXPECT_EQ(app.server().viewers(), 0U);
@@ -196,7 +196,7 @@ TEST(Stream, SendsNoStatesAndCountsNoViewerForRateZero) {
     EXPECT_FALSE(received->has_value());
 }
 
-TEST(Stream, NeverShowsAStateBeforeTheFactsOfItsEpoch) {
+TEST(Stream, SendsFactsBeforeStatesOfAnEpoch) {
     FakeApp app;
     app.publishEvery(1ms, 64);
     const auto client = join(app, 60);
@@ -220,7 +220,7 @@ TEST(Stream, NeverShowsAStateBeforeTheFactsOfItsEpoch) {
     EXPECT_GT(epoch, 5U);
 }
 
-TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
+TEST(Stream, HoldsAFrameUntilItsFactsAndOrderCome) {
     FakeApp app;
     const auto client = join(app, 60);
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
@@ -232,7 +232,7 @@ TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
     EXPECT_EQ(next(*client).frame().epoch(), 2U);
 }
 
-TEST(Stream, TellsEveryoneOfEventsAndNewSettings) {
+TEST(Stream, BroadcastsEventsAndSettings) {
     FakeApp app;
     const auto one = join(app, 0);
     const auto two = join(app, 0);

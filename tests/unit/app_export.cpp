@@ -8,7 +8,7 @@
 #include "app/options.h"
 #include "app/player.h"
 #include "recording/record.h"
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -26,7 +26,7 @@ void doubled(const std::string& path) {
 }
 
 TEST(Export, OfFramesOfOneTimeHasOne) {
-    const recording::Folder folder;
+    const recording::TemporaryFolder folder;
     doubled(folder / "film.sph");
     CLI::App app;
     int code = -1;
@@ -42,7 +42,7 @@ TEST(Export, OfFramesOfOneTimeHasOne) {
 }
 
 TEST(Player, OfFramesOfOneTimeShowsOne) {
-    const recording::Folder folder;
+    const recording::TemporaryFolder folder;
     doubled(folder / "film.sph");
     Player::Clock::time_point now{};
     Player player(recording::Recording::open(folder / "film.sph").value(), "film.sph", false, now);

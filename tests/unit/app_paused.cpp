@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -66,7 +66,7 @@ class Looping : public testing::Test {
                     }};
     }
 
-    recording::Folder folder_;
+    recording::TemporaryFolder folder_;
     Requests requests_;
     Live live_;
     std::mutex mutex_;

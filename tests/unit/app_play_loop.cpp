@@ -10,7 +10,7 @@
 #include "codec/order.h"
 #include "codec_support.h"
 #include "recording/record.h"
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -85,7 +85,7 @@ class Stage {
 
 TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
     for (const std::uint32_t second : {1U, 2U}) {
-        const recording::Folder folder;
+        const recording::TemporaryFolder folder;
         const std::string path = folder / "film.sph";
         recording::put(path,
                        recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));

@@ -8,7 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -83,7 +83,7 @@ class Playing : public testing::Test {
         return true;
     }
 
-    recording::Folder folder_;
+    recording::TemporaryFolder folder_;
     std::string path_ = folder_ / "film.sph";
     Player::Clock::time_point now_ = Player::Clock::now();
     std::optional<Player> player_;

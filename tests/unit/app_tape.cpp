@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "codec_support.h"
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -65,7 +65,7 @@ class Taping : public testing::Test {
         return subscriptions;
     }
 
-    recording::Folder folder_;
+    recording::TemporaryFolder folder_;
     TapeOptions options_;
     std::unique_ptr<Tape> tape_;
     codec::Encoder encoder_{"cpu", spheres, 0.125};

@@ -32,7 +32,7 @@ struct CodecChain : testing::Test {
     std::vector<glm::ivec3> cells_;
 };
 
-TEST_F(CodecChain, WhoJoinsGoesOnWithTheSharedFrames) {
+TEST_F(CodecChain, ResyncContinuesWithSharedFrames) {
     Decoder first(spheres);
     ASSERT_TRUE(first.apply(begin()));
     for (int k = 0; k < 5; ++k) ASSERT_TRUE(first.apply(next()));
@@ -52,7 +52,7 @@ TEST_F(CodecChain, WhoJoinsGoesOnWithTheSharedFrames) {
     EXPECT_TRUE(std::ranges::equal(first.before(), second.before()));
 }
 
-TEST_F(CodecChain, AKeyframeOfTheStateIsTheSameHoweverOftenItIsMade) {
+TEST_F(CodecChain, RepeatedResyncsAreEqual) {
     begin();
     next();
     next();
@@ -60,7 +60,7 @@ TEST_F(CodecChain, AKeyframeOfTheStateIsTheSameHoweverOftenItIsMade) {
     EXPECT_EQ(encoder_.join(), once);
 }
 
-TEST_F(CodecChain, ADecoderThatMissedAFrameWantsAKeyframe) {
+TEST_F(CodecChain, DecoderNeedsAKeyframeAfterAMissedFrame) {
     Decoder decoder(spheres);
     ASSERT_TRUE(decoder.apply(begin()));
     next();
@@ -71,7 +71,7 @@ TEST_F(CodecChain, ADecoderThatMissedAFrameWantsAKeyframe) {
     expectNow(decoder);
 }
 
-TEST_F(CodecChain, AKeyframeIsWelcomeAtAnyTime) {
+TEST_F(CodecChain, DecoderAcceptsAKeyframeAtAnyTime) {
     Decoder decoder(spheres);
     ASSERT_TRUE(decoder.apply(begin()));
     ASSERT_TRUE(decoder.apply(next()));
@@ -83,7 +83,7 @@ TEST_F(CodecChain, AKeyframeIsWelcomeAtAnyTime) {
     expectNow(decoder);
 }
 
-TEST_F(CodecChain, AHashThatDiffersIsFound) {
+TEST_F(CodecChain, DetectsAWrongHash) {
     Decoder decoder(spheres);
     ASSERT_TRUE(decoder.apply(begin()));
     Bytes frame = next();
@@ -91,12 +91,12 @@ TEST_F(CodecChain, AHashThatDiffersIsFound) {
     expectRefusal(decoder, frame, "frame, head: has another hash than its positions");
 }
 
-TEST_F(CodecChain, AFrameOfOtherSpheresIsRefused) {
+TEST_F(CodecChain, RefusesAnotherNumberOfSpheres) {
     Decoder decoder(spheres + 1);
     expectRefusal(decoder, begin(), "frame, head: has 2500 spheres where there are 2501");
 }
 
-TEST_F(CodecChain, FramesComeToTheHostWholeHoweverLong) {
+TEST_F(CodecChain, ReadsBackFramesOfAnyLength) {
     Decoder decoder(spheres);
     Motion large(40000);
     Encoder encoder("cpu:1", 40000);

@@ -113,7 +113,7 @@ class CodecError : public testing::TestWithParam<std::string> {
 };
 
 // Few steps of many spheres, many of few: 30 between frames takes the small scenes through their impacts.
-TEST_P(CodecError, StaysWithinWhatIsStated) {
+TEST_P(CodecError, StaysWithinTheStatedBound) {
     constexpr int frames = 6;
     const std::uint32_t spheres = simulation_->count();
     const int between = std::clamp(static_cast<int>(20'000 / spheres), 1, 30);

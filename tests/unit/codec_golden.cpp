@@ -44,7 +44,7 @@ void compare(const std::string& name, const Bytes& made, codec::Decoder& decoder
     EXPECT_TRUE(head->hash);
 }
 
-TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
+TEST(CodecGolden, FramesAreUnchanged) {
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres, 2);
     codec::Decoder decoder(spheres);
@@ -74,7 +74,7 @@ std::vector<glm::ivec3> crowd(int frame) {
     return cells;
 }
 
-TEST(CodecGolden, FramesOfSeveralChunksAreMadeAndReadAsEver) {
+TEST(CodecGolden, FramesOfSeveralChunksAreUnchanged) {
     const auto count = static_cast<std::uint32_t>(crowd(0).size());
     Encoder encoder("cpu:1", count);
     codec::Decoder decoder(count);

@@ -38,13 +38,13 @@ std::string refusalOf(std::vector<std::uint32_t> group) {
     return refusal(decoder, words);
 }
 
-TEST(CodecHostile, AFrameByHandIsAsTheDocumentSays) {
+TEST(CodecHostile, DecodesAHandWrittenFrame) {
     Decoder decoder(64);
     ASSERT_EQ(refusal(decoder, still), "");
     EXPECT_TRUE(std::ranges::all_of(decoder.newest(), [](auto q) { return q == glm::ivec3(5, 6, -7); }));
 }
 
-TEST(CodecHostile, AMaskByHand) {
+TEST(CodecHostile, DecodesAHandWrittenMask) {
     Decoder decoder(64);
     ASSERT_EQ(refusal(decoder, still), "");
     // Mask, previous, widths 1 0 2; which runs of x, y, z, then which values of runs 0 and 5 of x, 5 of y, 5 of z; then
@@ -55,7 +55,7 @@ TEST(CodecHostile, AMaskByHand) {
     EXPECT_EQ(decoder.newest()[40], glm::ivec3(6, 5, -9));
 }
 
-TEST(CodecHostile, WhatIsWrongAndWhereIsSaid) {
+TEST(CodecHostile, ReportsDefectAndPlace) {
     Decoder decoder(64);
     EXPECT_EQ(decoder.apply(Bytes(15)).error().text(), "frame, head: has 15 bytes of 16");
     EXPECT_EQ(refusal(decoder, {0x00025053, 64, 1, 0}), "frame, head: is not that of codec SPB, version 1");
@@ -81,7 +81,7 @@ TEST(CodecHostile, WhatIsWrongAndWhereIsSaid) {
     EXPECT_EQ(refusalOf({0}), "");
 }
 
-TEST(CodecHostile, TruncatedAndGarbledFramesAreRefusedOrMeanSomething) {
+TEST(CodecHostile, SurvivesTruncatedAndGarbledFrames) {
     constexpr std::uint32_t spheres = 5000;
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres);

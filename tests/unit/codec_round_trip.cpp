@@ -28,7 +28,7 @@ std::vector<glm::ivec3> decoded(Decoder& decoder, const Bytes& frame) {
 
 class CodecCounts : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(CodecCounts, AllThatSpheresDoComesBackExactly) {
+TEST_P(CodecCounts, AnyMotionIsDecodedExactly) {
     const std::uint32_t spheres = GetParam();
     Encoder encoder("cpu:1", spheres);
     Decoder decoder(spheres);
@@ -71,7 +71,7 @@ TEST(Codec, EveryModePredictorAndWidthIsUsed) {
     EXPECT_EQ(codes, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}));
 }
 
-TEST(Codec, PositionsBeyondTheGridOrNotFiniteGoToItsEdge) {
+TEST(Codec, ClampsPositionsToTheGrid) {
     constexpr float inf = std::numeric_limits<float>::infinity();
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr int edge = 1 << 30;
@@ -88,7 +88,7 @@ TEST(Codec, PositionsBeyondTheGridOrNotFiniteGoToItsEdge) {
     EXPECT_EQ(decoded(decoder, encoder.next(wild)), cells);
 }
 
-TEST(Codec, TheGridsOriginAndQuantumHold) {
+TEST(Codec, AppliesOriginAndQuantum) {
     constexpr double quantum = 0.00064;
     constexpr glm::vec3 origin(-1.5F, 2, 0.125F);
     Encoder encoder("cpu:1", 1000, quantum, origin);
@@ -108,7 +108,7 @@ TEST(Codec, TheGridsOriginAndQuantumHold) {
     }
 }
 
-TEST(Codec, SpheresComeInTheOrderThatWasSet) {
+TEST(Codec, KeepsTheOrderOfSpheres) {
     constexpr std::uint32_t spheres = 3000;
     Encoder encoder("cpu:1", spheres);
     std::vector<std::uint32_t> order(spheres);
@@ -123,7 +123,7 @@ TEST(Codec, SpheresComeInTheOrderThatWasSet) {
     for (std::uint32_t k = 0; k < spheres; ++k) ASSERT_EQ(cells[k], byId[order[k]]);
 }
 
-TEST(Codec, WhatDoesNotMoveCostsABitPerBlock) {
+TEST(Codec, SpheresAtRestCostOneBitPerBlock) {
     constexpr std::uint32_t spheres = 2048 * 8 * 2;
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres);

@@ -12,14 +12,14 @@ v1::ServerMessage stateMessage() {
     return message;
 }
 
-TEST(Message, CarriesTheSameContentInBinary) {
+TEST(Message, SerialisesToBinary) {
     const Message message(stateMessage());
     v1::ServerMessage parsed;
     ASSERT_TRUE(parsed.ParseFromString(message.binary()));
     EXPECT_EQ(parsed.SerializeAsString(), stateMessage().SerializeAsString());
 }
 
-TEST(Message, HasLowerCamelNamesAndBase64InJson) {
+TEST(Message, SerialisesToJson) {
     EXPECT_EQ(Message(stateMessage()).json(), R"({"frame":{"simTime":0.5,"spb":"AQL/"}})");
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,21 +8,11 @@
 
 #include "recording/recording.h"
 #include "recording/writer.h"
+#include "temporary_folder.h"
 
 namespace spherule::recording {
 
-// A folder of its own, gone afterwards.
-class Folder {
-  public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-  private:
-    std::filesystem::path path_;
-};
+using support::TemporaryFolder;
 
 using Places = std::vector<glm::dvec3>;  // by id, m
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "recording/background_writer.h"
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::recording {
 namespace {
@@ -27,7 +27,7 @@ BackgroundWriter::Progress ended(BackgroundWriter& writer) {
 }
 
 // A disk that takes nothing: a pipe that nobody reads.
-class Stuck : public testing::Test {
+class SlowDisk : public testing::Test {
   protected:
     Stuck() {
         mkfifo(path_.c_str(), 0600);
@@ -47,13 +47,13 @@ class Stuck : public testing::Test {
         close(reader_);
     }
 
-    Folder folder_;
+    TemporaryFolder folder_;
     std::string path_ = folder_ / "pipe";
     int reader_ = -1;
     std::unique_ptr<BackgroundWriter> writer_;
 };
 
-TEST_F(Stuck, FramesAreLeftOutAndNobodyWaits) {
+TEST_F(SlowDisk, DropsFramesWithoutBlocking) {
     const auto megabyte = messageOf(1'000'000);
     int taken = 0;
     while (taken < 1000 && writer_->add(Kind::Delta, taken, megabyte)) ++taken;
@@ -63,14 +63,14 @@ TEST_F(Stuck, FramesAreLeftOutAndNobodyWaits) {
     EXPECT_FALSE(writer_->progress().ended);
 }
 
-TEST_F(Stuck, WhatFramesNeedHasALimitToo) {
+TEST_F(SlowDisk, LimitsRecordsThatFramesNeed) {
     const auto much = messageOf(10'000'000);
     for (int k = 0; k < 60; ++k) EXPECT_TRUE(writer_->add(Kind::Order, k, much));
     EXPECT_EQ(writer_->progress().failure, "the disk is too slow: 256 MiB wait to be written");
 }
 
-TEST(BackgroundWriter, WritesAllBeforeItEnds) {
-    const Folder folder;
+TEST(BackgroundWriter, WritesAllRecordsBeforeItEnds) {
+    const TemporaryFolder folder;
     auto writer = BackgroundWriter::create(folder / "film.sph", false, 0);
     ASSERT_TRUE(writer);
     for (int k = 0; k < 100; ++k) ASSERT_TRUE((*writer)->add(Kind::Delta, k, messageOf(1000)));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "recording/bytes.h"
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::recording {
 namespace {
@@ -38,12 +38,12 @@ class Hostile : public testing::Test {
         return colon == std::string::npos ? refusal : refusal.substr(colon + 9);
     }
 
-    Folder folder_;
+    TemporaryFolder folder_;
     std::string path_ = folder_ / "film.sph";
     Film film_ = film(folder_ / "good.sph", 3);
 };
 
-TEST_F(Hostile, WhatIsNoRecordingIsSaid) {
+TEST_F(Hostile, RefusesOtherFiles) {
     const auto refusal = [&](const std::string& content) {
         put(path_, content);
         return Recording::open(path_).error().text().substr(path_.size() + 2);
@@ -58,7 +58,7 @@ TEST_F(Hostile, WhatIsNoRecordingIsSaid) {
     EXPECT_EQ(Recording::open("/tmp").error().text(), "/tmp: is a folder, must be a regular file");
 }
 
-TEST_F(Hostile, LengthsAreCheckedBeforeMemoryIsTaken) {
+TEST_F(Hostile, ChecksLengthsBeforeAllocating) {
     std::string record = film_.records.front();
     for (const std::uint32_t length : {mostPayload + 1, 0xffffffffU, 0x7fffffffU}) {
         record.replace(0, 4, std::string(reinterpret_cast<const char*>(&length), 4));
@@ -68,7 +68,7 @@ TEST_F(Hostile, LengthsAreCheckedBeforeMemoryIsTaken) {
     EXPECT_EQ(refusalOf(record), "has no frames: the record at byte 16 is cut off");
 }
 
-TEST_F(Hostile, SpheresAreAsManyAsThereAreBytesFor) {
+TEST_F(Hostile, BoundsSpheresByFileSize) {
     EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->set_count(4'000'000'000); }),
               "order: has 210 bytes for 4000000000 spheres");
     EXPECT_EQ(refusalWith(0, [](auto& m) { m.mutable_scene()->set_radii("abc"); }),
@@ -89,7 +89,7 @@ TEST_F(Hostile, SpheresAreAsManyAsThereAreBytesFor) {
               "scene facts: are of another epoch than the order");
 }
 
-TEST_F(Hostile, FramesMustFit) {
+TEST_F(Hostile, RefusesFramesOfOtherSpheres) {
     EXPECT_EQ(refusalWith(3, [](auto& m) { m.mutable_frame()->set_order(9); }),
               "its frame is of other spheres than scene and order before it");
     EXPECT_EQ(refusalWith(3, [](auto& m) { m.mutable_frame()->set_quantum(-1); }), "its frame has no quantum");
@@ -104,7 +104,7 @@ TEST_F(Hostile, FramesMustFit) {
 }
 
 // An index that makes no sense is passed over; one that leads astray ends in an error.
-TEST_F(Hostile, IndexesAreNotTrusted) {
+TEST_F(Hostile, DoesNotTrustTheIndex) {
     const std::string bytes = film_.records[0] + film_.records[1] + film_.records[2];
     const std::uint64_t at = fileHeadBytes + bytes.size();
     const auto refusal = [&](const Index& index) {

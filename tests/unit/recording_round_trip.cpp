@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::recording {
 namespace {
@@ -13,11 +13,11 @@ constexpr double bound = Film::quantum / 2 + 1e-6;  // m
 
 class RoundTrip : public testing::Test {
   protected:
-    Folder folder_;
+    TemporaryFolder folder_;
     std::string path_ = folder_ / "film.sph";
 };
 
-TEST_F(RoundTrip, EveryFrameComesBackInIdOrderInMetres) {
+TEST_F(RoundTrip, EveryFrameIsReadInIdOrderInMetres) {
     const Film film = recording::film(path_, 23);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording) << recording.error().text();
@@ -40,7 +40,7 @@ TEST_F(RoundTrip, EveryFrameComesBackInIdOrderInMetres) {
     EXPECT_FALSE(*recording->next());
 }
 
-TEST_F(RoundTrip, AFilePlaysFromItsFirstFrameOnWhileItIsWritten) {
+TEST_F(RoundTrip, FilePlaysWhileItIsWritten) {
     const Film film = recording::film(folder_ / "whole.sph", 1);
     auto writer = Writer::create(path_, false);
     ASSERT_TRUE(writer);
@@ -53,7 +53,7 @@ TEST_F(RoundTrip, AFilePlaysFromItsFirstFrameOnWhileItIsWritten) {
     EXPECT_EQ(recording->frames(), 1U);
 }
 
-TEST_F(RoundTrip, SeekGoesToTheFrameThatIsNotAfterTheTime) {
+TEST_F(RoundTrip, SeekFindsTheLastFrameNotAfterTheTime) {
     const Film film = recording::film(path_, 23);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording);
@@ -70,7 +70,7 @@ TEST_F(RoundTrip, SeekGoesToTheFrameThatIsNotAfterTheTime) {
     }
 }
 
-TEST_F(RoundTrip, OtherSpheresMayFollow) {
+TEST_F(RoundTrip, SceneMayChange) {
     recording::film(path_, 3, false);
     const std::string first = contentOf(path_);
     // The same again, of another epoch and later.
@@ -97,7 +97,7 @@ TEST_F(RoundTrip, OtherSpheresMayFollow) {
     EXPECT_EQ(recording->facts().epoch(), 2U);
 }
 
-TEST_F(RoundTrip, AFileThatIsThereIsReplacedOnlyWhenAskedFor) {
+TEST_F(RoundTrip, ExistingFileIsReplacedOnlyOnRequest) {
     put(path_, "precious");
     const auto refused = Writer::create(path_, false);
     ASSERT_FALSE(refused);
@@ -106,7 +106,7 @@ TEST_F(RoundTrip, AFileThatIsThereIsReplacedOnlyWhenAskedFor) {
     EXPECT_TRUE(Writer::create(path_, true));
 }
 
-TEST_F(RoundTrip, WhereItCannotBeWrittenAndWhyIsSaid) {
+TEST_F(RoundTrip, ReportsPathAndReasonOfAWriteError) {
     EXPECT_EQ(Writer::create(folder_ / "no/film.sph", false).error().text(),
               (folder_ / "no/film.sph") + ": cannot be written: No such file or directory; make its folder first");
     const auto full = Writer::create("/dev/full", true);

@@ -10,7 +10,7 @@
 #include "recording/background_writer.h"
 #include "recording/exporter.h"
 #include "recording/output_file.h"
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::recording {
 namespace {
@@ -29,11 +29,11 @@ class Output : public testing::Test {
     }
     using Names = std::vector<std::string>;
 
-    Folder folder_;
+    TemporaryFolder folder_;
     std::string path_ = folder_ / "out";
 };
 
-TEST_F(Output, OneThatIsNotKeptLeavesNothing) {
+TEST_F(Output, UnfinishedFileIsRemoved) {
     {
         auto file = OutputFile::create(path_, false);
         ASSERT_TRUE(file && file->write("half") && file->flush());
@@ -48,7 +48,7 @@ TEST_F(Output, OneThatIsNotKeptLeavesNothing) {
     EXPECT_EQ(contentOf(path_), "half");
 }
 
-TEST_F(Output, WhatIsToBeReplacedStaysUntilTheFirstWrite) {
+TEST_F(Output, ReplacedFileStaysUntilTheFirstWrite) {
     put(path_, "something long");
     EXPECT_EQ(OutputFile::create(path_, false).error().message,
               "is there already; give --force to replace it, or another name");
@@ -59,7 +59,7 @@ TEST_F(Output, WhatIsToBeReplacedStaysUntilTheFirstWrite) {
     EXPECT_EQ(contentOf(path_), "short");
 }
 
-TEST_F(Output, OneThatAppearsWhenClosedIsNotThereBefore) {
+TEST_F(Output, AppearsWhenClosed) {
     for (const bool replace : {false, true}) {
         if (replace) put(path_, "old");
         {
@@ -76,7 +76,7 @@ TEST_F(Output, OneThatAppearsWhenClosedIsNotThereBefore) {
     EXPECT_EQ(contentOf(path_), "new");
 }
 
-TEST_F(Output, OneThatAppearsWhenClosedReplacesNothingThatCameMeanwhile) {
+TEST_F(Output, DoesNotReplaceAFileCreatedMeanwhile) {
     auto file = OutputFile::create(path_, false, WhenClosed);
     ASSERT_TRUE(file && file->write("new"));
     put(path_, "another's");
@@ -84,7 +84,7 @@ TEST_F(Output, OneThatAppearsWhenClosedReplacesNothingThatCameMeanwhile) {
     EXPECT_EQ(contentOf(path_), "another's");
 }
 
-TEST_F(Output, BehindALinkTheFileIsReplacedAndNotTheLink) {
+TEST_F(Output, ReplacesTheTargetOfALink) {
     put(folder_ / "real", "old");
     fs::create_symlink("real", path_);
     auto file = OutputFile::create(path_, true, WhenClosed);
@@ -93,7 +93,7 @@ TEST_F(Output, BehindALinkTheFileIsReplacedAndNotTheLink) {
     EXPECT_EQ(contentOf(folder_ / "real"), "new");
 }
 
-TEST_F(Output, PipesAreNotWaitedForAndNotRemoved) {
+TEST_F(Output, PipesDoNotBlockAndStay) {
     ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
     for (const auto appears : {AtOnce, WhenClosed})
         EXPECT_EQ(OutputFile::create(path_, true, appears).error().message,
@@ -110,7 +110,7 @@ TEST_F(Output, PipesAreNotWaitedForAndNotRemoved) {
     EXPECT_EQ(names(), Names({"out"}));
 }
 
-TEST_F(Output, OneThatWasDeletedIsNoticed) {
+TEST_F(Output, DetectsADeletedFile) {
     auto file = OutputFile::create(path_, false);
     ASSERT_TRUE(file && file->write("half") && file->flush());
     file->persist();
@@ -121,7 +121,7 @@ TEST_F(Output, OneThatWasDeletedIsNoticed) {
     EXPECT_EQ(done.error().message, "was deleted while it was written, or its folder was; nothing of it is kept");
 }
 
-TEST_F(Output, ARecordingThatIsDeletedEndsAlsoWhileNothingComes) {
+TEST_F(Output, IdleRecordingEndsWhenItsFileIsDeleted) {
     fs::create_directory(path_);
     const Film made = film(folder_ / "film.sph", 1);
     auto writer = BackgroundWriter::create(path_ + "/film.sph", false, 0);
@@ -136,7 +136,7 @@ TEST_F(Output, ARecordingThatIsDeletedEndsAlsoWhileNothingComes) {
               "was deleted while it was written, or its folder was; nothing of it is kept");
 }
 
-TEST_F(Output, ARecordingWithoutFramesLeavesNothing) {
+TEST_F(Output, RecordingWithoutFramesIsRemoved) {
     {
         auto writer = Writer::create(path_, false);
         ASSERT_TRUE(writer && writer->add(Kind::Other, 0, "abc") && writer->finish());
@@ -153,7 +153,7 @@ struct Small {
     }
 };
 
-TEST_F(Output, AnExportThatDoesNotFinishLeavesNothing) {
+TEST_F(Output, UnfinishedExportIsRemoved) {
     using Make = MadeExporter (*)(const std::string&, bool);
     for (const Make make : {Make(csvExporter), Make(xyzExporter), Make(vtkExporter)}) {
         {
@@ -165,7 +165,7 @@ TEST_F(Output, AnExportThatDoesNotFinishLeavesNothing) {
     }
 }
 
-TEST_F(Output, VtkReplacesFramesAndKeepsWhatElseIsInTheFolder) {
+TEST_F(Output, VtkReplacesOnlyItsFrames) {
     for (int round = 0; round < 2; ++round) {
         auto exporter = vtkExporter(path_ + ".pvd", round > 0);
         ASSERT_TRUE(exporter && (*exporter)->add(Small().snapshot()) && (*exporter)->finish());

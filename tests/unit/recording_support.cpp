@@ -1,4 +1,4 @@
-#include "store_support.h"
+#include "recording_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,17 +42,6 @@ v1::ServerMessage frameMessage(std::uint32_t number, const codec::Bytes& bytes) 
 
 }  // namespace
 
-Folder::Folder() {
-    std::string name = std::filesystem::temp_directory_path() / "spherule-store-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-}
-
-Folder::~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
 v1::ServerMessage sceneMessage(std::uint32_t epoch, std::uint32_t spheres) {
     v1::ServerMessage message;
     v1::SceneFacts& facts = *message.mutable_scene();
@@ -94,7 +83,7 @@ Film film(const std::string& path, std::uint32_t frames, bool finish) {
         const double time = Film::interval * n;
         add(n == 0 ? Kind::Keyframe : Kind::Delta, time,
             frameMessage(n, n == 0 ? encoder.begin(positions) : encoder.next(positions)));
-        if (n > 0 && n % 5 == 0) add(Kind::Join, time, frameMessage(n, encoder.join()));
+        if (n > 0 && n % 5 == 0) add(Kind::Resync, time, frameMessage(n, encoder.join()));
         Places places;
         for (const auto& p : positions) places.push_back(0.5 * (low + high) + glm::dvec3(p));
         film.frames.push_back(std::move(places));

@@ -1,7 +1,7 @@
 // Files that were cut off, or in which bytes have changed.
 #include <gtest/gtest.h>
 
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::recording {
 namespace {
@@ -22,13 +22,13 @@ class Damage : public testing::Test {
         return frames;
     }
 
-    Folder folder_;
+    TemporaryFolder folder_;
     std::string path_ = folder_ / "film.sph";
     Film film_ = film(path_, 8);
     std::string content_ = contentOf(path_);
 };
 
-TEST_F(Damage, AFileThatIsCutAnywherePlaysUpToTheCut) {
+TEST_F(Damage, TruncatedFilePlaysUpToTheCut) {
     const std::string cut = folder_ / "cut.sph";
     for (std::size_t bytes = 0; bytes < content_.size(); ++bytes) {
         put(cut, content_.substr(0, bytes));
@@ -49,7 +49,7 @@ TEST_F(Damage, AFileThatIsCutAnywherePlaysUpToTheCut) {
     }
 }
 
-TEST_F(Damage, WhatIsCutOffIsSaid) {
+TEST_F(Damage, ReportsATruncatedFile) {
     put(path_, content_.substr(0, content_.size() - 1));
     EXPECT_EQ(Recording::open(path_)->damage(), "its end is damaged");
     std::size_t end = fileHeadBytes;
@@ -62,7 +62,7 @@ TEST_F(Damage, WhatIsCutOffIsSaid) {
 }
 
 // Played as far as it goes, it says so, and what it shows is right.
-TEST_F(Damage, EveryByteThatIsFlippedIsNoticed) {
+TEST_F(Damage, DetectsEveryFlippedByte) {
     const std::string flipped = folder_ / "flipped.sph";
     for (std::size_t byte = 0; byte < content_.size(); ++byte) {
         std::string content = content_;
@@ -80,7 +80,7 @@ TEST_F(Damage, EveryByteThatIsFlippedIsNoticed) {
     }
 }
 
-TEST_F(Damage, BehindADamagedFrameItGoesOnWithTheNextKeyframe) {
+TEST_F(Damage, RecoversAtTheNextKeyframe) {
     std::size_t begin = fileHeadBytes;
     for (std::size_t record = 0; record < 4; ++record) begin += film_.records[record].size();
     content_[begin + 30] = static_cast<char>(content_[begin + 30] ^ 1);
