@@ -80,9 +80,9 @@ struct Client::Connection {
         if (!failed) return {};
         const long why = SSL_get_verify_result(secure->native_handle());
         return tl::unexpected(
-            error("no TLS with it: " + (why == X509_V_OK ? failed.message()
-                                                         : std::string("its certificate is refused: ") +
-                                                               X509_verify_cert_error_string(why))));
+            error("the TLS handshake failed: " + (why == X509_V_OK ? failed.message()
+                                                                   : std::string("its certificate is refused: ") +
+                                                                         X509_verify_cert_error_string(why))));
     }
 
     [[nodiscard]] Error error(const std::string& what) const {

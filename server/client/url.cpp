@@ -6,7 +6,7 @@ namespace spherule::client {
 
 Result<Url> parseUrl(const std::string& url) {
     const auto refuse = [&](const std::string& why) {
-        return fail(ErrorKind::Input, url, why + "; wanted is ws://host:port/ws, or wss:// for TLS");
+        return fail(ErrorKind::Input, url, why + "; expected ws://host:port/ws, or wss:// for TLS");
     };
     const bool secure = url.starts_with("wss://");
     if (!secure && !url.starts_with("ws://")) return refuse("does not begin with ws:// or wss://");

@@ -87,11 +87,11 @@ Result<void> checkToken(const std::string& token, const std::string& where) {
         return fail(ErrorKind::Input, where,
                     "the token has " + std::to_string(token.size()) + " characters; give " +
                         std::to_string(shortestToken) + " to " + std::to_string(longestToken) +
-                        ", such as those of: openssl rand -hex 16");
+                        ", for example from: openssl rand -hex 16");
     if (std::ranges::all_of(token, [](unsigned char c) { return c > ' ' && c <= '~'; })) return {};
     return fail(
         ErrorKind::Input, where,
-        "the token has a character that is no letter, digit or sign of ASCII; make one with: openssl rand -hex 16");
+        "the token may have only printable ASCII characters without spaces; make one with: openssl rand -hex 16");
 }
 
 Admission::Admission(AllowedNames allowedNames, Credentials credentials, std::string scheme)

@@ -114,8 +114,7 @@ void HttpConnection::onRead(ErrorCode error) {
     if (!hasKnownEnd(request)) {
         // The end of the body is unknown, so the connection cannot be reused.
         request.keep_alive(false);
-        return refuse(request, RejectReason::Malformed, 501,
-                      "the only transfer encoding that is understood is chunked");
+        return refuse(request, RejectReason::Malformed, 501, "the only supported transfer encoding is chunked");
     }
     const std::string path = pathOf({request.target().data(), request.target().size()});
     if (!state_.admission->isHost(fieldOf(request, http::field::host))) {

@@ -47,9 +47,8 @@ Result<void> Listener::open() {
     const bool proxied = !options.allowedNames.hosts.empty() || !options.allowedNames.origins.empty();
     if (!options.open && !requiresToken(options.credentials) && (proxied || !endpoint.address().is_loopback()))
         return fail(ErrorKind::Input, address,
-                    "others reach it, by this address or by the names that it is given: say who may come in "
-                    "(--controller-token-file FILE, --viewer-token-file "
-                    "FILE), or that everybody may view and command (--open)");
+                    "other machines can reach this server: require a token (--controller-token-file FILE, "
+                    "--viewer-token-file FILE), or let everybody view and command (--open)");
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
     if (!error) acceptor_.bind(endpoint, error);

@@ -105,7 +105,7 @@ class RunningServer final : public Server {
 
     [[nodiscard]] Result<LoadedCredentials> load(const Credentials& credentials) const {
         if (requiresToken(credentials) != requiresToken(state_.options.credentials))
-            return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
+            return fail(ErrorKind::Input, "tokens", "cannot be turned on or off while the server runs");
         AllowedNames allowedNames = state_.options.allowedNames;
         allowedNames.hosts.push_back(state_.options.host);  // the address that was announced to users
         LoadedCredentials loaded{
@@ -117,7 +117,7 @@ class RunningServer final : public Server {
             loaded.tls = std::move(*tls);
             return loaded;
         }
-        return fail(ErrorKind::Input, "--tls-certificate", "cannot come or go while the server runs");
+        return fail(ErrorKind::Input, "--tls-certificate", "cannot be turned on or off while the server runs");
     }
 
     void apply(const LoadedCredentials& loaded) {

@@ -104,7 +104,7 @@ void Session::onBytes(std::string_view bytes, Encoding encoding) {
         if (helloDone_ && message.error().kind == ErrorKind::Refused) return onInvalidCommand(preview, message.error());
         close(close_code::bad_payload, message.error().text(), CloseCause::Undecodable);
     } else if (message->has_hello() == helloDone_) {
-        close(close_code::policy_error, helloDone_ ? "hello was said before" : "the first message must be hello",
+        close(close_code::policy_error, helloDone_ ? "hello was sent before" : "the first message must be hello",
               CloseCause::NoHello);
     } else {
         if (!helloDone_) encoding_ = encoding;
@@ -139,8 +139,8 @@ void Session::onHello(const v1::Hello& hello) {
     if (const auto cause = permit_->openSession()) {
         state_.rejectionLog.rejected(*cause, description());
         return close(close_code::try_again_later,
-                     *cause == RejectReason::Sessions ? "as many sessions are open as may be"
-                                                      : "as many sessions of this address are open as may be",
+                     *cause == RejectReason::Sessions ? "the limit of open sessions is reached"
+                                                      : "the limit of open sessions of this address is reached",
                      CloseCause::Full);
     }
     admit(hello, *role);

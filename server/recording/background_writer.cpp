@@ -107,8 +107,8 @@ Result<void> BackgroundWriter::writeItems(const std::vector<Item>& items) {
             const std::lock_guard lock(mutex_);
             finishing_ = true;
             waiting_.clear();
-            progress_.failure = fmt::format("it has reached {:.1f} MB, the most that it may have",
-                                            static_cast<double>(mostBytes_) / 1e6);
+            progress_.failure =
+                fmt::format("it has reached its limit of {:.1f} MB", static_cast<double>(mostBytes_) / 1e6);
             break;
         }
         if (auto done = writer_.add(item.kind, item.time, bytes); !done) return done;

@@ -30,7 +30,7 @@ std::string Index::payload() const {
 }
 
 Result<Index> Index::from(std::string_view payload, std::uint64_t offset) {
-    const auto bad = fail(ErrorKind::Input, "index", "makes no sense");
+    const auto bad = fail(ErrorKind::Input, "index", "is invalid");
     if (payload.size() < indexHeadBytes || (payload.size() - indexHeadBytes) % entryBytes != 0) return bad;
     Index index{.frames = numberAt<std::uint64_t>(payload, 0),
                 .begin = numberAt<double>(payload, 8),

@@ -188,7 +188,7 @@ Result<void> OutputFile::writeBytes(std::string_view bytes) {
 tl::unexpected<Error> OutputFile::cannot(int error) {
     failed_ = Error{
         ErrorKind::Refused, path_,
-        fmt::format("cannot be written on after {} bytes: {}; {}; {}", written_, std::strerror(error), adviceFor(error),
+        fmt::format("writing failed after {} bytes: {}; {}; {}", written_, std::strerror(error), adviceFor(error),
                     persistent_ || place_.empty() ? "what has been written stays as it is" : "nothing of it is kept")};
     return tl::unexpected(*failed_);
 }

@@ -61,14 +61,14 @@ Result<Record> RecordFile::readHead(std::uint64_t offset) const {
     if (!get(offset, head.data(), head.size())) return bad(offset, "is cut off");
     const auto length = numberAt<std::uint32_t>(head, 0);
     const std::uint64_t whole = recordHeadBytes + std::uint64_t{length} + checksumBytes;
-    if (length > mostPayload) return bad(offset, "is damaged: it is longer than any");
+    if (length > mostPayload) return bad(offset, "is damaged: it is too long");
     if (whole > size() - offset) return bad(offset, "is cut off");
     Record record{.kind = static_cast<Kind>(numberAt<std::uint32_t>(head, 4)),
                   .time = numberAt<double>(head, 8),
                   .payload = {},
                   .end = offset + whole};
     if (record.kind < Kind::Scene || record.kind > Kind::Index || !std::isfinite(record.time))
-        return bad(offset, "is damaged: its head makes no sense");
+        return bad(offset, "is damaged: its head is invalid");
     return record;
 }
 
@@ -79,7 +79,7 @@ Result<Record> RecordFile::read(std::uint64_t offset) const {
     if (!get(offset, bytes.data(), bytes.size())) return bad(offset, "cannot be read");
     const std::size_t hashed = bytes.size() - checksumBytes;
     if (numberAt<std::uint64_t>(bytes, hashed) != XXH3_64bits(bytes.data(), hashed))
-        return bad(offset, "is damaged: its checksum is another");
+        return bad(offset, "is damaged: its checksum differs");
     bytes.resize(hashed);
     bytes.erase(0, recordHeadBytes);
     record->payload = std::move(bytes);

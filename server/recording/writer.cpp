@@ -22,7 +22,7 @@ Result<Writer> Writer::create(const std::string& path, bool replace) {
 
 Result<void> Writer::add(Kind kind, double time, std::string_view message) {
     if (time < time_ && file_.size() > fileHeadBytes)
-        return fail(ErrorKind::Refused, file_.path(), "cannot record time that goes back");
+        return fail(ErrorKind::Refused, file_.path(), "cannot record a time before the last one");
     if (message.size() > mostPayload)
         return fail(ErrorKind::Refused, file_.path(), "cannot hold a frame of more than 1 GiB: record fewer spheres");
     const bool plays = index_.frames > 0;

@@ -259,7 +259,7 @@ test("a server that is full is asked again until there is room", async () => {
   const first = await enter(browser, small, tokens.viewer);
   const page = await visit(browser, small.url);
   await give(page, tokens.viewer);
-  await says(page, "refusal", /^The server says: as many sessions are open as may be$/);
+  await says(page, "refusal", /^The server says: the limit of open sessions is reached$/);
   await says(page, "connection", /^offline, trying again in \d+ s$/);
   assert.ok((await small.metric('spherule_rejected_total{cause="sessions"}')) > 0);
   await first.close();
@@ -276,7 +276,7 @@ test("a server that turns the page away is quoted, and asked again", async () =>
     proxy.stutter(true);
     proxy.reset();
     proxy.restore();
-    await says(page, "refusal", /^The server says: hello was said before$/);
+    await says(page, "refusal", /^The server says: hello was sent before$/);
     await says(page, "connection", /^offline, trying again/);
     proxy.stutter(false);
     await page.waitForSelector(control("refusal"), { state: "hidden" });

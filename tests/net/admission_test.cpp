@@ -274,7 +274,7 @@ TEST(Exposure, LimitsSessions) {
         ASSERT_TRUE(third->send(helloOf(0)));
         const auto end = readToEnd(*third);
         EXPECT_EQ(end.code, 1013);
-        EXPECT_EQ(end.reason, "as many sessions are open as may be");
+        EXPECT_EQ(end.reason, "the limit of open sessions is reached");
     }
     EXPECT_EQ(app.counters().rejectedFor(RejectReason::Sessions), 1U);
     EXPECT_TRUE(eventually([&] { return app.counters().sessions == 1; }));

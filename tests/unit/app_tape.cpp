@@ -191,7 +191,7 @@ TEST_F(Taping, ItsFolderHasALimit) {
     ASSERT_TRUE(tape_->start());
     for (int k = 0; k < 10'000; ++k) tape_->frame(encoded(k == 0 ? Kind::Keyframe : Kind::Delta, k));
     const v1::Recording state = ended();
-    EXPECT_EQ(state.failure(), "it has reached 1.1 MB, the most that it may have");
+    EXPECT_EQ(state.failure(), "it has reached its limit of 1.1 MB");
     auto recording = recording::Recording::open(state.file());
     ASSERT_TRUE(recording);
     EXPECT_EQ(recording->damage(), "");

@@ -89,7 +89,7 @@ TEST_F(Damage, RecoversAtTheNextKeyframe) {
     ASSERT_TRUE(recording);
     std::string end;
     EXPECT_EQ(play(*recording, &end).size(), 2U);
-    EXPECT_EQ(end, path_ + ": the record at byte " + std::to_string(begin) + " is damaged: its checksum is another");
+    EXPECT_EQ(end, path_ + ": the record at byte " + std::to_string(begin) + " is damaged: its checksum differs");
     ASSERT_TRUE(recording->seek(0.5));
     EXPECT_EQ(play(*recording, &end).size(), 2U);
     EXPECT_EQ(end, "");

@@ -62,7 +62,7 @@ TEST_F(Hostile, ChecksLengthsBeforeAllocating) {
     std::string record = film_.records.front();
     for (const std::uint32_t length : {mostPayload + 1, 0xffffffffU, 0x7fffffffU}) {
         record.replace(0, 4, std::string(reinterpret_cast<const char*>(&length), 4));
-        EXPECT_EQ(refusalOf(record), "has no frames: the record at byte 16 is damaged: it is longer than any");
+        EXPECT_EQ(refusalOf(record), "has no frames: the record at byte 16 is damaged: it is too long");
     }
     record.replace(0, 4, std::string("\xff\xff\xff\x3f", 4));
     EXPECT_EQ(refusalOf(record), "has no frames: the record at byte 16 is cut off");

@@ -113,7 +113,7 @@ TEST_F(RoundTrip, ReportsPathAndReasonOfAWriteError) {
     ASSERT_FALSE(full);
     EXPECT_EQ(full.error().kind, ErrorKind::Refused);
     EXPECT_EQ(full.error().text(),
-              "/dev/full: cannot be written on after 0 bytes: No space left on device; make room there or write to "
+              "/dev/full: writing failed after 0 bytes: No space left on device; make room there or write to "
               "another disk; what has been written stays as it is");
 }
 
