@@ -25,7 +25,8 @@ class Client {
     using Timeout = std::chrono::milliseconds;
 
     // Connects to a ws:// or wss:// URL. `timeout`: for each step. `authorities`: trusted certificates (PEM); if empty,
-    // those of the system. Input for an invalid URL, Refused if the server is unreachable or not a spherule server.
+    // the authorities of the system. Input for an invalid URL, Refused if the server is unreachable or not a spherule
+    // server.
     static Result<std::unique_ptr<Client>> connect(const std::string& url, Timeout timeout,
                                                    const std::string& subprotocol = "spherule.v1",
                                                    const std::string& authorities = "");

@@ -22,7 +22,7 @@ std::string figures(const v1::Statistics& statistics) {
     return status.ok() ? text : status.ToString();
 }
 
-// What the server has reported about this session's right to send commands.
+// The reports of the server about the role and the control lock.
 struct ControlStatus {
     std::uint64_t session = 0;
     v1::Role role = v1::ROLE_UNSPECIFIED;

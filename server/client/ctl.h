@@ -23,7 +23,7 @@ struct Target {
 
 // Connects, sends the command and waits for its result. If another session holds the control lock, calls `onHolder`,
 // requests the lock and tries again. Calls `onProgress` with the progress of a long command. A refused command is a
-// result, not an error. Errors: those of Client, and Refused if no answer comes in time.
+// result, not an error. Errors: see Client, and Refused if no answer comes in time.
 Result<v1::CommandResult> sendCommand(const Target& target, v1::Command command,
                                       const std::function<void(const v1::Person& holder)>& onHolder,
                                       const std::function<void(const v1::Change& change)>& onProgress);

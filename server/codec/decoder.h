@@ -34,8 +34,8 @@ class Decoder {
     explicit Decoder(std::uint32_t spheres);  // at least 1
 
     // Decodes the next frame. Input, with the place in the frame, if it is malformed, has another number of spheres,
-    // does not follow the previous frame, or its hash differs. After an error a keyframe is needed. The positions are
-    // those of the previous frame then, or of this frame if only the hash differs.
+    // does not follow the previous frame, or its hash differs. After an error a keyframe is needed, and
+    // newest() still has the previous frame; if only the hash differs, it has this frame.
     Result<FrameHead> apply(std::span<const std::byte> frame);
 
     // Positions of the newest frame, in codec order, on the grid.

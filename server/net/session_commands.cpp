@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* tooMany = "too many commands came from this client within a second";
 
-// Who may give it: a controller what changes anything, everybody what does not.
+// Returns true for commands that only controllers may send.
 bool changes(v1::Command::KindCase kind) {
     return kind != v1::Command::kQuery;
 }

@@ -9,7 +9,7 @@
 namespace spherule::recording {
 
 // Writes snapshots of a recording in a format of other tools. The files appear under their names with finish(). An
-// exporter that is destroyed before leaves no files. Used by one thread. Errors are those of OutputFile.
+// exporter that is destroyed before leaves no files. Used by one thread. Errors: see OutputFile.
 class Exporter {
   public:
     virtual ~Exporter() = default;

@@ -1,10 +1,15 @@
 // Fuzzes HttpConnection and Session over a pair of sockets. The first byte selects a prefix, because a fuzzer finds
-// neither a handshake nor a mask by itself:
-// bit 0: the server requires tokens;
-// bit 1: an upgrade to the stream; the rest is WebSocket frames, each with its first byte, two bytes of length and a
-//        payload, masked here;
-// bit 2: a hello after the upgrade;
-// bit 3: the client disconnects at once, not only when the server waits for it.
+// neither a handshake nor a mask by itself.
+//
+// Bit 0: the server requires tokens.
+//
+// Bit 1: an upgrade to the stream. The rest is WebSocket frames, each with its first byte, two bytes of length and a
+// payload, which is masked here.
+//
+// Bit 2: a hello after the upgrade.
+//
+// Bit 3: the client disconnects at once, not only when the server waits for it.
+//
 // After the disconnect, all operations of the server must end.
 #include <fcntl.h>
 #include <google/protobuf/stubs/logging.h>

@@ -22,7 +22,7 @@ void doubled(const std::string& path) {
     for (auto record = file->read(offset); record; record = file->read(record->end))
         if (record->kind != recording::Kind::Index)
             content += recording::recordBytes(record->kind, std::floor(5 * record->time + 0.01) / 5, record->payload);
-    recording::put(path, content);
+    recording::writeFile(path, content);
 }
 
 TEST(Export, OfFramesOfOneTimeHasOne) {

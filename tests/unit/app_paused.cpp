@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 class Looping : public testing::Test {
   protected:
     Looping() {
-        recording::put(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
+        recording::writeFile(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
             "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
         thread_ = std::jthread([this](const std::stop_token& stop) {
             SimLoop loop(World::open("cpu:1", folder_ / "one.json", {}).value(), {requests_, live_, outlets()},

@@ -87,8 +87,8 @@ TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
     for (const std::uint32_t second : {1U, 2U}) {
         const recording::TemporaryFolder folder;
         const std::string path = folder / "film.sph";
-        recording::put(path,
-                       recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
+        recording::writeFile(
+            path, recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
         Stage stage;
         stage.play(path, 6);
         ASSERT_EQ(stage.scenes.size(), 7U);

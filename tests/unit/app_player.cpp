@@ -71,7 +71,7 @@ class Playing : public testing::Test {
         }
         std::string content = recording::contentOf(path_);
         content[offset + 40] = static_cast<char>(content[offset + 40] ^ 4);
-        recording::put(path_, content);
+        recording::writeFile(path_, content);
         return offset;
     }
     // What a loop does: comes when it is due, at most so often. False where it waits for a command.
@@ -271,7 +271,7 @@ TEST_F(Playing, WaitsForAFrameThatIsLongInComing) {
         content += recording::recordBytes(record->kind, 1e5 * record->time, record->payload);
         offset = record->end;
     }
-    recording::put(path_, content);
+    recording::writeFile(path_, content);
     open();
     EXPECT_NEAR(after(5000s), 0, 1e-9);
     ASSERT_TRUE(player_->due());

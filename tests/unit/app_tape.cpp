@@ -185,7 +185,7 @@ TEST_F(Taping, OneRecordingAtATimeAndASecondHasANameOfItsOwn) {
 TEST_F(Taping, ItsFolderHasALimit) {
     options_.folderBytes = 3'000'000;
     std::filesystem::create_directories(options_.folder);
-    recording::put(options_.folder + "/old.sph", std::string(1'900'000, ' '));
+    recording::writeFile(options_.folder + "/old.sph", std::string(1'900'000, ' '));
     open();
     order();
     ASSERT_TRUE(tape_->start());

@@ -1,4 +1,4 @@
-// Frames in a row: who may begin where, and what happens to those who miss one.
+// Sequences of frames: where a decoder may start, and the effect of a missed frame.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +8,6 @@
 
 namespace spherule::codec {
 namespace {
-
-using codec::Decoder;
 
 constexpr std::uint32_t spheres = 2500;
 
@@ -102,13 +100,13 @@ TEST_F(CodecChain, ReadsBackFramesOfAnyLength) {
     Encoder encoder("cpu:1", 40000);
     Decoder far(40000);
     for (int k = 0; k < 8; ++k) {
-        // What rests for three frames makes the fourth long.
+        // Spheres that rest for three frames make the fourth frame long.
         static Positions positions;
         if (k % 4 == 0) positions = positionsAt(large.next());
         const auto source = encoder.put(positions);
         k == 0 ? encoder.tier().begin(source) : encoder.tier().next(source, k % 2 == 1);
         const auto frame = encoder.tier().poll();
-        ASSERT_TRUE(frame) << "on the CPU device copies arrive at once";
+        ASSERT_TRUE(frame) << "on the CPU device read-backs complete at once";
         EXPECT_EQ(*frame, encoder.tier().download());
         const auto head = far.apply(*frame);
         ASSERT_TRUE(head) << head.error().text();

@@ -1,4 +1,4 @@
-// The encoder on the CPU device with any number of threads and on Mesa's software renderer: the same bytes.
+// The encoder makes the same bytes on the CPU device, with any number of threads, and on Mesa's software renderer.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,12 +1,11 @@
-// What viewers are promised of a position, over all scenes that come with the program and all tiers: decoded, it is
-// within half a quantum of the simulation's, and what float32 rounds on the way. The encoder computes floor(fl(fl(x
-// fl(1 / quantum)) + 0.5)) in float32 from x relative to the bounds' centre: three roundings of at most 2^-24 each, of
-// up to |x| + quantum / 2 in all. So it is off by at most
+// The largest error of a decoded position, for all shipped scenes and tiers: half a quantum plus float32 rounding. The
+// encoder computes floor(fl(fl(x fl(1 / quantum)) + 0.5)) in float32, where x is relative to the centre of the bounds.
+// There are three roundings of at most 2^-24 each, of values up to |x| + quantum / 2. So the error is at most
 //
 //     quantum / 2 + 3 * 2^-24 * (|x| + quantum / 2)
 //
-// per axis. The decoder's side is in double, whose roundings are 2^29 times smaller; they, and the products of two
-// roundings, are covered by the part of quantum that the last product does not need.
+// per axis. The decoder uses double, whose roundings are 2^29 times smaller. The slack in the last product covers them
+// and the products of two roundings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,8 +42,8 @@ double bound(double x, double quantum) {
     return quantum / 2 + 3 * std::ldexp(std::abs(x) + quantum / 2, -24);
 }
 
-// A scene of a lattice of more spheres than this gets its first so many: `stress-1m` stays as wide as it is, which is
-// what the rounding hangs on, but is only some layers high.
+// Larger lattices are cut to this number of spheres. `stress-1m` keeps its width, which determines the rounding, but
+// has only some layers.
 constexpr std::uint32_t mostSpheres = 100'000;
 
 scene::Scene sceneOf(const std::string& name) {
@@ -57,7 +56,7 @@ scene::Scene sceneOf(const std::string& name) {
     return valueOf(scene::build(message));
 }
 
-// One chain and who decodes it: from its beginning, and from a keyframe in the middle.
+// One chain with two decoders: one from the start, and one from a resync keyframe in the middle.
 struct Chain {
     Chain(sim::TierTools& tools, double step)
         : quantum(step), tier(valueOf(sim::Tier::create(tools, {.quantum = step}))) {}
@@ -112,7 +111,7 @@ class CodecError : public testing::TestWithParam<std::string> {
     std::vector<Chain> chains_;
 };
 
-// Few steps of many spheres, many of few: 30 between frames takes the small scenes through their impacts.
+// Fewer steps for more spheres. With 30 steps between frames, small scenes get through their impacts.
 TEST_P(CodecError, StaysWithinTheStatedBound) {
     constexpr int frames = 6;
     const std::uint32_t spheres = simulation_->count();
@@ -130,7 +129,7 @@ TEST_P(CodecError, StaysWithinTheStatedBound) {
             take(chain, chain.joined, state);
         }
     }
-    // Of so many spheres some are nearly half way between two places of the grid, or the comparison would mean nothing.
+    // With many spheres some are nearly half way between two grid points. Otherwise the comparison would prove nothing.
     if (spheres < 1000) return;
     for (const Chain& chain : chains_) EXPECT_GT(chain.worst, 0.499);
 }

@@ -1,4 +1,4 @@
-// What the encoder's kernels make on the CPU device, and the decoder back.
+// The decoder restores the positions that the encoder has encoded on the CPU device.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,6 @@
 
 namespace spherule::codec {
 namespace {
-
-using codec::Decoder;
 
 std::vector<glm::ivec3> decoded(Decoder& decoder, const Bytes& frame) {
     const auto head = decoder.apply(frame);
@@ -44,7 +42,7 @@ TEST_P(CodecCounts, AnyMotionIsDecodedExactly) {
 INSTANTIATE_TEST_SUITE_P(Spheres, CodecCounts,
                          testing::Values(1, 2, 63, 64, 65, 127, 128, 2047, 2048, 2049, 16383, 16384, 16385, 70001));
 
-// Otherwise the test above says less than it seems to.
+// Ensures that the test above covers every case.
 TEST(Codec, EveryModePredictorAndWidthIsUsed) {
     constexpr std::uint32_t spheres = 64 * 32;
     Encoder encoder("cpu:1", spheres);

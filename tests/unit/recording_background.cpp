@@ -1,4 +1,4 @@
-// A recording that a thread of its own writes.
+// Tests of BackgroundWriter.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -26,7 +26,7 @@ BackgroundWriter::Progress ended(BackgroundWriter& writer) {
     return writer.progress();
 }
 
-// A disk that takes nothing: a pipe that nobody reads.
+// A pipe without a reader stands for a disk that does not write.
 class SlowDisk : public testing::Test {
   protected:
     Stuck() {
@@ -58,7 +58,7 @@ TEST_F(SlowDisk, DropsFramesWithoutBlocking) {
     int taken = 0;
     while (taken < 1000 && writer_->add(Kind::Delta, taken, megabyte)) ++taken;
     EXPECT_GE(taken, 64);
-    EXPECT_LT(taken, 140);  // what waits, and what is being written
+    EXPECT_LT(taken, 140);  // queued records, and the record being written
     EXPECT_TRUE(writer_->add(Kind::Order, taken, megabyte));
     EXPECT_FALSE(writer_->progress().ended);
 }

@@ -1,4 +1,4 @@
-// Files that were cut off, or in which bytes have changed.
+// Truncated files, and files with changed bytes.
 #include <gtest/gtest.h>
 
 #include "recording_support.h"
@@ -10,7 +10,7 @@ constexpr double bound = Film::quantum / 2 + 1e-6;  // m
 
 class Damage : public testing::Test {
   protected:
-    // Frames that are whole in the first `bytes` of the file.
+    // Number of complete frames in the first `bytes` of the file.
     [[nodiscard]] std::size_t wholeWithin(std::size_t bytes) const {
         std::size_t frames = 0;
         std::size_t end = fileHeadBytes;
@@ -31,7 +31,7 @@ class Damage : public testing::Test {
 TEST_F(Damage, TruncatedFilePlaysUpToTheCut) {
     const std::string cut = folder_ / "cut.sph";
     for (std::size_t bytes = 0; bytes < content_.size(); ++bytes) {
-        put(cut, content_.substr(0, bytes));
+        writeFile(cut, content_.substr(0, bytes));
         auto recording = Recording::open(cut);
         const std::size_t whole = wholeWithin(bytes);
         if (whole == 0) {
@@ -50,24 +50,24 @@ TEST_F(Damage, TruncatedFilePlaysUpToTheCut) {
 }
 
 TEST_F(Damage, ReportsATruncatedFile) {
-    put(path_, content_.substr(0, content_.size() - 1));
+    writeFile(path_, content_.substr(0, content_.size() - 1));
     EXPECT_EQ(Recording::open(path_)->damage(), "its end is damaged");
     std::size_t end = fileHeadBytes;
     for (const std::string& record : film_.records) end += record.size();
-    put(path_, content_.substr(0, end));
+    writeFile(path_, content_.substr(0, end));
     EXPECT_EQ(Recording::open(path_)->damage(), "it was not finished");
-    put(path_, content_.substr(0, end - 1));
+    writeFile(path_, content_.substr(0, end - 1));
     EXPECT_EQ(Recording::open(path_)->damage(),
               "the record at byte " + std::to_string(end - film_.records.back().size()) + " is cut off");
 }
 
-// Played as far as it goes, it says so, and what it shows is right.
+// A damaged file plays up to the damage with correct positions, and reports the damage.
 TEST_F(Damage, DetectsEveryFlippedByte) {
     const std::string flipped = folder_ / "flipped.sph";
     for (std::size_t byte = 0; byte < content_.size(); ++byte) {
         std::string content = content_;
         content[byte] = static_cast<char>(content[byte] ^ (1 << byte % 8));
-        put(flipped, content);
+        writeFile(flipped, content);
         auto recording = Recording::open(flipped);
         if (!recording) {
             EXPECT_EQ(recording.error().text().find(flipped), 0U);
@@ -84,7 +84,7 @@ TEST_F(Damage, RecoversAtTheNextKeyframe) {
     std::size_t begin = fileHeadBytes;
     for (std::size_t record = 0; record < 4; ++record) begin += film_.records[record].size();
     content_[begin + 30] = static_cast<char>(content_[begin + 30] ^ 1);
-    put(path_, content_);
+    writeFile(path_, content_);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording);
     std::string end;

@@ -1,4 +1,4 @@
-// Files that nobody should write. Each is sound as far as its checksums go.
+// Hostile files with correct checksums.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,16 +14,16 @@ namespace {
 
 class Hostile : public testing::Test {
   protected:
-    // Why a file of these bytes behind the head cannot be opened or played.
+    // Returns why a file with these bytes after its head cannot be opened or played; empty if it can.
     std::string refusalOf(const std::string& behindHead) {
-        put(path_, fileHead() + behindHead);
+        writeFile(path_, fileHead() + behindHead);
         auto recording = Recording::open(path_);
         if (!recording) return recording.error().text().substr(path_.size() + 2);
         std::string end;
         play(*recording, &end);
         return end.empty() ? "" : end.substr(path_.size() + 2);
     }
-    // The same of the film when this has changed the message of one of its records.
+    // Refusal of the film after `change` has modified the message of one record.
     std::string refusalWith(std::size_t changed, const std::function<void(v1::ServerMessage&)>& change) {
         std::string bytes;
         for (std::size_t record = 0; record < film_.records.size(); ++record) {
@@ -45,7 +45,7 @@ class Hostile : public testing::Test {
 
 TEST_F(Hostile, RefusesOtherFiles) {
     const auto refusal = [&](const std::string& content) {
-        put(path_, content);
+        writeFile(path_, content);
         return Recording::open(path_).error().text().substr(path_.size() + 2);
     };
     EXPECT_EQ(refusal("time,id,x,y,z,vx,vy,vz,radius\n"), "is no recording: it does not begin like one");
@@ -103,7 +103,7 @@ TEST_F(Hostile, RefusesFramesOfOtherSpheres) {
               std::string::npos);
 }
 
-// An index that makes no sense is passed over; one that leads astray ends in an error.
+// An invalid index is ignored; an index with wrong offsets ends in an error.
 TEST_F(Hostile, DoesNotTrustTheIndex) {
     const std::string bytes = film_.records[0] + film_.records[1] + film_.records[2];
     const std::uint64_t at = fileHeadBytes + bytes.size();

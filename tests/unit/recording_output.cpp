@@ -1,4 +1,4 @@
-// Files that are written: when they are there, and what is left of them.
+// Tests of OutputFile and the exporters: when files appear, and when they are removed.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -49,7 +49,7 @@ TEST_F(Output, UnfinishedFileIsRemoved) {
 }
 
 TEST_F(Output, ReplacedFileStaysUntilTheFirstWrite) {
-    put(path_, "something long");
+    writeFile(path_, "something long");
     EXPECT_EQ(OutputFile::create(path_, false).error().message,
               "is there already; give --force to replace it, or another name");
     { ASSERT_TRUE(OutputFile::create(path_, true)); }
@@ -61,7 +61,7 @@ TEST_F(Output, ReplacedFileStaysUntilTheFirstWrite) {
 
 TEST_F(Output, AppearsWhenClosed) {
     for (const bool replace : {false, true}) {
-        if (replace) put(path_, "old");
+        if (replace) writeFile(path_, "old");
         {
             auto file = OutputFile::create(path_, replace, WhenClosed);
             ASSERT_TRUE(file && file->write("new") && file->flush());
@@ -79,13 +79,13 @@ TEST_F(Output, AppearsWhenClosed) {
 TEST_F(Output, DoesNotReplaceAFileCreatedMeanwhile) {
     auto file = OutputFile::create(path_, false, WhenClosed);
     ASSERT_TRUE(file && file->write("new"));
-    put(path_, "another's");
+    writeFile(path_, "another's");
     EXPECT_EQ(file->close().error().message, "is there already; give --force to replace it, or another name");
     EXPECT_EQ(contentOf(path_), "another's");
 }
 
 TEST_F(Output, ReplacesTheTargetOfALink) {
-    put(folder_ / "real", "old");
+    writeFile(folder_ / "real", "old");
     fs::create_symlink("real", path_);
     auto file = OutputFile::create(path_, true, WhenClosed);
     ASSERT_TRUE(file && file->write("new") && file->close());
@@ -144,7 +144,7 @@ TEST_F(Output, RecordingWithoutFramesIsRemoved) {
     EXPECT_EQ(names(), Names());
 }
 
-// A scene of one sphere, at one snapshot.
+// A snapshot of one sphere.
 struct Small {
     std::vector<glm::dvec3> positions{{1, 2, 3}};
     std::vector<float> radii{0.5F};
@@ -170,7 +170,7 @@ TEST_F(Output, VtkReplacesOnlyItsFrames) {
         auto exporter = vtkExporter(path_ + ".pvd", round > 0);
         ASSERT_TRUE(exporter && (*exporter)->add(Small().snapshot()) && (*exporter)->finish());
         EXPECT_EQ(names(), Names({"out", "out.pvd"}));
-        if (round == 0) put(path_ + "/notes", "mine");
+        if (round == 0) writeFile(path_ + "/notes", "mine");
     }
     EXPECT_EQ(contentOf(path_ + "/notes"), "mine");
     EXPECT_NE(contentOf(path_ + "/000000.vtp"), "");

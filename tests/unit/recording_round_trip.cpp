@@ -1,4 +1,4 @@
-// What was recorded is what plays.
+// A recording plays the recorded frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST_F(RoundTrip, SeekFindsTheLastFrameNotAfterTheTime) {
 TEST_F(RoundTrip, SceneMayChange) {
     recording::film(path_, 3, false);
     const std::string first = contentOf(path_);
-    // The same again, of another epoch and later.
+    // The same records again, with another epoch and later times.
     std::string second;
     for (std::uint64_t offset = fileHeadBytes; const auto& kind : {Kind::Scene, Kind::Order, Kind::Keyframe}) {
         const auto record = RecordFile::open(path_)->read(offset);
@@ -86,7 +86,7 @@ TEST_F(RoundTrip, SceneMayChange) {
         second += recordBytes(kind, 5, message.SerializeAsString());
         offset = record->end;
     }
-    put(path_, first + second);
+    writeFile(path_, first + second);
     auto recording = Recording::open(path_);
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_EQ(play(*recording).size(), 4U);
@@ -98,7 +98,7 @@ TEST_F(RoundTrip, SceneMayChange) {
 }
 
 TEST_F(RoundTrip, ExistingFileIsReplacedOnlyOnRequest) {
-    put(path_, "precious");
+    writeFile(path_, "precious");
     const auto refused = Writer::create(path_, false);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().text(), path_ + ": is there already; give --force to replace it, or another name");

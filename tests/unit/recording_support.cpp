@@ -84,16 +84,16 @@ Film film(const std::string& path, std::uint32_t frames, bool finish) {
         add(n == 0 ? Kind::Keyframe : Kind::Delta, time,
             frameMessage(n, n == 0 ? encoder.begin(positions) : encoder.next(positions)));
         if (n > 0 && n % 5 == 0) add(Kind::Resync, time, frameMessage(n, encoder.join()));
-        Places places;
-        for (const auto& p : positions) places.push_back(0.5 * (low + high) + glm::dvec3(p));
-        film.frames.push_back(std::move(places));
+        Positions expected;
+        for (const auto& p : positions) expected.push_back(0.5 * (low + high) + glm::dvec3(p));
+        film.frames.push_back(std::move(expected));
     }
     if (finish) {
         check(writer->finish());
     } else {
         std::string bytes = fileHead();
         for (const std::string& record : film.records) bytes += record;
-        put(path, bytes);
+        writeFile(path, bytes);
     }
     return film;
 }
@@ -103,12 +103,12 @@ std::string contentOf(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void put(const std::string& path, const std::string& content) {
+void writeFile(const std::string& path, const std::string& content) {
     std::ofstream(path, std::ios::binary) << content;
 }
 
-std::vector<Places> play(Recording& recording, std::string* end) {
-    std::vector<Places> frames;
+std::vector<Positions> play(Recording& recording, std::string* end) {
+    std::vector<Positions> frames;
     for (;;) {
         const auto more = recording.next();
         if (end != nullptr) *end = more ? "" : more.error().text();
@@ -118,7 +118,7 @@ std::vector<Places> play(Recording& recording, std::string* end) {
     }
 }
 
-double distance(const Places& a, const Places& b) {
+double distance(const Positions& a, const Positions& b) {
     if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
     double most = 0;
     for (std::size_t id = 0; id < a.size(); ++id)
