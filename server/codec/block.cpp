@@ -35,7 +35,7 @@ class Bits {
   public:
     Bits(const std::uint32_t* words, std::size_t bit) : words_(words), bit_(bit) {}
 
-    std::uint32_t take(unsigned width) {
+    std::uint32_t read(unsigned width) {
         const std::size_t at = bit_ / 32;
         const std::uint64_t both = words_[at] | std::uint64_t{words_[at + 1]} << 32U;
         const std::uint64_t value = (both >> (bit_ % 32)) & ((std::uint64_t{1} << width) - 1);
@@ -121,11 +121,11 @@ void Block::readValues(const std::uint32_t* words, std::array<std::uint32_t, blo
         for (unsigned run = 0; run < runsPerAxis; ++run) {
             const unsigned width = width_[axis][run];
             if (mode_ != Mode::Mask) {
-                for (unsigned k = 0; k < runSpheres; ++k) *to++ = bits.take(width);
+                for (unsigned k = 0; k < runSpheres; ++k) *to++ = bits.read(width);
                 continue;
             }
             for (unsigned k = 0; k < runSpheres; ++k)
-                *to++ = (changed_[axis][run] >> k & 1U) != 0 ? bits.take(width) + 1 : 0;
+                *to++ = (changed_[axis][run] >> k & 1U) != 0 ? bits.read(width) + 1 : 0;
         }
     }
 }

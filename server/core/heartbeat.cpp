@@ -7,7 +7,7 @@ namespace spherule::heartbeat {
 namespace {
 
 std::atomic<std::uint64_t> beats = 0;
-std::atomic<const char*> work = Sign().doing;
+std::atomic<const char*> work = Status().doing;
 std::atomic<int> unwatched = 0;
 
 }  // namespace
@@ -24,7 +24,7 @@ Pause::~Pause() {
     --unwatched;
 }
 
-Sign last() {
+Status status() {
     return {.beats = beats.load(std::memory_order_relaxed),
             .doing = work.load(std::memory_order_relaxed),
             .expected = unwatched == 0};

@@ -17,11 +17,11 @@ class Pause {
     Pause& operator=(const Pause&) = delete;
 };
 
-struct Sign {
+struct Status {
     std::uint64_t beats = 0;
     const char* doing = "starting";
     bool expected = true;
 };
-[[nodiscard]] Sign last();
+[[nodiscard]] Status status();
 
 }  // namespace spherule::heartbeat

@@ -12,7 +12,7 @@ template <class T>
 class LatestSlot {
   public:
     // Returns true when it replaced a value.
-    bool put(T value) {
+    bool set(T value) {
         const std::lock_guard lock(mutex_);
         const bool replaced = value_.has_value();
         value_ = std::move(value);

@@ -24,7 +24,7 @@ void Session::send(codec::SharedMessage message) {
 
 // At most one frame waits for the io thread: a newer one replaces it.
 void Session::offer(codec::EncodedFrame encoded) {
-    if (offered_.put(std::move(encoded))) return;
+    if (offered_.set(std::move(encoded))) return;
     asio::post(stream_.get_executor(), protect([](Session& self) {
                    const auto newest = self.offered_.take();
                    if (self.closing_ || self.finished_) return;

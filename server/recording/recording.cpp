@@ -34,7 +34,7 @@ Result<Recording> Recording::open(const std::string& path) {
         return fail(ErrorKind::Input, path,
                     "has no frames" + (recording.damage().empty() ? "" : ": " + recording.damage()));
     // Read the first frame now, so that open() reports its errors.
-    if (auto right = recording.enter(first->offset); !right) return tl::unexpected(right.error());
+    if (auto right = recording.startAt(first->offset); !right) return tl::unexpected(right.error());
     recording.decoder_.reset();
     recording.offset_ = first->offset;
     return recording;
@@ -45,7 +45,7 @@ tl::unexpected<Error> Recording::bad(std::uint64_t offset, const std::string& wh
 }
 
 // Moves to the keyframe at this offset.
-Result<void> Recording::enter(std::uint64_t offset) {
+Result<void> Recording::startAt(std::uint64_t offset) {
     decoder_.reset();
     table_.reset();
     order_.reset();
@@ -59,12 +59,12 @@ Result<void> Recording::enter(std::uint64_t offset) {
         const auto record = file_.read(newest->offset);
         if (!record) return tl::unexpected(record.error());
         if (record->kind != needed) return bad(newest->offset, "the index says that it is another");
-        if (auto done = take(*record, newest->offset); !done) return tl::unexpected(done.error());
+        if (auto done = process(*record, newest->offset); !done) return tl::unexpected(done.error());
     }
     const auto record = file_.read(offset);
     if (!record) return tl::unexpected(record.error());
     if (record->kind != Kind::Keyframe && record->kind != Kind::Resync) return bad(offset, "is no keyframe");
-    if (auto done = take(*record, offset); !done) return tl::unexpected(done.error());
+    if (auto done = process(*record, offset); !done) return tl::unexpected(done.error());
     offset_ = record->end;
     return {};
 }
@@ -78,11 +78,11 @@ Result<void> Recording::seek(double time) {
     if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
     const bool forward = decoder_ && !decoder_->wantsKeyframe() && time >= time_ && from->offset < offset_;
     if (!forward)
-        if (auto done = enter(from->offset); !done) return done;
-    return walk(time);
+        if (auto done = startAt(from->offset); !done) return done;
+    return advanceTo(time);
 }
 
-Result<void> Recording::walk(double time) {
+Result<void> Recording::advanceTo(double time) {
     for (;;) {
         const auto coming = nextTime();
         if (!coming) return tl::unexpected(coming.error());
@@ -96,7 +96,7 @@ bool Recording::recover(double time) {
     for (const Index::Entry& entry : contents_.index.entries) {
         const bool begins = entry.kind == Kind::Keyframe || entry.kind == Kind::Resync;
         if (!begins || entry.time <= time + sameTime) continue;
-        if (enter(entry.offset)) return true;
+        if (startAt(entry.offset)) return true;
         if (++tries == mostTries) return false;
     }
     return false;
@@ -116,13 +116,13 @@ Result<bool> Recording::next() {
     while (offset_ < contents_.end) {
         const auto record = file_.read(offset_);
         if (!record) return tl::unexpected(record.error());
-        if (record->kind == Kind::Other) pass(*record);
+        if (record->kind == Kind::Other) collectEvent(*record);
         // A resync repeats the previous frame.
         if (record->kind == Kind::Resync || record->kind == Kind::Other || record->kind == Kind::Index) {
             offset_ = record->end;
             continue;
         }
-        auto frame = take(*record, offset_);
+        auto frame = process(*record, offset_);
         if (!frame) return frame;
         offset_ = record->end;
         if (*frame) return true;
@@ -130,7 +130,7 @@ Result<bool> Recording::next() {
     return false;
 }
 
-void Recording::pass(const Record& record) {
+void Recording::collectEvent(const Record& record) {
     v1::ServerMessage message;
     if (!message.ParseFromString(record.payload) || !message.has_event()) return;
     if (skippedEvents_.size() == mostPassed) skippedEvents_.erase(skippedEvents_.begin());
@@ -138,7 +138,7 @@ void Recording::pass(const Record& record) {
 }
 
 // Returns true when the record is a frame.
-Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
+Result<bool> Recording::process(const Record& record, std::uint64_t offset) {
     v1::ServerMessage message;
     if (!message.ParseFromString(record.payload)) return bad(offset, "it is no message");
     if (!holds(record.kind, message)) return bad(offset, "its message is of another kind");
@@ -156,7 +156,7 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
         settings_ = std::move(*message.mutable_settings());
         return false;
     }
-    if (auto done = show(message.frame(), offset); !done) {
+    if (auto done = decode(message.frame(), offset); !done) {
         decoder_.reset();
         return tl::unexpected(done.error());
     }
@@ -165,7 +165,7 @@ Result<bool> Recording::take(const Record& record, std::uint64_t offset) {
 }
 
 // Builds table_ and decoder_ for a new scene or order.
-Result<void> Recording::prepare(std::uint64_t offset) {
+Result<void> Recording::ensureDecoder(std::uint64_t offset) {
     if (!table_) {
         if (!order_) return bad(offset, "no order comes before it");
         auto table = SphereTable::from(facts_, *order_);
@@ -177,8 +177,8 @@ Result<void> Recording::prepare(std::uint64_t offset) {
     return {};
 }
 
-Result<void> Recording::show(const v1::Frame& frame, std::uint64_t offset) {
-    if (auto done = prepare(offset); !done) return done;
+Result<void> Recording::decode(const v1::Frame& frame, std::uint64_t offset) {
+    if (auto done = ensureDecoder(offset); !done) return done;
     if (frame.epoch() != table_->epoch || frame.order() != table_->order)
         return bad(offset, "its frame is of other spheres than scene and order before it");
     if (!(frame.quantum() > 0) || !std::isfinite(frame.quantum())) return bad(offset, "its frame has no quantum");

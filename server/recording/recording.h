@@ -75,12 +75,12 @@ class Recording {
   private:
     explicit Recording(RecordFile file) : file_(std::move(file)) {}
 
-    Result<void> enter(std::uint64_t offset);
-    Result<void> walk(double time);
-    void pass(const Record& record);
-    Result<bool> take(const Record& record, std::uint64_t offset);
-    Result<void> show(const v1::Frame& frame, std::uint64_t offset);
-    Result<void> prepare(std::uint64_t offset);
+    Result<void> startAt(std::uint64_t offset);
+    Result<void> advanceTo(double time);
+    void collectEvent(const Record& record);
+    Result<bool> process(const Record& record, std::uint64_t offset);
+    Result<void> decode(const v1::Frame& frame, std::uint64_t offset);
+    Result<void> ensureDecoder(std::uint64_t offset);
     [[nodiscard]] tl::unexpected<Error> bad(std::uint64_t offset, const std::string& what) const;
 
     RecordFile file_;
