@@ -180,10 +180,10 @@ void Session::onView(const v1::View& view) {
         return;
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
-    const codec::Rendition wish{known ? view.tier() : v1::NORMAL,
-                                codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
+    const codec::Rendition requested{known ? view.tier() : v1::NORMAL,
+                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
     // An unchanged view does not restart the chain.
-    if (rateController_.setTarget(wish, view.fixed(), RateController::Clock::now()))
+    if (rateController_.setTarget(requested, view.fixed(), RateController::Clock::now()))
         switchRendition("");
     else
         reportStream("");

@@ -28,8 +28,8 @@ void Session::offer(codec::EncodedFrame encoded) {
     asio::post(stream_.get_executor(), protect([](Session& self) {
                    const auto newest = self.offered_.take();
                    if (self.closing_ || self.finished_) return;
-                   // The hub sends a delta frame only if no keyframe is pending, or after the keyframe. So any frame
-                   // ends the wait for a keyframe.
+                   // The request for a keyframe is over even if this is a delta frame: the delta frame has replaced
+                   // the keyframe in offered_.
                    if (newest->rendition == self.rateController_.rendition()) self.keyframeRequested_ = false;
                    const auto offered = self.sendQueue_.offer(*newest);
                    if (offered == SendQueue::OfferResult::Busy) self.onFrameLost();
@@ -123,7 +123,7 @@ void Session::startTimer() {
 
 void Session::onTimer(ErrorCode error) {
     if (error || finished_ || tokenRejected_) return;
-    if (const auto wish = std::exchange(pendingView_, std::nullopt)) onView(*wish);
+    if (const auto requested = std::exchange(pendingView_, std::nullopt)) onView(*requested);
     if (const auto reason = rateController_.onTick(Clock::now())) switchRendition(*reason);
     requestKeyframe();
     pump();
