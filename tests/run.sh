@@ -108,9 +108,9 @@ run_tidy() {
 # Mesa's renderer brings findings of its own: these tests compute on the CPU device.
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
-        cmake --build --preset "$1" -j "$jobs" --target scene_test frame_test codec_test store_test playing_test kernels_test pool_test physics_tests net_tests &&
+        cmake --build --preset "$1" -j "$jobs" --target scene_test codec_test recording_test playing_test kernels_test pool_test physics_tests net_tests &&
         ctest --test-dir "build/$1" -j "$jobs" --output-on-failure --no-tests=error \
-            -R '^(scene_test|frame_test|codec_test|store_test|playing_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
+            -R '^(scene_test|codec_test|recording_test|playing_test|kernels_test|pool_test|physics_tests_cpu|net_tests)$'
 }
 
 # Finds go to build/fuzz/finds-TARGET.

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "frame/order.h"
+#include "codec/order.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -35,41 +35,41 @@ Chains::Chains(compute::Device& device, Publish publish, Announce announceOrder,
       announceOrder_(std::move(announceOrder)),
       complain_(std::move(complain)) {}
 
-void Chains::serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now) {
+void Chains::serve(const Scenery& world, const std::vector<codec::Subscription>& subscriptions, Clock::time_point now) {
     if (world.epoch != epoch_) chains_.clear();
     version_ = world.version;
     std::erase_if(chains_, [&](const auto& entry) {
-        return std::ranges::find(demands, entry.first, &frame::Demand::channel) == demands.end();
+        return std::ranges::find(subscriptions, entry.first, &codec::Subscription::rendition) == subscriptions.end();
     });
     if (world.spheres == 0) return;
-    for (auto& [channel, chain] : chains_) collect(channel, chain);
-    std::vector<std::pair<frame::Channel, Chain*>> making;
-    for (const frame::Demand& demand : demands) {
-        Chain* const chain = served(demand, world, now);
+    for (auto& [rendition, chain] : chains_) collect(rendition, chain);
+    std::vector<std::pair<codec::Rendition, Chain*>> making;
+    for (const codec::Subscription& subscription : subscriptions) {
+        Chain* const chain = served(subscription, world, now);
         if (chain == nullptr) continue;
-        if (!chain->making) begin(demand, *chain, world, now);
-        if (chain->making) making.emplace_back(demand.channel, chain);
+        if (!chain->making) begin(subscription, *chain, world, now);
+        if (chain->making) making.emplace_back(subscription.rendition, chain);
     }
     // The device copies few at a time: whose turn was first goes first.
     std::ranges::sort(making, {}, [](const auto& entry) { return entry.second->turn; });
-    for (const auto& [channel, chain] : making) collect(channel, *chain);
+    for (const auto& [rendition, chain] : making) collect(rendition, *chain);
 }
 
-Chains::Chain* Chains::served(const frame::Demand& demand, const Scenery& world, Clock::time_point now) {
-    if (!chains_.contains(demand.channel) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
-    auto chain = chainOf(demand.channel, world);
+Chains::Chain* Chains::served(const codec::Subscription& subscription, const Scenery& world, Clock::time_point now) {
+    if (!chains_.contains(subscription.rendition) && now < retry_ && world.epoch == refusedEpoch_) return nullptr;
+    auto chain = chainOf(subscription.rendition, world);
     if (chain) return *chain;
-    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(demand.channel.tier),
-                          demand.channel.rate, chain.error().text()));
+    complain_(fmt::format("Viewers of {} at {}/s get no frames: {}.", v1::Tier_Name(subscription.rendition.tier),
+                          subscription.rendition.rate, chain.error().text()));
     retry_ = now + retryEvery;
     refusedEpoch_ = world.epoch;
     return nullptr;
 }
 
-Result<void> Chains::open(const frame::Channel& channel, const Scenery& world) {
+Result<void> Chains::open(const codec::Rendition& rendition, const Scenery& world) {
     if (world.epoch != epoch_) chains_.clear();
     if (world.spheres == 0) return {};
-    auto chain = chainOf(channel, world);
+    auto chain = chainOf(rendition, world);
     if (!chain) return tl::unexpected(chain.error());
     return {};
 }
@@ -88,69 +88,69 @@ Result<void> Chains::prepare(const Scenery& world) {
     tools_->setOrder(order);
     epoch_ = world.epoch;
     v1::ServerMessage message;
-    *message.mutable_order() = frame::orderMessage(epoch_, ++order_, order);
-    announceOrder_(frame::share(std::move(message)));
+    *message.mutable_order() = codec::orderMessage(epoch_, ++order_, order);
+    announceOrder_(codec::share(std::move(message)));
     return {};
 }
 
-Result<Chains::Chain*> Chains::chainOf(const frame::Channel& channel, const Scenery& world) {
-    if (const auto known = chains_.find(channel); known != chains_.end()) return &known->second;
+Result<Chains::Chain*> Chains::chainOf(const codec::Rendition& rendition, const Scenery& world) {
+    if (const auto known = chains_.find(rendition); known != chains_.end()) return &known->second;
     if (world.epoch != epoch_)
         if (auto done = prepare(world); !done) return tl::unexpected(done.error());
-    auto tier = sim::Tier::create(*tools_, {.quantum = frame::quantumOf(channel.tier, world.smallestRadius)});
+    auto tier = sim::Tier::create(*tools_, {.quantum = codec::quantumOf(rendition.tier, world.smallestRadius)});
     if (!tier) return tl::unexpected(tier.error());
-    Chain& chain = chains_[channel];
+    Chain& chain = chains_[rendition];
     chain.tier = std::move(*tier);
     return &chain;
 }
 
 // A keyframe for who waits and the next frame for all others take turns where the world is so slow that the next frame
 // is always due.
-void Chains::begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now) {
-    using enum frame::Link::Kind;
+void Chains::begin(const codec::Subscription& subscription, Chain& chain, const Scenery& world, Clock::time_point now) {
+    using enum codec::EncodedFrame::Kind;
     const bool begun = chain.tier->number() > 0;
     const bool due = now >= chain.next && chain.version != world.version;
     const auto since = now - chain.keyframe;
     const bool waits =
-        begun && ((demand.newcomer && since >= newcomersEvery) || (demand.lost && since >= keyframesEvery));
-    if (waits && (!due || chain.kind == Delta)) return start(chain, Join, chain.newest, world.source, now);
+        begun && ((subscription.newcomer && since >= newcomersEvery) || (subscription.lost && since >= keyframesEvery));
+    if (waits && (!due || chain.kind == Delta)) return start(chain, Resync, chain.newest, world.source, now);
     if (begun && !due) return;
-    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / demand.channel.rate;
+    const auto interval = std::chrono::duration_cast<Clock::duration>(1s) / subscription.rendition.rate;
     chain.next = std::max(chain.next + interval, now - interval / 2);
     chain.version = world.version;
     chain.newest = world.head();
     chain.newest.set_epoch(epoch_);
     chain.newest.set_order(order_);
     chain.newest.set_count(world.spheres);
-    chain.newest.set_tier(demand.channel.tier);
-    chain.newest.set_quantum(frame::quantumOf(demand.channel.tier, world.smallestRadius));
+    chain.newest.set_tier(subscription.rendition.tier);
+    chain.newest.set_quantum(codec::quantumOf(subscription.rendition.tier, world.smallestRadius));
     start(chain, begun ? Delta : Keyframe, chain.newest, world.source, now);
 }
 
-void Chains::start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+void Chains::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const sim::TierSource& source,
                    Clock::time_point now) {
     const bool hash = now - chain.hash >= hashEvery;
     if (hash) chain.hash = now;
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
     switch (kind) {
-        case frame::Link::Kind::Keyframe:
+        case codec::EncodedFrame::Kind::Keyframe:
             chain.tier->begin(source, hash);
             break;
-        case frame::Link::Kind::Delta:
+        case codec::EncodedFrame::Kind::Delta:
             chain.tier->next(source, hash);
             break;
-        case frame::Link::Kind::Join:
+        case codec::EncodedFrame::Kind::Resync:
             chain.tier->join(hash);
             break;
     }
     device_.endTimer();
-    if (kind != frame::Link::Kind::Delta) chain.keyframe = now;
+    if (kind != codec::EncodedFrame::Kind::Delta) chain.keyframe = now;
     chain.turn = ++turns_;
     chain.kind = kind;
     chain.making = std::move(head);
 }
 
-void Chains::collect(const frame::Channel& channel, Chain& chain) {
+void Chains::collect(const codec::Rendition& rendition, Chain& chain) {
     if (!chain.making) return;
     const auto bytes = chain.tier->poll();
     if (!bytes) return;
@@ -161,12 +161,12 @@ void Chains::collect(const frame::Channel& channel, Chain& chain) {
     made.set_sequence(++sequence_);
     made.set_stamp_us(microsecondsNow());
     made.set_spb(bytes->data(), bytes->size());
-    publish_({channel, chain.kind, chain.tier->number(), frame::share(std::move(message))});
+    publish_({rendition, chain.kind, chain.tier->number(), codec::share(std::move(message))});
 }
 
 std::optional<Chains::Clock::time_point> Chains::due() const {
     std::optional<Clock::time_point> first;
-    for (const auto& [channel, chain] : chains_) {
+    for (const auto& [rendition, chain] : chains_) {
         if (!chain.making && chain.version == version_) continue;
         const auto when = chain.making ? Clock::now() + copyWait : chain.next;
         first = std::min(first.value_or(when), when);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/rendition.h"
 #include "compute/device.h"
-#include "frame/channel.h"
 #include "sim/state.h"
 #include "sim/tier.h"
 
@@ -32,20 +32,21 @@ struct Scenery {
 class Chains {
   public:
     using Clock = std::chrono::steady_clock;
-    using Publish = std::function<void(const frame::Link&)>;
-    using Announce = std::function<void(frame::SharedMessage)>;
+    using Publish = std::function<void(const codec::EncodedFrame&)>;
+    using Announce = std::function<void(codec::SharedMessage)>;
     using Complain = std::function<void(const std::string&)>;  // to viewers and the log
 
     Chains(compute::Device& device, Publish publish, Announce announceOrder, Complain complain);
 
     // Hands on the frames that have arrived, and begins those that are due. A chain that there is no room for is left
     // out, which is complained of, and tried again now and then.
-    void serve(const Scenery& world, const std::vector<frame::Demand>& demands, Clock::time_point now);
+    void serve(const Scenery& world, const std::vector<codec::Subscription>& subscriptions, Clock::time_point now);
 
-    // Whether there is room for a chain: makes it where it is not there yet. The next serve() demands it, or ends it.
-    Result<void> open(const frame::Channel& channel, const Scenery& world);
+    // Whether there is room for a chain: makes it where it is not there yet. The next serve() must subscribe to it, or
+    // ends it.
+    Result<void> open(const codec::Rendition& rendition, const Scenery& world);
 
-    // When to call again; nothing when there is nothing to do before the world or the demands change.
+    // When to call again; nothing when there is nothing to do before the world or the subscriptions change.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
     [[nodiscard]] std::uint64_t made() const { return sequence_; }  // frames, ever
 
@@ -54,7 +55,7 @@ class Chains {
     struct Chain {
         std::unique_ptr<sim::Tier> tier;
         std::optional<v1::Frame> making;
-        frame::Link::Kind kind = frame::Link::Kind::Keyframe;
+        codec::EncodedFrame::Kind kind = codec::EncodedFrame::Kind::Keyframe;
         std::uint64_t version = 0;     // of the world in its newest frame
         v1::Frame newest;              // head of its newest frame
         std::uint64_t turn = 0;        // in which the frame was begun: the oldest is copied first
@@ -64,12 +65,12 @@ class Chains {
     };
 
     Result<void> prepare(const Scenery& world);
-    Result<Chain*> chainOf(const frame::Channel& channel, const Scenery& world);
-    Chain* served(const frame::Demand& demand, const Scenery& world, Clock::time_point now);
-    void begin(const frame::Demand& demand, Chain& chain, const Scenery& world, Clock::time_point now);
-    void start(Chain& chain, frame::Link::Kind kind, v1::Frame head, const sim::TierSource& source,
+    Result<Chain*> chainOf(const codec::Rendition& rendition, const Scenery& world);
+    Chain* served(const codec::Subscription& subscription, const Scenery& world, Clock::time_point now);
+    void begin(const codec::Subscription& subscription, Chain& chain, const Scenery& world, Clock::time_point now);
+    void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const sim::TierSource& source,
                Clock::time_point now);
-    void collect(const frame::Channel& channel, Chain& chain);
+    void collect(const codec::Rendition& rendition, Chain& chain);
 
     compute::Device& device_;
     Publish publish_;
@@ -80,7 +81,7 @@ class Chains {
     std::uint32_t epoch_ = 0;
     std::uint32_t order_ = 0;
     std::uint64_t version_ = 0;  // of the world when it was last served
-    std::map<frame::Channel, Chain> chains_;
+    std::map<codec::Rendition, Chain> chains_;
     std::uint64_t turns_ = 0;
     Clock::time_point retry_{};       // of what was refused,
     std::uint32_t refusedEpoch_ = 0;  // in this epoch

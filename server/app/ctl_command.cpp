@@ -6,16 +6,17 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/secret_files.h"
+#include "client/command_parser.h"
+#include "client/ctl.h"
+#include "client/url.h"
 #include "core/text.h"
-#include "net/ctl.h"
-#include "net/url.h"
 
 namespace spherule::app {
 
 namespace {
 
 struct CtlOptions {
-    net::Target target;
+    client::Target target;
     std::string tokenFile;
     std::string authoritiesFile;
     std::vector<std::string> words;
@@ -23,7 +24,7 @@ struct CtlOptions {
 };
 
 bool isLocal(const std::string& url) {
-    const auto parts = net::parseUrl(url);
+    const auto parts = client::parseUrl(url);
     return parts && (parts->host == "localhost" || parts->host == "::1" || parts->host.starts_with("127."));
 }
 
@@ -35,9 +36,9 @@ Error withScenes(Error error, const std::vector<std::string>& words) {
 }
 
 int ctl(const CtlOptions& options) {
-    const auto command = net::commandFrom(options.words);
+    const auto command = client::commandFrom(options.words);
     if (!command) return report(withScenes(command.error(), options.words));
-    net::Target target = options.target;
+    client::Target target = options.target;
     target.timeout = std::chrono::seconds(options.timeoutSeconds);
     auto token = tokenOf("--token-file", options.tokenFile, "SPHERULE_TOKEN");
     if (!token) return report(token.error());
@@ -54,7 +55,7 @@ int ctl(const CtlOptions& options) {
     Result<v1::CommandResult> result;
     {
         ProgressLine progress;
-        result = net::sendCommand(target, *command, asks, [&progress](const v1::Change& change) {
+        result = client::sendCommand(target, *command, asks, [&progress](const v1::Change& change) {
             progress.show([&] {
                 return fmt::format("{}: {}, {:.0f} %   ", withoutControls(change.what()),
                                    withoutControls(change.doing()), 100 * change.share());
@@ -62,7 +63,7 @@ int ctl(const CtlOptions& options) {
         });
     }
     if (!result) return report(result.error());
-    fmt::print(result->has_applied() ? stdout : stderr, "{}\n", net::resultText(*result));
+    fmt::print(result->has_applied() ? stdout : stderr, "{}\n", client::resultText(*result));
     return result->has_applied() ? exitDone : exitRefused;
 }
 
@@ -83,7 +84,7 @@ void addCtl(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     // Numbers such as -1.6 are words of the command, not options.
     command->positionals_at_end();
-    command->footer(fmt::format("Commands:\n{}\n{}", net::commandForms, exitCodesText));
+    command->footer(fmt::format("Commands:\n{}\n{}", client::commandForms, exitCodesText));
     command->callback([options, &exitCode] { exitCode = ctl(*options); });
 }
 

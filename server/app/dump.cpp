@@ -4,12 +4,12 @@
 
 #include <iterator>
 
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 
 namespace spherule::app {
 
 Result<Dump> Dump::create(const std::string& path, bool replace) {
-    auto file = store::OutputFile::create(path, replace);
+    auto file = recording::OutputFile::create(path, replace);
     if (!file) return tl::unexpected(file.error());
     Dump dump(std::move(*file));
     if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius\n"); !done) return tl::unexpected(done.error());
@@ -18,7 +18,7 @@ Result<Dump> Dump::create(const std::string& path, bool replace) {
 
 Result<void> Dump::write(sim::Simulation& simulation) {
     const sim::State state = simulation.snapshot();
-    const pulse::Unwatched writing;
+    const heartbeat::Pause writing;
     const glm::dvec3 centre = simulation.scene().bounds.centre();
     std::string text;
     for (std::uint32_t id = 0; id < state.count(); ++id) {
@@ -29,7 +29,7 @@ Result<void> Dump::write(sim::Simulation& simulation) {
     }
     if (auto done = file_.write(text); !done) return done;
     auto done = file_.flush();
-    if (done) file_.keep();
+    if (done) file_.persist();
     return done;
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/result.h"
+#include "recording/output_file.h"
 #include "sim/simulation.h"
-#include "store/output_file.h"
 
 namespace spherule::app {
 
@@ -18,9 +18,9 @@ class Dump {
     Result<void> finish() { return file_.close(); }
 
   private:
-    explicit Dump(store::OutputFile file) : file_(std::move(file)) {}
+    explicit Dump(recording::OutputFile file) : file_(std::move(file)) {}
 
-    store::OutputFile file_;
+    recording::OutputFile file_;
 };
 
 }  // namespace spherule::app

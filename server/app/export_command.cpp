@@ -12,8 +12,8 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "core/log.h"
-#include "store/exporter.h"
-#include "store/recording.h"
+#include "recording/exporter.h"
+#include "recording/recording.h"
 
 namespace spherule::app {
 
@@ -53,17 +53,17 @@ Result<Range> rangeOf(const ExportOptions& options) {
     return range;
 }
 
-store::MadeExporter exporterFor(const ExportOptions& options) {
+recording::MadeExporter exporterFor(const ExportOptions& options) {
     if (options.format == "vtk" && options.out == "-")
         return fail(ErrorKind::Input, "--out",
                     "cannot be standard output: vtk is many files; give a name, or --format xyz");
-    if (options.format == "xyz") return store::xyzExporter(options.out, options.replace);
-    if (options.format == "csv") return store::csvExporter(options.out, options.replace);
-    return store::vtkExporter(options.out, options.replace);
+    if (options.format == "xyz") return recording::xyzExporter(options.out, options.replace);
+    if (options.format == "csv") return recording::csvExporter(options.out, options.replace);
+    return recording::vtkExporter(options.out, options.replace);
 }
 
 // To the first frame that is not before `from`; false where there is none, or the export is to stop.
-Result<bool> enter(store::Recording& recording, double from, const Interrupt& interrupt) {
+Result<bool> enter(recording::Recording& recording, double from, const Interrupt& interrupt) {
     if (auto done = recording.seek(from); !done) {
         // Behind what is damaged the next keyframe is the first that there is.
         spdlog::warn("{}", done.error().text());
@@ -84,7 +84,7 @@ struct Written {
 
 // With `every`, the first frame at or after each multiple of it, counted from the first one. Interrupted, it stops
 // before the end, and does not finish.
-Result<Written> write(store::Recording& recording, const Range& range, store::Exporter& exporter,
+Result<Written> write(recording::Recording& recording, const Range& range, recording::Exporter& exporter,
                       const Interrupt& interrupt) {
     Written written;
     ProgressLine progress;
@@ -95,7 +95,7 @@ Result<Written> write(store::Recording& recording, const Range& range, store::Ex
     for (; more && *more && !interrupt.asked(); more = recording.next()) {
         const double time = recording.time();
         if (time > range.to + sameTime) break;
-        // Of one moment there may be several, where the recording was made while the world was reset or paused.
+        // Of one snapshot there may be several, where the recording was made while the world was reset or paused.
         if (newest && time <= *newest) continue;
         if (range.every > 0) {
             const double at = (time - first + sameTime) / range.every;
@@ -103,10 +103,10 @@ Result<Written> write(store::Recording& recording, const Range& range, store::Ex
             due = std::floor(at) + 1;
         }
         newest = time;
-        const store::Moment moment = recording.now();
-        if (auto done = exporter.add(moment); !done) return tl::unexpected(done.error());
+        const recording::Snapshot snapshot = recording.now();
+        if (auto done = exporter.add(snapshot); !done) return tl::unexpected(done.error());
         ++written.frames;
-        written.error = std::max(written.error, moment.error);
+        written.error = std::max(written.error, snapshot.error);
         progress.show([&] {
             return fmt::format("{} frames, at {:.2f} s of {:.2f} s ", written.frames, time,
                                std::min(range.to, recording.end()));
@@ -127,10 +127,10 @@ Result<Written> write(store::Recording& recording, const Range& range, store::Ex
 Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt) {
     const auto range = rangeOf(options);
     if (!range) return tl::unexpected(range.error());
-    auto recording = store::Recording::open(options.file);
+    auto recording = recording::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
-    if (!recording->flaw().empty())
-        spdlog::warn("{} is exported up to {:g} s: {}", options.file, recording->end(), recording->flaw());
+    if (!recording->damage().empty())
+        spdlog::warn("{} is exported up to {:g} s: {}", options.file, recording->end(), recording->damage());
     if (range->from > recording->end() + sameTime || range->to < recording->begin() - sameTime)
         return fail(ErrorKind::Input, options.file,
                     fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),

@@ -8,7 +8,7 @@
 #include "app/options.h"
 #include "app/serving_options.h"
 #include "app/settings.h"
-#include "net/fetch.h"
+#include "client/fetch.h"
 
 namespace spherule::app {
 
@@ -30,11 +30,11 @@ std::string reachable(const std::string& host) {
 int health(const HealthOptions& options) {
     const auto endpoint = endpointOf(options.listen);
     if (!endpoint) return report(endpoint.error());
-    const auto answer = net::fetch({.secure = !options.certificateFile.empty(),
-                                    .host = reachable(endpoint->host),
-                                    .port = std::to_string(endpoint->port),
-                                    .path = "/readyz"},
-                                   patience);
+    const auto answer = client::fetch({.secure = !options.certificateFile.empty(),
+                                       .host = reachable(endpoint->host),
+                                       .port = std::to_string(endpoint->port),
+                                       .path = "/readyz"},
+                                      patience);
     if (!answer) return report(answer.error());
     fmt::print("{}", answer->body);
     return answer->status == 200 ? exitDone : exitRefused;

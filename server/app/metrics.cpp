@@ -68,7 +68,7 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
                    {{"cause", std::string(net::closeCauseNames[cause])}});
     for (std::size_t cause = 0; cause < net.rejected.size(); ++cause)
         to.counter("spherule_rejected_total", "Connections, requests, handshakes and commands turned away, by cause",
-                   count(net.rejected[cause]), {{"cause", std::string(net::rejectionNames[cause])}});
+                   count(net.rejected[cause]), {{"cause", std::string(net::rejectReasonNames[cause])}});
     return prometheus::TextSerializer().Serialize(to.registry.Collect());
 }
 

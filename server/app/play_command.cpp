@@ -5,8 +5,8 @@
 #include "app/play_loop.h"
 #include "app/serving.h"
 #include "app/settings.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -21,11 +21,11 @@ struct PlayOptions {
 };
 
 Result<Player> playerOf(const PlayOptions& options) {
-    const pulse::Unwatched reading;
-    auto recording = store::Recording::open(options.file);
+    const heartbeat::Pause reading;
+    auto recording = recording::Recording::open(options.file);
     if (!recording) return tl::unexpected(recording.error());
-    if (!recording->flaw().empty())
-        spdlog::warn("{} is played up to {:g} s: {}", options.file, recording->end(), recording->flaw());
+    if (!recording->damage().empty())
+        spdlog::warn("{} is played up to {:g} s: {}", options.file, recording->end(), recording->damage());
     const auto now = Player::Clock::now();
     const std::string name = std::filesystem::path(options.file).filename().string();
     Player player(std::move(*recording), name, options.again, now);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/facts.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 #include "core/text.h"
 
 namespace spherule::app {
@@ -26,16 +26,16 @@ PlayLoop::PlayLoop(std::unique_ptr<compute::Device> device, Player player, const
       live_(stage.live),
       outlets_(stage.outlets),
       chains_(
-          *device_, [this](const frame::Link& link) { publish(link); },
-          [this](frame::SharedMessage order) { outlets_.order(std::move(order)); },
+          *device_, [this](const codec::EncodedFrame& encoded) { publish(encoded); },
+          [this](codec::SharedMessage order) { outlets_.order(std::move(order)); },
           [this](const std::string& text) { say(v1::Event::WARNING, text); }) {}
 
 Result<void> PlayLoop::run(const std::stop_token& stop) {
     v1::ServerMessage timeline;
     *timeline.mutable_timeline() = player_.timeline();
-    outlets_.keep(frame::share(std::move(timeline)));
+    outlets_.retain(codec::share(std::move(timeline)));
     while (!stop.stop_requested()) {
-        pulse::beat("serving viewers");
+        heartbeat::beat("serving viewers");
         // All that was asked for, before anything is decoded: of several seeks only the last counts.
         while (auto request = requests_.tryPop()) serve(*request);
         for (const Request& query : requests_.takeQueries()) serve(query);
@@ -63,20 +63,20 @@ void PlayLoop::serve(const Request& request) {
 Result<void> PlayLoop::advance(Chains::Clock::time_point now) {
     const Player::Moved moved = player_.advance(now);
     for (const std::string& damage : moved.damage) say(v1::Event::WARNING, "Skipped: " + damage);
-    for (const v1::ServerMessage& message : moved.passed) outlets_.everybody(frame::share(message));
+    for (const v1::ServerMessage& message : moved.skippedEvents) outlets_.broadcast(codec::share(message));
     return moved.shown ? show() : Result<void>();
 }
 
 // What the recording has now.
 Result<void> PlayLoop::show() {
-    const store::Recording& recording = player_.recording();
+    const recording::Recording& recording = player_.recording();
     const auto cells = recording.cells();
     const auto order = recording.order();
     const auto quantum = static_cast<float>(recording.quantum());
     state_.position.resize(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k)
         state_.position[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
-    if (epoch_ == 0 || factsAt_ != recording.factsAt()) {
+    if (epoch_ == 0 || sceneOffset_ != recording.sceneOffset()) {
         const std::size_t bytes = state_.position.size() * sizeof(glm::vec4);
         auto made = device_->createBuffer("positions", bytes, "r");
         if (!made) return tl::unexpected(made.error());
@@ -94,7 +94,7 @@ void PlayLoop::describe() {
     v1::ServerMessage message;
     v1::SceneFacts& facts = *message.mutable_scene();
     facts = player_.recording().facts();
-    factsAt_ = player_.recording().factsAt();
+    sceneOffset_ = player_.recording().sceneOffset();
     facts.set_epoch(++epoch_);
     const auto radii = player_.recording().radii();
     smallest_ = radii.empty() ? 0 : static_cast<double>(*std::ranges::min_element(radii));
@@ -102,7 +102,7 @@ void PlayLoop::describe() {
         report.scene = facts.name();
         report.spheres = facts.count();
     });
-    outlets_.keep(frame::share(std::move(message)));
+    outlets_.retain(codec::share(std::move(message)));
 }
 
 void PlayLoop::sendSettings() {
@@ -112,7 +112,7 @@ void PlayLoop::sendSettings() {
     if (bytes == settings_) return;
     settings_ = std::move(bytes);
     nextReport_ = {};
-    outlets_.keep(frame::share(std::move(message)));
+    outlets_.retain(codec::share(std::move(message)));
 }
 
 void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
@@ -121,7 +121,7 @@ void PlayLoop::say(v1::Event::Kind kind, const std::string& text) {
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(player_.recording().step());
     message.mutable_event()->set_text(utf8(text));
-    outlets_.everybody(frame::share(std::move(message)));
+    outlets_.broadcast(codec::share(std::move(message)));
 }
 
 void PlayLoop::produce(Chains::Clock::time_point now) {
@@ -140,12 +140,12 @@ void PlayLoop::produce(Chains::Clock::time_point now) {
                            *head.mutable_status() = status(now);
                            return head;
                        }},
-                  outlets_.demands(), now);
+                  outlets_.subscriptions(), now);
 }
 
-void PlayLoop::publish(const frame::Link& link) {
+void PlayLoop::publish(const codec::EncodedFrame& encoded) {
     states_.shown(version_, Chains::Clock::now());
-    outlets_.frame(link);
+    outlets_.frame(encoded);
 }
 
 v1::Status PlayLoop::status(Chains::Clock::time_point now) {

@@ -29,7 +29,7 @@ class PlayLoop : public Show {
     void sendSettings();
     void say(v1::Event::Kind kind, const std::string& text);
     void produce(Chains::Clock::time_point now);
-    void publish(const frame::Link& link);
+    void publish(const codec::EncodedFrame& encoded);
     v1::Status status(Chains::Clock::time_point now);
     void report(Chains::Clock::time_point now);
     [[nodiscard]] Chains::Clock::duration patience(Chains::Clock::time_point now) const;
@@ -45,7 +45,7 @@ class PlayLoop : public Show {
     std::unique_ptr<compute::Buffer> positions_;  // the same on the device
     double time_ = 0;                             // of it, s of the recording
     std::uint64_t step_ = 0;                      // of it
-    std::uint64_t factsAt_ = 0;                   // where the recording has its scene
+    std::uint64_t sceneOffset_ = 0;               // where the recording has its scene
     std::uint32_t epoch_ = 0;                     // of the viewers
     std::uint64_t version_ = 0;
     double smallest_ = 0;   // radius, m

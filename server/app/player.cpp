@@ -23,7 +23,7 @@ double secondsOf(Player::Clock::duration time) {
 
 }  // namespace
 
-Player::Player(store::Recording recording, std::string name, bool again, Clock::time_point now)
+Player::Player(recording::Recording recording, std::string name, bool again, Clock::time_point now)
     : recording_(std::move(recording)), name_(std::move(name)), again_(again), since_(now) {
     wanted_ = recording_.begin();
 }
@@ -137,8 +137,8 @@ void Player::goTo(double time, Moved& moved) {
         skip(done.error(), time, moved);
     }
     if (moved.shown) settings_ = recording_.settings();
-    auto passed = recording_.takePassed();
-    std::ranges::move(passed, std::back_inserter(moved.passed));
+    auto skippedEvents = recording_.takeSkippedEvents();
+    std::ranges::move(skippedEvents, std::back_inserter(moved.skippedEvents));
 }
 
 // Goes on behind what is damaged, or pauses where nothing is.
@@ -177,7 +177,7 @@ v1::Timeline Player::timeline() const {
     timeline.set_begin(recording_.begin());
     timeline.set_end(recording_.end());
     timeline.set_frames(recording_.frames());
-    timeline.set_flaw(recording_.flaw());
+    timeline.set_flaw(recording_.damage());
     return timeline;
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/result.h"
+#include "recording/recording.h"
 #include "spherule/v1/control.pb.h"
-#include "store/recording.h"
 
 namespace spherule::app {
 
@@ -18,22 +18,22 @@ class Player {
     using Clock = std::chrono::steady_clock;
 
     // `again`: from the end it goes on at the beginning.
-    Player(store::Recording recording, std::string name, bool again, Clock::time_point now);
+    Player(recording::Recording recording, std::string name, bool again, Clock::time_point now);
 
     // Takes a command, or refuses it and changes nothing. Seeking is done by the next advance().
     Result<v1::Applied> apply(const v1::Command& command, Clock::time_point now);
 
     struct Moved {
-        bool shown = false;                     // another moment is
-        std::vector<v1::ServerMessage> passed;  // events on the way
-        std::vector<std::string> damage;        // what could not be played, and was skipped
+        bool shown = false;                            // another moment is
+        std::vector<v1::ServerMessage> skippedEvents;  // events on the way
+        std::vector<std::string> damage;               // what could not be played, and was skipped
     };
     // To where it is by now.
     Moved advance(Clock::time_point now);
     // When to call that again; nothing while it waits for a command.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
 
-    [[nodiscard]] const store::Recording& recording() const { return recording_; }
+    [[nodiscard]] const recording::Recording& recording() const { return recording_; }
     [[nodiscard]] bool paused() const { return paused_; }
     [[nodiscard]] double speed() const { return speed_; }  // recorded seconds per second
     [[nodiscard]] v1::Timeline timeline() const;
@@ -51,7 +51,7 @@ class Player {
     void skip(const Error& error, double from, Moved& moved);
     void findNext();
 
-    store::Recording recording_;
+    recording::Recording recording_;
     std::string name_;
     bool again_;
     bool paused_ = false;

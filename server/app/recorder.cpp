@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "app/facts.h"
-#include "core/pulse.h"
-#include "frame/channel.h"
-#include "frame/order.h"
+#include "codec/order.h"
+#include "codec/rendition.h"
+#include "core/heartbeat.h"
 #include "sim/morton.h"
 #include "sim/pass.h"
 
@@ -25,11 +25,11 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
     auto tools = sim::TierTools::create(device, simulation.count(), simulation.tierSource().slotOf != nullptr);
     if (!tools) return tl::unexpected(tools.error());
-    const double quantum = frame::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
+    const double quantum = codec::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
     auto tier = sim::Tier::create(**tools, {.quantum = quantum});
     if (!tier) return tl::unexpected(tier.error());
     // The file comes last: where the device has no room, one that is to be replaced stays.
-    auto writer = store::Writer::create(options.path, options.replace);
+    auto writer = recording::Writer::create(options.path, options.replace);
     if (!writer) return tl::unexpected(writer.error());
     std::unique_ptr<Recorder> recorder(new Recorder(options, device, simulation, std::move(*writer)));
     recorder->tools_ = std::move(*tools);
@@ -45,18 +45,18 @@ Result<void> Recorder::begin() {
     // These name the machine and the number of threads, on which a recording does not depend.
     welcome.mutable_welcome()->clear_renderer();
     welcome.mutable_welcome()->clear_reason();
-    if (auto done = add(store::Kind::Other, welcome); !done) return done;
-    if (auto done = add(store::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
+    if (auto done = add(recording::Kind::Other, welcome); !done) return done;
+    if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
 
     const std::vector<std::uint32_t> ids = sim::mortonOrder(simulation_.snapshot().position);
     tools_->setOrder(ids);
     v1::ServerMessage message;
-    *message.mutable_order() = frame::orderMessage(epoch, order, ids);
-    if (auto done = add(store::Kind::Order, message); !done) return done;
+    *message.mutable_order() = codec::orderMessage(epoch, order, ids);
+    if (auto done = add(recording::Kind::Order, message); !done) return done;
     if (auto done = writeSettings(); !done) return done;
     keyframe_ = simulation_.time();
     due_ = 1;
-    return write(store::Kind::Keyframe);
+    return write(recording::Kind::Keyframe);
 }
 
 Result<void> Recorder::stepped(bool last) {
@@ -64,10 +64,10 @@ Result<void> Recorder::stepped(bool last) {
     const double frames = simulation_.time() * options_.rate + roundedBy;
     if (frames < due_ && !last) return {};
     due_ = std::floor(frames) + 1;
-    if (auto done = write(store::Kind::Delta); !done) return done;
+    if (auto done = write(recording::Kind::Delta); !done) return done;
     if (simulation_.time() - keyframe_ + roundedBy / options_.rate < keyframesEvery) return {};
     keyframe_ = simulation_.time();
-    return write(store::Kind::Join);
+    return write(recording::Kind::Resync);
 }
 
 Result<void> Recorder::say(v1::Event::Kind kind, const std::string& text) {
@@ -75,7 +75,7 @@ Result<void> Recorder::say(v1::Event::Kind kind, const std::string& text) {
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_text(text);
     message.mutable_event()->set_step(simulation_.steps());
-    return add(store::Kind::Other, message);
+    return add(recording::Kind::Other, message);
 }
 
 // Where they are others than before.
@@ -84,14 +84,14 @@ Result<void> Recorder::writeSettings() {
     std::string bytes = message.SerializeAsString();
     if (bytes == settings_) return {};
     settings_ = std::move(bytes);
-    return add(store::Kind::Settings, message);
+    return add(recording::Kind::Settings, message);
 }
 
-Result<void> Recorder::write(store::Kind kind) {
+Result<void> Recorder::write(recording::Kind kind) {
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
-    if (kind == store::Kind::Keyframe)
+    if (kind == recording::Kind::Keyframe)
         tier_->begin(simulation_.tierSource(), true);
-    else if (kind == store::Kind::Delta)
+    else if (kind == recording::Kind::Delta)
         tier_->next(simulation_.tierSource(), true);
     else
         tier_->join(true);
@@ -101,7 +101,7 @@ Result<void> Recorder::write(store::Kind kind) {
 
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
-    frame.set_sequence(kind == store::Kind::Join ? sequence_ : ++sequence_);
+    frame.set_sequence(kind == recording::Kind::Resync ? sequence_ : ++sequence_);
     frame.set_epoch(epoch);
     frame.set_step(simulation_.steps());
     frame.set_sim_time(simulation_.time());
@@ -113,8 +113,8 @@ Result<void> Recorder::write(store::Kind kind) {
     return add(kind, message);
 }
 
-Result<void> Recorder::add(store::Kind kind, const v1::ServerMessage& message) {
-    const pulse::Unwatched writing;
+Result<void> Recorder::add(recording::Kind kind, const v1::ServerMessage& message) {
+    const heartbeat::Pause writing;
     return writer_.add(kind, simulation_.time(), message.SerializeAsString());
 }
 

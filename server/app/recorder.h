@@ -7,10 +7,10 @@
 #include "app/record_options.h"
 #include "compute/device.h"
 #include "core/result.h"
+#include "recording/writer.h"
 #include "sim/simulation.h"
 #include "sim/tier.h"
 #include "spherule/v1/control.pb.h"
-#include "store/writer.h"
 
 namespace spherule::app {
 
@@ -28,21 +28,22 @@ class Recorder {
     // However the run has ended.
     Result<void> finish() { return writer_.finish(); }
 
-    [[nodiscard]] const store::Writer& writer() const { return writer_; }
+    [[nodiscard]] const recording::Writer& writer() const { return writer_; }
 
   private:
-    Recorder(const RecordOptions& options, compute::Device& device, sim::Simulation& simulation, store::Writer writer)
+    Recorder(const RecordOptions& options, compute::Device& device, sim::Simulation& simulation,
+             recording::Writer writer)
         : options_(options), device_(device), simulation_(simulation), writer_(std::move(writer)) {}
 
     Result<void> begin();
     Result<void> writeSettings();
-    Result<void> write(store::Kind kind);
-    Result<void> add(store::Kind kind, const v1::ServerMessage& message);
+    Result<void> write(recording::Kind kind);
+    Result<void> add(recording::Kind kind, const v1::ServerMessage& message);
 
     RecordOptions options_;
     compute::Device& device_;
     sim::Simulation& simulation_;
-    store::Writer writer_;
+    recording::Writer writer_;
     std::unique_ptr<sim::TierTools> tools_;
     std::unique_ptr<sim::Tier> tier_;
     double quantum_ = 0;  // m

@@ -211,7 +211,7 @@ Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation
     }
     if (outputs->dump && done) done = outputs->dump->finish();
     if (done && outputs->recorder) {
-        const store::Writer& writer = outputs->recorder->writer();
+        const recording::Writer& writer = outputs->recorder->writer();
         spdlog::info("recorded {} frames in {}, {:.1f} MB", writer.frames(), options.record.path,
                      1e-6 * static_cast<double>(writer.bytes()));
     }

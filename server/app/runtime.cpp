@@ -8,7 +8,7 @@
 
 #include "app/facts.h"
 #include "app/options.h"
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 #include "core/text.h"
 
 namespace spherule::app {
@@ -82,13 +82,13 @@ std::optional<Error> Runtime::failure() const {
 }
 
 Outlets Runtime::outlets() {
-    return {.keep = [this](auto message) { server_->keep(std::move(message)); },
-            .everybody = [this](auto message) { server_->broadcast(std::move(message)); },
+    return {.retain = [this](auto message) { server_->retain(std::move(message)); },
+            .broadcast = [this](auto message) { server_->broadcast(std::move(message)); },
             .order = [this](auto message) { server_->setOrder(std::move(message)); },
-            .frame = [this](const frame::Link& link) { server_->publish(link); },
+            .frame = [this](const codec::EncodedFrame& encoded) { server_->publish(encoded); },
             .reply = [this](std::uint64_t session, auto result) { server_->reply(session, std::move(result)); },
             .viewers = [this] { return server_->viewers(); },
-            .demands = [this] { return server_->demands(); }};
+            .subscriptions = [this] { return server_->subscriptions(); }};
 }
 
 net::Handlers Runtime::handlers() {
@@ -116,7 +116,7 @@ bool Runtime::drain() {
     const bool ended = changed_.wait_for(lock, stepPatience, [this] { return ended_; });
     const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
     lock.unlock();
-    const pulse::Unwatched leaving;  // nothing computes any more, and viewers have their time
+    const heartbeat::Pause leaving;  // nothing computes any more, and viewers have their time
     refuseWaiting();
     server_->drain();
     return ended && !lost;
@@ -141,7 +141,7 @@ void Runtime::beginToEnd(const std::optional<Error>& failure) {
                                               "server has been started again.",
                                               failure->text()))
                            : "The server is stopping.");
-    server_->broadcast(frame::share(std::move(message)));
+    server_->broadcast(codec::share(std::move(message)));
 }
 
 void Runtime::refuseWaiting() {

@@ -33,7 +33,7 @@ class Runtime {
     // Any thread: whether the show has opened; why it did not, or ended by itself.
     [[nodiscard]] bool opened() const;
     [[nodiscard]] std::optional<Error> failure() const;
-    Result<void> setSecrets(const net::Secrets& secrets) { return server_->setSecrets(secrets); }
+    Result<void> setCredentials(const net::Credentials& credentials) { return server_->setCredentials(credentials); }
 
     // In this order: is unready, accepts nobody, tells the viewers, lets the step under way and a recording end, lets
     // the viewers go. False: the show did not end in time, or cannot be taken down; end the program then.

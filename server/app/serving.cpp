@@ -48,8 +48,9 @@ class Signals {
 
 std::string_view doorOf(const net::Options& options) {
     if (options.open) return "everybody who reaches it may watch and command";
-    if (!net::guarded(options.secrets)) return "only this machine reaches it";
-    return options.secrets.controllerToken.empty() ? "it asks for a token; nobody may command" : "it asks for a token";
+    if (!net::requiresToken(options.credentials)) return "only this machine reaches it";
+    return options.credentials.controllerToken.empty() ? "it asks for a token; nobody may command"
+                                                       : "it asks for a token";
 }
 
 void announce(const Runtime& runtime, const net::Options& options, const std::string& what) {
@@ -59,14 +60,14 @@ void announce(const Runtime& runtime, const net::Options& options, const std::st
     const std::string shown = host.find(':') == std::string::npos ? host : "[" + host + "]";
     fmt::print("spherule {} {} ({} spheres) on {}\n  {}\n  {}\n  stop with Ctrl-C\n  open {}://{}:{}/\n", what,
                live.scene, live.spheres, live.device.renderer, live.device.reason, doorOf(options),
-               options.secrets.certificate.empty() ? "http" : "https", shown, runtime.port());
+               options.credentials.certificate.empty() ? "http" : "https", shown, runtime.port());
     std::fflush(stdout);
 }
 
 // What was wrong with the new ones is said; the old ones go on.
 void reload(Runtime& runtime, const ServingOptions& options) {
-    const auto secrets = secretsOf(options);
-    const auto done = secrets ? runtime.setSecrets(*secrets) : tl::unexpected(secrets.error());
+    const auto credentials = credentialsOf(options);
+    const auto done = credentials ? runtime.setCredentials(*credentials) : tl::unexpected(credentials.error());
     if (done)
         spdlog::info("tokens and certificate have been read anew, for those who come from now on");
     else

@@ -28,13 +28,14 @@ void ServingOptions::addTo(CLI::App& command) {
                   "let everybody who reaches the address watch and command; for addresses that others reach")
         ->group(group);
     command
-        .add_option("--origin", net.places.origins,
+        .add_option("--origin", net.allowedNames.origins,
                     "a site whose pages may open the stream, such as https://spherule.example.org")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
         ->group(group);
-    command.add_option("--host", net.places.hosts, "a name that this server goes by, beside localhost and addresses")
+    command
+        .add_option("--host", net.allowedNames.hosts, "a name that this server goes by, beside localhost and addresses")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
@@ -44,14 +45,15 @@ void ServingOptions::addTo(CLI::App& command) {
     command.add_option("--tls-key", keyFile, "the certificate's private key (PEM)")->group(group);
 
     constexpr const char* limits = "Limits (0: none)";
-    command.add_option("--max-sessions", net.visitors.sessions, "viewers at a time")
-        ->capture_default_str()
-        ->group(limits);
-    command.add_option("--max-sessions-per-address", net.visitors.sessionsPerAddress, "the same, of one address")
+    command.add_option("--max-sessions", net.connectionLimits.sessions, "viewers at a time")
         ->capture_default_str()
         ->group(limits);
     command
-        .add_option("--connections-per-second", net.visitors.connectionsPerSecond,
+        .add_option("--max-sessions-per-address", net.connectionLimits.sessionsPerAddress, "the same, of one address")
+        ->capture_default_str()
+        ->group(limits);
+    command
+        .add_option("--connections-per-second", net.connectionLimits.connectionsPerSecond,
                     "new connections of one address, on average")
         ->capture_default_str()
         ->check(finiteRate)
@@ -66,7 +68,7 @@ bool hasFiles(const ServingOptions& options) {
     return !options.viewerTokenFile.empty() || !options.controllerTokenFile.empty() || !options.certificateFile.empty();
 }
 
-Result<net::Secrets> secretsOf(const ServingOptions& options) {
+Result<net::Credentials> credentialsOf(const ServingOptions& options) {
     auto viewer = tokenOf("--viewer-token-file", options.viewerTokenFile, "SPHERULE_VIEWER_TOKEN");
     if (!viewer) return tl::unexpected(viewer.error());
     auto controller = tokenOf("--controller-token-file", options.controllerTokenFile, "SPHERULE_CONTROLLER_TOKEN");
@@ -80,23 +82,23 @@ Result<net::Secrets> secretsOf(const ServingOptions& options) {
     if (!certificate) return tl::unexpected(certificate.error());
     auto key = contentOf("--tls-key", options.keyFile);
     if (!key) return tl::unexpected(key.error());
-    return net::Secrets{.viewerToken = std::move(*viewer),
-                        .controllerToken = std::move(*controller),
-                        .certificate = std::move(*certificate),
-                        .key = std::move(*key)};
+    return net::Credentials{.viewerToken = std::move(*viewer),
+                            .controllerToken = std::move(*controller),
+                            .certificate = std::move(*certificate),
+                            .key = std::move(*key)};
 }
 
 Result<net::Options> netOptionsOf(const ServingOptions& options) {
     const auto endpoint = endpointOf(options.listen);
     if (!endpoint) return tl::unexpected(endpoint.error());
-    auto secrets = secretsOf(options);
-    if (!secrets) return tl::unexpected(secrets.error());
-    if (options.net.open && net::guarded(*secrets))
+    auto credentials = credentialsOf(options);
+    if (!credentials) return tl::unexpected(credentials.error());
+    if (options.net.open && net::requiresToken(*credentials))
         return fail(ErrorKind::Input, "--open", "lets everybody in, and a token keeps them out: give one of the two");
     net::Options result = options.net;
     result.host = endpoint->host;
     result.port = endpoint->port;
-    result.secrets = std::move(*secrets);
+    result.credentials = std::move(*credentials);
     return result;
 }
 

@@ -15,7 +15,7 @@ struct ServingOptions {
     std::string viewerTokenFile, controllerTokenFile;
     std::string certificateFile, keyFile;
     double watchdog = 0;  // s, as addWatchdog says
-    net::Options net;     // but for the address and the secrets
+    net::Options net;     // but for the address and the credentials
 
     void addTo(CLI::App& command);
 };
@@ -23,12 +23,12 @@ struct ServingOptions {
 // --listen, with its default.
 void addListen(CLI::App& command, std::string& listen);
 
-// Whether there are secrets that may change while it runs.
+// Whether there are credentials that may change while it runs.
 bool hasFiles(const ServingOptions& options);
-// With address and secrets.
+// With address and credentials.
 Result<net::Options> netOptionsOf(const ServingOptions& options);
 // Of the files, as they are now, or of SPHERULE_VIEWER_TOKEN and SPHERULE_CONTROLLER_TOKEN: on the command line, other
 // users of the machine would see them.
-Result<net::Secrets> secretsOf(const ServingOptions& options);
+Result<net::Credentials> credentialsOf(const ServingOptions& options);
 
 }  // namespace spherule::app

@@ -9,21 +9,21 @@
 
 #include "app/live.h"
 #include "app/requests.h"
+#include "codec/message.h"
+#include "codec/rendition.h"
 #include "core/result.h"
-#include "frame/channel.h"
-#include "frame/message.h"
 
 namespace spherule::app {
 
 // Where results go; called on the show's thread.
 struct Outlets {
-    std::function<void(frame::SharedMessage)> keep;       // scene facts, settings, dial, ...: newcomers get them too
-    std::function<void(frame::SharedMessage)> everybody;  // events, diagnostics
-    std::function<void(frame::SharedMessage)> order;
-    std::function<void(const frame::Link&)> frame;
+    std::function<void(codec::SharedMessage)> retain;     // scene facts, settings, dial, ...: newcomers get them too
+    std::function<void(codec::SharedMessage)> broadcast;  // events, diagnostics
+    std::function<void(codec::SharedMessage)> order;
+    std::function<void(const codec::EncodedFrame&)> frame;
     std::function<void(std::uint64_t session, v1::CommandResult)> reply;
     std::function<std::uint32_t()> viewers;
-    std::function<std::vector<frame::Demand>()> demands;
+    std::function<std::vector<codec::Subscription>()> subscriptions;
 };
 
 // The answer to a command. The field of a refusal is a path that begins at the Command: `applied` names it from the

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/facts.h"
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -52,8 +52,8 @@ SimLoop::SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Tabl
       live_(stage.live),
       outlets_(stage.outlets),
       chains_(
-          world_.device(), [this](const frame::Link& link) { publish(link); },
-          [this](frame::SharedMessage order) {
+          world_.device(), [this](const codec::EncodedFrame& encoded) { publish(encoded); },
+          [this](codec::SharedMessage order) {
               tape_.order(order);
               outlets_.order(std::move(order));
           },
@@ -74,7 +74,7 @@ Result<void> SimLoop::run(const std::stop_token& stop) {
 Result<void> SimLoop::simulate(const std::stop_token& stop) {
     Result<void> done;
     while (done && !stop.stop_requested()) {
-        pulse::beat("serving viewers");
+        heartbeat::beat("serving viewers");
         serveWaiting();
         const bool worked = goOn(done);
         if (!done) break;
@@ -289,12 +289,12 @@ void SimLoop::announce() {
     if (epoch_ != world_.epoch()) {
         epoch_ = world_.epoch();
         seen_.reset();
-        keep(world_.facts());
+        retain(world_.facts());
     }
     v1::ServerMessage settings = world_.settings();
     if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
         settings_ = std::move(bytes);
-        keep(std::move(settings));
+        retain(std::move(settings));
     }
     if (observer_.refresh(world_.simulation(), epoch_)) sendDial();
     ++version_;
@@ -353,15 +353,15 @@ void SimLoop::stopAtNonFinite() {
 
 // Before the frame that shows where a world has stopped: its status is that of this state.
 void SimLoop::lookAtStill() {
-    watched_ = !outlets_.demands().empty();
+    watched_ = !outlets_.subscriptions().empty();
     if (world_.running() || !watched_ || world_.simulation().midStep()) return;
     if (!seen_ || seen_->statistics().step() != world_.simulation().steps()) nextReport_ = {};
 }
 
 void SimLoop::produce(Pacer::Clock::time_point now) {
-    auto demands = outlets_.demands();
-    tape_.demand(demands, now);
-    chains_.serve(scenery(now), demands, now);
+    auto subscriptions = outlets_.subscriptions();
+    tape_.subscribe(subscriptions, now);
+    chains_.serve(scenery(now), subscriptions, now);
 }
 
 Scenery SimLoop::scenery(Pacer::Clock::time_point now) {
@@ -383,10 +383,10 @@ v1::Frame SimLoop::head(Pacer::Clock::time_point now) {
     return head;
 }
 
-void SimLoop::publish(const frame::Link& link) {
+void SimLoop::publish(const codec::EncodedFrame& encoded) {
     states_.shown(version_, Pacer::Clock::now());
-    tape_.frame(link);
-    outlets_.frame(link);
+    tape_.frame(encoded);
+    outlets_.frame(encoded);
 }
 
 }  // namespace spherule::app

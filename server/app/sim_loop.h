@@ -50,8 +50,8 @@ class SimLoop : public Show {
     [[nodiscard]] std::string changeInWords() const;
     [[nodiscard]] std::string slowness() const;
     void announce();
-    void keep(v1::ServerMessage message);
-    void everybody(v1::ServerMessage message);
+    void retain(v1::ServerMessage message);
+    void broadcast(v1::ServerMessage message);
     void countStep();
     Result<void> tune(double wallMs);
     void say(v1::Event::Kind kind, const std::string& text);
@@ -63,7 +63,7 @@ class SimLoop : public Show {
     void produce(Pacer::Clock::time_point now);
     Scenery scenery(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
-    void publish(const frame::Link& link);
+    void publish(const codec::EncodedFrame& encoded);
     Result<void> report();
     void tellOfTape();
     Result<void> finishTape();

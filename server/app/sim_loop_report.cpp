@@ -31,7 +31,7 @@ void SimLoop::say(v1::Event::Kind kind, const std::string& text) {
     message.mutable_event()->set_kind(kind);
     message.mutable_event()->set_step(world_.simulation().steps());
     message.mutable_event()->set_text(utf8(text));
-    everybody(std::move(message));
+    broadcast(std::move(message));
 }
 
 void SimLoop::tellNotices() {
@@ -39,20 +39,20 @@ void SimLoop::tellNotices() {
 }
 
 // For viewers, and for the recording.
-void SimLoop::everybody(v1::ServerMessage message) {
-    const auto shared = frame::share(std::move(message));
+void SimLoop::broadcast(v1::ServerMessage message) {
+    const auto shared = codec::share(std::move(message));
     tape_.say(shared);
-    outlets_.everybody(shared);
+    outlets_.broadcast(shared);
 }
 
-void SimLoop::keep(v1::ServerMessage message) {
-    const auto shared = frame::share(std::move(message));
-    tape_.keep(shared);
-    outlets_.keep(shared);
+void SimLoop::retain(v1::ServerMessage message) {
+    const auto shared = codec::share(std::move(message));
+    tape_.retain(shared);
+    outlets_.retain(shared);
 }
 
 Result<void> SimLoop::roomForTape() {
-    return chains_.open(tape_.channel(), scenery(Pacer::Clock::now())).map_error([](Error error) {
+    return chains_.open(tape_.rendition(), scenery(Pacer::Clock::now())).map_error([](Error error) {
         error.message = "nothing is recorded: " + error.message;
         return error;
     });
@@ -72,7 +72,7 @@ void SimLoop::tellOfTape() {
         say(v1::Event::WARNING, fmt::format("The recording {} has ended: {}.", news->file(), news->failure()));
     v1::ServerMessage message;
     *message.mutable_recording() = *news;
-    keep(std::move(message));
+    retain(std::move(message));
 }
 
 // "load box-50k is under way (placing spheres, 34 %)".
@@ -106,7 +106,7 @@ void SimLoop::tellOfChange() {
         return;
     }
     toldOfChange_ = asked != nullptr;
-    outlets_.keep(frame::share(std::move(message)));
+    outlets_.retain(codec::share(std::move(message)));
 }
 
 // Why commands or states may be late, for who asks after the server's health; empty: they are not.
@@ -120,7 +120,7 @@ std::string SimLoop::slowness() const {
 void SimLoop::sendDial() {
     v1::ServerMessage message;
     *message.mutable_dial() = observer_.dial();
-    keep(std::move(message));
+    retain(std::move(message));
 }
 
 // At the end nobody else tells of it.
@@ -157,7 +157,7 @@ void SimLoop::look(const std::vector<double>& passSeconds) {
     seen_ = std::move(sight.diagnostics);
     v1::ServerMessage message;
     *message.mutable_diagnostics() = *seen_;
-    everybody(std::move(message));
+    broadcast(std::move(message));
 }
 
 // Also while it is paused, and no step tells, the device may be lost.

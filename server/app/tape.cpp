@@ -36,10 +36,10 @@ std::string fileNameOf(std::string name) {
 }  // namespace
 
 Tape::Tape(TapeOptions options, v1::Welcome source)
-    : options_(std::move(options)), channel_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
+    : options_(std::move(options)), rendition_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
     v1::ServerMessage message;
     *message.mutable_welcome() = std::move(source);
-    source_ = frame::share(std::move(message));
+    source_ = codec::share(std::move(message));
 }
 
 Result<void> Tape::startFromOptions() {
@@ -98,7 +98,7 @@ Result<std::string> Tape::newPath() const {
 }
 
 Result<void> Tape::start(const std::string& path, bool replace, std::uint64_t mostBytes) {
-    auto writer = store::BackgroundWriter::create(path, replace, mostBytes);
+    auto writer = recording::BackgroundWriter::create(path, replace, mostBytes);
     if (!writer) return tl::unexpected(writer.error());
     writer_ = std::move(*writer);
     state_.Clear();
@@ -118,37 +118,37 @@ Result<void> Tape::stop() {
     return {};
 }
 
-void Tape::keep(frame::SharedMessage message) {
+void Tape::retain(codec::SharedMessage message) {
     const v1::ServerMessage& content = message->content();
     if (content.has_scene()) {
         order_.reset();
         number_.reset();
-        if (writer_ && timed_) add(store::Kind::Scene, message);
+        if (writer_ && timed_) add(recording::Kind::Scene, message);
         scene_ = std::move(message);
     } else if (content.has_settings()) {
-        if (writer_ && timed_) add(store::Kind::Settings, message);
+        if (writer_ && timed_) add(recording::Kind::Settings, message);
         settings_ = std::move(message);
     }
 }
 
-void Tape::say(const frame::SharedMessage& message) {
-    if (writer_ && timed_ && message->content().has_event()) add(store::Kind::Other, message);
+void Tape::say(const codec::SharedMessage& message) {
+    if (writer_ && timed_ && message->content().has_event()) add(recording::Kind::Other, message);
 }
 
-void Tape::order(frame::SharedMessage message) {
-    if (writer_ && timed_) add(store::Kind::Order, message);
+void Tape::order(codec::SharedMessage message) {
+    if (writer_ && timed_) add(recording::Kind::Order, message);
     order_ = std::move(message);
 }
 
-void Tape::frame(const frame::Link& link) {
-    if (!writer_ || link.channel != channel_) return;
-    using enum frame::Link::Kind;
-    const bool again = link.kind == Join && number_ == link.number;
+void Tape::frame(const codec::EncodedFrame& encoded) {
+    if (!writer_ || encoded.rendition != rendition_) return;
+    using enum codec::EncodedFrame::Kind;
+    const bool again = encoded.kind == Resync && number_ == encoded.number;
     if (!again) {
-        waits_ = timed_ && standsStill(link.message->content().frame());
-        if (waits_) return leaveOut(link.message->content().frame());
+        waits_ = timed_ && standsStill(encoded.message->content().frame());
+        if (waits_) return leaveOut(encoded.message->content().frame());
     }
-    if (link.kind == Delta && number_ != link.number - 1) {
+    if (encoded.kind == Delta && number_ != encoded.number - 1) {
         number_.reset();
         if (refused_) ++framesLost_;
         return;
@@ -157,19 +157,23 @@ void Tape::frame(const frame::Link& link) {
     if (again && (!moved_ || Clock::now() - keyframe_ < keyframesEvery)) return;
     refused_ = false;
     const bool first = !timed_;
-    timeOf(link.message->content().frame());
+    timeOf(encoded.message->content().frame());
     if (first) {
         // Whatever has been so far, in the order in which it is needed.
-        add(store::Kind::Other, source_);
-        for (const auto& [kind, message] :
-             {std::pair(store::Kind::Scene, scene_), {store::Kind::Order, order_}, {store::Kind::Settings, settings_}})
+        add(recording::Kind::Other, source_);
+        for (const auto& [kind, message] : {std::pair(recording::Kind::Scene, scene_),
+                                            {recording::Kind::Order, order_},
+                                            {recording::Kind::Settings, settings_}})
             if (message) add(kind, message);
     }
-    moved_ = link.kind == Delta;
+    moved_ = encoded.kind == Delta;
     if (!moved_) keyframe_ = Clock::now();
-    number_ = link.number;
+    number_ = encoded.number;
     // A chain that was lost begins anew.
-    add(again ? store::Kind::Join : link.kind == Delta ? store::Kind::Delta : store::Kind::Keyframe, link.message);
+    add(again                   ? recording::Kind::Resync
+        : encoded.kind == Delta ? recording::Kind::Delta
+                                : recording::Kind::Keyframe,
+        encoded.message);
 }
 
 // Whether the world has not gone on since the newest frame. A paused one that was reset has not either.
@@ -192,7 +196,7 @@ void Tape::timeOf(const v1::Frame& frame) {
     time_ = std::max(time_, frame.sim_time() + offset_);
 }
 
-void Tape::add(store::Kind kind, const frame::SharedMessage& message) {
+void Tape::add(recording::Kind kind, const codec::SharedMessage& message) {
     if (writer_->add(kind, time_, message)) return;
     if (!message->content().has_frame()) return;
     number_.reset();
@@ -200,10 +204,11 @@ void Tape::add(store::Kind kind, const frame::SharedMessage& message) {
     ++framesLost_;
 }
 
-void Tape::demand(std::vector<frame::Demand>& demands, Clock::time_point now) const {
+void Tape::subscribe(std::vector<codec::Subscription>& subscriptions, Clock::time_point now) const {
     if (!writer_) return;
-    auto own = std::ranges::find(demands, channel_, &frame::Demand::channel);
-    if (own == demands.end()) own = demands.insert(demands.end(), frame::Demand{.channel = channel_});
+    auto own = std::ranges::find(subscriptions, rendition_, &codec::Subscription::rendition);
+    if (own == subscriptions.end())
+        own = subscriptions.insert(subscriptions.end(), codec::Subscription{.rendition = rendition_});
     own->newcomer = own->newcomer || !timed_;
     own->lost = own->lost || (!waits_ && (!number_ || (moved_ && now - keyframe_ >= keyframesEvery)));
 }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "app/record_options.h"
+#include "codec/rendition.h"
 #include "core/result.h"
-#include "frame/channel.h"
-#include "store/background_writer.h"
+#include "recording/background_writer.h"
 
 namespace spherule::app {
 
-// Records what a viewer is sent: it demands a channel as viewers do, and what it is told of, it writes. Used by the
-// simulation thread, which never waits for the disk.
+// Records what a viewer is sent: it subscribes to a rendition as viewers do, and what it is told of, it writes. Used by
+// the simulation thread, which never waits for the disk.
 class Tape {
   public:
     using Clock = std::chrono::steady_clock;
@@ -30,18 +30,18 @@ class Tape {
     Result<void> stop();
 
     // What viewers are told, at the same time as they are: of what is said, events are recorded.
-    void keep(frame::SharedMessage message);
-    void say(const frame::SharedMessage& message);
-    void order(frame::SharedMessage message);
-    void frame(const frame::Link& link);
+    void retain(codec::SharedMessage message);
+    void say(const codec::SharedMessage& message);
+    void order(codec::SharedMessage message);
+    void frame(const codec::EncodedFrame& encoded);
 
     // Adds its own, while it records.
-    void demand(std::vector<frame::Demand>& demands, Clock::time_point now) const;
+    void subscribe(std::vector<codec::Subscription>& subscriptions, Clock::time_point now) const;
     // How it goes, where that is not what it last said; while it records, once a second.
     std::optional<v1::Recording> news(Clock::time_point now);
     // Ends the recording, if there is one, waits for the disk, and tells how it is.
     std::optional<v1::Recording> finish();
-    [[nodiscard]] const frame::Channel& channel() const { return channel_; }
+    [[nodiscard]] const codec::Rendition& rendition() const { return rendition_; }
     [[nodiscard]] bool beginsByItself() const { return !options_.path.empty(); }
     [[nodiscard]] bool canRecord() const { return !options_.folder.empty() || !options_.path.empty(); }
     [[nodiscard]] std::uint64_t framesLost() const { return framesLost_; }
@@ -50,16 +50,16 @@ class Tape {
     Result<void> start(const std::string& path, bool replace, std::uint64_t mostBytes);
     [[nodiscard]] Result<std::uint64_t> roomInFolder() const;
     [[nodiscard]] Result<std::string> newPath() const;
-    void add(store::Kind kind, const frame::SharedMessage& message);
+    void add(recording::Kind kind, const codec::SharedMessage& message);
     void timeOf(const v1::Frame& frame);
     [[nodiscard]] bool standsStill(const v1::Frame& frame) const;
     void leaveOut(const v1::Frame& frame);
 
     TapeOptions options_;
-    frame::Channel channel_;
-    frame::SharedMessage source_;
-    frame::SharedMessage scene_, order_, settings_;  // the latest, for a recording that begins
-    std::unique_ptr<store::BackgroundWriter> writer_;
+    codec::Rendition rendition_;
+    codec::SharedMessage source_;
+    codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that begins
+    std::unique_ptr<recording::BackgroundWriter> writer_;
     v1::Recording state_;
     std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nothing: a keyframe is wanted
     Clock::time_point keyframe_{};

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 
 namespace spherule::app {
 
@@ -36,7 +36,7 @@ void Watchdog::watch(const std::stop_token& stop, const Hung& hung) {
     auto then = Clock::now();
     while (!ended.wait_for(lock, stop, between, [] { return false; }) && !stop.stop_requested()) {
         const auto now = Clock::now();
-        const pulse::Sign sign = pulse::last();
+        const heartbeat::Status sign = heartbeat::status();
         // A program that was stopped, or a machine that slept, wakes this thread late, and the others with it.
         const double more = std::min(Seconds(now - then), 2 * between).count();
         silence_ = sign.beats == beats && sign.expected ? silence_ + more : 0;

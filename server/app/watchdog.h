@@ -11,8 +11,8 @@
 
 namespace spherule::app {
 
-// Watches over the thread that computes, from a thread of its own: where that shows no sign of life (core/pulse.h) for
-// `limit`, a kernel or the driver hangs, and nothing that waits for it would ever end.
+// Watches over the thread that computes, from a thread of its own: where that shows no sign of life (core/heartbeat.h)
+// for `limit`, a kernel or the driver hangs, and nothing that waits for it would ever end.
 class Watchdog {
   public:
     using Seconds = std::chrono::duration<double>;

@@ -12,13 +12,13 @@ namespace fs = std::filesystem;
 struct Names {
     const char* limit;
     const char* used;
-    const char* reclaimable;  // in memory.stat: files read long ago, which make room as it is needed
+    const char* reclaimable;  // key in memory.stat: file cache that the kernel frees on demand
 };
 constexpr Names version2{.limit = "memory.max", .used = "memory.current", .reclaimable = "inactive_file"};
 constexpr Names version1{
     .limit = "memory.limit_in_bytes", .used = "memory.usage_in_bytes", .reclaimable = "total_inactive_file"};
 
-// Nothing where the file is not there, or has no number ("max").
+// nullopt if the file is missing or has no number ("max").
 std::optional<std::uint64_t> number(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t value = 0;
@@ -38,7 +38,7 @@ void narrow(std::optional<GroupRoom>& least, const GroupRoom& room) {
     if (!least || room.left < least->left) least = room;
 }
 
-// Of the group and of those that it lies in.
+// Least room of the group and its parents.
 std::optional<GroupRoom> roomIn(const fs::path& mount, const fs::path& group, const Names& names) {
     std::optional<GroupRoom> least;
     fs::path folder = group.relative_path();

@@ -6,13 +6,14 @@
 
 namespace spherule::memory {
 
-// Of the control group that leaves this process the least: versions 1 and 2, and the groups that it lies in.
+// Memory of the control group with the least room, of versions 1 and 2, including parent groups.
 struct GroupRoom {
-    std::uint64_t left = 0;   // bytes that may still be taken
+    std::uint64_t left = 0;   // bytes that may still be allocated
     std::uint64_t limit = 0;  // bytes in all
 };
 
-// Nothing where no control group limits memory. Containers are given memory this way. Below `root` lie proc/ and sys/.
+// nullopt if no control group limits memory. Containers limit memory this way. `root` contains proc/ and sys/. Any
+// thread.
 std::optional<GroupRoom> roomInControlGroup(const std::filesystem::path& root = "/");
 
 }  // namespace spherule::memory

@@ -32,7 +32,7 @@ tl::unexpected<Error> unreadable(const std::string& path, int error) {
 }  // namespace
 
 Result<InputFile> InputFile::open(const std::string& path) {
-    // O_NONBLOCK: opening a pipe would wait for somebody who writes to it.
+    // O_NONBLOCK: without it, opening a pipe waits for a writer.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (descriptor < 0 && errno == ENXIO) return fail(ErrorKind::Input, path, "is a socket, must be a regular file");
     if (descriptor < 0) return unreadable(path, errno);
@@ -71,7 +71,7 @@ Result<std::string> readFile(const std::string& path, std::uint64_t mostBytes) {
         return fail(ErrorKind::Input, path,
                     fmt::format("has {} bytes, at most {} are allowed", file->size(), mostBytes));
     std::string text;
-    // A file may grow while it is read, and those of /proc have no size.
+    // A file may grow while it is read, and files of /proc report no size.
     while (text.size() <= mostBytes) {
         const std::size_t begin = text.size();
         const std::size_t wanted = std::max<std::size_t>(file->size() + 1, begin + blockBytes) - begin;

@@ -9,8 +9,8 @@
 
 namespace spherule {
 
-// A regular file that is read. What else a path may name (a folder, a pipe, a device) is refused without waiting for
-// it. Used by one thread. Errors are Input and carry the path.
+// A regular file for reading. open() refuses folders, pipes and devices without blocking. Used by one thread. Errors:
+// Input, with the path.
 class InputFile {
   public:
     static Result<InputFile> open(const std::string& path);
@@ -21,10 +21,10 @@ class InputFile {
     InputFile& operator=(InputFile&&) = delete;
     ~InputFile();
 
-    // Bytes from `offset` on: `count` of them, or fewer at the end of the file.
+    // Reads `count` bytes from `offset` on and returns their number; fewer at the end of the file.
     [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, char* bytes, std::size_t count) const;
 
-    [[nodiscard]] std::uint64_t size() const { return size_; }  // bytes, when it was opened
+    [[nodiscard]] std::uint64_t size() const { return size_; }  // bytes, at the time of open()
     [[nodiscard]] const std::string& path() const { return path_; }
 
   private:
@@ -35,34 +35,32 @@ class InputFile {
     std::uint64_t size_ = 0;
 };
 
-// The whole file. One of more than `mostBytes` is refused by its size, before it is read.
+// Reads the whole file. Input if it has more than `mostBytes`; checked before it is read.
 Result<std::string> readFile(const std::string& path, std::uint64_t mostBytes);
 
-// Reads a text file line by line, in memory for one block and one line.
+// Reads a text file line by line. Allocates memory for one block and one line.
 class LineReader {
   public:
     explicit LineReader(InputFile file) : file_(std::move(file)) {}
 
-    // To the next line; false at the end of the file. Refuses a line of more than `mostBytes`.
+    // Moves to the next line; returns false at the end of the file. Input if the line has more than `mostBytes`.
     Result<bool> next(std::size_t mostBytes);
-    // Without its end, which is \n or \r\n, and without a byte-order mark in the first line.
+    // The line without \n or \r\n, and without a byte-order mark in the first line.
     [[nodiscard]] const std::string& line() const { return line_; }
-    [[nodiscard]] std::size_t number() const {
-        return number_;
-    }  // of the line, from 1; of the one that was refused, too
+    [[nodiscard]] std::size_t number() const { return number_; }  // of the line, from 1; also of a refused line
 
   private:
     Result<bool> fill();
 
     InputFile file_;
     std::string block_;
-    std::size_t place_ = 0;  // in the block
+    std::size_t place_ = 0;  // offset in the block
     std::uint64_t offset_ = 0;
     std::string line_;
     std::size_t number_ = 0;
 };
 
-// Text without the byte-order mark of UTF-8, with which some editors begin it.
+// Removes a byte-order mark of UTF-8 from the beginning of the text.
 void dropByteOrderMark(std::string& text);
 
 }  // namespace spherule

@@ -12,7 +12,7 @@ namespace spherule {
 
 namespace {
 
-// Protobuf names some fields as the .proto file does; the JSON name is what the writer of a text knows.
+// Protobuf reports some fields with the name of the .proto file; the JSON text uses the JSON name.
 std::string camelCase(std::string_view path) {
     std::string result;
     bool raise = false;
@@ -23,8 +23,8 @@ std::string camelCase(std::string_view path) {
     return result;
 }
 
-// A syntax error comes as "reason\n<text around>\n<spaces>^". The text around is looked up in the whole to find the
-// offset; none when it occurs more than once.
+// A syntax error has the form "reason\n<nearby text>\n<spaces>^". The offset is found by searching for the nearby text;
+// nullopt if it occurs more than once.
 struct Syntax {
     std::string_view reason;
     std::optional<std::size_t> offset;
@@ -54,7 +54,7 @@ std::string lineAndColumn(std::string_view text, std::size_t offset) {
     return fmt::format(":{}:{}", line, column);
 }
 
-// Every other error comes as "(path) name: reason", where "(path)", "name" or both may be missing.
+// Other errors have the form "(path) name: reason", where "(path)", "name" or both may be missing.
 JsonError misfit(std::string_view message, std::string_view what) {
     constexpr std::size_t longestName = 80;
     constexpr std::size_t longestReason = 200;

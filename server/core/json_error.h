@@ -5,14 +5,14 @@
 
 namespace spherule {
 
-// Why protobuf's JSON parser refuses a text, in words for the writer of the text.
+// An error of protobuf's JSON parser, in terms of the JSON text. Any thread.
 struct JsonError {
-    bool isJson = false;  // the text is JSON, and a field of it does not fit
-    std::string place;    // the path of that field, or the ":line:column" of what is not JSON; empty: unknown
+    bool isJson = false;  // valid JSON with an unknown field or an invalid value
+    std::string place;    // path of the field, or ":line:column" of a syntax error; empty: unknown
     std::string reason;
 };
 
-// `status` is the parser's message; `what` names the message that was wanted, such as "a scene".
+// `status`: the parser's error. `what`: the expected message, such as "a scene".
 JsonError jsonErrorOf(std::string_view status, std::string_view text, std::string_view what);
 
 }  // namespace spherule

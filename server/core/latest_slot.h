@@ -7,12 +7,12 @@
 
 namespace spherule {
 
-// A mailbox for one value between two threads: a newer value replaces one that was not taken. Any thread.
+// A mailbox for one value between threads. A newer value replaces one that has not been taken. Any thread.
 template <class T>
 class LatestSlot {
   public:
-    // Returns true when it replaced a value that nobody had taken.
-    bool put(T value) {
+    // Returns true when it replaced a value.
+    bool set(T value) {
         const std::lock_guard lock(mutex_);
         const bool replaced = value_.has_value();
         value_ = std::move(value);
@@ -20,7 +20,7 @@ class LatestSlot {
         return replaced;
     }
 
-    // Waits for a value; nothing when closed.
+    // Waits for a value; nullopt if closed.
     std::optional<T> take() {
         std::unique_lock lock(mutex_);
         ready_.wait(lock, [this] { return value_.has_value() || closed_; });

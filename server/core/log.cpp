@@ -19,14 +19,14 @@ namespace {
 constexpr const char* loggerName = "spherule";
 constexpr std::size_t mostWaiting = 1024;  // messages
 
-// Marks a message that is a JSON object's members already.
+// Marks a message that already consists of the members of a JSON object.
 constexpr const char* membersMark = "event";
 
 nlohmann::ordered_json objectOf(std::string_view message) {
     return {{"message", message}};
 }
 
-// An object without its braces; what is no UTF-8 is replaced.
+// Serialises an object without its braces; replaces invalid UTF-8.
 std::string membersOf(const nlohmann::ordered_json& object) {
     const std::string text = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return text.substr(1, text.size() - 2);
@@ -89,7 +89,7 @@ bool logIsWritten() {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
     while (pool->queue_size() > 0 && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // for the last one, which has left the row
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // for the last message, which has left the queue
     return pool->queue_size() == 0;
 }
 

@@ -20,17 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Left over at each claim: page tables, stacks, messages on their way.
+// Kept free at each claim, for page tables, stacks and messages (bytes).
 constexpr std::uint64_t spareAlways = 24U << 20U;
-constexpr std::uint64_t spareOf = 64;  // and this part of the limit
-// Claims up to here are granted in any case: refusing them would save nothing.
+constexpr std::uint64_t spareOf = 64;  // plus 1/64 of the limit
+// Claims up to this size (bytes) are always granted: refusing them would not help.
 constexpr std::uint64_t trifle = 1U << 20U;
 
 std::atomic<std::uint64_t> ownLimit{0};
-std::mutex mutex;  // of the next
+std::mutex mutex;  // protects `all`
 Claimed all;
 
-// Of /proc/meminfo, in bytes.
+// Returns an entry of /proc/meminfo (bytes).
 std::uint64_t figure(const fs::path& root, const std::string& wanted) {
     std::ifstream file(root / "proc/meminfo");
     for (std::string line; std::getline(file, line);)
@@ -46,7 +46,7 @@ std::uint64_t heldByProcess(const fs::path& root) {
     return resident * static_cast<std::uint64_t>(std::max(sysconf(_SC_PAGESIZE), 1L));
 }
 
-// Of `left`, what no claim is for.
+// Returns the part of room.left that no claim reserves.
 std::uint64_t freeOf(const Room& room, std::uint64_t promised) {
     const std::uint64_t taken = promised + spareAlways + room.limit / spareOf;
     return room.left - std::min(room.left, taken);
@@ -73,7 +73,7 @@ Result<Claim> Claim::make(std::string where, std::string_view what, std::uint64_
     std::unique_lock lock(mutex);
     Room now = room();
     if (bytes > std::max(freeOf(now, all.promised), trifle)) {
-        malloc_trim(0);  // what was freed may still be the program's
+        malloc_trim(0);  // return freed memory to the system first
         now = room();
     }
     const std::uint64_t left = freeOf(now, all.promised);
@@ -86,7 +86,7 @@ Result<Claim> Claim::make(std::string where, std::string_view what, std::uint64_
                                 sizeText(bytes), what, sizeText(left), now.whose, sizeText(now.limit), others));
     }
     all.promised += bytes;
-    lock.unlock();  // claims take it as they go
+    lock.unlock();  // a claim's destructor locks the mutex
     Claim claim;
     claim.promised_ = bytes;
     return claim;

@@ -7,37 +7,36 @@
 
 #include "core/result.h"
 
-// What this program may take of the machine's memory, and what has been promised of it. Linux hands out more than there
-// is, and ends who then uses it: whoever is about to take much asks here first. Any thread.
+// Accounts for large memory allocations of this program. Linux grants more memory than there is, and kills a process
+// that uses it. So code must make a claim before a large allocation. Any thread.
 namespace spherule::memory {
 
 struct Room {
-    std::uint64_t left = 0;   // bytes that may still be taken
+    std::uint64_t left = 0;   // bytes that may still be allocated
     std::uint64_t limit = 0;  // bytes in all
-    const char* whose = "";   // what sets the limit, as the beginning of a sentence: "its control group allows"
+    const char* whose = "";   // source of the limit, as the beginning of a sentence: "its control group allows"
 };
 
-// The narrowest of three: what the machine has available, the limits of the control groups, and setLimit(). Below
-// `root` lie proc/ and sys/.
+// Returns the least of three: available memory of the machine, limits of the control groups, and setLimit(). `root`
+// contains proc/ and sys/.
 Room room(const std::filesystem::path& root = "/");
 
-// The most that this program may hold, in bytes; 0: what the machine and its control groups allow.
+// Sets the most memory that this program may hold (bytes). 0: only the machine and its control groups limit it.
 void setLimit(std::uint64_t bytes);
 
-// Memory that somebody has been promised, or holds.
+// A reservation of memory: promised or allocated.
 class Claim {
   public:
-    // Of `bytes` that are about to be taken. Refused, with what is needed and what the limit is, where they and all
-    // that others have been promised are more than is left. `where` is that of the error; `what` the memory is for: "a
-    // scene of 8 spheres".
+    // Reserves `bytes` for an allocation. Refused if they exceed the free memory minus all other promises. `where`:
+    // place for the error. `what`: purpose of the memory, such as "a scene of 8 spheres".
     static Result<Claim> make(std::string where, std::string_view what, std::uint64_t bytes);
 
-    Claim() = default;  // of nothing
+    Claim() = default;  // of 0 bytes
     Claim(Claim&& other) noexcept { *this = std::move(other); }
     Claim& operator=(Claim&& other) noexcept;
     ~Claim() { settle(0, 0); }
 
-    // By now `held` have been taken, for as long as this is there, and `promised` are still to come.
+    // Updates the claim: `held` bytes are allocated while it exists, `promised` bytes will be.
     void settle(std::uint64_t held, std::uint64_t promised);
 
   private:
@@ -45,14 +44,14 @@ class Claim {
     std::uint64_t promised_ = 0;
 };
 
-// All claims there are.
+// Sums of all claims (bytes).
 struct Claimed {
     std::uint64_t held = 0;
     std::uint64_t promised = 0;
 };
 Claimed claimed();
 
-// "310 MiB", "3.20 GiB".
+// Formats a size as "310 MiB" or "3.20 GiB".
 std::string sizeText(std::uint64_t bytes);
 
 }  // namespace spherule::memory

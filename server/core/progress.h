@@ -5,17 +5,16 @@
 
 namespace spherule {
 
-// How far long work has come, and whether it is to end: shared by the thread that works and those that wait for it.
-// Any thread.
+// Progress and cancellation of long work, shared by the working thread and the threads that wait for it. Any thread.
 class Progress {
   public:
     struct Seen {
-        const char* doing = "starting";  // a literal
+        const char* doing = "starting";  // a string literal
         double share = 0;                // of `doing`, 0 to 1
-        std::uint64_t marks = 0;         // how often at() was called: unchanged while nothing progresses
+        std::uint64_t marks = 0;         // number of calls of at(); unchanged when the work is stuck
     };
 
-    // `doing` must be a literal, such as "placing spheres".
+    // `doing` must be a string literal, such as "placing spheres".
     void at(const char* doing, double share) {
         doing_.store(doing, std::memory_order_relaxed);
         share_.store(share, std::memory_order_relaxed);

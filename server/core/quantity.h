@@ -5,13 +5,13 @@
 
 namespace spherule {
 
-// A number and what stands behind it: "16ms", "0.5%", "3".
+// A number and its unit: "16ms", "0.5%", "3".
 struct Quantity {
     double number = 0;
-    std::string_view unit{};  // into the words it was read from
+    std::string_view unit{};  // refers to the parsed text
 };
 
-// Nothing where no finite number comes first.
+// nullopt if the text does not begin with a finite number. Any thread.
 std::optional<Quantity> quantityOf(std::string_view words);
 
 }  // namespace spherule

@@ -7,20 +7,20 @@
 
 namespace spherule {
 
-// What went wrong decides the exit code of a command (see app/exit_codes.h).
+// The kind of an error determines the exit code of a command (see app/exit_codes.h).
 enum class ErrorKind {
-    Input,       // a scene, a command line or a message that cannot be accepted
-    NoDevice,    // nothing to compute on
-    Refused,     // understood, but not possible now
-    DeviceLost,  // the compute device is gone
-    Diverged,    // a simulation has left the numbers
-    Cancelled,   // somebody asked for it to end
+    Input,       // invalid scene, command line, file or message
+    NoDevice,    // no compute device
+    Refused,     // valid, but not possible now
+    DeviceLost,  // the compute device is lost
+    Diverged,    // a simulation has become non-finite
+    Cancelled,   // cancelled by the user
 };
 
 struct Error {
     ErrorKind kind = ErrorKind::Input;
     std::string where;    // file, field path or resource; may be empty
-    std::string message;  // what is wrong, with the offending value, and what to do
+    std::string message;  // the problem with the offending value, and how to fix it
 
     [[nodiscard]] std::string text() const { return where.empty() ? message : where + ": " + message; }
 };

@@ -4,16 +4,16 @@
 #include <string>
 #include <string_view>
 
-// Text from outside, made fit for messages, logs and terminals.
+// Sanitizes external text for messages, logs and terminals. Any thread.
 namespace spherule {
 
-// Valid UTF-8, which messages need: each byte that is none becomes U+FFFD. Names of files may be any bytes.
+// Returns valid UTF-8, which messages require: replaces each invalid byte by U+FFFD. File names may be any bytes.
 std::string utf8(std::string_view text);
 
-// The first `most` bytes of UTF-8, or up to three fewer: a character is not cut.
+// Returns the first `most` bytes of UTF-8, or up to 3 fewer, so that no character is cut.
 std::string_view cutUtf8(std::string_view text, std::size_t most);
 
-// Valid UTF-8 in which every control character but the line feed is '?': a terminal only shows it.
+// Returns valid UTF-8 with '?' for each control character except the line feed, so that it cannot control a terminal.
 std::string withoutControls(std::string_view text);
 
 }  // namespace spherule

@@ -21,7 +21,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// Without port and brackets.
+// Removes port and brackets.
 std::string_view nameOf(std::string_view host) {
     if (host.starts_with('[')) {
         const auto end = host.find(']');
@@ -41,7 +41,7 @@ bool isName(std::string_view text) {
     });
 }
 
-// make_address() ends at a zero byte and takes any text for a zone.
+// make_address() stops at a zero byte and accepts any text as a zone.
 bool isAddress(std::string_view name) {
     const auto zone = name.find('%');
     if (zone != std::string_view::npos && !isName(name.substr(zone + 1))) return false;
@@ -87,21 +87,21 @@ Result<void> checkToken(const std::string& token, const std::string& where) {
         return fail(ErrorKind::Input, where,
                     "the token has " + std::to_string(token.size()) + " characters; give " +
                         std::to_string(shortestToken) + " to " + std::to_string(longestToken) +
-                        ", such as those of: openssl rand -hex 16");
+                        ", for example from: openssl rand -hex 16");
     if (std::ranges::all_of(token, [](unsigned char c) { return c > ' ' && c <= '~'; })) return {};
     return fail(
         ErrorKind::Input, where,
-        "the token has a character that is no letter, digit or sign of ASCII; make one with: openssl rand -hex 16");
+        "the token may have only printable ASCII characters without spaces; make one with: openssl rand -hex 16");
 }
 
-Admission::Admission(Places places, Secrets secrets, std::string scheme)
-    : places_(std::move(places)),
-      viewerToken_(std::move(secrets.viewerToken)),
-      controllerToken_(std::move(secrets.controllerToken)),
+Admission::Admission(AllowedNames allowedNames, Credentials credentials, std::string scheme)
+    : allowed_(std::move(allowedNames)),
+      viewerToken_(std::move(credentials.viewerToken)),
+      controllerToken_(std::move(credentials.controllerToken)),
       scheme_(std::move(scheme)) {
-    for (auto* list : {&places_.hosts, &places_.origins})
+    for (auto* list : {&allowed_.hosts, &allowed_.origins})
         for (std::string& entry : *list) entry = lower(entry);
-    for (const std::string& origin : places_.origins) places_.hosts.emplace_back(hostOf(origin));
+    for (const std::string& origin : allowed_.origins) allowed_.hosts.emplace_back(hostOf(origin));
 }
 
 bool Admission::isHost(std::string_view host) const {
@@ -109,18 +109,18 @@ bool Admission::isHost(std::string_view host) const {
     if (!isHostAndPort(given)) return false;
     const std::string name(nameOf(given));
     if (name == "localhost" || isAddress(name)) return true;
-    return std::ranges::any_of(places_.hosts, [&](const std::string& one) { return one == given || one == name; });
+    return std::ranges::any_of(allowed_.hosts, [&](const std::string& one) { return one == given || one == name; });
 }
 
 bool Admission::isOrigin(std::string_view origin, std::string_view host) const {
     const std::string given = lower(origin);
     if (given == scheme_ + "://" + lower(host)) return true;
-    return std::ranges::find(places_.origins, given) != places_.origins.end();
+    return std::ranges::find(allowed_.origins, given) != allowed_.origins.end();
 }
 
 std::optional<v1::Role> Admission::roleOf(std::string_view token) const {
     if (!asksForToken()) return v1::CONTROLLER;
-    // Both are always compared.
+    // Always compare both, so that the time does not tell which token matched.
     const bool controls = !controllerToken_.empty() && same(token, controllerToken_);
     const bool views = !viewerToken_.empty() && same(token, viewerToken_);
     if (controls) return v1::CONTROLLER;

@@ -6,46 +6,47 @@
 #include <vector>
 
 #include "core/result.h"
-#include "net/secrets.h"
+#include "net/credentials.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::net {
 
-// Which names a server goes by. What is listed is compared as a whole, without regard to case: no patterns, no endings.
-struct Places {
-    std::vector<std::string>
-        hosts{};  // "name" or "name:port", beside localhost and addresses, which need no name server
-    std::vector<std::string>
-        origins{};  // "scheme://name[:port]", whose pages may open the stream; their hosts are taken too
+// Host names and origins that the server accepts. Compared as a whole and without regard to case: no patterns.
+struct AllowedNames {
+    // "name" or "name:port". Localhost and IP addresses are always accepted.
+    std::vector<std::string> hosts{};
+    // "scheme://name[:port]" of pages that may open the stream. Their hosts are accepted as well.
+    std::vector<std::string> origins{};
 };
 
-// Such as "https://spherule.example.org" or with ":8443"; anything more is an error.
+// Input unless `origin` is like "https://spherule.example.org" or "https://spherule.example.org:8443".
 Result<void> checkOrigin(const std::string& origin);
-// Such as "spherule.example.org" or with ":8443".
+// Input unless `host` is like "spherule.example.org" or "spherule.example.org:8443".
 Result<void> checkHost(const std::string& host);
-// What can be guessed, or cannot be typed, is no token. `where`: where it came from.
+// Input unless `token` has 16 to 256 printable ASCII characters without spaces. `where`: source of the token, for the
+// error.
 Result<void> checkToken(const std::string& token, const std::string& where);
 
-// Who may come in, and as what. A value: any thread.
+// Decides which requests are accepted, and which role a token grants. Immutable: any thread.
 class Admission {
   public:
-    // `scheme`: http or https, which this server speaks.
-    Admission(Places places, Secrets secrets, std::string scheme);
+    // `scheme`: http or https, of this server.
+    Admission(AllowedNames allowedNames, Credentials credentials, std::string scheme);
 
-    // Whether a request with this Host header means this server. A page of somebody else's whose name leads here (DNS
-    // rebinding) has its own name there.
+    // Returns true when this Host header names this server. Protects against DNS rebinding: a foreign page whose name
+    // resolves to this server sends its own name.
     [[nodiscard]] bool isHost(std::string_view host) const;
-    // Whether a page of this origin may open the stream: one of this server's own, or one that is listed. `host`: that
-    // of the request, which isHost().
+    // Returns true when a page of this origin may open the stream: a page of this server, or a listed origin. `host`:
+    // the Host header, for which isHost() is true.
     [[nodiscard]] bool isOrigin(std::string_view origin, std::string_view host) const;
 
-    // Without tokens, everybody is let in, and is a controller.
+    // Without tokens every client is a controller.
     [[nodiscard]] bool asksForToken() const { return !viewerToken_.empty() || !controllerToken_.empty(); }
-    // Nothing: not let in. Takes as long for a token that is nearly right as for another of its length.
+    // nullopt if the token is unknown. The time does not depend on how much of the token is right.
     [[nodiscard]] std::optional<v1::Role> roleOf(std::string_view token) const;
 
   private:
-    Places places_;  // lower case
+    AllowedNames allowed_;  // lower case
     std::string viewerToken_, controllerToken_;
     std::string scheme_;
 };

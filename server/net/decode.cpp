@@ -20,8 +20,7 @@ bool isNonFinite(std::string_view word) {
            word.find("e-") == std::string_view::npos && word.find("E-") == std::string_view::npos;
 }
 
-// Many programs write numbers that are not finite as bare words; protobuf reads them in quotes. Nothing: there are
-// none.
+// Quotes bare NaN and Infinity, which many programs write and protobuf reads only in quotes. nullopt if there are none.
 std::optional<std::string> quoteNonFinite(std::string_view text) {
     constexpr std::string_view wordCharacters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.";
     std::string quoted;
@@ -44,7 +43,7 @@ std::optional<std::string> quoteNonFinite(std::string_view text) {
     return any ? std::optional(quoted) : std::nullopt;
 }
 
-// From the Command on, where it is in one.
+// Removes the leading "command.", so that the path of a field of a command begins at the Command.
 std::string pathOf(std::string_view place) {
     constexpr std::string_view command = "command.";
     return std::string(place.starts_with(command) ? place.substr(command.size()) : place);
@@ -72,7 +71,7 @@ Result<v1::ClientMessage> decodeClientMessage(std::string_view bytes, Encoding e
     v1::ClientMessage message;
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
         return fail(ErrorKind::Input, "", "not a ClientMessage of spherule.v1");
-    message.DiscardUnknownFields();  // they would be kept for nothing
+    message.DiscardUnknownFields();  // nothing reads them
     return message;
 }
 

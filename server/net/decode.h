@@ -7,13 +7,13 @@
 
 namespace spherule::net {
 
-// How a message travels: protobuf in binary frames, or its JSON form in text frames.
+// Encoding of a message: protobuf in binary WebSocket frames, or JSON in text frames.
 enum class Encoding { Binary, Text };
 
-// One WebSocket message of a client. An error of kind Input: the bytes are no message. Of kind Refused: they are JSON,
-// and the field `where` is not known or its value does not fit; the path begins at the Command where it is in one.
-// Protobuf skips fields that are not known. NaN and infinities as bare words, which JSON has not, are read as numbers;
-// a number beyond a double does not fit.
+// Decodes one WebSocket message of a client. Any thread. Errors: Input if the bytes are no message; Refused if they are
+// JSON with an unknown field or an invalid value, whose path is `where`. The path of a field of a command begins at the
+// Command. In protobuf, unknown fields are skipped. In JSON, bare NaN and Infinity are read as numbers. A number out of
+// the range of double is invalid.
 Result<v1::ClientMessage> decodeClientMessage(std::string_view bytes, Encoding encoding);
 
 }  // namespace spherule::net

@@ -28,7 +28,7 @@ constexpr std::chrono::seconds goodbyeLimit{2};
 constexpr std::string_view streamPath = "/ws";
 constexpr std::string_view figuresPath = "/metrics";
 
-// The page is made of files of this server, talks to it alone, and is in nobody's frame.
+// The page loads only files of this server, connects only to it, and must not be framed.
 constexpr const char* contentPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src "
     "'self'; "
@@ -43,7 +43,7 @@ std::string_view fieldOf(const http::request<http::string_body>& request, http::
     return {value.data(), value.size()};
 }
 
-// Of "Authorization: Bearer TOKEN"; empty without one.
+// Token of "Authorization: Bearer TOKEN"; empty if there is none.
 std::string_view bearerOf(const http::request<http::string_body>& request) {
     constexpr std::string_view scheme = "Bearer ";
     const std::string_view value = fieldOf(request, http::field::authorization);
@@ -51,7 +51,7 @@ std::string_view bearerOf(const http::request<http::string_body>& request) {
     return given ? value.substr(scheme.size()) : std::string_view();
 }
 
-// Beast takes any transfer encoding for one that it knows, and then finds no body.
+// Beast accepts unknown transfer encodings and then reads no body.
 bool hasKnownEnd(const http::request<http::string_body>& request) {
     const auto encodings = request.count(http::field::transfer_encoding);
     return encodings == 0 || (encodings == 1 && beast::iequals(request[http::field::transfer_encoding], "chunked"));
@@ -74,11 +74,11 @@ bool asksForSubprotocol(const http::request<http::string_body>& request) {
 
 }  // namespace
 
-HttpConnection::HttpConnection(Transport stream, std::unique_ptr<Visitors::Visit> visit, std::string peer,
-                               Context& context)
-    : context_(context),
+HttpConnection::HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
+                               ServerState& state)
+    : state_(state),
       stream_(std::move(stream)),
-      visit_(std::move(visit)),
+      permit_(std::move(permit)),
       peer_(std::move(peer)),
       delay_(stream_.get_executor()) {}
 
@@ -89,11 +89,11 @@ void HttpConnection::run() {
 void HttpConnection::shakeHands() {
     auto* const secure = stream_.secure();
     if (secure == nullptr) return read();
-    tcp().expires_after(context_.options.requestTimeout);
+    tcp().expires_after(state_.options.requestTimeout);
     secure->async_handshake(boost::asio::ssl::stream_base::server, [self = shared_from_this()](ErrorCode error) {
         if (!error) return self->read();
-        self->context_.refusals.add(error == beast::error::timeout ? Rejection::SlowRequest : Rejection::Tls,
-                                    self->peer_);
+        self->state_.rejectionLog.rejected(
+            error == beast::error::timeout ? RejectReason::SlowRequest : RejectReason::Tls, self->peer_);
     });
 }
 
@@ -101,7 +101,7 @@ void HttpConnection::read() {
     parser_.emplace();
     parser_->header_limit(headerLimit);
     parser_->body_limit(bodyLimit);
-    tcp().expires_after(context_.options.requestTimeout);
+    tcp().expires_after(state_.options.requestTimeout);
     http::async_read(stream_, incoming_, *parser_,
                      [self = shared_from_this()](ErrorCode error, std::size_t) { self->onRead(error); });
 }
@@ -109,67 +109,68 @@ void HttpConnection::read() {
 void HttpConnection::onRead(ErrorCode error) {
     if (error == http::error::end_of_stream) return shutdown();
     if (error) return refuseUnread(error);
-    ++context_.counters.httpRequests;
+    ++state_.counters.httpRequests;
     Request request = parser_->release();
     if (!hasKnownEnd(request)) {
-        // Where its body ends is not known, so nothing can follow it.
+        // The end of the body is unknown, so the connection cannot be reused.
         request.keep_alive(false);
-        return refuse(request, Rejection::Malformed, 501, "the only transfer encoding that is understood is chunked");
+        return refuse(request, RejectReason::Malformed, 501, "the only supported transfer encoding is chunked");
     }
     const std::string path = pathOf({request.target().data(), request.target().size()});
-    if (!context_.admission->isHost(fieldOf(request, http::field::host))) {
+    if (!state_.admission->isHost(fieldOf(request, http::field::host))) {
         return refuse(
-            request, Rejection::Host, 421,
+            request, RejectReason::Host, 421,
             "this server does not go by the name in the Host header: use its address, or start it with --host NAME");
     }
     if (path == streamPath) return onUpgrade(request);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
-        return refuse(request, Rejection::BadRequest, 405, "only GET and HEAD are answered here");
+        return refuse(request, RejectReason::BadRequest, 405, "only GET and HEAD are answered here");
     }
     if (path.empty() || path.front() != '/') {
-        return refuse(request, Rejection::BadRequest, 400, "the target must be a path");
+        return refuse(request, RejectReason::BadRequest, 400, "the target must be a path");
     }
     if (!mayRead(request, path)) return;
-    answer(request, context_.handlers.get(path, context_.counters));
+    answer(request, state_.handlers.get(path, state_.counters));
 }
 
-// The page is for everybody, and so is health: a probe has no token. Refuses by itself.
+// Only the metrics need a token: the page and the health checks are public. Sends the refusal itself.
 bool HttpConnection::mayRead(const Request& request, const std::string& path) {
-    if (path != figuresPath || context_.admission->roleOf(bearerOf(request))) return true;
+    if (path != figuresPath || state_.admission->roleOf(bearerOf(request))) return true;
     if (bearerOf(request).empty())
-        refuse(request, Rejection::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");
+        refuse(request, RejectReason::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");
     else
         refuseLater(request);
     return false;
 }
 
-// Whoever tries many tokens waits for each.
+// Delays the answer to a wrong token, to slow down guessing.
 void HttpConnection::refuseLater(const Request& request) {
     tcp().expires_never();
-    delay_.expires_after(context_.options.guessDelay);
+    delay_.expires_after(state_.options.guessDelay);
     delay_.async_wait([self = shared_from_this(), request](ErrorCode) {
-        self->refuse(request, Rejection::WrongToken, 401, "this token is not known here");
+        self->refuse(request, RejectReason::WrongToken, 401, "this token is not known here");
     });
 }
 
 void HttpConnection::onUpgrade(const Request& request) {
     if (!beast::websocket::is_upgrade(request)) {
-        return refuse(request, Rejection::Handshake, 400,
+        return refuse(request, RejectReason::Handshake, 400,
                       "this is the stream: open it as a WebSocket with subprotocol spherule.v1");
     }
-    // Only browsers say where they come from; whoever else can open the stream could say anything there.
+    // Only browsers send an origin. Other clients could send any origin, so a missing one is accepted.
     const std::string_view origin = fieldOf(request, http::field::origin);
-    if (!origin.empty() && !context_.admission->isOrigin(origin, fieldOf(request, http::field::host))) {
-        return refuse(request, Rejection::Origin, 403,
+    if (!origin.empty() && !state_.admission->isOrigin(origin, fieldOf(request, http::field::host))) {
+        return refuse(request, RejectReason::Origin, 403,
                       "pages of this origin may not open the stream: start the server with --origin, if they should");
     }
     if (!asksForSubprotocol(request)) {
-        return refuse(request, Rejection::Subprotocol, 400, "the WebSocket must ask for subprotocol spherule.v1");
+        return refuse(request, RejectReason::Subprotocol, 400, "the WebSocket must ask for subprotocol spherule.v1");
     }
-    if (!context_.handlers.ready()) {
-        return refuse(request, Rejection::NotReady, 503, "the scene is not ready yet: see /readyz, and try again soon");
+    if (!state_.handlers.ready()) {
+        return refuse(request, RejectReason::NotReady, 503,
+                      "the scene is not ready yet: see /readyz, and try again soon");
     }
-    std::make_shared<Session>(std::move(stream_), std::move(visit_), peer_, context_)->run(request);
+    std::make_shared<Session>(std::move(stream_), std::move(permit_), peer_, state_)->run(request);
 }
 
 void HttpConnection::answer(const Request& request, HttpAnswer answer) {
@@ -205,38 +206,39 @@ void HttpConnection::answer(const Request& request, HttpAnswer answer) {
     send(std::move(response));
 }
 
-void HttpConnection::refuse(const Request& request, Rejection cause, int status, const std::string& text) {
-    context_.refusals.add(cause, peer_);
+void HttpConnection::refuse(const Request& request, RejectReason cause, int status, const std::string& text) {
+    state_.rejectionLog.rejected(cause, peer_);
     answer(request, {.status = status, .contentType = "text/plain; charset=utf-8", .body = text + "\n"});
 }
 
-// The rest of the request is still on the wire, so the connection cannot be used again.
+// The rest of the request has not been read, so the connection cannot be reused.
 void HttpConnection::refuseUnread(ErrorCode error) {
     if (error == beast::error::timeout && (parser_->got_some() || incoming_.size() > 0))
-        context_.refusals.add(Rejection::SlowRequest, peer_);
-    if (error.category() != http::make_error_code(http::error::bad_method).category()) return;  // broken or too slow
+        state_.rejectionLog.rejected(RejectReason::SlowRequest, peer_);
+    if (error.category() != http::make_error_code(http::error::bad_method).category())
+        return;  // connection broken, or request too slow
     Request request;
     request.version(11);
     request.keep_alive(false);
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-        return refuse(request, Rejection::LongHeader, 431, "the headers are longer than 16 KiB");
+        return refuse(request, RejectReason::LongHeader, 431, "the headers are longer than 16 KiB");
     }
     if (error == http::error::body_limit) {
-        return refuse(request, Rejection::LongBody, 413, "the body is longer than 10,000 bytes");
+        return refuse(request, RejectReason::LongBody, 413, "the body is longer than 10,000 bytes");
     }
-    refuse(request, Rejection::Malformed, 400, "not an HTTP request: " + error.message());
+    refuse(request, RejectReason::Malformed, 400, "not an HTTP request: " + error.message());
 }
 
 void HttpConnection::shutdown() {
     tcp().expires_after(goodbyeLimit);
-    // Within TLS, this waits for the peer's goodbye, and reads what is left on the way there.
+    // The TLS shutdown waits for the peer's shutdown and reads the remaining data.
     if (auto* const secure = stream_.secure()) return secure->async_shutdown([self = shared_from_this()](ErrorCode) {});
     ErrorCode ignored;
     tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
     discard();
 }
 
-// A socket closed over unread bytes resets the connection, and the answer may be lost with it.
+// Reads the remaining data: closing a socket with unread data resets the connection, and the answer may be lost.
 void HttpConnection::discard() {
     tcp().async_read_some(boost::asio::buffer(discarded_), [self = shared_from_this()](ErrorCode error, std::size_t) {
         if (!error) self->discard();

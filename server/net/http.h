@@ -10,17 +10,17 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-#include "net/context.h"
+#include "net/server_state.h"
 #include "net/transport.h"
 
 namespace spherule::net {
 
-// One connection that speaks HTTP/1.1: answers GET and HEAD through Handlers.get until the client leaves or asks for
-// the stream at /ws, which makes it a Session. Whoever does not mean this server, or has no business at the stream, is
-// refused. Everything happens on the strand of its stream.
+// One HTTP/1.1 connection. Answers GET and HEAD through Handlers.get, and hands the connection over to a Session when
+// the client upgrades at /ws. Refuses requests with a foreign Host header or origin. Used on the strand of its stream.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
-    HttpConnection(Transport stream, std::unique_ptr<Visitors::Visit> visit, std::string peer, Context& context);
+    HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
+                   ServerState& state);
 
     void run();
 
@@ -35,19 +35,19 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     void onUpgrade(const Request& request);
     [[nodiscard]] bool mayRead(const Request& request, const std::string& path);
     void answer(const Request& request, HttpAnswer answer);
-    void refuse(const Request& request, Rejection cause, int status, const std::string& text);
+    void refuse(const Request& request, RejectReason cause, int status, const std::string& text);
     void refuseLater(const Request& request);
     void refuseUnread(ErrorCode error);
     void shutdown();
     void discard();
     boost::beast::tcp_stream& tcp() { return stream_.next_layer(); }
 
-    Context& context_;
+    ServerState& state_;
     Transport stream_;
-    std::unique_ptr<Visitors::Visit> visit_;
+    std::unique_ptr<ConnectionLimiter::Permit> permit_;
     std::string peer_;  // address
     boost::asio::steady_timer delay_;
-    // What Beast's parser keeps back, such as an extension of a chunk that has no end, is bounded by nothing else.
+    // Bounds the bytes that Beast's parser buffers, such as an endless chunk extension.
     boost::beast::flat_buffer incoming_{std::size_t{64} * 1024};
     std::optional<Parser> parser_;
     std::array<char, 4096> discarded_{};

@@ -29,73 +29,74 @@ void Hub::join(SessionId id) {
     Entry* const entry = find(id);
     if (entry == nullptr) return;
     entry->joined = true;
-    for (const auto& [kind, message] : kept_) entry->session->send(message);
+    for (const auto& [kind, message] : retained_) entry->session->send(message);
 }
 
-void Hub::watch(SessionId id, const frame::Channel& channel) {
+void Hub::subscribe(SessionId id, const codec::Rendition& rendition) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
-    if (entry->channel.rate == 0 && channel.rate > 0 && order_) entry->session->send(order_);
-    entry->channel = channel;
-    entry->newcomer = channel.rate > 0;
+    if (entry->rendition.rate == 0 && rendition.rate > 0 && order_) entry->session->send(order_);
+    entry->rendition = rendition;
+    entry->newcomer = rendition.rate > 0;
     entry->lost = false;
     countViewers();
 }
 
-void Hub::askKeyframe(SessionId id) {
+void Hub::requestKeyframe(SessionId id) {
     const std::lock_guard lock(mutex_);
-    if (Entry* const entry = find(id)) entry->lost = entry->channel.rate > 0;
+    if (Entry* const entry = find(id)) entry->lost = entry->rendition.rate > 0;
 }
 
-void Hub::setOrder(frame::SharedMessage order) {
+void Hub::setOrder(codec::SharedMessage order) {
     const std::lock_guard lock(mutex_);
     order_ = std::move(order);
     for (const auto& [id, entry] : entries_)
-        if (entry.channel.rate > 0) entry.session->send(order_);
+        if (entry.rendition.rate > 0) entry.session->send(order_);
 }
 
-void Hub::keep(frame::SharedMessage message) {
+void Hub::retain(codec::SharedMessage message) {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
     }
-    if (message->content().has_scene()) order_.reset();  // that of the spheres that were
-    kept_[message->content().kind_case()] = std::move(message);
+    if (message->content().has_scene()) order_.reset();  // the order belongs to the previous scene
+    retained_[message->content().kind_case()] = std::move(message);
 }
 
-void Hub::publish(const frame::Link& link) {
+void Hub::publish(const codec::EncodedFrame& encoded) {
     const std::lock_guard lock(mutex_);
     for (auto& [id, entry] : entries_) {
-        if (entry.channel.rate == 0 || entry.channel != link.channel) continue;
+        if (entry.rendition.rate == 0 || entry.rendition != encoded.rendition) continue;
         const bool waits = entry.newcomer || entry.lost;
-        if (link.kind == frame::Link::Kind::Join && !waits) continue;
-        if (link.kind != frame::Link::Kind::Delta) entry.newcomer = entry.lost = false;
-        if (link.kind != frame::Link::Kind::Delta || !waits) entry.session->offer(link);
+        if (encoded.kind == codec::EncodedFrame::Kind::Resync && !waits) continue;
+        if (encoded.kind != codec::EncodedFrame::Kind::Delta) entry.newcomer = entry.lost = false;
+        if (encoded.kind != codec::EncodedFrame::Kind::Delta || !waits) entry.session->offer(encoded);
     }
 }
 
-std::vector<frame::Demand> Hub::demands() {
+std::vector<codec::Subscription> Hub::subscriptions() {
     const std::lock_guard lock(mutex_);
-    std::vector<frame::Demand> demands;
+    std::vector<codec::Subscription> subscriptions;
     for (const auto& [id, entry] : entries_) {
-        if (entry.channel.rate == 0) continue;
-        auto same = std::ranges::find(demands, entry.channel, &frame::Demand::channel);
-        if (same == demands.end()) same = demands.insert(demands.end(), frame::Demand{.channel = entry.channel});
+        if (entry.rendition.rate == 0) continue;
+        auto same = std::ranges::find(subscriptions, entry.rendition, &codec::Subscription::rendition);
+        if (same == subscriptions.end())
+            same = subscriptions.insert(subscriptions.end(), codec::Subscription{.rendition = entry.rendition});
         same->newcomer = same->newcomer || entry.newcomer;
         same->lost = same->lost || entry.lost;
     }
-    return demands;
+    return subscriptions;
 }
 
-void Hub::broadcast(const frame::SharedMessage& message) {
+void Hub::broadcast(const codec::SharedMessage& message) {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
     }
 }
 
-void Hub::sendTo(SessionId id, frame::SharedMessage message) {
+void Hub::sendTo(SessionId id, codec::SharedMessage message) {
     const std::lock_guard lock(mutex_);
     const auto found = entries_.find(id);
     if (found != entries_.end()) found->second.session->send(std::move(message));
@@ -119,7 +120,7 @@ bool Hub::waitEmpty(std::chrono::milliseconds timeout) {
 
 void Hub::countViewers() {
     viewers_ = static_cast<std::uint32_t>(
-        std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.channel.rate > 0; }));
+        std::ranges::count_if(entries_, [](const auto& entry) { return entry.second.rendition.rate > 0; }));
 }
 
 }  // namespace spherule::net

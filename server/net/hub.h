@@ -10,57 +10,57 @@
 #include <unordered_map>
 #include <vector>
 
-#include "frame/channel.h"
-#include "net/server.h"
+#include "codec/rendition.h"
+#include "net/session_id.h"
 
 namespace spherule::net {
 
-// A session as the hub sees it. Any thread; no call does its work before it returns, so the hub may hold its lock.
+// Interface of a session for the hub. Any thread. Calls only post work, so the hub may hold its lock.
 class Subscriber {
   public:
     virtual ~Subscriber() = default;
-    virtual void send(frame::SharedMessage message) = 0;  // reliable lane
-    virtual void offer(frame::Link link) = 0;             // lossy lane
-    virtual void drain() = 0;                             // close when the reliable lane is empty
-    virtual void drop() = 0;                              // now, without a close frame
+    virtual void send(codec::SharedMessage message) = 0;  // reliable lane
+    virtual void offer(codec::EncodedFrame encoded) = 0;  // lossy lane
+    virtual void drain() = 0;                             // close after the reliable lane is empty
+    virtual void drop() = 0;                              // close at once, without a close frame
 };
 
-// Hands every message to the sessions that want it, and to a newcomer what it missed. Any thread.
+// Distributes messages to the sessions, and retained messages to new sessions. Any thread.
 class Hub {
   public:
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
-    // After the welcome: the session gets what is kept.
+    // Sends the retained messages. Call after the welcome.
     void join(SessionId id);
-    // The chain that the session is sent from now on, from its next keyframe on; rate 0: none.
-    void watch(SessionId id, const frame::Channel& channel);
+    // Sends frames of this rendition from its next keyframe on. Rate 0: no frames.
+    void subscribe(SessionId id, const codec::Rendition& rendition);
     // The session has lost its chain and needs a keyframe.
-    void askKeyframe(SessionId id);
+    void requestKeyframe(SessionId id);
 
-    // For all and for newcomers, until there is a newer one of its kind.
-    void keep(frame::SharedMessage message);
-    // For the frames that come; to whoever watches.
-    void setOrder(frame::SharedMessage order);
-    void publish(const frame::Link& link);
-    void broadcast(const frame::SharedMessage& message);
-    void sendTo(SessionId id, frame::SharedMessage message);
+    // Sends to all sessions. New sessions get the newest message of each kind.
+    void retain(codec::SharedMessage message);
+    // Sets the order of the spheres in the next frames and sends it to all sessions that want frames.
+    void setOrder(codec::SharedMessage order);
+    void publish(const codec::EncodedFrame& encoded);
+    void broadcast(const codec::SharedMessage& message);
+    void sendTo(SessionId id, codec::SharedMessage message);
 
     [[nodiscard]] std::uint32_t viewers() const { return viewers_; }
-    // Of each chain that somebody watches.
-    [[nodiscard]] std::vector<frame::Demand> demands();
+    // One entry for each rendition that a session wants.
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions();
 
-    // Closes what is open and whatever comes later.
+    // Closes all sessions, and each session that is added later.
     void drain();
     void dropAll();
-    // False when sessions are left after `timeout`.
+    // Returns false when sessions are left after `timeout`.
     bool waitEmpty(std::chrono::milliseconds timeout);
 
   private:
     struct Entry {
         std::shared_ptr<Subscriber> session;
         bool joined = false;
-        frame::Channel channel{};  // rate 0: none
-        bool newcomer = false;     // no frame of the chain has come yet
+        codec::Rendition rendition{};  // rate 0: no frames
+        bool newcomer = false;         // has had no frame of the rendition yet
         bool lost = false;
     };
 
@@ -72,8 +72,8 @@ class Hub {
     std::unordered_map<SessionId, Entry> entries_;
     SessionId lastId_ = 0;
     bool draining_ = false;
-    std::map<v1::ServerMessage::KindCase, frame::SharedMessage> kept_;  // in the order in which newcomers get them
-    frame::SharedMessage order_;
+    std::map<v1::ServerMessage::KindCase, codec::SharedMessage> retained_;  // sent to new sessions in this order
+    codec::SharedMessage order_;
     std::atomic<std::uint32_t> viewers_ = 0;
 };
 

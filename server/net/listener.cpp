@@ -20,8 +20,8 @@ using boost::system::error_code;
 
 namespace {
 
-// The kernel would otherwise take seconds of states for a slow client, who would then watch the past. It doubles the
-// first figure for its own bookkeeping; what it has not sent yet is kept below the second, for those who read slowly.
+// Bytes. Limits of the kernel's send buffer and of its unsent part. With the defaults, seconds of frames would queue in
+// the kernel for a slow client. The kernel doubles the first value for its bookkeeping.
 constexpr int sendBuffer = 256 * 1024;
 constexpr int mostUnsent = 32 * 1024;
 constexpr std::chrono::milliseconds retryAfter{100};
@@ -34,23 +34,21 @@ std::string adviceOn(const error_code& error) {
 
 }  // namespace
 
-Listener::Listener(asio::io_context& io, Context& context)
-    : io_(io), context_(context), acceptor_(io), retryTimer_(io) {}
+Listener::Listener(asio::io_context& io, ServerState& state) : io_(io), state_(state), acceptor_(io), retryTimer_(io) {}
 
 Result<void> Listener::open() {
-    const Options& options = context_.options;
+    const Options& options = state_.options;
     const std::string address = options.host + ":" + std::to_string(options.port);
     error_code error;
     const auto found =
         tcp::resolver(io_).resolve(options.host, std::to_string(options.port), tcp::resolver::passive, error);
     if (error) return fail(ErrorKind::Input, address, "cannot be listened on: " + error.message());
     const tcp::endpoint endpoint = found.begin()->endpoint();
-    const bool proxied = !options.places.hosts.empty() || !options.places.origins.empty();
-    if (!options.open && !guarded(options.secrets) && (proxied || !endpoint.address().is_loopback()))
+    const bool proxied = !options.allowedNames.hosts.empty() || !options.allowedNames.origins.empty();
+    if (!options.open && !requiresToken(options.credentials) && (proxied || !endpoint.address().is_loopback()))
         return fail(ErrorKind::Input, address,
-                    "others reach it, by this address or by the names that it is given: say who may come in "
-                    "(--controller-token-file FILE, --viewer-token-file "
-                    "FILE), or that everybody may view and command (--open)");
+                    "other machines can reach this server: require a token (--controller-token-file FILE, "
+                    "--viewer-token-file FILE), or let everybody view and command (--open)");
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
     if (!error) acceptor_.bind(endpoint, error);
@@ -81,8 +79,8 @@ void Listener::accept() {
 void Listener::onAccept(error_code error, tcp::socket socket) {
     if (!acceptor_.is_open()) return;
     if (error) {
-        // Mostly out of file descriptors: try again when some session may have ended, rather than spin or give up.
-        context_.refusals.add(Rejection::Accept, error.message());
+        // Usually out of file descriptors: retry later, when a session may have ended.
+        state_.rejectionLog.rejected(RejectReason::Accept, error.message());
         retryTimer_.expires_after(retryAfter);
         retryTimer_.async_wait([self = shared_from_this()](error_code cancelled) {
             if (!cancelled) self->accept();
@@ -92,18 +90,18 @@ void Listener::onAccept(error_code error, tcp::socket socket) {
     try {
         serve(std::move(socket));
     } catch (const std::exception&) {
-        ++context_.counters.rejectedFor(Rejection::Fault);
+        ++state_.counters.rejectedFor(RejectReason::Fault);
     }
     accept();
 }
 
 void Listener::serve(tcp::socket socket) {
-    // Nothing that could be read here is worth an error: the peer may be gone already.
+    // Errors are ignored: the peer may have disconnected already.
     error_code ignored;
     const auto address = socket.remote_endpoint(ignored).address();
-    if (const auto cause = context_.visitors->refuses(address, Visitors::Clock::now())) {
-        context_.refusals.add(*cause, address.to_string());
-        // Without this, each would leave a closed connection behind for a minute.
+    if (const auto cause = state_.limiter->refuses(address, ConnectionLimiter::Clock::now())) {
+        state_.rejectionLog.rejected(*cause, address.to_string());
+        // Reset instead of close, so that no socket stays in TIME_WAIT for a minute.
         socket.set_option(asio::socket_base::linger(true, 0), ignored);
         socket.close(ignored);
         return;
@@ -111,8 +109,8 @@ void Listener::serve(tcp::socket socket) {
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(sendBuffer), ignored);
     setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &mostUnsent, sizeof mostUnsent);
-    std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), context_.tls),
-                                     context_.visitors->admit(address), address.to_string(), context_)
+    std::make_shared<HttpConnection>(Transport(boost::beast::tcp_stream(std::move(socket)), state_.tls),
+                                     state_.limiter->admit(address), address.to_string(), state_)
         ->run();
 }
 

@@ -7,21 +7,22 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "core/result.h"
-#include "net/context.h"
+#include "net/server_state.h"
 
 namespace spherule::net {
 
-// Accepts connections, each with its own strand. On the io thread, except where said.
+// Accepts connections and gives each its own strand. Used on the io thread, unless noted.
 class Listener : public std::enable_shared_from_this<Listener> {
   public:
-    Listener(boost::asio::io_context& io, Context& context);
+    Listener(boost::asio::io_context& io, ServerState& state);
 
-    // Before the io thread runs. An address that cannot be bound is an error.
+    // Binds the address. Call before the io thread runs. Errors: Input for an unusable address, or one that is
+    // reachable from outside without tokens or --open; Refused if it cannot be bound.
     Result<void> open();
     void run();
     void close();
 
-    // Any thread, once open.
+    // Any thread, after open().
     [[nodiscard]] std::uint16_t port() const { return port_; }
 
   private:
@@ -30,7 +31,7 @@ class Listener : public std::enable_shared_from_this<Listener> {
     void serve(boost::asio::ip::tcp::socket socket);
 
     boost::asio::io_context& io_;
-    Context& context_;
+    ServerState& state_;
     boost::asio::ip::tcp::acceptor acceptor_;
     boost::asio::steady_timer retryTimer_;
     std::uint16_t port_ = 0;

@@ -15,12 +15,12 @@ namespace {
 namespace pb = google::protobuf;
 using Wire = pb::internal::WireFormatLite;
 
-constexpr std::size_t perAllocation = 32;  // the allocator's share, and the pointer in a list that has grown
-constexpr std::size_t perNumber = 32;      // in a list that has grown, or as an unknown field
+constexpr std::size_t perAllocation = 32;  // allocator overhead, and a pointer in a grown list
+constexpr std::size_t perNumber = 32;      // in a grown list, or as an unknown field
 constexpr std::size_t perString = 64;
-constexpr int deepest = 100;  // as the parser
+constexpr int deepest = 100;  // same as the parser
 
-// Walks the wire form by the types that the parser will make of it.
+// Estimates the cost of a message in binary form, by the descriptors of its fields.
 class BinaryCost {
   public:
     explicit BinaryCost(std::size_t most) : most_(most) {}
@@ -38,7 +38,7 @@ class BinaryCost {
                                        static_cast<int>(bytes.size()));
         while (preview_.cost <= most_) {
             const std::uint32_t tag = input.ReadTag();
-            if (tag == 0) return;  // the end, or nothing that can be parsed
+            if (tag == 0) return;  // end, or not parsable
             const pb::FieldDescriptor* const field = type.FindFieldByNumber(Wire::GetTagFieldNumber(tag));
             if (Wire::GetTagWireType(tag) != Wire::WIRETYPE_LENGTH_DELIMITED) {
                 if (!number(input, tag, field)) return;
@@ -68,7 +68,7 @@ class BinaryCost {
             case Wire::WIRETYPE_FIXED64:
                 return input.Skip(8);
             case Wire::WIRETYPE_START_GROUP:
-            case Wire::WIRETYPE_END_GROUP:  // what lies between the two is counted as if it were outside
+            case Wire::WIRETYPE_END_GROUP:  // the content is counted as fields of the message
                 preview_.cost += perString;
                 return true;
             default:
@@ -85,7 +85,8 @@ class BinaryCost {
             message(bytes, *field->message_type(), depth + 1);
         } else {
             const bool wide = field->cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE;
-            preview_.cost += perNumber + (wide ? 2 : 16) * bytes.size();  // a number may come as a single byte
+            preview_.cost +=
+                perNumber + (wide ? 2 : 16) * bytes.size();  // packed varints take one byte or more on the wire
         }
     }
 
@@ -100,7 +101,7 @@ class BinaryCost {
     Preview preview_;
 };
 
-// Counts what opens and separates; knows no types.
+// Estimates the cost of a message in JSON form, by counting brackets and commas.
 class TextCost {
   public:
     TextCost(std::string_view text, std::size_t most) : text_(text), most_(most) {
@@ -113,8 +114,8 @@ class TextCost {
     }
 
   private:
-    static constexpr std::size_t perByte = 4;  // the parser's binary copy and the strings, each in room that has grown
-    static constexpr std::size_t perMessage = 160;  // of those that may come in numbers
+    static constexpr std::size_t perByte = 4;       // the parser's binary copy and the strings, each in a grown buffer
+    static constexpr std::size_t perMessage = 160;  // of a message type that may be repeated
 
     void look(char c) {
         switch (c) {
@@ -144,7 +145,7 @@ class TextCost {
         }
     }
 
-    // Up to its closing quote.
+    // Reads up to the closing quote.
     std::string_view string() {
         const std::size_t begin = ++at_;
         for (; at_ < text_.size() && text_[at_] != '"'; ++at_)

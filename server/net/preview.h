@@ -8,16 +8,16 @@
 
 namespace spherule::net {
 
-// What one look over the bytes of a message tells before it is parsed.
+// Facts about a message that are known before it is parsed.
 struct Preview {
-    bool command = false;
+    bool command = false;  // the message is a command
     std::uint64_t id = 0;  // of the command; 0: unknown
-    // Bytes of memory that the parsed message and its parser take, estimated from above: some 100 to 200 for a message
-    // within it, however few bytes it has on the wire.
+    // Upper estimate of the memory for parsing the message (bytes). A nested message takes 100 to 200 bytes, however
+    // short it is on the wire.
     std::size_t cost = 0;
 };
 
-// Looks no further once the cost is above `most`. Time: linear in the bytes.
+// Scans the bytes once and stops when the cost exceeds `most` (bytes). Any thread. Time is linear in the size.
 Preview previewOf(std::string_view bytes, Encoding encoding, std::size_t most);
 
 }  // namespace spherule::net

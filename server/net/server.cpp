@@ -7,21 +7,21 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 
-#include "net/context.h"
 #include "net/listener.h"
+#include "net/server_state.h"
 
 namespace spherule::net {
 
 namespace {
 
-constexpr std::chrono::seconds dropTime{1};  // for sessions to notice that they were dropped
+constexpr std::chrono::seconds dropTime{1};  // for dropped sessions to end
 
 class RunningServer final : public Server {
   public:
     RunningServer(const Options& options, Handlers handlers)
-        : scheme_(options.secrets.certificate.empty() ? "http" : "https"),
-          context_{.options = options, .handlers = std::move(handlers)},
-          listener_(std::make_shared<Listener>(io_, context_)) {}
+        : scheme_(options.credentials.certificate.empty() ? "http" : "https"),
+          state_{.options = options, .handlers = std::move(handlers)},
+          listener_(std::make_shared<Listener>(io_, state_)) {}
 
     RunningServer(const RunningServer&) = delete;
     RunningServer& operator=(const RunningServer&) = delete;
@@ -32,42 +32,42 @@ class RunningServer final : public Server {
     }
 
     Result<void> start() {
-        const Options& options = context_.options;
-        for (const std::string& origin : options.places.origins)
+        const Options& options = state_.options;
+        for (const std::string& origin : options.allowedNames.origins)
             if (auto good = checkOrigin(origin); !good) return good;
-        for (const std::string& host : options.places.hosts)
+        for (const std::string& host : options.allowedNames.hosts)
             if (auto good = checkHost(host); !good) return good;
-        auto made = make(options.secrets);
-        if (!made) return tl::unexpected(made.error());
-        take(std::move(*made));
-        context_.tellControl(context_.lease.state());
+        auto loaded = load(options.credentials);
+        if (!loaded) return tl::unexpected(loaded.error());
+        apply(std::move(*loaded));
+        state_.publishControl(state_.controlLock.state());
         if (auto opened = listener_->open(); !opened) return opened;
         listener_->run();
-        thread_ = std::thread([this] { work(); });
+        thread_ = std::thread([this] { runIo(); });
         return {};
     }
 
     [[nodiscard]] std::uint16_t port() const override { return listener_->port(); }
 
-    void keep(frame::SharedMessage message) override { context_.hub.keep(std::move(message)); }
-    void setOrder(frame::SharedMessage order) override { context_.hub.setOrder(std::move(order)); }
-    void publish(const frame::Link& link) override { context_.hub.publish(link); }
-    void broadcast(frame::SharedMessage message) override { context_.hub.broadcast(message); }
+    void retain(codec::SharedMessage message) override { state_.hub.retain(std::move(message)); }
+    void setOrder(codec::SharedMessage order) override { state_.hub.setOrder(std::move(order)); }
+    void publish(const codec::EncodedFrame& encoded) override { state_.hub.publish(encoded); }
+    void broadcast(codec::SharedMessage message) override { state_.hub.broadcast(message); }
 
     void reply(SessionId session, v1::CommandResult result) override {
         v1::ServerMessage message;
         *message.mutable_result() = std::move(result);
-        context_.hub.sendTo(session, std::make_shared<frame::Message>(std::move(message)));
+        state_.hub.sendTo(session, std::make_shared<codec::Message>(std::move(message)));
     }
 
-    [[nodiscard]] std::uint32_t viewers() const override { return context_.hub.viewers(); }
-    [[nodiscard]] std::vector<frame::Demand> demands() override { return context_.hub.demands(); }
-    [[nodiscard]] const Counters& counters() const override { return context_.counters; }
+    [[nodiscard]] std::uint32_t viewers() const override { return state_.hub.viewers(); }
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions() override { return state_.hub.subscriptions(); }
+    [[nodiscard]] const Counters& counters() const override { return state_.counters; }
 
-    Result<void> setSecrets(const Secrets& secrets) override {
-        auto made = make(secrets);
-        if (!made) return tl::unexpected(made.error());
-        boost::asio::post(io_, [this, taken = std::move(*made)] { take(taken); });
+    Result<void> setCredentials(const Credentials& credentials) override {
+        auto loaded = load(credentials);
+        if (!loaded) return tl::unexpected(loaded.error());
+        boost::asio::post(io_, [this, next = std::move(*loaded)] { apply(next); });
         return {};
     }
 
@@ -77,56 +77,57 @@ class RunningServer final : public Server {
 
     void drain() override {
         stopAccepting();
-        context_.hub.drain();
-        if (context_.hub.waitEmpty(context_.options.drainTimeout)) return;
-        context_.hub.dropAll();
-        context_.hub.waitEmpty(dropTime);
+        state_.hub.drain();
+        if (state_.hub.waitEmpty(state_.options.drainTimeout)) return;
+        state_.hub.dropAll();
+        state_.hub.waitEmpty(dropTime);
     }
 
   private:
-    // What a handler throws ends what the handler was for, and nothing else.
-    void work() {
+    // An exception of a handler ends only its session or connection, so the loop goes on.
+    void runIo() {
         while (!io_.stopped()) {
             try {
                 io_.run();
             } catch (const std::bad_alloc&) {
-                ++context_.counters.rejectedFor(Rejection::Fault);  // to tell of it takes memory
+                ++state_.counters.rejectedFor(RejectReason::Fault);  // logging would need memory
             } catch (const std::exception& error) {
-                context_.refusals.add(Rejection::Fault, error.what());
+                state_.rejectionLog.rejected(RejectReason::Fault, error.what());
             }
         }
     }
 
-    // What is made of the secrets.
-    struct Keys {
+    // Credentials in the form that connections use.
+    struct LoadedCredentials {
         std::shared_ptr<const Admission> admission;
         Tls tls;
     };
 
-    [[nodiscard]] Result<Keys> make(const Secrets& secrets) const {
-        if (guarded(secrets) != guarded(context_.options.secrets))
-            return fail(ErrorKind::Input, "tokens", "cannot come or go while the server runs");
-        Places places = context_.options.places;
-        places.hosts.push_back(context_.options.host);  // by which people were told to come
-        Keys keys{.admission = std::make_shared<Admission>(std::move(places), secrets, scheme_), .tls = nullptr};
-        if (secrets.certificate.empty() == (scheme_ == "http")) {
-            if (secrets.certificate.empty()) return keys;
-            auto tls = serverTls(secrets);
+    [[nodiscard]] Result<LoadedCredentials> load(const Credentials& credentials) const {
+        if (requiresToken(credentials) != requiresToken(state_.options.credentials))
+            return fail(ErrorKind::Input, "tokens", "cannot be turned on or off while the server runs");
+        AllowedNames allowedNames = state_.options.allowedNames;
+        allowedNames.hosts.push_back(state_.options.host);  // the address that was announced to users
+        LoadedCredentials loaded{
+            .admission = std::make_shared<Admission>(std::move(allowedNames), credentials, scheme_), .tls = nullptr};
+        if (credentials.certificate.empty() == (scheme_ == "http")) {
+            if (credentials.certificate.empty()) return loaded;
+            auto tls = serverTls(credentials);
             if (!tls) return tl::unexpected(tls.error());
-            keys.tls = std::move(*tls);
-            return keys;
+            loaded.tls = std::move(*tls);
+            return loaded;
         }
-        return fail(ErrorKind::Input, "--tls-certificate", "cannot come or go while the server runs");
+        return fail(ErrorKind::Input, "--tls-certificate", "cannot be turned on or off while the server runs");
     }
 
-    void take(const Keys& keys) {
-        context_.admission = keys.admission;
-        context_.tls = keys.tls;
+    void apply(const LoadedCredentials& loaded) {
+        state_.admission = loaded.admission;
+        state_.tls = loaded.tls;
     }
 
     boost::asio::io_context io_{1};
     std::string scheme_;
-    Context context_;  // after io_: the hub lets go of its sessions while their executor still exists
+    ServerState state_;  // after io_: sessions must be destroyed before their executor
     std::shared_ptr<Listener> listener_;
     std::thread thread_;
 };

@@ -6,7 +6,7 @@
 #include <boost/asio/bind_cancellation_slot.hpp>
 
 #include "core/log.h"
-#include "net/text.h"
+#include "net/sanitize.h"
 
 namespace spherule::net {
 
@@ -20,42 +20,43 @@ namespace {
 constexpr std::uint32_t defaultRate = 30;
 constexpr auto tokenWanted = static_cast<close_code>(4401);
 constexpr double viewsPerSecond = 10;
-constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // a larger one is given back after the message
+constexpr std::size_t keptBuffer = std::size_t{64} * 1024;  // bytes; a larger read buffer is freed after the message
 
 }  // namespace
 
-Session::Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const std::string& peer, Context& context)
-    : context_(context),
+Session::Session(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, const std::string& peer,
+                 ServerState& state)
+    : state_(state),
       stream_(std::move(stream)),
-      visit_(std::move(visit)),
+      permit_(std::move(permit)),
       peer_(peer),
-      watchTimer_(stream_.get_executor()),
-      liveness_({.hello = context.options.helloTimeout,
-                 .progress = context.options.progressTimeout,
-                 .idle = context.options.idleTimeout},
-                Liveness::Clock::now()),
-      outbox_(context.options.controlQueue),
-      pace_(Pace::Clock::now()),
-      commands_(context.options.commandsPerSecond, TokenBucket::Clock::now()),
+      timer_(stream_.get_executor()),
+      timeouts_({.hello = state.options.helloTimeout,
+                 .progress = state.options.progressTimeout,
+                 .idle = state.options.idleTimeout},
+                SessionTimeouts::Clock::now()),
+      sendQueue_(state.options.controlQueue),
+      rateController_(RateController::Clock::now()),
+      commands_(state.options.commandsPerSecond, TokenBucket::Clock::now()),
       views_(viewsPerSecond, TokenBucket::Clock::now()) {}
 
 void Session::run(const Request& upgrade) {
-    guarded([&upgrade](Session& self) { self.begin(upgrade); })();
+    protect([&upgrade](Session& self) { self.begin(upgrade); })();
 }
 
 void Session::begin(const Request& upgrade) {
-    ++context_.counters.sessions;
-    id_ = context_.hub.add(shared_from_this());
+    ++state_.counters.sessions;
+    id_ = state_.hub.add(shared_from_this());
     configure();
-    watch();
+    startTimer();
     stream_.async_accept(upgrade, bind(&Session::onAccepted));
 }
 
 void Session::configure() {
     beast::get_lowest_layer(stream_).expires_never();
-    // Liveness keeps the time of an open session; Beast's own limit is left for the handshakes.
+    // SessionTimeouts covers an open session; Beast's timeout covers only the handshakes.
     stream_.set_option(websocket::stream_base::timeout{
-        .handshake_timeout = context_.options.helloTimeout,
+        .handshake_timeout = state_.options.helloTimeout,
         .idle_timeout = websocket::stream_base::none(),
         .keep_alive_pings = false,
     });
@@ -63,27 +64,27 @@ void Session::configure() {
         answer.set(http::field::server, "spherule/" SPHERULE_VERSION);
         answer.set(http::field::sec_websocket_protocol, beast::string_view(subprotocol.data(), subprotocol.size()));
     }));
-    stream_.read_message_max(context_.options.firstMessageBytes);
+    stream_.read_message_max(state_.options.firstMessageBytes);
     stream_.auto_fragment(false);
 }
 
 void Session::onAccepted(ErrorCode error) {
     if (error) {
-        context_.refusals.add(Rejection::Handshake, peer_);
+        state_.rejectionLog.rejected(RejectReason::Handshake, peer_);
         return finish(CloseCause::Protocol);
     }
     if (finished_) return;
-    ++context_.counters.accepted;
-    pump();  // a drain may have come meanwhile
+    ++state_.counters.accepted;
+    pump();  // drain() may have been called meanwhile
     read();
 }
 
 void Session::read() {
-    stream_.async_read(incoming_, boost::asio::bind_cancellation_slot(endOfRead_.slot(), bind(&Session::onRead)));
+    stream_.async_read(incoming_, boost::asio::bind_cancellation_slot(cancelRead_.slot(), bind(&Session::onRead)));
 }
 
 void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
-    if (finished_) return;  // what had come before the end may be read after it
+    if (finished_) return;  // data received before the end may be read after it
     if (error) return finish(causeOf(error));
     if (!closing_) {
         const auto bytes = incoming_.cdata();
@@ -92,18 +93,18 @@ void Session::onRead(ErrorCode error, std::size_t /*bytes*/) {
     }
     incoming_.clear();
     if (incoming_.capacity() > keptBuffer) incoming_.shrink_to_fit();
-    if (!turnedAway_ && !closing_) read();  // the peer's goodbye is read by what closes
+    if (!tokenRejected_ && !closing_) read();  // async_close() reads the peer's close frame
 }
 
 void Session::onBytes(std::string_view bytes, Encoding encoding) {
-    const Preview preview = previewOf(bytes, encoding, context_.options.maxMessageCost);
-    if (helloDone_ && refusesUnparsed(preview, bytes.size())) return;
+    const Preview preview = previewOf(bytes, encoding, state_.options.maxMessageCost);
+    if (helloDone_ && refusedUnparsed(preview, bytes.size())) return;
     auto message = decodeClientMessage(bytes, encoding);
     if (!message) {
-        if (helloDone_ && message.error().kind == ErrorKind::Refused) return onUnfit(preview, message.error());
+        if (helloDone_ && message.error().kind == ErrorKind::Refused) return onInvalidCommand(preview, message.error());
         close(close_code::bad_payload, message.error().text(), CloseCause::Undecodable);
     } else if (message->has_hello() == helloDone_) {
-        close(close_code::policy_error, helloDone_ ? "hello was said before" : "the first message must be hello",
+        close(close_code::policy_error, helloDone_ ? "hello was sent before" : "the first message must be hello",
               CloseCause::NoHello);
     } else {
         if (!helloDone_) encoding_ = encoding;
@@ -122,24 +123,24 @@ void Session::onMessage(v1::ClientMessage message, std::size_t cost) {
         case v1::ClientMessage::kAskControl:
         case v1::ClientMessage::kYieldControl:
         case v1::ClientMessage::kKeepControl:
-            return onControls(message);
+            return onControlRequest(message);
         case v1::ClientMessage::kCommand:
-        case v1::ClientMessage::KIND_NOT_SET:  // of a newer protocol: a command, at least, is answered
+        case v1::ClientMessage::KIND_NOT_SET:  // of a newer protocol: a command gets an answer
             return onCommand(std::move(*message.mutable_command()), cost);
     }
 }
 
 void Session::onHello(const v1::Hello& hello) {
     helloDone_ = true;
-    client_ = printable(hello.client());
-    liveness_.helloCame();
-    const auto role = context_.admission->roleOf(hello.token());
-    if (!role) return turnAway(!hello.token().empty());
-    if (const auto cause = visit_->openSession()) {
-        context_.refusals.add(*cause, who());
+    client_ = sanitize(hello.client());
+    timeouts_.helloReceived();
+    const auto role = state_.admission->roleOf(hello.token());
+    if (!role) return rejectToken(!hello.token().empty());
+    if (const auto cause = permit_->openSession()) {
+        state_.rejectionLog.rejected(*cause, description());
         return close(close_code::try_again_later,
-                     *cause == Rejection::Sessions ? "as many sessions are open as may be"
-                                                   : "as many sessions of this address are open as may be",
+                     *cause == RejectReason::Sessions ? "the limit of open sessions is reached"
+                                                      : "the limit of open sessions of this address is reached",
                      CloseCause::Full);
     }
     admit(hello, *role);
@@ -147,68 +148,69 @@ void Session::onHello(const v1::Hello& hello) {
 
 void Session::admit(const v1::Hello& hello, v1::Role role) {
     role_ = role;
-    if (role == v1::CONTROLLER) stream_.read_message_max(context_.options.maxMessageBytes);
-    spdlog::debug("session {}: hello from {}", id_, who());
+    if (role == v1::CONTROLLER) stream_.read_message_max(state_.options.maxMessageBytes);
+    spdlog::debug("session {}: hello from {}", id_, description());
     v1::ServerMessage message;
-    *message.mutable_welcome() = context_.handlers.welcome(hello);
+    *message.mutable_welcome() = state_.handlers.welcome(hello);
     message.mutable_welcome()->set_role(role);
     message.mutable_welcome()->set_session(id_);
-    queue(frame::share(std::move(message)));
-    context_.hub.join(id_);
+    queue(codec::share(std::move(message)));
+    state_.hub.join(id_);
     onView(hello.view());
 }
 
-// Whoever tries many tokens waits for each; meanwhile nothing more is read.
-void Session::turnAway(bool guessed) {
-    context_.refusals.add(guessed ? Rejection::WrongToken : Rejection::NoToken, peer_);
+// Delays the close after a wrong token, to slow down guessing. Nothing is read meanwhile.
+void Session::rejectToken(bool guessed) {
+    state_.rejectionLog.rejected(guessed ? RejectReason::WrongToken : RejectReason::NoToken, peer_);
     if (!guessed) return close(tokenWanted, "this server asks for a token", CloseCause::NoToken);
-    turnedAway_ = true;
-    watchTimer_.expires_after(context_.options.guessDelay);
-    watchTimer_.async_wait(guarded([](Session& self, ErrorCode error) {
+    tokenRejected_ = true;
+    timer_.expires_after(state_.options.guessDelay);
+    timer_.async_wait(protect([](Session& self, ErrorCode error) {
         if (error || self.finished_) return;
-        self.turnedAway_ = false;
+        self.tokenRejected_ = false;
         self.close(tokenWanted, "this token is not known here", CloseCause::NoToken);
-        self.watch();
+        self.startTimer();
     }));
 }
 
-// What comes too often waits, and only the last of it counts: each change begins a chain anew.
+// Each change starts a new chain. Views above the rate limit wait, and only the newest is applied.
 void Session::onView(const v1::View& view) {
     if (!views_.take(TokenBucket::Clock::now())) {
-        wish_ = view;
+        pendingView_ = view;
         return;
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
-    const frame::Channel wish{known ? view.tier() : v1::NORMAL,
-                              frame::rateFor(view.has_rate() ? view.rate() : defaultRate)};
-    // Whoever says the same again begins nothing anew.
-    if (pace_.want(wish, view.fixed(), Pace::Clock::now()))
-        follow("");
+    const codec::Rendition requested{known ? view.tier() : v1::NORMAL,
+                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
+    // An unchanged view does not restart the chain.
+    if (rateController_.setTarget(requested, view.fixed(), RateController::Clock::now()))
+        switchRendition("");
     else
-        sayStream("");
+        reportStream("");
 }
 
 void Session::onAck(const v1::Ack& ack) {
-    credit_.acked(ack.sequence());
-    if (ack.lost() && outbox_.lose(ack.sequence())) missed();
-    const auto now = Pace::Clock::now();
-    const auto reason = pace_.acked(static_cast<double>(ack.draw_rate()), static_cast<double>(ack.decode_ms()), now);
-    if (reason) follow(*reason);
-    askKeyframe();
+    ackWindow_.acked(ack.sequence());
+    if (ack.lost() && sendQueue_.reportLoss(ack.sequence())) onFrameLost();
+    const auto now = RateController::Clock::now();
+    const auto reason =
+        rateController_.onAck(static_cast<double>(ack.draw_rate()), static_cast<double>(ack.decode_ms()), now);
+    if (reason) switchRendition(*reason);
+    requestKeyframe();
     pump();
 }
 
 void Session::finish(CloseCause cause) {
     if (finished_) return;
     finished_ = true;
-    watchTimer_.cancel();
-    outbox_.clear();
+    timer_.cancel();
+    sendQueue_.clear();
     beast::get_lowest_layer(stream_).close();
-    --context_.counters.sessions;
-    visit_.reset();
-    context_.hub.remove(id_);
-    context_.lease.left(id_);
-    context_.refusals.ended(cause, who());
+    --state_.counters.sessions;
+    permit_.reset();
+    state_.hub.remove(id_);
+    state_.controlLock.onSessionEnded(id_);
+    state_.rejectionLog.ended(cause, description());
 }
 
 CloseCause Session::causeOf(ErrorCode error) const {

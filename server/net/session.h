@@ -16,14 +16,14 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "core/latest_slot.h"
-#include "net/context.h"
-#include "net/credit.h"
+#include "net/ack_window.h"
 #include "net/decode.h"
 #include "net/hub.h"
-#include "net/liveness.h"
-#include "net/outbox.h"
-#include "net/pace.h"
 #include "net/preview.h"
+#include "net/rate_controller.h"
+#include "net/send_queue.h"
+#include "net/server_state.h"
+#include "net/session_timeouts.h"
 #include "net/token_bucket.h"
 #include "net/transport.h"
 
@@ -31,18 +31,19 @@ namespace spherule::net {
 
 constexpr std::string_view subprotocol = "spherule.v1";
 
-// One WebSocket client. Everything happens on the strand of its stream; the Subscriber's calls post there.
+// One WebSocket client. Runs on the strand of its stream; the calls of Subscriber may come from any thread.
 class Session : public Subscriber, public std::enable_shared_from_this<Session> {
   public:
     using Request = boost::beast::http::request<boost::beast::http::string_body>;
 
-    Session(Transport stream, std::unique_ptr<Visitors::Visit> visit, const std::string& peer, Context& context);
+    Session(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, const std::string& peer,
+            ServerState& state);
 
-    // Answers an upgrade request and serves the client until one side leaves. Call once, on the strand.
+    // Answers an upgrade request and serves the client until one side closes. Call once, on the strand.
     void run(const Request& upgrade);
 
-    void send(frame::SharedMessage message) override;
-    void offer(frame::Link link) override;
+    void send(codec::SharedMessage message) override;
+    void offer(codec::EncodedFrame encoded) override;
     void drain() override;
     void drop() override;
 
@@ -55,29 +56,29 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void read();
     void onRead(ErrorCode error, std::size_t bytes);
     void onBytes(std::string_view bytes, Encoding encoding);
-    [[nodiscard]] bool refusesUnparsed(const Preview& preview, std::size_t bytes);
+    [[nodiscard]] bool refusedUnparsed(const Preview& preview, std::size_t bytes);
     void onMessage(v1::ClientMessage message, std::size_t cost);
     void onHello(const v1::Hello& hello);
     void admit(const v1::Hello& hello, v1::Role role);
-    void turnAway(bool guessed);
+    void rejectToken(bool guessed);
     void onView(const v1::View& view);
     void onAck(const v1::Ack& ack);
     void onCommand(v1::Command command, std::size_t cost);
-    void onUnfit(const Preview& preview, const Error& error);
-    void refuse(std::uint64_t command, Rejection cause, const std::string& reason, const std::string& field = "");
-    void onControls(const v1::ClientMessage& message);
-    [[nodiscard]] std::string who() const;
+    void onInvalidCommand(const Preview& preview, const Error& error);
+    void refuse(std::uint64_t command, RejectReason cause, const std::string& reason, const std::string& field = "");
+    void onControlRequest(const v1::ClientMessage& message);
+    [[nodiscard]] std::string description() const;
 
-    void queue(frame::SharedMessage message);
+    void queue(codec::SharedMessage message);
     void pump();
     void onWritten(ErrorCode error, std::size_t bytes);
-    void missed();
-    void askKeyframe();
-    void follow(const std::string& reason);
-    void sayStream(const std::string& reason);
+    void onFrameLost();
+    void requestKeyframe();
+    void switchRendition(const std::string& reason);
+    void reportStream(const std::string& reason);
 
-    void watch();
-    void onWatch(ErrorCode error);
+    void startTimer();
+    void onTimer(ErrorCode error);
     void ping();
 
     void close(boost::beast::websocket::close_code code, const std::string& reason, CloseCause cause);
@@ -85,9 +86,9 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     void finish(CloseCause cause);
     [[nodiscard]] CloseCause causeOf(ErrorCode error) const;
 
-    // Keeps the session alive until the handler has run. What the handler throws ends the session, and nothing else.
+    // Keeps the session alive until the handler has run. An exception of the handler ends only this session.
     template <class Handler>
-    auto guarded(Handler handler) {
+    auto protect(Handler handler) {
         return [self = shared_from_this(), handler = std::move(handler)](auto&&... results) mutable {
             try {
                 handler(*self, std::forward<decltype(results)>(results)...);
@@ -98,38 +99,38 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     }
     template <class... Results>
     auto bind(void (Session::*method)(Results...)) {
-        return guarded([method](Session& self, Results... results) { (self.*method)(results...); });
+        return protect([method](Session& self, Results... results) { (self.*method)(results...); });
     }
     void fault(const std::exception& error);
 
-    Context& context_;
+    ServerState& state_;
     boost::beast::websocket::stream<Transport, false> stream_;
-    std::unique_ptr<Visitors::Visit> visit_;
+    std::unique_ptr<ConnectionLimiter::Permit> permit_;
     std::string peer_;  // address
-    boost::asio::steady_timer watchTimer_;
-    boost::asio::cancellation_signal endOfRead_;
-    boost::asio::cancellation_signal endOfClose_;
+    boost::asio::steady_timer timer_;
+    boost::asio::cancellation_signal cancelRead_;
+    boost::asio::cancellation_signal cancelClose_;
     boost::beast::flat_buffer incoming_;
-    Liveness liveness_;
-    LatestSlot<frame::Link> offered_;
-    Outbox outbox_;
-    Credit credit_;
-    Pace pace_;
-    frame::SharedMessage writing_;
+    SessionTimeouts timeouts_;
+    LatestSlot<codec::EncodedFrame> offered_;
+    SendQueue sendQueue_;
+    AckWindow ackWindow_;
+    RateController rateController_;
+    codec::SharedMessage writing_;
     Encoding encoding_ = Encoding::Binary;
     TokenBucket commands_;
     TokenBucket views_;
-    std::optional<v1::View> wish_;  // that came too soon after others
+    std::optional<v1::View> pendingView_;  // received too soon after others; applied later
     v1::Role role_ = v1::ROLE_UNSPECIFIED;
     SessionId id_ = 0;
     std::string client_ = "a client";
     CloseCause cause_ = CloseCause::Left;
     bool helloDone_ = false;
-    bool turnedAway_ = false;  // and will be told so
-    bool asked_ = false;       // for a keyframe
+    bool tokenRejected_ = false;      // the session will close after guessDelay
+    bool keyframeRequested_ = false;  // a keyframe is on its way
     bool pinging_ = false;
     bool draining_ = false;
-    bool closing_ = false;  // a close frame is on its way: nothing else may be written
+    bool closing_ = false;  // a close frame is being sent: nothing else may be written
     bool finished_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What a session may command.
+// Checks and forwards the commands of a session.
 #include <utility>
 
 #include "net/session.h"
@@ -9,79 +9,81 @@ namespace {
 
 constexpr const char* tooMany = "too many commands came from this client within a second";
 
-// Who may give it: a controller what changes anything, everybody what does not.
+// Returns true for commands that only controllers may send.
 bool changes(v1::Command::KindCase kind) {
     return kind != v1::Command::kQuery;
 }
 
 }  // namespace
 
-// Parsing takes time and memory: for a long message, only when what it asks for may then wait.
-bool Session::refusesUnparsed(const Preview& preview, std::size_t bytes) {
-    const Options& options = context_.options;
+// Refuses a message before it is parsed: when it needs too much memory, or is long and its command could not be queued.
+bool Session::refusedUnparsed(const Preview& preview, std::size_t bytes) {
+    const Options& options = state_.options;
     if (preview.cost > options.maxMessageCost) {
-        refuse(preview.id, Rejection::CommandCost,
+        refuse(preview.id, RejectReason::CommandCost,
                "the message takes more than " + std::to_string(options.maxMessageCost >> 20U) +
                    " MiB of memory when it is read: send it in parts");
         return true;
     }
     if (bytes <= options.firstMessageBytes) return false;
     if (!commands_.has(TokenBucket::Clock::now())) {
-        refuse(preview.id, Rejection::CommandRate, tooMany);
+        refuse(preview.id, RejectReason::CommandRate, tooMany);
         return true;
     }
-    const auto reason = context_.handlers.refuses(id_, preview.cost);
-    if (reason) refuse(preview.id, Rejection::CommandQueue, *reason);
+    const auto reason = state_.handlers.refuses(id_, preview.cost);
+    if (reason) refuse(preview.id, RejectReason::CommandQueue, *reason);
     return reason.has_value();
 }
 
-void Session::onUnfit(const Preview& preview, const Error& error) {
-    if (preview.command) ++context_.counters.commands;
-    if (!commands_.take(TokenBucket::Clock::now())) return refuse(preview.id, Rejection::CommandRate, tooMany);
-    refuse(preview.id, Rejection::UnfitCommand, error.message, error.where);
+void Session::onInvalidCommand(const Preview& preview, const Error& error) {
+    if (preview.command) ++state_.counters.commands;
+    if (!commands_.take(TokenBucket::Clock::now())) return refuse(preview.id, RejectReason::CommandRate, tooMany);
+    refuse(preview.id, RejectReason::UnfitCommand, error.message, error.where);
 }
 
 void Session::onCommand(v1::Command command, std::size_t cost) {
     const std::uint64_t id = command.id();
-    ++context_.counters.commands;
-    if (!commands_.take(TokenBucket::Clock::now())) return refuse(id, Rejection::CommandRate, tooMany);
+    ++state_.counters.commands;
+    if (!commands_.take(TokenBucket::Clock::now())) return refuse(id, RejectReason::CommandRate, tooMany);
     if (command.kind_case() == v1::Command::KIND_NOT_SET)
-        return refuse(id, Rejection::UnknownCommand, "the command is not known to this server");
+        return refuse(id, RejectReason::UnknownCommand, "the command is not known to this server");
     if (changes(command.kind_case())) {
         if (role_ != v1::CONTROLLER)
-            return refuse(id, Rejection::ViewersCommand, "a viewer may not command: that takes the controllers' token");
-        if (context_.leased && !context_.lease.take(id_, client_))
-            return refuse(id, Rejection::ControlsHeld,
-                          context_.lease.state().holder().client() + " (session " +
-                              std::to_string(context_.lease.state().holder().session()) +
+            return refuse(id, RejectReason::ViewersCommand,
+                          "a viewer may not command: that takes the controllers' token");
+        if (state_.exclusiveControl && !state_.controlLock.acquire(id_, client_))
+            return refuse(id, RejectReason::ControlsHeld,
+                          state_.controlLock.state().holder().client() + " (session " +
+                              std::to_string(state_.controlLock.state().holder().session()) +
                               ") has the controls: ask for them");
     }
-    if (const auto reason = context_.handlers.submit(id_, std::move(command), cost))
-        refuse(id, Rejection::CommandQueue, *reason);
+    if (const auto reason = state_.handlers.submit(id_, std::move(command), cost))
+        refuse(id, RejectReason::CommandQueue, *reason);
 }
 
-void Session::refuse(std::uint64_t command, Rejection cause, const std::string& reason, const std::string& field) {
-    context_.refusals.add(cause, who());
+void Session::refuse(std::uint64_t command, RejectReason cause, const std::string& reason, const std::string& field) {
+    state_.rejectionLog.rejected(cause, description());
     v1::ServerMessage message;
     message.mutable_result()->set_id(command);
     message.mutable_result()->mutable_refused()->set_field(field);
     message.mutable_result()->mutable_refused()->set_reason(reason);
-    queue(std::make_shared<frame::Message>(std::move(message)));
+    queue(std::make_shared<codec::Message>(std::move(message)));
 }
 
-// Where everybody has the controls, there is nothing to ask for.
-void Session::onControls(const v1::ClientMessage& message) {
-    if (!context_.leased) return;
+// Without exclusive control every controller may send commands, so requests have no effect.
+void Session::onControlRequest(const v1::ClientMessage& message) {
+    if (!state_.exclusiveControl) return;
     if (role_ != v1::CONTROLLER || !commands_.take(TokenBucket::Clock::now())) {
-        context_.refusals.add(role_ != v1::CONTROLLER ? Rejection::ViewersCommand : Rejection::CommandRate, who());
+        state_.rejectionLog.rejected(role_ != v1::CONTROLLER ? RejectReason::ViewersCommand : RejectReason::CommandRate,
+                                     description());
         return;
     }
-    if (message.has_ask_control()) context_.lease.ask(id_, client_);
-    if (message.has_yield_control()) context_.lease.yield(id_, message.yield_control().session());
-    if (message.has_keep_control()) context_.lease.keep(id_);
+    if (message.has_ask_control()) state_.controlLock.request(id_, client_);
+    if (message.has_yield_control()) state_.controlLock.release(id_, message.yield_control().session());
+    if (message.has_keep_control()) state_.controlLock.denyRequests(id_);
 }
 
-std::string Session::who() const {
+std::string Session::description() const {
     return peer_ + " (" + client_ + ")";
 }
 

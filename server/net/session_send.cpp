@@ -1,13 +1,13 @@
-// The sending half of a session: its lanes, its clock, its end.
+// The sending half of a session: queue, timer, close.
 #include <utility>
 
 #include <boost/asio/bind_cancellation_slot.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "net/sanitize.h"
 #include "net/session.h"
 #include "net/tcp_progress.h"
-#include "net/text.h"
 
 namespace spherule::net {
 
@@ -15,76 +15,76 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using websocket::close_code;
-using Clock = Pace::Clock;
+using Clock = RateController::Clock;
 
-void Session::send(frame::SharedMessage message) {
+void Session::send(codec::SharedMessage message) {
     asio::post(stream_.get_executor(),
-               guarded([message = std::move(message)](Session& self) mutable { self.queue(std::move(message)); }));
+               protect([message = std::move(message)](Session& self) mutable { self.queue(std::move(message)); }));
 }
 
-// However long the io thread is busy, one frame waits for it, not a row of them.
-void Session::offer(frame::Link link) {
-    if (offered_.put(std::move(link))) return;
-    asio::post(stream_.get_executor(), guarded([](Session& self) {
+// At most one frame waits for the io thread: a newer one replaces it.
+void Session::offer(codec::EncodedFrame encoded) {
+    if (offered_.set(std::move(encoded))) return;
+    asio::post(stream_.get_executor(), protect([](Session& self) {
                    const auto newest = self.offered_.take();
                    if (self.closing_ || self.finished_) return;
-                   // A delta comes to who needs no keyframe, or is newer than the keyframe, which it has replaced on
-                   // its way here.
-                   if (newest->channel == self.pace_.channel()) self.asked_ = false;
-                   const auto offered = self.outbox_.offer(*newest);
-                   if (offered == Outbox::Offered::Busy) self.missed();
-                   if (offered == Outbox::Offered::Gap) ++self.context_.counters.chainsLost;
-                   self.askKeyframe();
+                   // The request for a keyframe is over even if this is a delta frame: the delta frame has replaced
+                   // the keyframe in offered_.
+                   if (newest->rendition == self.rateController_.rendition()) self.keyframeRequested_ = false;
+                   const auto offered = self.sendQueue_.offer(*newest);
+                   if (offered == SendQueue::OfferResult::Busy) self.onFrameLost();
+                   if (offered == SendQueue::OfferResult::Gap) ++self.state_.counters.chainsLost;
+                   self.requestKeyframe();
                    self.pump();
                }));
 }
 
-// The client lost the chain, because it did not take the frame before or could not decode it.
-void Session::missed() {
-    ++context_.counters.chainsLost;
-    if (const auto reason = pace_.lost(Clock::now())) follow(*reason);
+// The client lost the chain: the previous frame was not sent in time, or the client could not decode it.
+void Session::onFrameLost() {
+    ++state_.counters.chainsLost;
+    if (const auto reason = rateController_.onLoss(Clock::now())) switchRendition(*reason);
 }
 
-// Only when it can go at once, and alone: what waits gets old, here as on the way to a slow client.
-void Session::askKeyframe() {
-    if (asked_ || writing_ || !outbox_.wantsKeyframe() || !credit_.idle(Clock::now())) return;
-    asked_ = true;
-    context_.hub.askKeyframe(id_);
+// Requests a keyframe only when it can be sent at once: a queued keyframe gets stale.
+void Session::requestKeyframe() {
+    if (keyframeRequested_ || writing_ || !sendQueue_.wantsKeyframe() || !ackWindow_.idle(Clock::now())) return;
+    keyframeRequested_ = true;
+    state_.hub.requestKeyframe(id_);
 }
 
-void Session::follow(const std::string& reason) {
-    const frame::Channel channel = pace_.channel();
-    outbox_.follow(channel);
-    credit_.setRate(channel.rate);
-    asked_ = true;  // who comes to a chain is sent a keyframe of it
-    sayStream(reason);
-    context_.hub.watch(id_, channel);
+void Session::switchRendition(const std::string& reason) {
+    const codec::Rendition rendition = rateController_.rendition();
+    sendQueue_.follow(rendition);
+    ackWindow_.setRate(rendition.rate);
+    keyframeRequested_ = true;  // the hub sends a keyframe of the new rendition
+    reportStream(reason);
+    state_.hub.subscribe(id_, rendition);
 }
 
-void Session::sayStream(const std::string& reason) {
-    const frame::Channel channel = pace_.channel();
+void Session::reportStream(const std::string& reason) {
+    const codec::Rendition rendition = rateController_.rendition();
     v1::ServerMessage message;
-    message.mutable_stream()->set_tier(channel.tier);
-    message.mutable_stream()->set_rate(channel.rate);
-    message.mutable_stream()->set_reduced(pace_.reduced());
+    message.mutable_stream()->set_tier(rendition.tier);
+    message.mutable_stream()->set_rate(rendition.rate);
+    message.mutable_stream()->set_reduced(rateController_.reduced());
     message.mutable_stream()->set_reason(reason);
-    queue(frame::share(std::move(message)));
+    queue(codec::share(std::move(message)));
 }
 
 void Session::drain() {
-    asio::post(stream_.get_executor(), guarded([](Session& self) {
+    asio::post(stream_.get_executor(), protect([](Session& self) {
                    self.draining_ = true;
                    self.pump();
                }));
 }
 
 void Session::drop() {
-    asio::post(stream_.get_executor(), guarded([](Session& self) { self.abort(CloseCause::Drained); }));
+    asio::post(stream_.get_executor(), protect([](Session& self) { self.abort(CloseCause::Drained); }));
 }
 
-void Session::queue(frame::SharedMessage message) {
+void Session::queue(codec::SharedMessage message) {
     if (closing_ || finished_) return;
-    if (!outbox_.push(std::move(message))) {
+    if (!sendQueue_.push(std::move(message))) {
         return close(close_code::try_again_later, "too many messages wait for this client to read them",
                      CloseCause::Overflow);
     }
@@ -93,56 +93,56 @@ void Session::queue(frame::SharedMessage message) {
 
 void Session::pump() {
     if (writing_ || closing_ || finished_ || !stream_.is_open()) return;
-    if (draining_) outbox_.dropFrame();
-    writing_ = outbox_.next(credit_.open(Clock::now()));
+    if (draining_) sendQueue_.dropFrame();
+    writing_ = sendQueue_.next(ackWindow_.open(Clock::now()));
     if (!writing_) {
         if (draining_) close(close_code::service_restart, "the server is stopping", CloseCause::Drained);
         return;
     }
-    if (writing_->content().has_frame()) credit_.sent(writing_->content().frame().sequence(), Clock::now());
+    if (writing_->content().has_frame()) ackWindow_.sent(writing_->content().frame().sequence(), Clock::now());
     const bool text = encoding_ == Encoding::Text;
     stream_.text(text);
-    liveness_.writeBegan(Clock::now());
+    timeouts_.writeBegan(Clock::now());
     stream_.async_write(asio::buffer(text ? writing_->json() : writing_->binary()), bind(&Session::onWritten));
 }
 
 void Session::onWritten(ErrorCode error, std::size_t bytes) {
-    liveness_.writeEnded();
+    timeouts_.writeEnded();
     const auto written = std::exchange(writing_, nullptr);
-    if (error) return;  // the read under way fails too, and knows more
-    context_.counters.bytesSent += bytes;
-    if (written->content().has_frame()) ++context_.counters.framesSent;
-    askKeyframe();
+    if (error) return;  // the pending read fails too, with a more precise error
+    state_.counters.bytesSent += bytes;
+    if (written->content().has_frame()) ++state_.counters.framesSent;
+    requestKeyframe();
     pump();
 }
 
-void Session::watch() {
-    watchTimer_.expires_after(liveness_.interval());
-    watchTimer_.async_wait(bind(&Session::onWatch));
+void Session::startTimer() {
+    timer_.expires_after(timeouts_.interval());
+    timer_.async_wait(bind(&Session::onTimer));
 }
 
-void Session::onWatch(ErrorCode error) {
-    if (error || finished_ || turnedAway_) return;
-    if (const auto wish = std::exchange(wish_, std::nullopt)) onView(*wish);
-    if (const auto reason = pace_.passed(Clock::now())) follow(*reason);
-    askKeyframe();
+void Session::onTimer(ErrorCode error) {
+    if (error || finished_ || tokenRejected_) return;
+    if (const auto requested = std::exchange(pendingView_, std::nullopt)) onView(*requested);
+    if (const auto reason = rateController_.onTick(Clock::now())) switchRendition(*reason);
+    requestKeyframe();
     pump();
     const auto progress = tcpProgress(beast::get_lowest_layer(stream_).socket().native_handle());
-    switch (liveness_.check(progress, Clock::now())) {
-        case Liveness::Verdict::Fine:
+    switch (timeouts_.check(progress, Clock::now())) {
+        case SessionTimeouts::Verdict::Fine:
             break;
-        case Liveness::Verdict::Ping:
+        case SessionTimeouts::Verdict::Ping:
             ping();
             break;
-        case Liveness::Verdict::NoHello:
+        case SessionTimeouts::Verdict::NoHello:
             close(close_code::policy_error, "no hello came in time", CloseCause::NoHello);
             break;
-        case Liveness::Verdict::Stalled:
+        case SessionTimeouts::Verdict::Stalled:
             return abort(CloseCause::Stalled);
-        case Liveness::Verdict::Silent:
+        case SessionTimeouts::Verdict::Silent:
             return abort(CloseCause::Silent);
     }
-    watch();
+    startTimer();
 }
 
 void Session::ping() {
@@ -155,28 +155,27 @@ void Session::close(close_code code, const std::string& reason, CloseCause cause
     if (closing_ || finished_) return;
     closing_ = true;
     cause_ = cause;
-    outbox_.clear();
-    liveness_.closeBegan(Clock::now());
+    sendQueue_.clear();
+    timeouts_.closeBegan(Clock::now());
     if (!stream_.is_open()) return finish(cause);
     stream_.async_close({code, closeReason(reason)},
                         asio::bind_cancellation_slot(
-                            endOfClose_.slot(), guarded([](Session& self, ErrorCode) { self.finish(self.cause_); })));
+                            cancelClose_.slot(), protect([](Session& self, ErrorCode) { self.finish(self.cause_); })));
 }
 
 void Session::fault(const std::exception& error) {
     abort(CloseCause::Fault);
-    context_.refusals.add(Rejection::Fault, who() + ": " + error.what());
+    state_.rejectionLog.rejected(RejectReason::Fault, description() + ": " + error.what());
 }
 
-// For a peer that does not take what is sent: a close frame would wait behind it, and so would the kernel's copy.
-// Beast's read and close wait for each other for ever when the peer breaks the protocol as it is told goodbye, and no
-// end of the socket ends them.
+// Resets the connection of a peer that does not read: a close frame would wait behind the unsent data. Cancels Beast's
+// read and close, which wait for each other forever if the peer breaks the protocol during the closing handshake.
 void Session::abort(CloseCause cause) {
     if (finished_) return;
     ErrorCode ignored;
     beast::get_lowest_layer(stream_).socket().set_option(asio::socket_base::linger(true, 0), ignored);
-    endOfRead_.emit(asio::cancellation_type::terminal);
-    endOfClose_.emit(asio::cancellation_type::terminal);
+    cancelRead_.emit(asio::cancellation_type::terminal);
+    cancelClose_.emit(asio::cancellation_type::terminal);
     finish(closing_ ? cause_ : cause);
 }
 

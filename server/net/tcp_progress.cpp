@@ -1,6 +1,6 @@
 #include "net/tcp_progress.h"
 
-// The kernel's own header: glibc's <netinet/tcp.h> has a shorter tcp_info, and the two cannot meet in one file.
+// The kernel's header: tcp_info of glibc's <netinet/tcp.h> is shorter. The two headers cannot be included in one file.
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -25,14 +25,14 @@ tl::unexpected<Error> refuse(const char* where, const std::string& what, const e
 
 }  // namespace
 
-Result<Tls> serverTls(const Secrets& secrets) {
+Result<Tls> serverTls(const Credentials& credentials) {
     Tls context = contextFor(ssl::context::tls_server);
     error_code error;
-    context->use_certificate_chain(asio::buffer(secrets.certificate), error);
+    context->use_certificate_chain(asio::buffer(credentials.certificate), error);
     if (error) return refuse("--tls-certificate", "is no chain of certificates in PEM form", error);
-    // Else OpenSSL would ask for the passphrase of an encrypted key on the terminal.
+    // Without a callback, OpenSSL asks for the passphrase of an encrypted key on the terminal.
     context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); }, error);
-    context->use_private_key(asio::buffer(secrets.key), ssl::context::pem, error);
+    context->use_private_key(asio::buffer(credentials.key), ssl::context::pem, error);
     if (error)
         return refuse("--tls-key", "is no private key in PEM form, without passphrase, of this certificate", error);
     if (SSL_CTX_check_private_key(context->native_handle()) != 1)

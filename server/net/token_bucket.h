@@ -5,18 +5,18 @@
 
 namespace spherule::net {
 
-// So many events a second on average, and at most a second's worth at once. One thread.
+// Limits events to a rate, with bursts of at most the events of one second. Used by one thread.
 class TokenBucket {
   public:
     using Clock = std::chrono::steady_clock;
 
-    // `rate` in events per second; 0: any number.
+    // `rate` (events/s); 0: no limit.
     TokenBucket(double rate, Clock::time_point now) : rate_(rate), level_(burst()), filled_(now) {}
 
-    // Whether take() would be true.
+    // Returns true when take() would return true.
     [[nodiscard]] bool has(Clock::time_point now) const { return rate_ <= 0 || levelAt(now) >= 1; }
 
-    // False where the event is one too many.
+    // Counts an event; returns false when it exceeds the rate.
     [[nodiscard]] bool take(Clock::time_point now) {
         if (rate_ <= 0) return true;
         level_ = levelAt(now);
@@ -26,7 +26,7 @@ class TokenBucket {
         return true;
     }
 
-    // As if nothing had ever been taken.
+    // Returns true when the bucket has recovered from all events.
     [[nodiscard]] bool full(Clock::time_point now) const { return levelAt(now) >= burst(); }
 
   private:

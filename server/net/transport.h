@@ -14,7 +14,7 @@
 
 namespace spherule::net {
 
-// A TCP stream, in the clear or within TLS: an AsyncStream, as Beast wants it. On its executor.
+// A TCP stream with or without TLS. Meets Beast's requirements of AsyncStream. Used on its executor.
 class Transport {
     using Plain = boost::beast::tcp_stream;
     using Secure = boost::beast::ssl_stream<boost::beast::tcp_stream>;
@@ -24,7 +24,7 @@ class Transport {
     using executor_type = Plain::executor_type;
     using next_layer_type = Plain;
 
-    // Without `tls`, in the clear.
+    // `tls` nullptr: no encryption.
     Transport(Plain stream, Tls tls) : tls_(std::move(tls)), layer_(over(std::move(stream), tls_)) {}
 
     executor_type get_executor() { return next_layer().get_executor(); }
@@ -34,7 +34,7 @@ class Transport {
     }
     const next_layer_type& next_layer() const { return const_cast<Transport*>(this)->next_layer(); }
 
-    // Nothing in the clear.
+    // nullptr if there is no TLS.
     Secure* secure() { return std::get_if<Secure>(&layer_); }
 
     template <class Buffers, class Token>
@@ -55,7 +55,7 @@ class Transport {
             token, buffers);
     }
 
-    // What Beast's WebSocket does after the closing handshake.
+    // Called by Beast's WebSocket after the closing handshake.
     template <class Handler>
     friend void async_teardown(boost::beast::role_type role, Transport& transport, Handler&& handler) {
         std::visit(
@@ -74,7 +74,7 @@ class Transport {
         return Layer(std::in_place_type<Secure>, std::move(stream), *tls);
     }
 
-    Tls tls_;  // outlives what is made of it, also when newer connections have another
+    Tls tls_;  // must outlive the stream, also when newer connections have another context
     Layer layer_;
 };
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/heartbeat.h"
 #include "core/input_file.h"
-#include "core/pulse.h"
 #include "core/text.h"
 #include "scene/build.h"
 #include "scene/catalog.h"
@@ -41,7 +41,7 @@ Result<Scene> buildText(const std::string& text, const std::string& source, cons
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides,
                    Progress* progress) {
     if (isPath(source)) {
-        const pulse::Unwatched reading;
+        const heartbeat::Pause reading;
         const std::filesystem::path path(source);
         auto text = readFile(source, longestFile);
         if (!text) return tl::unexpected(text.error());

@@ -7,8 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "core/heartbeat.h"
 #include "core/log.h"
-#include "core/pulse.h"
 #include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/statistics.h"
@@ -83,7 +83,7 @@ Result<void> Preparation::doStage(std::chrono::milliseconds patience) {
 Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
     if (building_.wait_for(patience) != std::future_status::ready) {
         const Progress::Seen seen = progress_.seen();
-        if (seen.marks != std::exchange(marks_, seen.marks)) pulse::beat(seen.doing);
+        if (seen.marks != std::exchange(marks_, seen.marks)) heartbeat::beat(seen.doing);
         return {};
     }
     auto built = building_.get();

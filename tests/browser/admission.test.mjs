@@ -263,7 +263,7 @@ test("the page retries while the server is full", async () => {
   const first = await enter(suite.browser, small, tokens.viewer);
   const page = await visit(suite.browser, small.url);
   await give(page, tokens.viewer);
-  await says(page, "refusal", /^The server says: as many sessions are open as may be$/);
+  await says(page, "refusal", /^The server says: the limit of open sessions is reached$/);
   await says(page, "connection", /^offline, trying again in \d+ s$/);
   assert.ok((await small.metric('spherule_rejected_total{cause="sessions"}')) > 0);
   await first.close();
@@ -280,7 +280,7 @@ test("the page shows the reason of a refusal, and retries", async () => {
     proxy.stutter(true);
     proxy.reset();
     proxy.restore();
-    await says(page, "refusal", /^The server says: hello was said before$/);
+    await says(page, "refusal", /^The server says: hello was sent before$/);
     await says(page, "connection", /^offline, trying again/);
     proxy.stutter(false);
     await page.waitForSelector(control("refusal"), { state: "hidden" });

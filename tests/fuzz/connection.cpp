@@ -1,11 +1,16 @@
-// What a client sends from its first byte on, answered by the server's own HttpConnection and Session over a pair of
-// sockets. The first byte says what is put before it, as a fuzzer finds neither a handshake nor a mask by itself:
-// bit 0: the server wants tokens;
-// bit 1: an upgrade to the stream comes first, and the rest is WebSocket frames, each of its first byte, two bytes of
-//        length and what it holds, masked here;
-// bit 2: behind the upgrade, a hello;
-// bit 3: the client goes away at once, not only when the server waits for it.
-// Whatever it sends: when it has gone, everything that the server did for it ends.
+// Fuzzes HttpConnection and Session over a pair of sockets. The first byte selects a prefix, because a fuzzer finds
+// neither a handshake nor a mask by itself.
+//
+// Bit 0: the server requires tokens.
+//
+// Bit 1: an upgrade to the stream. The rest is WebSocket frames, each with its first byte, two bytes of length and a
+// payload, which is masked here.
+//
+// Bit 2: a hello after the upgrade.
+//
+// Bit 3: the client disconnects at once, not only when the server waits for it.
+//
+// After the disconnect, all operations of the server must end.
 #include <fcntl.h>
 #include <google/protobuf/stubs/logging.h>
 #include <sys/socket.h>
@@ -42,7 +47,7 @@ void require(bool holds) {
 }
 
 std::string framed(std::uint8_t first, std::string_view content) {
-    constexpr std::size_t shortest = 126;  // whose length stands in two bytes
+    constexpr std::size_t shortest = 126;  // shortest payload with a length of two bytes
     std::string frame{static_cast<char>(first)};
     const std::size_t length = content.size();
     frame += static_cast<char>(0x80U | std::min(length, shortest));
@@ -73,28 +78,28 @@ std::string framesOf(std::uint8_t how, std::string_view rest) {
     return sent;
 }
 
-// The server, less its listener: one connection, on this thread.
+// The server without its listener: one connection, on this thread.
 class Served {
   public:
     explicit Served(int socket) {
         const auto address = asio::ip::make_address("127.0.0.1");
-        require(!context_.visitors->refuses(address, net::Visitors::Clock::now()));
+        require(!state_.limiter->refuses(address, net::ConnectionLimiter::Clock::now()));
         asio::ip::tcp::socket end(asio::make_strand(io_), asio::ip::tcp::v4(), socket);
         std::make_shared<net::HttpConnection>(net::Transport(boost::beast::tcp_stream(std::move(end)), nullptr),
-                                              context_.visitors->admit(address), "127.0.0.1", context_)
+                                              state_.limiter->admit(address), "127.0.0.1", state_)
             ->run();
     }
 
     void wantTokens() {
-        context_.admission = std::make_shared<net::Admission>(
-            net::Places{}, net::Secrets{.controllerToken = std::string(token)}, "http");
+        state_.admission = std::make_shared<net::Admission>(
+            net::AllowedNames{}, net::Credentials{.controllerToken = std::string(token)}, "http");
     }
 
-    // False when there is nothing to do before something comes, or a clock strikes.
+    // Returns false when no handler is ready.
     bool work() { return io_.poll() > 0; }
     bool wait() { return io_.run_one_for(100ms) > 0; }
     [[nodiscard]] bool ended() const { return io_.stopped(); }
-    [[nodiscard]] bool isEmpty() { return context_.counters.sessions == 0 && context_.hub.waitEmpty(0ms); }
+    [[nodiscard]] bool isEmpty() { return state_.counters.sessions == 0 && state_.hub.waitEmpty(0ms); }
 
   private:
     net::Options options() {
@@ -109,7 +114,7 @@ class Served {
                     [this](net::SessionId session, const v1::Command& command, std::size_t) {
                         v1::ServerMessage message;
                         message.mutable_result()->set_id(command.id());
-                        context_.hub.sendTo(session, frame::share(std::move(message)));
+                        state_.hub.sendTo(session, codec::share(std::move(message)));
                         sendFrames();
                         return command.has_reset() ? std::optional<std::string>("the queue is full") : std::nullopt;
                     },
@@ -120,25 +125,26 @@ class Served {
     }
 
     void sendFrames() {
-        for (const frame::Demand& demand : context_.hub.demands()) {
+        for (const codec::Subscription& subscription : state_.hub.subscriptions()) {
             v1::ServerMessage message;
             message.mutable_frame()->set_sequence(++frames_);
-            message.mutable_frame()->set_tier(demand.channel.tier);
-            context_.hub.publish({.channel = demand.channel,
-                                  .kind = frame::Link::Kind::Keyframe,
-                                  .number = frames_,
-                                  .message = frame::share(std::move(message))});
+            message.mutable_frame()->set_tier(subscription.rendition.tier);
+            state_.hub.publish({.rendition = subscription.rendition,
+                                .kind = codec::EncodedFrame::Kind::Keyframe,
+                                .number = frames_,
+                                .message = codec::share(std::move(message))});
         }
     }
 
     asio::io_context io_{1};
     std::uint32_t frames_ = 0;
-    net::Context context_{.options = options(),
-                          .handlers = handlers(),
-                          .admission = std::make_shared<net::Admission>(net::Places{}, net::Secrets{}, "http")};
+    net::ServerState state_{
+        .options = options(),
+        .handlers = handlers(),
+        .admission = std::make_shared<net::Admission>(net::AllowedNames{}, net::Credentials{}, "http")};
 };
 
-// The other end.
+// The client's end of the connection.
 class Client {
   public:
     explicit Client(int socket) : socket_(socket) {}
@@ -148,7 +154,7 @@ class Client {
 
     void say(std::string_view more) { left_ += more; }
 
-    // What the sockets take and have. False when that was nothing.
+    // Writes and reads without blocking. Returns false when no byte was transferred.
     bool work() {
         const ssize_t written = left_.empty() ? 0 : ::send(socket_, left_.data(), left_.size(), MSG_NOSIGNAL);
         if (written > 0) left_.erase(0, static_cast<std::size_t>(written));
@@ -186,7 +192,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool upgrades = (data[0] & 2U) != 0;
     if (upgrades) {
         client.say(upgrade);
-        workOn(true);  // what comes before the answer would belong to no frame
+        workOn(true);  // frames may be sent only after the answer
     }
     client.say(upgrades ? framesOf(data[0], rest) : rest);
     workOn((data[0] & 8U) == 0);
@@ -194,7 +200,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int waits = 0; !served.ended();) {
         const bool read = client.work();
         if (served.work() || read || served.ended()) continue;
-        require(++waits <= 3 && served.wait());  // for a guess, and no longer
+        require(++waits <= 3 && served.wait());  // for guessDelay, not longer
     }
     require(served.isEmpty());
     return 0;

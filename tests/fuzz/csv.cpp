@@ -1,4 +1,4 @@
-// A CSV file of spheres that a scene names. Bit 0 of the first byte says whether the scene gives a radius.
+// Fuzzes the reader of CSV files with spheres. Bit 0 of the first byte: the scene gives a radius.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// What a client may send: the first byte chooses between a binary and a text frame.
+// Fuzzes the decoder of client messages. The first byte selects a binary or a text frame.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

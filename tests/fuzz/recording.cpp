@@ -1,6 +1,6 @@
-// A file as a recording, opened and played from end to end, by seeking, and behind what is damaged. Bit 0 of the first
-// byte makes checksums and the beginning right, as a hostile writer would: nothing behind them was ever reached
-// otherwise. Bit 1 makes the place of the index right. The others say where to seek.
+// Fuzzes Recording: opens a file, plays it to the end, seeks, and continues after damaged records. Bit 0 of the first
+// byte corrects checksums and the file head, because a fuzzer does not get past them. Bit 1 corrects the offset of the
+// index. The other bits give the time to seek.
 #include <google/protobuf/stubs/logging.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -14,9 +14,9 @@
 #include <cstring>
 #include <string>
 
-#include "store/bytes.h"
-#include "store/record.h"
-#include "store/recording.h"
+#include "recording/bytes.h"
+#include "recording/record.h"
+#include "recording/recording.h"
 
 namespace {
 
@@ -26,29 +26,29 @@ void overwrite(std::string& content, std::size_t at, const std::string& with) {
     content.replace(at, with.size(), with);
 }
 
-// Records are walked by the lengths that they say; one that would go beyond the end is let be.
+// Walks the records by their lengths; stops at a record that extends beyond the end.
 void makeSound(std::string& content, bool index) {
-    if (content.size() < store::fileHeadBytes) return;
-    overwrite(content, 0, store::fileHead());
-    std::size_t at = store::fileHeadBytes;
-    while (content.size() - at >= store::recordHeadBytes + store::checksumBytes) {
-        const auto length = store::numberAt<std::uint32_t>(content, at);
-        if (length > content.size() - at - store::recordHeadBytes - store::checksumBytes) break;
-        const std::size_t hashed = store::recordHeadBytes + length;
+    if (content.size() < recording::fileHeadBytes) return;
+    overwrite(content, 0, recording::fileHead());
+    std::size_t at = recording::fileHeadBytes;
+    while (content.size() - at >= recording::recordHeadBytes + recording::checksumBytes) {
+        const auto length = recording::numberAt<std::uint32_t>(content, at);
+        if (length > content.size() - at - recording::recordHeadBytes - recording::checksumBytes) break;
+        const std::size_t hashed = recording::recordHeadBytes + length;
         std::string sum;
-        store::append(sum, std::uint64_t{XXH3_64bits(content.data() + at, hashed)});
+        recording::append(sum, std::uint64_t{XXH3_64bits(content.data() + at, hashed)});
         overwrite(content, at + hashed, sum);
         const bool last =
-            store::numberAt<std::uint32_t>(content, at + 4) == static_cast<std::uint32_t>(store::Kind::Index);
-        if (index && last && content.size() - at >= hashed + store::checksumBytes + store::trailerBytes) {
+            recording::numberAt<std::uint32_t>(content, at + 4) == static_cast<std::uint32_t>(recording::Kind::Index);
+        if (index && last && content.size() - at >= hashed + recording::checksumBytes + recording::trailerBytes) {
             std::string trailer;
-            store::append(trailer, std::uint64_t{at});
-            trailer.append(store::endMagic.begin(), store::endMagic.end());
-            content.resize(at + hashed + store::checksumBytes);
+            recording::append(trailer, std::uint64_t{at});
+            trailer.append(recording::endMagic.begin(), recording::endMagic.end());
+            content.resize(at + hashed + recording::checksumBytes);
             content += trailer;
             return;
         }
-        at += hashed + store::checksumBytes;
+        at += hashed + recording::checksumBytes;
     }
 }
 
@@ -56,16 +56,16 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-void look(store::Recording& recording) {
-    const store::Moment now = recording.now();
+void look(recording::Recording& recording) {
+    const recording::Snapshot now = recording.now();
     require(now.positions.size() == recording.cells().size() && now.radii.size() == now.positions.size());
     require(recording.order().size() == now.positions.size() && std::isfinite(now.time) && now.error > 0);
     (void)recording.nextTime();
-    (void)recording.takePassed();
+    (void)recording.takeSkippedEvents();
 }
 
-// Forward to the end, or to what cannot be played.
-void play(store::Recording& recording) {
+// Plays to the end, or to the first error.
+void play(recording::Recording& recording) {
     constexpr int most = 300;  // frames
     for (int k = 0; k < most; ++k) {
         const auto more = recording.next();
@@ -76,7 +76,7 @@ void play(store::Recording& recording) {
 }
 
 void playFile(const std::string& path, unsigned where) {
-    auto recording = store::Recording::open(path);
+    auto recording = recording::Recording::open(path);
     if (!recording) return;
     require(recording->frames() > 0 && recording->begin() <= recording->end());
     play(*recording);
@@ -91,7 +91,7 @@ void playFile(const std::string& path, unsigned where) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const auto quiet = google::protobuf::SetLogHandler(nullptr);  // of names that are no UTF-8
+    static const auto quiet = google::protobuf::SetLogHandler(nullptr);  // silences warnings about invalid UTF-8
     (void)quiet;
     if (size == 0) return 0;
     static const int file = memfd_create("recording", MFD_CLOEXEC);

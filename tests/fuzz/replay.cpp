@@ -1,4 +1,4 @@
-// Gives a fuzz target the files of a folder, one after another, as a plain test: replay FOLDER.
+// Runs a fuzz target on each file of a folder, as a plain test: replay FOLDER.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Scene files: JSON to a scene, as `load` does with a file. Bounded so that an input cannot ask for minutes of filling.
+// Fuzzes the loader of scene files. Bounds the number of spheres, so that no input needs minutes for filling.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// A table of measured qualities, as --quality-table names it.
+// Fuzzes the reader of quality tables (--quality-table).
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

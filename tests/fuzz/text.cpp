@@ -1,15 +1,14 @@
-// Short texts that clients and addresses bring: names of hosts and origins, tokens, URLs, quantities, and what is
-// logged.
+// Fuzzes functions on short texts of clients: hosts, origins, tokens, URLs, quantities and log texts.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
+#include "client/url.h"
 #include "core/quantity.h"
 #include "net/admission.h"
-#include "net/text.h"
-#include "net/url.h"
+#include "net/sanitize.h"
 
 namespace {
 
@@ -23,7 +22,7 @@ void comeIn(const std::string& text) {
     static const net::Admission gate({.hosts = {"spherule.example.org"}, .origins = {"https://example.org:8443"}},
                                      {.viewerToken = "0123456789abcdef", .controllerToken = "fedcba9876543210"},
                                      "http");
-    // Whoever is let in by name goes by one of those that were given, or by an address.
+    // An accepted host is a configured name or an address.
     if (gate.isHost(text)) require(net::checkHost(text).has_value());
     if (gate.isOrigin(text, "localhost:8080")) require(net::checkOrigin(text).has_value());
     require(gate.roleOf(text).has_value() == (text == "0123456789abcdef" || text == "fedcba9876543210"));
@@ -35,9 +34,10 @@ void comeIn(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
     comeIn(text);
-    if (const auto url = net::parseUrl(text)) require(!url->host.empty() && !url->port.empty() && !url->path.empty());
+    if (const auto url = client::parseUrl(text))
+        require(!url->host.empty() && !url->port.empty() && !url->path.empty());
     (void)quantityOf(text);
     require(net::closeReason(text).size() <= 123);
-    require(std::ranges::all_of(net::printable(text), [](char c) { return c >= ' ' && c <= '~'; }));
+    require(std::ranges::all_of(net::sanitize(text), [](char c) { return c >= ' ' && c <= '~'; }));
     return 0;
 }

@@ -1,7 +1,7 @@
-"""What hostile clients do to a server's port, each kind from an address of its own, and what they expect to come of it.
+"""Hostile clients of a server's port, each kind from its own address, with the expected outcomes.
 
-An attacker repeats `attempt` for as long as it is told. It tallies what it saw: `tried`, and by `answers` how each ended. Wire
-formats are written out: no client of ours would send them.
+An attacker repeats `attempt` until it is stopped. It counts its attempts in `tried` and their outcomes in `answers`. Wire
+formats are written out, because our clients cannot send them.
 """
 import asyncio
 import os
@@ -35,7 +35,7 @@ def hello(token):
 
 
 class Attacker:
-    """`address`: where it comes from; `pause`: s between two attempts of one of its `hands`."""
+    """`address`: its source address. `hands`: number of tasks. `pause`: time between two attempts of a task (s)."""
     hands, pause = 4, 0.1
 
     def __init__(self, port, address, tokens):
@@ -62,7 +62,7 @@ class Attacker:
             await asyncio.sleep(self.pause)
 
     async def upgrade(self, reader, writer, host="localhost", more=""):
-        """The status of the answer."""
+        """Sends an upgrade request and returns the status of the answer."""
         writer.write(UPGRADE.format(host=host, more=more).encode())
         return await self.status(reader)
 
@@ -73,7 +73,7 @@ class Attacker:
 
     @staticmethod
     async def close_code(reader):
-        """Of the close frame, whatever comes before it."""
+        """Reads up to the close frame and returns its code."""
         while True:
             first, size = await reader.readexactly(2)
             if size == 126:
@@ -89,23 +89,23 @@ class Attacker:
 
 
 class Stalled(Attacker):
-    """Let in as a viewer, and then reads nothing."""
+    """Is admitted as a viewer, and then reads nothing."""
     hands = 10
 
     async def attempt(self, reader, writer):
         if await self.upgrade(reader, writer) != "101":
             return "refused"
         writer.write(hello(self.tokens["viewer"]))
-        await asyncio.sleep(1)  # for something to have come
+        await asyncio.sleep(1)  # lets the server send something
         writer.transport.pause_reading()
         while not writer.transport.is_closing():
-            writer.write(frame(b"", 0x89))  # a ping now and then finds out whether the server has had enough
+            writer.write(frame(b"", 0x89))  # the write fails once the server has dropped the connection
             await asyncio.sleep(1)
         return "dropped"
 
 
 class Storm(Attacker):
-    """Comes 300 times a second, says hello, and is gone."""
+    """Connects 300 times a second, sends hello and disconnects."""
     hands, pause = 30, 0.1
 
     async def attempt(self, reader, writer):
@@ -144,7 +144,7 @@ class Oversize(Attacker):
 
 
 class Slow(Attacker):
-    """A request of which a byte comes every second, and never the last."""
+    """Sends one byte of a request per second and never completes it."""
     hands = 20
 
     async def attempt(self, reader, writer):
@@ -173,7 +173,7 @@ class Guesser(Attacker):
 
 
 class Stranger(Attacker):
-    """From another site, by another name, without a token, with a command before it."""
+    """Uses a foreign origin, a foreign host name, no token, or a command before the hello."""
 
     async def attempt(self, reader, writer):
         kind = random.randrange(4)
@@ -187,7 +187,7 @@ class Stranger(Attacker):
 
 
 class Commander(Attacker):
-    """A viewer who commands, hundreds of times a second."""
+    """A viewer that sends hundreds of commands a second."""
     hands, pause = 2, 1
 
     async def attempt(self, reader, writer):

@@ -36,7 +36,7 @@ std::optional<std::string> ChainCheck::take(const v1::ServerMessage& message) {
         case v1::ServerMessage::kOrder:
             return order(message.order());
         case v1::ServerMessage::kStream:
-            // Another chain, which begins with a keyframe of it.
+            // A new chain starts with a keyframe.
             stream_ = message.stream();
             chain_.reset();
             return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<std::string> ChainCheck::scene(const v1::SceneFacts& facts) {
 }
 
 std::optional<std::string> ChainCheck::order(const v1::Order& order) {
-    // That of an epoch which is over or has yet to be described belongs to no frame that may come now.
+    // An order of another epoch belongs to no frame that may come now.
     if (epoch_ != order.epoch()) return std::nullopt;
     if (order.ids().size() != idBytes * spheres_)
         return fmt::format("an order of {} bytes for {} spheres", order.ids().size(), spheres_);
@@ -84,7 +84,7 @@ std::optional<std::string> ChainCheck::frame(const v1::Frame& frame) {
     if (auto fault = described(frame)) return fault;
     if (frame.sequence() <= sequence_) return fmt::format("sequence {} after {}", frame.sequence(), sequence_);
     sequence_ = frame.sequence();
-    const auto head = frame::codec::headOf(bytesOf(frame.spb()));
+    const auto head = codec::headOf(bytesOf(frame.spb()));
     if (!head) return head.error().text();
     if (auto fault = follows(frame, *head)) return fault;
     ++received_.frames;
@@ -109,7 +109,7 @@ std::optional<std::string> ChainCheck::described(const v1::Frame& frame) const {
     return std::nullopt;
 }
 
-std::optional<std::string> ChainCheck::follows(const v1::Frame& frame, const frame::codec::FrameHead& head) {
+std::optional<std::string> ChainCheck::follows(const v1::Frame& frame, const codec::FrameHead& head) {
     if (head.spheres != spheres_)
         return fmt::format("{} spheres in the codec where there are {}", head.spheres, spheres_);
     if (head.keyframe) {

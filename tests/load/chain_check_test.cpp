@@ -1,4 +1,4 @@
-// The load client's check accepts what a server may send, and nothing else.
+// Tests of ChainCheck: it accepts valid message sequences only.
 #include "chain_check.h"
 
 #include <cstring>
@@ -25,22 +25,22 @@ constexpr std::uint32_t head = 0x00015053;  // without flags
 constexpr std::uint32_t keyframeFlag = 1U << 24U;
 constexpr std::uint32_t hashFlag = 1U << 25U;
 
-// docs/codec.md: mode 3, predictor 3, all widths 0: everything lies at the base, three words.
+// docs/codec.md: mode 3, predictor 3, all widths 0: all spheres at the base; three words.
 std::string keyframe(std::uint32_t number, std::uint32_t x = 7) {
     const std::uint32_t header = 3U | 3U << 2U;
-    // The group's bitmap; then units: header, 3 of selectors, 6 of the base, no values.
+    // Bitmap of the group; then units: header, 3 of selectors, 6 of the base, no values.
     const std::vector<std::uint32_t> units = {header, 0, 0, 0, x, 0, 0, 0, 0, 0};
     std::vector<std::uint32_t> words = {head | keyframeFlag, spheres, number, 0, 6, 1};
     for (std::size_t k = 0; k < units.size(); k += 2) words.push_back(units[k] | units[k + 1] << 16U);
     return bytesOf(words);
 }
 
-// One group without a block: nothing has moved.
+// One group without blocks: no sphere has moved.
 std::string delta(std::uint32_t number) {
     return bytesOf({head, spheres, number, 0, 1, 0});
 }
 
-class Chain : public testing::Test {
+class ChainCheckTest : public testing::Test {
   protected:
     AssertionResult fine(const v1::ServerMessage& message) {
         const auto fault = check_.take(message);
@@ -48,7 +48,7 @@ class Chain : public testing::Test {
     }
     AssertionResult faulty(const v1::ServerMessage& message, const std::string& what) {
         const auto fault = check_.take(message);
-        if (!fault) return AssertionFailure() << "nothing is said";
+        if (!fault) return AssertionFailure() << "no fault is reported";
         if (fault->find(what) == std::string::npos) return AssertionFailure() << *fault;
         return AssertionSuccess();
     }
@@ -98,7 +98,7 @@ class Chain : public testing::Test {
     std::uint64_t sequence_ = 0;
 };
 
-TEST_F(Chain, IsFineFromKeyframeToDeltaAndAfterALossFromAnotherKeyframe) {
+TEST_F(ChainCheckTest, AcceptsKeyframesAndDeltas) {
     greet();
     EXPECT_TRUE(fine(frame(keyframe(5))));
     EXPECT_TRUE(fine(frame(delta(6))));
@@ -112,7 +112,7 @@ TEST_F(Chain, IsFineFromKeyframeToDeltaAndAfterALossFromAnotherKeyframe) {
     EXPECT_EQ(received.missed, 2U);
 }
 
-TEST_F(Chain, IsWrongWithADeltaThatDoesNotFollow) {
+TEST_F(ChainCheckTest, RejectsADeltaThatDoesNotFollow) {
     greet();
     EXPECT_TRUE(faulty(frame(delta(5)), "before a keyframe"));
     EXPECT_TRUE(fine(frame(keyframe(5))));
@@ -121,7 +121,7 @@ TEST_F(Chain, IsWrongWithADeltaThatDoesNotFollow) {
     EXPECT_TRUE(faulty(frame(keyframe(4)), "a keyframe of number 4 after 5"));
 }
 
-TEST_F(Chain, IsWrongWhenItDoesNotBeginAnewWithAStreamOrAnEpoch) {
+TEST_F(ChainCheckTest, RequiresAKeyframeAfterAStreamOrEpochChange) {
     greet();
     EXPECT_TRUE(fine(frame(keyframe(5))));
     EXPECT_TRUE(fine(stream(v1::ECO)));
@@ -130,12 +130,12 @@ TEST_F(Chain, IsWrongWhenItDoesNotBeginAnewWithAStreamOrAnEpoch) {
     EXPECT_TRUE(fine(frame(keyframe(1), 1, v1::ECO)));
     EXPECT_TRUE(fine(facts(2)));
     EXPECT_TRUE(fine(order(2)));
-    EXPECT_TRUE(fine(frame(delta(2), 1, v1::ECO))) << "of an epoch that is over: ignored";
+    EXPECT_TRUE(fine(frame(delta(2), 1, v1::ECO))) << "a frame of a past epoch is ignored";
     EXPECT_TRUE(faulty(frame(delta(2), 2, v1::ECO), "before a keyframe"));
     EXPECT_EQ(check_.received().ignored, 1U);
 }
 
-TEST_F(Chain, IsWrongBeforeWhatDescribesIt) {
+TEST_F(ChainCheckTest, RequiresFactsAndOrderBeforeFrames) {
     greet();
     EXPECT_TRUE(faulty(frame(keyframe(1), 2), "before its facts"));
     EXPECT_TRUE(fine(facts(2)));
@@ -145,7 +145,7 @@ TEST_F(Chain, IsWrongBeforeWhatDescribesIt) {
     EXPECT_TRUE(faulty(order(2, "abc"), "3 bytes for 2 spheres"));
 }
 
-TEST_F(Chain, IsWrongWithAHashThatDiffersAndWithSequencesThatGoBack) {
+TEST_F(ChainCheckTest, RejectsWrongHashesAndDecreasingSequences) {
     greet();
     std::string hashed = keyframe(5);
     const std::uint32_t flags = head | keyframeFlag | hashFlag, hash = 12345;
@@ -157,7 +157,7 @@ TEST_F(Chain, IsWrongWithAHashThatDiffersAndWithSequencesThatGoBack) {
     EXPECT_TRUE(faulty(frame("nonsense"), "8 bytes of 16"));
 }
 
-TEST_F(Chain, IsWrongBeforeTheWelcomeAndAfterAnother) {
+TEST_F(ChainCheckTest, RequiresExactlyOneWelcome) {
     EXPECT_TRUE(faulty(stream(), "before the welcome"));
     v1::ServerMessage welcome;
     welcome.mutable_welcome();

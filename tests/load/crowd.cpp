@@ -58,7 +58,7 @@ Tallies Crowd::stop() {
             tallies[static_cast<std::size_t>(viewer->kind())] += viewer->tally();
         }
     }
-    shares_.clear();  // and with it the connections
+    shares_.clear();  // closes the connections
     return tallies;
 }
 

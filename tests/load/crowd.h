@@ -9,23 +9,23 @@
 namespace spherule::load {
 
 struct Composition {
-    std::uint32_t viewers = 1;  // all of them
+    std::uint32_t viewers = 1;  // total
     std::uint32_t stalled = 0;
-    std::uint32_t slow = 0;  // every other one reads slowly, the rest acknowledge late
+    std::uint32_t slow = 0;  // half of them read slowly, half acknowledge late
     std::uint32_t reconnecting = 0;
-    std::uint32_t decode = 0;  // of the healthy ones
+    std::uint32_t decode = 0;  // healthy viewers that decode frames
 };
 
-// All viewers, on a few threads of their own. They join over a second, so that the server is not asked for all at once.
+// All viewers, on a few threads. They connect over one second, to spread the load.
 class Crowd {
   public:
     Crowd(const Wish& wish, const Composition& composition, unsigned threads);
-    ~Crowd();  // leaves without a word
+    ~Crowd();  // disconnects without a close frame
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
 
     void start();
-    // Ends it; call once.
+    // Disconnects all viewers; call once.
     Tallies stop();
 
   private:

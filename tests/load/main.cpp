@@ -15,12 +15,12 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
+#include "client/client.h"
+#include "client/url.h"
 #include "crowd.h"
-#include "net/client.h"
-#include "net/url.h"
 #include "report.h"
 
-// Many viewers of one server, some of them bad, in one process: what they are sent is checked, and how old it is.
+// Connects many viewers to one server, some of them misbehaving. Checks the received messages and their age.
 
 namespace {
 
@@ -47,36 +47,43 @@ struct Options {
 void declare(CLI::App& app, Options& options) {
     static const std::map<std::string, v1::Tier> tiers = {{"fine", v1::FINE}, {"normal", v1::NORMAL}, {"eco", v1::ECO}};
     app.add_option("url", options.url, "ws://HOST:PORT/ws")->required();
-    app.add_option("--viewers", options.who.viewers, "all of them")
+    app.add_option("--viewers", options.who.viewers, "total number of viewers")
         ->capture_default_str()
         ->check(CLI::Range(1, 20'000));
-    app.add_option("--stalled", options.who.stalled, "of them read no more after their first frame");
-    app.add_option("--slow", options.who.slow, "of them are slow: every other one reads slowly, the rest ack late");
-    app.add_option("--reconnecting", options.who.reconnecting, "of them leave every few seconds and join again");
-    app.add_option("--decode", options.who.decode, "of the healthy ones decode all and compare hashes");
-    app.add_option("--seconds", options.seconds, "measured")->capture_default_str()->check(CLI::Range(1, 86'400));
-    app.add_option("--warm-up", options.warmUp, "seconds before: ages and rates do not count, content does")
+    app.add_option("--stalled", options.who.stalled, "viewers that stop reading after their first frame");
+    app.add_option("--slow", options.who.slow, "slow viewers: half of them read slowly, half acknowledge late");
+    app.add_option("--reconnecting", options.who.reconnecting, "viewers that reconnect every few seconds");
+    app.add_option("--decode", options.who.decode, "healthy viewers that decode all frames and compare hashes");
+    app.add_option("--seconds", options.seconds, "duration of the measurement (s)")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 86'400));
+    app.add_option("--warm-up", options.warmUp,
+                   "time before the measurement (s); content is checked, ages and rates are not counted")
         ->capture_default_str()
         ->check(CLI::Range(1, 3'600));
-    app.add_option("--rate", options.rate, "frames per second")->capture_default_str()->check(CLI::Range(1, 60));
+    app.add_option("--rate", options.rate, "requested frames per second")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 60));
     app.add_option("--tier", options.tier, "fine, normal or eco")
         ->transform(CLI::CheckedTransformer(tiers))
         ->default_str("normal");
-    app.add_flag("--fixed", options.fixed, "viewers do not let the server step down");
-    app.add_option("--slow-bytes", options.slowBytes, "per second, of who reads slowly")
+    app.add_flag("--fixed", options.fixed, "viewers refuse lower renditions");
+    app.add_option("--slow-bytes", options.slowBytes, "bytes per second of a viewer that reads slowly")
         ->capture_default_str()
         ->check(CLI::Range(1, 1'000'000'000));
-    app.add_option("--late-ms", options.lateMs, "before who acks late acks")->capture_default_str();
-    app.add_option("--stay", options.stay, "seconds that a reconnecting viewer stays at most")
+    app.add_option("--late-ms", options.lateMs, "delay of a late ack (ms)")->capture_default_str();
+    app.add_option("--stay", options.stay, "longest session of a reconnecting viewer (s)")
         ->capture_default_str()
         ->check(CLI::Range(1, 3'600));
-    app.add_option("--threads", options.threads, "of this client")->capture_default_str()->check(CLI::Range(1, 64));
-    app.add_option("--server-pid", options.server, "also tell what this process uses")->check(CLI::PositiveNumber);
-    app.add_flag("--markdown", options.markdown, "tables as Markdown");
+    app.add_option("--threads", options.threads, "threads of this client")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    app.add_option("--server-pid", options.server, "also report CPU time and memory of this process")
+        ->check(CLI::PositiveNumber);
+    app.add_flag("--markdown", options.markdown, "write tables as Markdown");
     app.footer(
-        "Faults are what docs/protocol.md and docs/codec.md do not allow, a healthy viewer that is disconnected, and "
-        "one\n"
-        "without frames for 5 s: let the scene run. A server with tokens gets that of SPHERULE_TOKEN.\n\n"
+        "Faults: messages that docs/protocol.md or docs/codec.md do not allow, a disconnected healthy viewer, and a\n"
+        "healthy viewer without frames for 5 s (so the scene must run). SPHERULE_TOKEN is the token for the server.\n\n"
         "Exit codes: 0 no faults, 1 faults, 2 usage, or no server.");
 }
 
@@ -91,13 +98,13 @@ void check(const Options& options) {
 }
 
 load::Wish wishOf(const Options& options) {
-    const auto url = net::parseUrl(options.url);
+    const auto url = client::parseUrl(options.url);
     if (!url) throw std::runtime_error(url.error().text());
     boost::asio::io_context io;
     boost::system::error_code error;
     const auto found = boost::asio::ip::tcp::resolver(io).resolve(url->host, url->port, error);
     if (error) throw std::runtime_error(options.url + ": " + error.message());
-    // One that answers: a name may stand for addresses that nobody listens at.
+    // Choose an address that answers: a name may have addresses without a server.
     boost::asio::ip::tcp::socket socket(io);
     const auto server = boost::asio::connect(socket, found, error);
     if (error) throw std::runtime_error(options.url + ": cannot be reached: " + error.message());
@@ -144,7 +151,7 @@ load::Outcome run(const Options& options) {
     outcome.cpuSeconds = ownCpuSeconds() - cpu;
     outcome.tallies = crowd.stop();
     if (outcome.server) {
-        std::this_thread::sleep_for(2s);  // for the server to notice
+        std::this_thread::sleep_for(2s);  // lets the server notice the disconnects
         outcome.server->after = look();
     }
     return outcome;

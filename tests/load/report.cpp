@@ -9,7 +9,7 @@ namespace spherule::load {
 
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;  // of equal lengths; the first is the head
+using Rows = std::vector<std::vector<std::string>>;  // rows of equal length; the first is the header
 
 std::string rowOf(const std::vector<std::string>& row, const std::vector<std::size_t>& widths, bool markdown) {
     if (markdown) return fmt::format("| {} |\n", fmt::join(row, " | "));

@@ -10,12 +10,12 @@ namespace spherule::load {
 
 struct Outcome {
     Tallies tallies;
-    double seconds = 0;     // measured
-    double cpuSeconds = 0;  // of the load client, over the same
+    double seconds = 0;     // duration of the measurement
+    double cpuSeconds = 0;  // CPU time of the load client in that time
     std::optional<ServerUsage> server;
 };
 
-// Tables for people; as Markdown, or padded.
+// Formats the tables of a report, as Markdown or padded text.
 std::string reportOf(const Outcome& outcome, bool markdown);
 
 }  // namespace spherule::load

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What many viewers get, and what they cost the simulation: two Markdown tables.
+"""Measures the frames that many viewers get, and their cost for the simulation. Prints Markdown tables.
 
     tests/load/run_load.py [--build build/release] [--viewers 200] [--seconds 20] [--stretches 3]
                            [--part crowd|cost|play] [--recording FILE]
 
-crowd: a bed that comes to rest, streamed to viewers of which a tenth stalls, a tenth is slow and a twentieth reconnects;
-what it did to the server, from /metrics. cost: a bed that is awake, with one viewer and with all of them in turns; the
-simulation's time per substep, and its ratio. play: the crowd as viewers of a recording, which `spherule play --loop`
-shows; without --recording, of 20 s of box-50k, made first.
+crowd: a bed that comes to rest, with many viewers; 1/10 of them stall, 1/10 are slow and 1/20 reconnect. Reports the
+counters of /metrics. cost: a bed that stays awake, alternately with one viewer and with all. Reports the time per substep
+and its ratio. play: the viewers of `crowd` watch a recording (`spherule play --loop`); without --recording, it records
+20 s of box-50k first.
 """
 import argparse
 import datetime
@@ -20,7 +20,7 @@ import time
 
 from serving import Server
 
-# A crowd comes from one address, and all at once.
+# All viewers connect at once from one address.
 UNLIMITED = ["--max-sessions", "0", "--max-sessions-per-address", "0", "--connections-per-second", "0"]
 OF_INTEREST = ["spherule_frames_sent_total", "spherule_bytes_sent_total", "spherule_states_produced_total",
                "spherule_chains_lost_total", "spherule_sessions_accepted_total"]
@@ -31,22 +31,22 @@ def options():
     parser.add_argument("--build", default="build/release")
     parser.add_argument("--viewers", type=int, default=200)
     parser.add_argument("--rate", type=int, default=20)
-    parser.add_argument("--seconds", type=int, default=20, help="of the crowd, and of each stretch of the cost")
-    parser.add_argument("--stretches", type=int, default=3, help="of the cost, with one viewer and with all, each")
-    parser.add_argument("--settle", type=int, default=15, help="simulated seconds before anything is measured")
+    parser.add_argument("--seconds", type=int, default=20, help="duration of crowd, and of each interval of cost")
+    parser.add_argument("--stretches", type=int, default=3, help="intervals of cost, each with one viewer and with all")
+    parser.add_argument("--settle", type=int, default=15, help="simulated time before the measurement (s)")
     parser.add_argument("--scene", default="box-10k")
     parser.add_argument("--device", default="cpu:1")
-    parser.add_argument("--part", choices=["crowd", "cost", "play"], help="only this one")
-    parser.add_argument("--recording", help="what play plays")
+    parser.add_argument("--part", choices=["crowd", "cost", "play"], help="run only this part")
+    parser.add_argument("--recording", help="recording for play")
     return parser.parse_args()
 
 
-def say(text):
+def report(text):
     print(text, file=sys.stderr, flush=True)
 
 
 def wait_until(what, condition, seconds=300):
-    say(what)
+    report(what)
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
@@ -94,14 +94,14 @@ def play(args):
     with tempfile.TemporaryDirectory() as folder:
         recording = args.recording or os.path.join(folder, "box-50k.sph")
         if not args.recording:
-            say("20 s of box-50k are recorded")
+            report("recording 20 s of box-50k")
             subprocess.run([program(args), "run", "box-50k", "--for", "20s", "--device", "cpu", "--record", recording,
                             "--record-rate", str(args.rate)], stdout=subprocess.DEVNULL, check=True)
         return crowd(args, "play", recording, "--loop")
 
 
 def thread_seconds(pid):
-    """CPU seconds of each thread of the process, since it began."""
+    """CPU time of each thread of the process since its start (s)."""
     seconds = {}
     for thread in os.listdir(f"/proc/{pid}/task"):
         with open(f"/proc/{pid}/task/{thread}/stat", encoding="utf-8") as file:
@@ -119,7 +119,7 @@ def sample(server):
 
 
 def stretch(args, server, viewers):
-    """Milliseconds per substep, and some more, while so many watch."""
+    """Time per substep (ms) and other figures with this number of viewers."""
     with subprocess.Popen(client(args, server, viewers, args.seconds + 30), stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL) as crowd_process:
         try:
@@ -134,7 +134,7 @@ def stretch(args, server, viewers):
     substeps = last["substeps"] - first["substeps"]
     cpu = {thread: last["threads"][thread] - before for thread, before in first["threads"].items()
            if thread in last["threads"]}
-    simulation = max(cpu.values())  # on one thread of the CPU device that is the busiest by far
+    simulation = max(cpu.values())  # the busiest thread, with one thread on the CPU device
     wall = last["time"] - first["time"]
     return {"passes, wall ms per substep": 1e3 * (last["passes"] - first["passes"]) / substeps,
             "simulation thread, CPU ms per substep": 1e3 * simulation / substeps,
@@ -150,10 +150,10 @@ def cost(args):
     with Server(program(args), "serve", args.scene, "--no-sleep", "--device", args.device, *UNLIMITED) as server:
         settle(server, args.settle)
         for number in range(args.stretches):
-            say(f"stretch {number + 1} of {args.stretches}")
+            report(f"interval {number + 1} of {args.stretches}")
             alone.append(stretch(args, server, 1))
             crowded.append(stretch(args, server, args.viewers))
-    print(f"| {args.scene} --no-sleep, medians of {args.stretches} stretches | 1 viewer | {args.viewers} viewers | ratio | "
+    print(f"| {args.scene} --no-sleep, medians of {args.stretches} intervals | 1 viewer | {args.viewers} viewers | ratio | "
           "ratios of pairs |\n|---|--:|--:|--:|--:|")
     for name in alone[0]:
         one, many = (statistics.median(each[name] for each in stretches) for stretches in (alone, crowded))

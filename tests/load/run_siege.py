@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What healthy viewers of a recording get while others attack the server: Markdown tables, and exit code 1 if it gave way.
+"""Measures healthy viewers of a recording while others attack the server. Prints Markdown tables; exit code 1 on a fault.
 
     tests/load/run_siege.py [--build build/release] [--viewers 40] [--seconds 600] [--quiet 60] [--recording FILE]
 
@@ -20,7 +20,7 @@ import attackers
 from serving import Server
 
 TOKENS = {"viewer": "the-viewers-token-of-a-siege", "controller": "the-controllers-token-of-a-siege"}
-# What must have been counted at least once, since somebody does just that all the time.
+# Rejections that must have been counted, because attackers cause them all the time.
 CAUSES = ["connection_rate", "slow_request", "malformed", "long_header", "long_body", "host", "origin", "no_token",
           "wrong_token", "command_rate", "viewers_command"]
 CLOSED = ["stalled", "protocol", "too_big", "no_token", "no_hello"]
@@ -33,20 +33,20 @@ def options():
     parser.add_argument("--viewers", type=int, default=40)
     parser.add_argument("--rate", type=int, default=20)
     parser.add_argument("--seconds", type=int, default=600)
-    parser.add_argument("--quiet", type=int, default=60, help="seconds without attackers before")
+    parser.add_argument("--quiet", type=int, default=60, help="time without attackers at the start (s)")
     parser.add_argument("--recording")
     return parser.parse_args()
 
 
 def usage(pid):
-    """Resident MiB and open descriptors."""
+    """Resident memory (MiB) and number of open descriptors."""
     with open(f"/proc/{pid}/statm", encoding="ascii") as file:
         pages = int(file.read().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 2 ** 20, len(os.listdir(f"/proc/{pid}/fd"))
 
 
 async def viewers(args, server, seconds):
-    """The load client's report, and what the server used meanwhile, each second."""
+    """Returns the load client's report and the resources of the server, sampled each second."""
     client = await asyncio.create_subprocess_exec(
         os.path.join(args.build, "spherule_load"), server.stream, "--viewers", str(args.viewers), "--rate", str(args.rate),
         "--seconds", str(seconds), "--decode", "2", "--markdown", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
@@ -105,7 +105,7 @@ def run(args, recording):
            for one in besiegers])
     table(["turned away, by cause", ""], sorted((cause, f"{n:.0f}") for cause, n in rejected.items()))
     table(["sessions ended, by cause", ""], sorted((cause, f"{n:.0f}") for cause, n in closed.items()))
-    # The first quarter is left out: buffers grow to what they need.
+    # The first quarter is skipped: buffers still grow.
     early, late = (used[len(used) * a // 4:len(used) * b // 4] for a, b in ((1, 2), (3, 4)))
     peaks = [[max(each[k] for each in part) for part in (early, late)] for k in (0, 1)]
     table(["server", "largest in the second quarter", "in the last"],

@@ -11,7 +11,7 @@
 
 namespace spherule::load {
 
-// Fields of /proc/PID/stat are counted from behind the name, which may hold anything: state is field 3.
+// The fields of /proc/PID/stat are counted after the name, which may contain spaces and brackets: state is field 3.
 std::optional<Usage> usageOf(pid_t process) {
     const std::filesystem::path folder = "/proc/" + std::to_string(process);
     std::ifstream file(folder / "stat");

@@ -8,21 +8,21 @@
 
 namespace spherule::load {
 
-// What a process uses, from /proc.
+// Resources of a process, from /proc.
 struct Usage {
     double residentMiB = 0;
-    double cpuSeconds = 0;  // since it began, all threads
+    double cpuSeconds = 0;  // of all threads, since the start
     std::size_t descriptors = 0;
 };
 
-// Nothing where there is no such process, or it belongs to somebody else.
+// nullopt if there is no such process, or it belongs to another user.
 std::optional<Usage> usageOf(pid_t process);
 
-// What the server uses over the time of a load.
+// Resources of the server before, during and after the load.
 struct ServerUsage {
-    Usage before;  // anybody came
+    Usage before;  // the first connection
     std::vector<Usage> during;
-    std::optional<Usage> after;  // all have left
+    std::optional<Usage> after;  // the last disconnect
 };
 
 }  // namespace spherule::load

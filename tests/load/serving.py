@@ -1,4 +1,4 @@
-"""A `spherule serve` or `spherule play` on a free port, for as long as a with statement."""
+"""Runs `spherule serve` or `spherule play` on a free port within a with statement."""
 import http.client
 import re
 import subprocess
@@ -7,11 +7,11 @@ import urllib.request
 
 class Server:
     def __init__(self, binary, command, *options, token=None, **more):
-        """`token`: for /metrics, of a server that asks for one."""
+        """`token`: for /metrics, if the server requires one."""
         self._token = token
         self._command = [binary, command, *options, "--listen", "127.0.0.1:0"]
         self._more = more
-        self.said = ""  # once it has ended
+        self.said = ""  # its output, after it has ended
 
     def __enter__(self):
         self._process = subprocess.Popen(self._command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
@@ -29,14 +29,14 @@ class Server:
         self.end()
 
     def end(self, kill=False):
-        """Ends it. Returns its exit code; what it said is in `said`."""
+        """Stops the server and returns its exit code; its output is in `said`."""
         if self._process.returncode is None:
             (self._process.kill if kill else self._process.terminate)()
             self.said = self._process.communicate(timeout=30)[0]
         return self._process.returncode
 
     def wait(self):
-        """Until it has ended by itself; returns its exit code."""
+        """Waits until the server ends by itself and returns its exit code."""
         if self._process.returncode is None:
             self.said = self._process.communicate(timeout=60)[0]
         return self._process.returncode
@@ -60,7 +60,7 @@ class Server:
             return answer.read().decode()
 
     def fetch(self, path, tls):
-        """The same within TLS; `tls`: an ssl.SSLContext."""
+        """Like get(), but with TLS. `tls`: an ssl.SSLContext."""
         with urllib.request.urlopen(f"https://{self._address}{path}", timeout=30, context=tls) as answer:
             return answer.read().decode()
 
@@ -75,7 +75,7 @@ class Server:
         return status
 
     def metrics(self):
-        """The samples of /metrics: {(name, first label's value or ""): value}."""
+        """Returns the samples of /metrics: {(name, value of the first label or ""): value}."""
         text = self.get("/metrics")
         samples = {}
         for name, label, value in re.findall(r'^(\w+)(?:\{\w+="([^"]*)"[^}]*\})? (\S+)', text, re.MULTILINE):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The load client against a server, and against none: smoke_test.py SERVER CLIENT."""
+"""Runs the load client with a server and without one: smoke_test.py SERVER CLIENT."""
 import subprocess
 import sys
 import unittest

@@ -20,10 +20,11 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::size_t largestMessage = std::size_t{256} << 20U;
-constexpr std::size_t slowPiece = 4096;  // bytes read at once by who reads slowly
-constexpr int slowBuffer = 16 * 1024;    // of the kernel, so that it does not read ahead for who does not
+constexpr std::size_t slowPiece = 4096;  // bytes per read of a slow viewer
+constexpr int slowBuffer =
+    16 * 1024;  // receive buffer of the kernel (bytes): small, so that the kernel does not read ahead
 constexpr auto rejoinAfter = 500ms;
-constexpr auto longestGap = 5s;  // between frames of a healthy viewer, however busy the machine
+constexpr auto longestGap = 5s;  // allowed between frames of a healthy viewer, also on a busy machine
 
 std::uint64_t microsecondsNow() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -36,8 +37,8 @@ struct Viewer::Session {
     Session(asio::io_context& io, bool decode) : stream(io), timer(io), lateTimer(io), check(decode) {}
 
     websocket::stream<beast::tcp_stream, false> stream;
-    asio::steady_timer timer;      // of the next piece, or of leaving
-    asio::steady_timer lateTimer;  // of the next late ack
+    asio::steady_timer timer;      // for the next read, or for the disconnect
+    asio::steady_timer lateTimer;  // for the next late ack
     beast::flat_buffer incoming;
     std::deque<std::string> outgoing;
     std::deque<std::pair<Clock::time_point, std::uint64_t>> lateAcks;
@@ -75,7 +76,7 @@ void Viewer::connect() {
     ErrorCode ignored;
     lowest.socket().open(wish_.server.protocol(), ignored);
     lowest.socket().set_option(tcp::no_delay(true), ignored);
-    // Before connecting: it decides how much may be under way.
+    // Set before connecting: the size limits the TCP window.
     if (kind_ == Kind::SlowReading || kind_ == Kind::Stalled)
         lowest.socket().set_option(asio::socket_base::receive_buffer_size(slowBuffer), ignored);
     lowest.async_connect(wish_.server, [this, session = session_](ErrorCode error) {
@@ -192,13 +193,13 @@ void Viewer::send(const SharedSession& session, const v1::ClientMessage& message
 
 void Viewer::write(const SharedSession& session) {
     session->stream.async_write(asio::buffer(session->outgoing.front()), [this, session](ErrorCode error, std::size_t) {
-        if (error || session->over) return;  // the read under way fails too, and knows more
+        if (error || session->over) return;  // the pending read fails too, with a more precise error
         session->outgoing.pop_front();
         if (!session->outgoing.empty()) write(session);
     });
 }
 
-// Nothing is read any more, so only an error of the socket tells that the server has given up.
+// Nothing is read any more, so only an error of the socket shows that the server has dropped the connection.
 void Viewer::awaitDrop(const SharedSession& session) {
     beast::get_lowest_layer(session->stream).socket().async_wait(tcp::socket::wait_error, [this, session](ErrorCode) {
         ended(session, "dropped, as it must be", false);
@@ -206,14 +207,14 @@ void Viewer::awaitDrop(const SharedSession& session) {
 }
 
 void Viewer::leaveSoon(const SharedSession& session) {
-    // From a fifth of the longest stay on, each viewer and each of its sessions in a place of its own.
+    // Between 1/5 of the longest stay and all of it; different for each viewer and session.
     const auto longest = std::chrono::duration_cast<std::chrono::milliseconds>(wish_.stay);
     session->timer.expires_after(longest * (1 + (7 * index_ + 3 * sessions_) % 5) / 5);
     session->timer.async_wait([this, session](ErrorCode error) {
         if (error || session->over) return;
         if (sessions_ % 2 == 0) return ended(session, "", true);
         session->stream.async_close(websocket::close_code::going_away, [session](ErrorCode) {});
-        // Its handler keeps the connection until the server has answered; the viewer is already elsewhere.
+        // The handler keeps the old connection until the server has answered; the viewer opens a new one meanwhile.
         tally_.received += session->check.received();
         session->over = true;
         again(0ms);

@@ -15,27 +15,27 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "chain_check.h"
-#include "net/client.h"
-#include "net/url.h"
+#include "client/client.h"
+#include "client/url.h"
 #include "tally.h"
 
 namespace spherule::load {
 
-// What all viewers want.
+// Settings shared by all viewers.
 struct Wish {
     boost::asio::ip::tcp::endpoint server;
-    net::Url url;
+    client::Url url;
     std::string token{};
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 20;
     bool fixed = false;
     std::size_t slowBytes = 20'000;  // per second
     std::chrono::milliseconds lateAck{1000};
-    std::chrono::seconds stay{3};  // at most, of those who reconnect
+    std::chrono::seconds stay{3};  // longest session of a reconnecting viewer
     std::chrono::steady_clock::time_point measureFrom;
 };
 
-// One viewer, over as many sessions as it takes: who is dropped joins again. Lives on the one thread of its io_context.
+// One viewer, which connects again when it is dropped. Used on the thread of its io_context.
 class Viewer {
   public:
     Viewer(boost::asio::io_context& io, const Wish& wish, Kind kind, std::uint32_t index, bool decode);
@@ -44,14 +44,14 @@ class Viewer {
     Viewer& operator=(const Viewer&) = delete;
 
     void start(std::chrono::milliseconds after);
-    // Notes what a viewer must have had by now; call once, before tally().
+    // Checks that the viewer has received frames; call once, before tally().
     void conclude();
 
     [[nodiscard]] Kind kind() const { return kind_; }
     [[nodiscard]] const Tally& tally() const { return tally_; }
 
   private:
-    // One connection with what belongs to it; handlers that outlive it find that it is no longer the viewer's.
+    // One connection and its state. A handler that runs after the viewer has replaced it does nothing.
     struct Session;
     using SharedSession = std::shared_ptr<Session>;
     using ErrorCode = boost::beast::error_code;

@@ -1,6 +1,6 @@
 #include "net/admission.h"
 
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
@@ -9,11 +9,11 @@ namespace {
 const std::string viewers = "viewers-token-of-a-test";
 const std::string controllers = "controllers-token-of-a-test";
 
-Admission plain(Places places = {}) {
-    return {std::move(places), {}, "http"};
+Admission plain(AllowedNames allowedNames = {}) {
+    return {std::move(allowedNames), {}, "http"};
 }
 
-TEST(Admission, KnowsTheNamesOfThisServer) {
+TEST(Admission, AcceptsHostNamesOfThisServer) {
     const Admission here = plain({.hosts = {"Spherule.Example.org", "other.example:8443"}});
     for (const std::string host :
          {"localhost", "localhost:8080", "LOCALHOST", "127.0.0.1:8080", "[::1]:8080", "10.1.2.3",
@@ -26,11 +26,11 @@ TEST(Admission, KnowsTheNamesOfThisServer) {
         EXPECT_FALSE(here.isHost(host)) << host;
 }
 
-TEST(Admission, KnowsTheSitesWhosePagesMayOpenTheStream) {
+TEST(Admission, AcceptsListedOrigins) {
     const Admission here = plain({.origins = {"https://Spherule.example.org"}});
     EXPECT_TRUE(here.isOrigin("http://localhost:8080", "localhost:8080"));
     EXPECT_TRUE(here.isOrigin("https://spherule.example.org", "localhost:8080"));
-    EXPECT_TRUE(here.isHost("spherule.example.org")) << "its host goes without saying";
+    EXPECT_TRUE(here.isHost("spherule.example.org")) << "the host of an accepted origin is accepted";
     for (const std::string origin : {"null", "http://localhost", "http://localhost:8081", "https://localhost:8080",
                                      "http://evil.example", "http://spherule.example.org",
                                      "https://spherule.example.org:444", "https://spherule.example.org.evil.example",
@@ -38,8 +38,8 @@ TEST(Admission, KnowsTheSitesWhosePagesMayOpenTheStream) {
         EXPECT_FALSE(here.isOrigin(origin, "localhost:8080")) << origin;
 }
 
-TEST(Admission, GivesRolesForTokens) {
-    EXPECT_EQ(plain().roleOf(""), v1::CONTROLLER) << "without tokens, everybody is let in";
+TEST(Admission, GrantsRoleForToken) {
+    EXPECT_EQ(plain().roleOf(""), v1::CONTROLLER) << "without tokens every client is a controller";
     const Admission both({}, {.viewerToken = viewers, .controllerToken = controllers}, "http");
     EXPECT_EQ(both.roleOf(viewers), v1::VIEWER);
     EXPECT_EQ(both.roleOf(controllers), v1::CONTROLLER);
@@ -47,12 +47,12 @@ TEST(Admission, GivesRolesForTokens) {
          {std::string(), viewers + "x", viewers.substr(1), controllers + std::string(1, '\0')})
         EXPECT_FALSE(both.roleOf(token)) << token;
     const Admission watched({}, {.viewerToken = viewers}, "http");
-    EXPECT_FALSE(watched.roleOf("")) << "a token that nobody has is not the empty one";
+    EXPECT_FALSE(watched.roleOf("")) << "an unset token does not match an empty one";
     const Admission steered({}, {.controllerToken = controllers}, "http");
     EXPECT_FALSE(steered.roleOf(""));
 }
 
-TEST(Admission, RefusesWhatCannotBeMeant) {
+TEST(Admission, RefusesInvalidHostsOriginsAndTokens) {
     EXPECT_TRUE(checkOrigin("https://spherule.example.org:8443"));
     EXPECT_TRUE(checkOrigin("http://[::1]:8080"));
     for (const std::string origin : {"", "*", "spherule.example.org", "https://", "https://a/", "https://*.example.org",
@@ -66,19 +66,19 @@ TEST(Admission, RefusesWhatCannotBeMeant) {
         EXPECT_FALSE(checkToken(token, "here")) << token;
 }
 
-class Guarded : public testing::Test {
+class Tokens : public testing::Test {
   protected:
     static Options options() {
         Options options = quickOptions();
-        options.secrets.viewerToken = viewers;
-        options.secrets.controllerToken = controllers;
+        options.credentials.viewerToken = viewers;
+        options.credentials.controllerToken = controllers;
         options.guessDelay = 300ms;
-        options.places.hosts = {"spherule.example.org"};
+        options.allowedNames.hosts = {"spherule.example.org"};
         return options;
     }
 
     std::unique_ptr<Client> joinAs(const std::string& token) {
-        auto client = connect(owner_);
+        auto client = connect(app_);
         v1::ClientMessage hello = helloOf(0);
         hello.mutable_hello()->set_token(token);
         EXPECT_TRUE(client->send(hello));
@@ -86,7 +86,7 @@ class Guarded : public testing::Test {
         return client;
     }
 
-    // The answer to a command, whatever comes before.
+    // Reads the result of a command and skips other messages.
     static v1::CommandResult give(Client& client, const v1::Command& command) {
         v1::ClientMessage message;
         *message.mutable_command() = command;
@@ -104,10 +104,10 @@ class Guarded : public testing::Test {
         return command;
     }
 
-    std::uint64_t rejected(Rejection cause) { return owner_.counters().rejectedFor(cause); }
+    std::uint64_t rejected(RejectReason cause) { return app_.counters().rejectedFor(cause); }
 
     std::string ask(const std::string& head) {
-        const RawSocket socket(owner_.server().port());
+        const RawSocket socket(app_.server().port());
         socket.send(head + "Connection: close\r\n\r\n");
         return socket.readAll();
     }
@@ -120,45 +120,45 @@ class Guarded : public testing::Test {
     }
 
     std::string open(const std::string& host, const std::string& more) {
-        const RawSocket socket(owner_.server().port());
+        const RawSocket socket(app_.server().port());
         socket.send(upgrade(host, more));
         return socket.readUntil("\r\n\r\n").substr(9, 3);
     }
 
-    Owner owner_{options()};
+    FakeApp app_{options()};
     v1::Welcome welcome_;
 };
 
-TEST_F(Guarded, NobodyComesInWithoutAToken) {
-    const auto client = connect(owner_);
+TEST_F(Tokens, RejectsMissingToken) {
+    const auto client = connect(app_);
     ASSERT_TRUE(client->send(helloOf(60)));
     const auto end = readToEnd(*client);
     EXPECT_EQ(end.code, 4401);
     EXPECT_EQ(end.reason, "this server asks for a token");
-    EXPECT_EQ(rejected(Rejection::NoToken), 1U);
-    EXPECT_TRUE(eventually([&] { return owner_.counters().closedBy(CloseCause::NoToken) == 1; }));
+    EXPECT_EQ(rejected(RejectReason::NoToken), 1U);
+    EXPECT_TRUE(eventually([&] { return app_.counters().closedBy(CloseCause::NoToken) == 1; }));
 }
 
-TEST_F(Guarded, AGuessTakesTimeAndIsCounted) {
+TEST_F(Tokens, DelaysAndCountsWrongTokens) {
     const auto began = std::chrono::steady_clock::now();
-    const auto client = connect(owner_);
+    const auto client = connect(app_);
     v1::ClientMessage hello = helloOf(60);
     hello.mutable_hello()->set_token("controllers-token-of-a-tesT");
     ASSERT_TRUE(client->send(hello));
     v1::ClientMessage command;
     *command.mutable_command() = pause();
     ASSERT_TRUE(client->send(command));
-    owner_.publish(64);
+    app_.publish(64);
     const auto received = client->receive(patience);
-    ASSERT_FALSE(received) << "nothing of a protected stream is sent";
+    ASSERT_FALSE(received) << "a protected stream was sent";
     EXPECT_EQ(client->closed()->code, 4401);
     EXPECT_EQ(client->closed()->reason, "this token is not known here");
     EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
-    EXPECT_EQ(rejected(Rejection::WrongToken), 1U);
-    EXPECT_TRUE(owner_.commands().empty());
+    EXPECT_EQ(rejected(RejectReason::WrongToken), 1U);
+    EXPECT_TRUE(app_.commands().empty());
 }
 
-TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
+TEST_F(Tokens, LetsViewersWatchOnly) {
     const auto client = joinAs(viewers);
     EXPECT_EQ(welcome_.role(), v1::VIEWER);
     const auto result = give(*client, pause());
@@ -168,36 +168,36 @@ TEST_F(Guarded, AViewerWatchesAndCannotCommand) {
     query.set_id(8);
     query.mutable_query();
     EXPECT_TRUE(give(*client, query).has_applied());
-    ASSERT_EQ(owner_.commands().size(), 1U);
-    EXPECT_TRUE(owner_.commands()[0].has_query());
-    EXPECT_EQ(rejected(Rejection::ViewersCommand), 1U);
+    ASSERT_EQ(app_.commands().size(), 1U);
+    EXPECT_TRUE(app_.commands()[0].has_query());
+    EXPECT_EQ(rejected(RejectReason::ViewersCommand), 1U);
 }
 
-TEST_F(Guarded, OneControllerAtATimeHasTheControls) {
+TEST_F(Tokens, GivesControlToOneSessionAtATime) {
     const auto first = joinAs(controllers);
     EXPECT_EQ(welcome_.role(), v1::CONTROLLER);
     const std::uint64_t holder = welcome_.session();
     const auto second = joinAs(controllers);
     EXPECT_TRUE(give(*first, pause()).has_applied());
     EXPECT_NE(give(*second, pause()).refused().reason().find("session " + std::to_string(holder)), std::string::npos);
-    EXPECT_EQ(rejected(Rejection::ControlsHeld), 1U);
+    EXPECT_EQ(rejected(RejectReason::ControlsHeld), 1U);
     first->close();
     EXPECT_TRUE(eventually([&] { return give(*second, pause()).has_applied(); }));
 }
 
-TEST_F(Guarded, AViewersMessagesAreShort) {
+TEST_F(Tokens, LimitsMessagesOfViewers) {
     const auto client = joinAs(viewers);
     ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
     EXPECT_EQ(readToEnd(*client).code, 1009);
 }
 
-TEST_F(Guarded, WhatComesBeforeTheTokenIsShort) {
-    const auto client = connect(owner_);
+TEST_F(Tokens, LimitsTheFirstMessage) {
+    const auto client = connect(app_);
     ASSERT_TRUE(client->sendBytes(std::string(Options().firstMessageBytes + 1, '\0'), Encoding::Binary));
     EXPECT_EQ(readToEnd(*client).code, 1009);
 }
 
-TEST_F(Guarded, CommandsComeAtALimitedRate) {
+TEST_F(Tokens, LimitsTheCommandRate) {
     const auto client = joinAs(controllers);
     bool refused = false;
     for (int k = 0; k < 300 && !refused; ++k) {
@@ -206,26 +206,26 @@ TEST_F(Guarded, CommandsComeAtALimitedRate) {
         EXPECT_TRUE(result.has_applied() || refused);
     }
     EXPECT_TRUE(refused);
-    EXPECT_GE(rejected(Rejection::CommandRate), 1U);
+    EXPECT_GE(rejected(RejectReason::CommandRate), 1U);
 }
 
-TEST_F(Guarded, APageOfAnotherSiteCannotOpenTheStream) {
+TEST_F(Tokens, RefusesForeignOrigins) {
     EXPECT_EQ(open("localhost", "Origin: http://evil.example\r\n"), "403");
     EXPECT_EQ(open("localhost", "Origin: null\r\n"), "403");
-    EXPECT_EQ(rejected(Rejection::Origin), 2U);
+    EXPECT_EQ(rejected(RejectReason::Origin), 2U);
     EXPECT_EQ(open("localhost", "Origin: http://localhost\r\n"), "101");
-    EXPECT_EQ(open("localhost", ""), "101") << "no browser";
+    EXPECT_EQ(open("localhost", ""), "101") << "not a browser";
 }
 
-TEST_F(Guarded, ANameThatOnlyLeadsHereIsNotServed) {
+TEST_F(Tokens, RefusesForeignHostNames) {
     EXPECT_EQ(open("evil.example", "Origin: http://evil.example\r\n"), "421");
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: evil.example\r\n").substr(9, 3), "421");
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\n").substr(9, 3), "421");
-    EXPECT_EQ(rejected(Rejection::Host), 3U);
+    EXPECT_EQ(rejected(RejectReason::Host), 3U);
     EXPECT_EQ(ask("GET /healthz HTTP/1.1\r\nHost: spherule.example.org\r\n").substr(9, 3), "200");
 }
 
-TEST_F(Guarded, FiguresNeedAToken) {
+TEST_F(Tokens, RequiresTokenForMetrics) {
     const std::string request = "GET /metrics HTTP/1.1\r\nHost: localhost\r\n";
     const auto answer = ask(request);
     EXPECT_EQ(answer.substr(9, 3), "401");
@@ -233,26 +233,26 @@ TEST_F(Guarded, FiguresNeedAToken) {
     const auto began = std::chrono::steady_clock::now();
     EXPECT_EQ(ask(request + "Authorization: Bearer nonsense\r\n").substr(9, 3), "401");
     EXPECT_GE(std::chrono::steady_clock::now() - began, options().guessDelay);
-    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "404") << "past the door";
+    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "404") << "admitted";
     EXPECT_EQ(ask("GET /metrics?token=" + viewers + " HTTP/1.1\r\nHost: localhost\r\n").substr(9, 3), "401");
 }
 
-TEST_F(Guarded, NewTokensHoldForThoseWhoComeLater) {
+TEST_F(Tokens, AppliesNewTokensToNewSessions) {
     const auto before = joinAs(viewers);
-    Secrets secrets = options().secrets;
-    secrets.viewerToken = "the-viewers-new-token";
-    ASSERT_TRUE(owner_.server().setSecrets(secrets));
-    const auto late = connect(owner_);
+    Credentials credentials = options().credentials;
+    credentials.viewerToken = "the-viewers-new-token";
+    ASSERT_TRUE(app_.server().setCredentials(credentials));
+    const auto late = connect(app_);
     v1::ClientMessage hello = helloOf(0);
     hello.mutable_hello()->set_token(viewers);
     ASSERT_TRUE(late->send(hello));
     EXPECT_EQ(readToEnd(*late).code, 4401);
     joinAs("the-viewers-new-token");
     EXPECT_EQ(welcome_.role(), v1::VIEWER);
-    EXPECT_FALSE(owner_.server().setSecrets({})) << "a guarded server never opens by itself";
+    EXPECT_FALSE(app_.server().setCredentials({})) << "a server with tokens never runs without them";
 }
 
-TEST(Doors, AreNotOpenedToOthersUnasked) {
+TEST(Exposure, RefusesPublicAddressWithoutTokens) {
     Options options = quickOptions();
     options.host = "0.0.0.0";
     const auto refused = startServer(options, {});
@@ -260,65 +260,65 @@ TEST(Doors, AreNotOpenedToOthersUnasked) {
     EXPECT_EQ(refused.error().kind, ErrorKind::Input);
     EXPECT_NE(refused.error().text().find("--open"), std::string::npos);
     options.open = true;
-    EXPECT_NO_THROW(Owner{options});
+    EXPECT_NO_THROW(FakeApp{options});
 }
 
-TEST(Doors, LetSoManyInAndNoMore) {
+TEST(Exposure, LimitsSessions) {
     Options options = quickOptions();
-    options.visitors.sessions = 2;
-    Owner owner(options);
-    const auto first = join(owner, 0);
+    options.connectionLimits.sessions = 2;
+    FakeApp app(options);
+    const auto first = join(app, 0);
     {
-        const auto second = join(owner, 0);
-        const auto third = connect(owner);
+        const auto second = join(app, 0);
+        const auto third = connect(app);
         ASSERT_TRUE(third->send(helloOf(0)));
         const auto end = readToEnd(*third);
         EXPECT_EQ(end.code, 1013);
-        EXPECT_EQ(end.reason, "as many sessions are open as may be");
+        EXPECT_EQ(end.reason, "the limit of open sessions is reached");
     }
-    EXPECT_EQ(owner.counters().rejectedFor(Rejection::Sessions), 1U);
-    EXPECT_TRUE(eventually([&] { return owner.counters().sessions == 1; }));
-    join(owner, 0);
+    EXPECT_EQ(app.counters().rejectedFor(RejectReason::Sessions), 1U);
+    EXPECT_TRUE(eventually([&] { return app.counters().sessions == 1; }));
+    join(app, 0);
 }
 
-TEST(Doors, AskThoseWhoComeTooOftenToWait) {
+TEST(Exposure, LimitsConnectionRate) {
     Options options = quickOptions();
-    options.visitors.connectionsPerSecond = 5;
-    Owner owner(options);
+    options.connectionLimits.connectionsPerSecond = 5;
+    FakeApp app(options);
     int answered = 0;
     for (int k = 0; k < 12; ++k) {
-        const RawSocket socket(owner.server().port());
+        const RawSocket socket(app.server().port());
         socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
         if (!socket.readAll().empty()) ++answered;
     }
     EXPECT_GE(answered, 5);
     EXPECT_LT(answered, 12);
-    EXPECT_EQ(owner.counters().rejectedFor(Rejection::ConnectionRate), 12U - static_cast<unsigned>(answered));
+    EXPECT_EQ(app.counters().rejectedFor(RejectReason::ConnectionRate), 12U - static_cast<unsigned>(answered));
 }
 
-TEST(Doors, AreNotOpenedByTheNameOfAProxy) {
+TEST(Exposure, RefusesProxyNamesWithoutTokens) {
     Options options = quickOptions();
-    options.places.origins = {"https://spherule.example.org"};
+    options.allowedNames.origins = {"https://spherule.example.org"};
     EXPECT_FALSE(startServer(options, {}));
 }
 
-TEST(Doors, KeepBackALittleOfWhatHasNoEnd) {
-    Owner owner;
+TEST(Exposure, BoundsBufferOfEndlessRequest) {
+    FakeApp app;
     for (const std::string& endless : {"5;" + std::string(1'000'000, 'a'), "0\r\nX: " + std::string(1'000'000, 'a')}) {
-        const RawSocket socket(owner.server().port());
+        const RawSocket socket(app.server().port());
         socket.send("GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n" + endless);
         EXPECT_EQ(socket.readAll().substr(0, 12), "HTTP/1.1 431");
     }
 }
 
-TEST(Doors, CloseOnRequestsThatNeverEnd) {
+TEST(Exposure, ClosesUnfinishedRequests) {
     Options options = quickOptions();
     options.requestTimeout = 200ms;
-    Owner owner(options);
-    const RawSocket socket(owner.server().port());
+    FakeApp app(options);
+    const RawSocket socket(app.server().port());
     socket.send("GET / HTTP/1.1\r\nHost: loc");
     EXPECT_EQ(socket.readAll(), "");
-    EXPECT_TRUE(eventually([&] { return owner.counters().rejectedFor(Rejection::SlowRequest) == 1; }));
+    EXPECT_TRUE(eventually([&] { return app.counters().rejectedFor(RejectReason::SlowRequest) == 1; }));
 }
 
 }  // namespace

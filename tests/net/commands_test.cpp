@@ -1,7 +1,8 @@
 #include <cmath>
 
-#include "net/ctl.h"
-#include "owner.h"
+#include "client/command_parser.h"
+#include "client/ctl.h"
+#include "fake_app.h"
 
 namespace spherule::net {
 namespace {
@@ -13,56 +14,56 @@ v1::ClientMessage pauseOf(std::uint64_t id) {
     return message;
 }
 
-TEST(Commands, AreHandedToTheOwnerAndAnsweredToTheSender) {
-    Owner owner;
-    const auto sender = join(owner, 0);
-    const auto other = join(owner, 0);
+TEST(Commands, ReachTheAppAndAnswerTheSender) {
+    FakeApp app;
+    const auto sender = join(app, 0);
+    const auto other = join(app, 0);
     ASSERT_TRUE(sender->send(pauseOf(99)));
     const auto answer = next(*sender);
     EXPECT_EQ(answer.result().id(), 99U);
     EXPECT_EQ(answer.result().applied().step(), 7U);
-    ASSERT_EQ(owner.commands().size(), 1U);
-    EXPECT_TRUE(owner.commands()[0].has_pause());
-    owner.server().broadcast(eventOf("only this"));
+    ASSERT_EQ(app.commands().size(), 1U);
+    EXPECT_TRUE(app.commands()[0].has_pause());
+    app.server().broadcast(eventOf("only this"));
     EXPECT_EQ(next(*other).event().text(), "only this");
 }
 
-TEST(Commands, AreTakenAsTextToo) {
-    Owner owner;
-    const auto client = join(owner, 0, Encoding::Text);
+TEST(Commands, MayBeText) {
+    FakeApp app;
+    const auto client = join(app, 0, Encoding::Text);
     ASSERT_TRUE(client->sendBytes(R"({"command":{"id":5,"set":{"gravity":[0,0,-1.6]}}})", Encoding::Text));
     EXPECT_EQ(next(*client).result().id(), 5U);
-    ASSERT_EQ(owner.commands().size(), 1U);
-    EXPECT_EQ(owner.commands()[0].set().gravity(2), -1.6);
+    ASSERT_EQ(app.commands().size(), 1U);
+    EXPECT_EQ(app.commands()[0].set().gravity(2), -1.6);
 }
 
-TEST(Commands, AreRefusedWhenTheOwnersQueueIsFull) {
-    Owner owner;
-    owner.takesCommands = false;
-    const auto client = join(owner, 0);
+TEST(Commands, AreRefusedWhenTheQueueIsFull) {
+    FakeApp app;
+    app.takesCommands = false;
+    const auto client = join(app, 0);
     ASSERT_TRUE(client->send(pauseOf(3)));
     const auto answer = next(*client);
     EXPECT_EQ(answer.result().id(), 3U);
     EXPECT_EQ(answer.result().refused().reason(), "the command queue is full");
 }
 
-TEST(Commands, OfANewerClientAreRefusedAndTheSessionGoesOn) {
-    Owner owner;
-    const auto client = join(owner, 0);
+TEST(Commands, UnknownToTheServerAreRefused) {
+    FakeApp app;
+    const auto client = join(app, 0);
     // A ClientMessage whose command has id 4 and, in the unknown field 100, an empty message.
     const std::string_view unknown("\x12\x05\x08\x04\xa2\x06\x00", 7);
     ASSERT_TRUE(client->sendBytes(unknown, Encoding::Binary));
     const auto answer = next(*client);
     EXPECT_EQ(answer.result().id(), 4U);
     EXPECT_EQ(answer.result().refused().reason(), "the command is not known to this server");
-    EXPECT_TRUE(owner.commands().empty());
+    EXPECT_TRUE(app.commands().empty());
     ASSERT_TRUE(client->send(pauseOf(5)));
     EXPECT_EQ(next(*client).result().applied().step(), 7U);
 }
 
-TEST(Commands, ThatDoNotFitAreRefusedWithFieldAndReasonAndTheSessionGoesOn) {
-    Owner owner;
-    const auto client = join(owner, 0, Encoding::Text);
+TEST(Commands, InvalidOnesAreRefusedWithFieldAndReason) {
+    FakeApp app;
+    const auto client = join(app, 0, Encoding::Text);
     struct Case {
         std::string text, id, field, reason;
     };
@@ -87,28 +88,28 @@ TEST(Commands, ThatDoNotFitAreRefusedWithFieldAndReasonAndTheSessionGoesOn) {
         EXPECT_EQ(result.refused().field(), one.field) << one.text;
         EXPECT_NE(result.refused().reason().find(one.reason), std::string::npos) << result.refused().reason();
     }
-    EXPECT_EQ(owner.counters().rejectedFor(Rejection::UnfitCommand), cases.size());
-    EXPECT_TRUE(owner.commands().empty());
+    EXPECT_EQ(app.counters().rejectedFor(RejectReason::UnfitCommand), cases.size());
+    EXPECT_TRUE(app.commands().empty());
     ASSERT_TRUE(client->sendBytes(R"({"command":{"id":99,"pause":{}}})", Encoding::Text));
     EXPECT_EQ(next(*client).result().id(), 99U);
 }
 
-// As Python and JavaScript libraries write them; the owner refuses them with the field.
-TEST(Commands, MayHoldNumbersThatAreNotFinite) {
-    Owner owner;
-    const auto client = join(owner, 0, Encoding::Text);
+// NaN and Infinity as Python and JavaScript libraries write them. The application refuses them with the field.
+TEST(Commands, MayHaveNonFiniteNumbers) {
+    FakeApp app;
+    const auto client = join(app, 0, Encoding::Text);
     ASSERT_TRUE(client->sendBytes(R"({"command":{"id":1,"set":{"friction":NaN,"speed":-Infinity}}})", Encoding::Text));
     EXPECT_EQ(next(*client).result().id(), 1U);
-    ASSERT_EQ(owner.commands().size(), 1U);
-    const v1::Command command = owner.commands().front();
+    ASSERT_EQ(app.commands().size(), 1U);
+    const v1::Command command = app.commands().front();
     EXPECT_TRUE(std::isnan(command.set().friction()));
     EXPECT_TRUE(std::isinf(command.set().speed()));
 }
 
-TEST(Commands, ThatTakeTooMuchMemoryAreRefusedAndTheSessionGoesOn) {
-    Owner owner;
+TEST(Commands, NeedingTooMuchMemoryAreRefused) {
+    FakeApp app;
     for (const Encoding encoding : {Encoding::Binary, Encoding::Text}) {
-        const auto client = join(owner, 0, encoding);
+        const auto client = join(app, 0, encoding);
         v1::ClientMessage message;
         message.mutable_command()->set_id(6);
         for (int k = 0; k < 300'000; ++k) message.mutable_command()->mutable_load()->mutable_scene()->add_groups();
@@ -119,18 +120,18 @@ TEST(Commands, ThatTakeTooMuchMemoryAreRefusedAndTheSessionGoesOn) {
         ASSERT_TRUE(client->send(pauseOf(7), encoding));
         EXPECT_EQ(next(*client).result().applied().step(), 7U);
     }
-    EXPECT_EQ(owner.commands().size(), 2U);
-    EXPECT_EQ(owner.counters().rejectedFor(Rejection::CommandCost), 2U);
+    EXPECT_EQ(app.commands().size(), 2U);
+    EXPECT_EQ(app.counters().rejectedFor(RejectReason::CommandCost), 2U);
 }
 
-TEST(Commands, ThatAreLongAreNotParsedWhereTheyCouldNotWait) {
-    Owner owner;
-    owner.takesLong = false;
-    const auto client = join(owner, 0);
+TEST(Commands, LongOnesAreNotParsedWhenTheQueueIsFull) {
+    FakeApp app;
+    app.takesLong = false;
+    const auto client = join(app, 0);
     v1::ClientMessage message;
     message.mutable_command()->set_id(8);
     message.mutable_command()->mutable_load()->mutable_scene()->set_description(std::string(10'000, 'x'));
-    // Were it parsed, the session would end here.
+    // If it were parsed, the session would end here.
     ASSERT_TRUE(client->sendBytes(message.SerializeAsString() + '\xff', Encoding::Binary));
     const v1::CommandResult result = next(*client).result();
     EXPECT_EQ(result.id(), 8U);
@@ -139,59 +140,61 @@ TEST(Commands, ThatAreLongAreNotParsedWhereTheyCouldNotWait) {
     EXPECT_EQ(next(*client).result().id(), 9U);
 }
 
-TEST(Commands, MayBeAsLongAsTheLimitAllows) {
-    Owner owner;
-    const auto client = join(owner, 0);
+TEST(Commands, MayHaveTheLargestSize) {
+    FakeApp app;
+    const auto client = join(app, 0);
     v1::ClientMessage message;
     message.mutable_command()->set_id(1);
-    const std::size_t frame = 64;  // generously, for everything around the text
+    const std::size_t frame = 64;  // bytes for everything around the text, at most
     message.mutable_command()->mutable_load()->mutable_scene()->set_description(
         std::string(Options().maxMessageBytes - frame, 'x'));
     ASSERT_TRUE(client->send(message));
     EXPECT_TRUE(next(*client).result().has_applied());
 }
 
-TEST(Commands, OfASessionThatLeftAreAnsweredIntoTheVoid) {
-    Owner owner;
-    owner.server().reply(12345, v1::CommandResult());
-    const auto client = join(owner, 0);
+TEST(Commands, OfAClosedSessionHaveNoAnswer) {
+    FakeApp app;
+    app.server().reply(12345, v1::CommandResult());
+    const auto client = join(app, 0);
     EXPECT_FALSE(client->closed());
 }
 
 TEST(Ctl, SendsOneCommandAndReturnsItsResult) {
-    Owner owner;
-    owner.publishEvery(5ms, 64);
-    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, *commandFrom({"pause"}), {}, {});
+    FakeApp app;
+    app.publishEvery(5ms, 64);
+    const auto result =
+        client::sendCommand({.url = app.url(), .timeout = patience}, *client::commandFrom({"pause"}), {}, {});
     ASSERT_TRUE(result) << result.error().text();
-    EXPECT_EQ(resultText(*result), "applied at step 7");
-    ASSERT_EQ(owner.commands().size(), 1U);
-    EXPECT_TRUE(owner.commands()[0].has_pause());
+    EXPECT_EQ(client::resultText(*result), "applied at step 7");
+    ASSERT_EQ(app.commands().size(), 1U);
+    EXPECT_TRUE(app.commands()[0].has_pause());
 }
 
 TEST(Ctl, ReturnsARefusalAsAResult) {
-    Owner owner;
-    owner.takesCommands = false;
-    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, *commandFrom({"reset"}), {}, {});
+    FakeApp app;
+    app.takesCommands = false;
+    const auto result =
+        client::sendCommand({.url = app.url(), .timeout = patience}, *client::commandFrom({"reset"}), {}, {});
     ASSERT_TRUE(result) << result.error().text();
-    EXPECT_EQ(resultText(*result), "refused: the command queue is full");
+    EXPECT_EQ(client::resultText(*result), "refused: the command queue is full");
 }
 
-TEST(Ctl, SaysThatNobodyListens) {
+TEST(Ctl, ReportsThatNoServerListens) {
     std::string url;
     {
-        const Owner owner;
-        url = owner.url();
+        const FakeApp app;
+        url = app.url();
     }
-    const auto result = sendCommand({.url = url, .timeout = patience}, *commandFrom({"reset"}), {}, {});
+    const auto result = client::sendCommand({.url = url, .timeout = patience}, *client::commandFrom({"reset"}), {}, {});
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text().find("cannot be reached"), std::string::npos) << result.error().text();
 }
 
-TEST(Ctl, SaysWhyTheServerClosed) {
-    Owner owner;
+TEST(Ctl, ReportsCloseReason) {
+    FakeApp app;
     v1::Command command;
     command.mutable_load()->mutable_scene()->set_description(std::string(Options().maxMessageBytes, 'x'));
-    const auto result = sendCommand({.url = owner.url(), .timeout = patience}, command, {}, {});
+    const auto result = client::sendCommand({.url = app.url(), .timeout = patience}, command, {}, {});
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text().find("1009"), std::string::npos) << result.error().text();
 }

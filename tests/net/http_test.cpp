@@ -1,4 +1,4 @@
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
@@ -6,9 +6,9 @@ namespace {
 
 class Http : public testing::Test {
   protected:
-    // One request on a connection of its own.
+    // Sends one request on a new connection.
     std::string ask(const std::string& firstLine, const std::string& rest = "\r\n") {
-        const RawSocket socket(owner_.server().port());
+        const RawSocket socket(app_.server().port());
         socket.send(firstLine + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + rest);
         return socket.readAll();
     }
@@ -17,10 +17,10 @@ class Http : public testing::Test {
         return answer.find(part) != std::string::npos;
     }
 
-    Owner owner_;
+    FakeApp app_;
 };
 
-TEST_F(Http, GetIsAnsweredByTheOwner) {
+TEST_F(Http, GetIsAnsweredByTheApp) {
     const auto answer = ask("GET /healthz?probe=1");
     EXPECT_EQ(answer.substr(0, 15), "HTTP/1.1 200 OK") << answer;
     EXPECT_TRUE(has(answer, "Content-Type: text/plain\r\n")) << answer;
@@ -28,14 +28,14 @@ TEST_F(Http, GetIsAnsweredByTheOwner) {
     EXPECT_TRUE(answer.ends_with("\r\n\r\nwell\n")) << answer;
 }
 
-TEST_F(Http, HeadIsAnsweredWithoutTheBody) {
+TEST_F(Http, HeadHasNoBody) {
     const auto answer = ask("HEAD /healthz");
     EXPECT_EQ(answer.substr(0, 15), "HTTP/1.1 200 OK") << answer;
     EXPECT_TRUE(has(answer, "Content-Length: 5\r\n")) << answer;
     EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << answer;
 }
 
-TEST_F(Http, AnUnknownPathIs404) {
+TEST_F(Http, UnknownPathIs404) {
     EXPECT_EQ(ask("GET /nowhere").substr(0, 12), "HTTP/1.1 404");
 }
 
@@ -47,8 +47,8 @@ TEST_F(Http, OtherMethodsAre405) {
     }
 }
 
-TEST_F(Http, AConnectionServesSeveralRequests) {
-    const RawSocket socket(owner_.server().port());
+TEST_F(Http, ConnectionServesSeveralRequests) {
+    const RawSocket socket(app_.server().port());
     for (int i = 0; i < 3; ++i) {
         socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
         EXPECT_TRUE(has(socket.readUntil("well\n"), "200 OK"));
@@ -61,12 +61,12 @@ TEST_F(Http, LongHeadersAre431) {
     EXPECT_EQ(ask("GET /healthz", "X: " + std::string(15'000, 'x') + "\r\n\r\n").substr(0, 12), "HTTP/1.1 200");
 }
 
-TEST_F(Http, ALongBodyIs413) {
+TEST_F(Http, LongBodyIs413) {
     const auto answer = ask("POST /healthz", "Content-Length: 10001\r\n\r\n" + std::string(10'001, 'x'));
     EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 413") << answer;
 }
 
-TEST_F(Http, AnUnknownTransferEncodingIs501AndNothingFollows) {
+TEST_F(Http, UnknownTransferEncodingIs501AndCloses) {
     for (const std::string encoding : {"xchunked", "gzip", "chunked, gzip", "chunkedx", ""}) {
         const auto answer =
             ask("GET /healthz", "Transfer-Encoding: " + encoding + "\r\n\r\nGET /nowhere HTTP/1.1\r\n\r\n");
@@ -77,19 +77,19 @@ TEST_F(Http, AnUnknownTransferEncodingIs501AndNothingFollows) {
     EXPECT_EQ(ask("GET /healthz", "Transfer-Encoding: Chunked\r\n\r\n0\r\n\r\n").substr(0, 12), "HTTP/1.1 200");
 }
 
-TEST_F(Http, TheStreamWithoutAnUpgradeIs400) {
+TEST_F(Http, StreamWithoutUpgradeIs400) {
     const auto answer = ask("GET /ws");
     EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 400");
     EXPECT_TRUE(has(answer, "open it as a WebSocket with subprotocol spherule.v1")) << answer;
 }
 
-TEST_F(Http, AnUpgradeWithoutAKeyIs400) {
+TEST_F(Http, UpgradeWithoutKeyIs400) {
     const auto answer = ask("GET /ws",
                             "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                             "Sec-WebSocket-Protocol: spherule.v1\r\n\r\n");
     EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 400") << answer;
-    EXPECT_TRUE(eventually([&] { return owner_.counters().sessions == 0; }));
-    EXPECT_EQ(owner_.counters().accepted, 0U);
+    EXPECT_TRUE(eventually([&] { return app_.counters().sessions == 0; }));
+    EXPECT_EQ(app_.counters().accepted, 0U);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::string text(const v1::ClientMessage& message) {
     return json;
 }
 
-// A load whose scene has so many of one thing.
+// A load command whose scene has `count` copies of one element.
 template <class Add>
 v1::ClientMessage loadOf(int count, Add add) {
     v1::ClientMessage message;
@@ -27,7 +27,7 @@ v1::ClientMessage loadOf(int count, Add add) {
     return message;
 }
 
-// The message itself as it lies in memory, and what its wire form says of it.
+// The memory of the parsed message, and the estimate from its wire form.
 void expectCovered(const v1::ClientMessage& message, const char* what) {
     const std::string binary = message.SerializeAsString();
     v1::ClientMessage parsed;
@@ -41,7 +41,7 @@ void expectCovered(const v1::ClientMessage& message, const char* what) {
     }
 }
 
-TEST(Preview, CostsAtLeastWhatTheParsedMessageTakes) {
+TEST(Preview, CostIsAtLeastTheMemoryOfTheParsedMessage) {
     for (const int count : {1, 1000, 100'000}) {
         expectCovered(loadOf(count, [](v1::Scene& scene) { scene.add_groups(); }), "empty groups");
         expectCovered(loadOf(count, [](v1::Scene& scene) { scene.add_obstacles()->mutable_box(); }), "empty boxes");
@@ -67,7 +67,7 @@ TEST(Preview, CountsUnknownFields) {
     EXPECT_GE(previewOf(bytes, Encoding::Binary, most).cost, parsed.SpaceUsedLong());
 }
 
-TEST(Preview, IsNotMisledByText) {
+TEST(Preview, IgnoresBracketsInStrings) {
     const std::string json = R"({ "command" : { "set": {"id": 3}, "id" : "18446744073709551615",
         "load": {"scene": {"description": "{{{,,,\"id\": 4,\"", "name": "}"}}}})";
     const Preview preview = previewOf(json, Encoding::Text, most);
@@ -78,14 +78,14 @@ TEST(Preview, IsNotMisledByText) {
     EXPECT_FALSE(previewOf(R"({"view":{"command":{"id":3}}})", Encoding::Text, most).command);
 }
 
-TEST(Preview, LooksNoFurtherThanTheLimit) {
+TEST(Preview, StopsAtTheLimit) {
     const std::string bytes = loadOf(100'000, [](v1::Scene& scene) { scene.add_groups(); }).SerializeAsString();
     const std::size_t cost = previewOf(bytes, Encoding::Binary, 10'000).cost;
     EXPECT_GT(cost, 10'000U);
     EXPECT_LT(cost, 11'000U);
 }
 
-TEST(Preview, EndsWhateverItIsGiven) {
+TEST(Preview, TerminatesForAnyInput) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         std::mt19937 random(seed);
         for (int round = 0; round < 2000; ++round) {

@@ -1,4 +1,4 @@
-// Viewers who ask for statistics as fast as they may, and a controller, on the program's own server and simulation.
+// Viewers that send queries at the highest allowed rate, and a controller, with the real server and simulation.
 #include <algorithm>
 #include <memory>
 #include <stop_token>
@@ -7,7 +7,7 @@
 
 #include "app/runtime.h"
 #include "app/sim_loop.h"
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
@@ -30,7 +30,7 @@ std::unique_ptr<app::Runtime> serve() {
     return std::move(*runtime);
 }
 
-// Each sends a query every ten milliseconds, as many as one session may give commands, while asked to.
+// Each viewer sends a query every 10 ms, the command limit of one session, while `run` is true.
 class Viewers {
   public:
     Viewers(std::uint16_t port, int count) {
@@ -71,7 +71,7 @@ class Controller {
         EXPECT_TRUE(client_->send(helloOf(0)));
     }
 
-    // Of a command that is applied.
+    // Returns the time from a command to its result.
     v1::Applied give(const std::string& json) {
         const std::uint64_t id = ++id_;
         EXPECT_TRUE(
@@ -103,8 +103,8 @@ T medianOf(std::vector<T> values) {
     return *middle;
 }
 
-// The world has all the steps to do that it can, so that an answer takes about a step, with queries or without.
-TEST(Queries, OfFortyViewersRefuseNoCommandAndDelayNoAnswer) {
+// The simulation runs without pauses, so an answer takes about one step, with or without queries.
+TEST(Queries, OfFortyViewersDelayNoCommand) {
     const auto runtime = serve();
     Viewers viewers(runtime->port(), 40);
     Controller controller(runtime->port());
@@ -123,7 +123,7 @@ TEST(Queries, OfFortyViewersRefuseNoCommandAndDelayNoAnswer) {
     EXPECT_TRUE(runtime->drain());
 }
 
-TEST(Queries, ShowWhatWasCommandedBefore) {
+TEST(Queries, SeeEarlierCommands) {
     const auto runtime = serve();
     Controller controller(runtime->port());
     (void)controller.give(R"("pause":{})");

@@ -31,7 +31,7 @@ RawSocket::~RawSocket() {
 void RawSocket::send(std::string_view bytes) const {
     while (!bytes.empty()) {
         const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (sent <= 0) return;  // the other side may close at any time: what it answers is what counts
+        if (sent <= 0) return;  // the server may close at any time; tests check its answers
         bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
 }

@@ -8,7 +8,7 @@
 
 namespace spherule::net {
 
-// A TCP connection to 127.0.0.1 that waits at most ten seconds, for what a well-behaved client would not do.
+// A TCP connection to 127.0.0.1 for tests of misbehaving clients. Each call blocks at most 10 s.
 class RawSocket {
   public:
     // `receiveBuffer` in bytes; 0: the kernel's choice.
@@ -18,17 +18,17 @@ class RawSocket {
     RawSocket& operator=(const RawSocket&) = delete;
 
     void send(std::string_view bytes) const;
-    // Some bytes, `most` at most; none at the end of the stream, after an error or when the time is over.
+    // Returns 1 to `most` bytes; none at the end of the stream, after an error or a timeout.
     [[nodiscard]] std::string readSome(std::size_t most = 65536) const;
-    // Throws away what has come, without waiting for more.
+    // Discards the received bytes without blocking.
     void drain() const;
-    // Until `end` has come, or the stream has ended.
+    // Reads until `end` has come, or the stream has ended.
     [[nodiscard]] std::string readUntil(std::string_view end) const;
     [[nodiscard]] std::string readAll() const;
 
-    // Upgrades to the stream; the response's head.
+    // Upgrades to the stream and returns the head of the response.
     [[nodiscard]] std::string openStream() const;
-    // A masked frame of up to 125 bytes with the given first byte, as RFC 6455 5.2 draws it.
+    // Sends a masked frame of up to 125 bytes with the given first byte (RFC 6455, 5.2).
     void sendFrame(std::uint8_t firstByte, std::string_view payload) const;
 
   private:

@@ -2,14 +2,14 @@
 
 #include <fstream>
 
-#include "owner.h"
+#include "fake_app.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
 namespace {
 
 #ifdef SANITIZED
-constexpr bool memoryIsMeasurable = false;  // the sanitizers keep what is freed
+constexpr bool memoryIsMeasurable = false;  // sanitizers do not return freed memory
 #else
 constexpr bool memoryIsMeasurable = true;
 #endif
@@ -28,63 +28,63 @@ std::string helloBytes(std::uint32_t rate) {
     return helloOf(rate).SerializeAsString();
 }
 
-TEST(SlowClients, ThatStopReadingLoseStatesThenTheConnectionAndOthersNoticeNothing) {
+TEST(SlowClients, ThatStopReadingAreDroppedWithoutDelayingOthers) {
     Options options = quickOptions();
     options.progressTimeout = 2s;
-    Owner owner(options);
-    constexpr std::uint32_t spheres = 40'000;  // 240 kB a state
-    owner.publishEvery(25ms, spheres);
-    const auto healthy = join(owner, 60);
-    for (int i = 0; i < 10; ++i) next(*healthy);  // the memory that a running server takes anyway
+    FakeApp app(options);
+    constexpr std::uint32_t spheres = 40'000;  // 240 kB per frame
+    app.publishEvery(25ms, spheres);
+    const auto healthy = join(app, 60);
+    for (int i = 0; i < 10; ++i) next(*healthy);  // lets the server reach its normal memory
 
-    const auto stalled = join(owner, 60);
+    const auto stalled = join(app, 60);
     const double before = residentMegabytes();
     double most = before;
     const auto begin = std::chrono::steady_clock::now();
     int states = 0;
-    while (owner.counters().closedBy(CloseCause::Stalled) == 0 && std::chrono::steady_clock::now() - begin < patience) {
+    while (app.counters().closedBy(CloseCause::Stalled) == 0 && std::chrono::steady_clock::now() - begin < patience) {
         EXPECT_TRUE(next(*healthy).has_frame());
         ++states;
         most = std::max(most, residentMegabytes());
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    EXPECT_EQ(owner.counters().closedBy(CloseCause::Stalled), 1U);
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Stalled), 1U);
     EXPECT_GT(seconds, 1.9) << "closed before the limit";
     EXPECT_LT(seconds, 5) << "closed long after the limit";
-    EXPECT_GE(owner.counters().chainsLost, 1U);
+    EXPECT_GE(app.counters().chainsLost, 1U);
     EXPECT_GT(states / seconds, 30) << "of 40 published per second";
     if (memoryIsMeasurable) {
-        EXPECT_LT(most - before, 8) << "MB more; the states of that time take 20";
+        EXPECT_LT(most - before, 8) << "MB more; the frames of that time take 20 MB";
     }
-    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
+    EXPECT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
     EXPECT_TRUE(next(*healthy).has_frame());
 }
 
-// What the kernel has taken gets old there.
-TEST(SlowClients, ThatReadNothingHaveLittleUnderWay) {
-    Owner owner;
-    const RawSocket slow(owner.server().port(), 16 * 1024);
+// Frames in the kernel's buffer get stale.
+TEST(SlowClients, ThatReadNothingHaveFewBytesInFlight) {
+    FakeApp app;
+    const RawSocket slow(app.server().port(), 16 * 1024);
     ASSERT_EQ(slow.openStream().substr(0, 12), "HTTP/1.1 101");
     slow.sendFrame(binaryFrame, helloBytes(60));
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.publishEvery(5ms, 20'000);  // 120 kB each
-    ASSERT_TRUE(eventually([&] { return owner.published() > 60; }));
-    EXPECT_EQ(owner.counters().framesSent, 0U) << "not even one could be handed to the kernel whole";
-    EXPECT_GE(owner.counters().chainsLost, 1U);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    app.publishEvery(5ms, 20'000);  // 120 kB each
+    ASSERT_TRUE(eventually([&] { return app.published() > 60; }));
+    EXPECT_EQ(app.counters().framesSent, 0U) << "no frame fits into the kernel's buffer";
+    EXPECT_GE(app.counters().chainsLost, 1U);
 }
 
-TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
+TEST(SlowClients, ThatReadSteadilyStayConnected) {
     Options options = quickOptions();
     options.progressTimeout = 1s;
     options.idleTimeout = 1500ms;
-    Owner owner(options);
-    const RawSocket slow(owner.server().port(), 64 * 1024);
+    FakeApp app(options);
+    const RawSocket slow(app.server().port(), 64 * 1024);
     ASSERT_EQ(slow.openStream().substr(0, 12), "HTTP/1.1 101");
     slow.sendFrame(binaryFrame, helloBytes(60));
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
     constexpr std::uint32_t spheres = 700'000;
     constexpr std::size_t frameBytes = std::size_t{6} * spheres;
-    owner.publish(spheres);
+    app.publish(spheres);
 
     const auto begin = std::chrono::steady_clock::now();
     std::size_t received = 0;
@@ -95,29 +95,29 @@ TEST(SlowClients, ThatReadSlowlyButSteadilyAreKept) {
         std::this_thread::sleep_for(25ms);
     }
     EXPECT_GT(std::chrono::steady_clock::now() - begin, 2 * options.progressTimeout) << "too fast to prove anything";
-    EXPECT_EQ(owner.counters().closedBy(CloseCause::Stalled) + owner.counters().closedBy(CloseCause::Silent), 0U);
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Stalled) + app.counters().closedBy(CloseCause::Silent), 0U);
 }
 
-TEST(SlowClients, ThatVanishAreDroppedAndThoseThatAnswerPingsAreKept) {
+TEST(SlowClients, ThatVanishAreDropped) {
     Options options = quickOptions();
     options.idleTimeout = 600ms;
-    Owner owner(options);
-    const auto present = join(owner, 0);
-    const auto vanished = join(owner, 0);
+    FakeApp app(options);
+    const auto present = join(app, 0);
+    const auto vanished = join(app, 0);
     const auto begin = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - begin < 2s) {
         ASSERT_TRUE(present->receive(50ms)) << "only receive() answers pings";
     }
-    EXPECT_EQ(owner.counters().closedBy(CloseCause::Silent), 1U);
-    EXPECT_EQ(owner.counters().sessions, 1U);
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Silent), 1U);
+    EXPECT_EQ(app.counters().sessions, 1U);
     EXPECT_FALSE(present->closed());
 }
 
 TEST(SlowClients, ArePingedAtHalfTheIdleTime) {
     Options options = quickOptions();
     options.idleTimeout = 600ms;
-    Owner owner(options);
-    const RawSocket socket(owner.server().port());
+    FakeApp app(options);
+    const RawSocket socket(app.server().port());
     ASSERT_EQ(socket.openStream().substr(0, 12), "HTTP/1.1 101");
     socket.sendFrame(binaryFrame, helloBytes(0));
     const std::string ping("\x89\x00", 2);
@@ -125,32 +125,32 @@ TEST(SlowClients, ArePingedAtHalfTheIdleTime) {
         EXPECT_NE(socket.readUntil(ping).find(ping), std::string::npos);
         socket.sendFrame(pongFrame, "");
     }
-    EXPECT_EQ(owner.counters().closedBy(CloseCause::Silent), 0U);
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Silent), 0U);
 }
 
-TEST(SlowClients, ThatLeaveMessagesUnreadAreClosedWith1013) {
+TEST(SlowClients, WithAFullSendQueueAreClosedWith1013) {
     Options options = quickOptions();
     options.controlQueue = 8;
-    Owner owner(options);
-    const auto slow = join(owner, 0);
+    FakeApp app(options);
+    const auto slow = join(app, 0);
     const auto event = eventOf(std::string(300'000, 'x'));
-    for (int i = 0; i < 100; ++i) owner.server().broadcast(event);
+    for (int i = 0; i < 100; ++i) app.server().broadcast(event);
     const auto end = readToEnd(*slow);
     EXPECT_EQ(end.code, 1013);
     EXPECT_EQ(end.reason, "too many messages wait for this client to read them");
-    EXPECT_TRUE(eventually([&] { return owner.counters().closedBy(CloseCause::Overflow) == 1; }));
+    EXPECT_TRUE(eventually([&] { return app.counters().closedBy(CloseCause::Overflow) == 1; }));
 }
 
-TEST(SlowClients, ThatNeverReadTheirCloseFrameAreDropped) {
+TEST(SlowClients, ThatIgnoreTheCloseFrameAreDropped) {
     Options options = quickOptions();
     options.controlQueue = 8;
     options.progressTimeout = 500ms;
-    Owner owner(options);
-    const auto slow = join(owner, 0);
+    FakeApp app(options);
+    const auto slow = join(app, 0);
     const auto event = eventOf(std::string(300'000, 'x'));
-    for (int i = 0; i < 100; ++i) owner.server().broadcast(event);
-    EXPECT_TRUE(eventually([&] { return owner.counters().sessions == 0; }));
-    EXPECT_EQ(owner.counters().closedBy(CloseCause::Overflow), 1U);
+    for (int i = 0; i < 100; ++i) app.server().broadcast(event);
+    EXPECT_TRUE(eventually([&] { return app.counters().sessions == 0; }));
+    EXPECT_EQ(app.counters().closedBy(CloseCause::Overflow), 1U);
 }
 
 }  // namespace

@@ -1,50 +1,50 @@
-#include "owner.h"
+#include "fake_app.h"
 
 namespace spherule::net {
 namespace {
 
-TEST(Stream, GreetsWithAllThatFramesNeedAndThenSendsThemWithoutAGap) {
-    Owner owner;
-    const auto client = connect(owner);
+TEST(Stream, SendsStateBeforeFramesWithoutGap) {
+    FakeApp app;
+    const auto client = connect(app);
     ASSERT_TRUE(client->send(helloOf(60)));
 
     const auto welcome = next(*client);
     ASSERT_TRUE(welcome.has_welcome());
-    EXPECT_EQ(welcome.welcome().server(), "fake owner, for a test");
+    EXPECT_EQ(welcome.welcome().server(), "fake app, for a test");
     EXPECT_EQ(next(*client).stream().rate(), 60U);
     EXPECT_EQ(next(*client).scene().name(), "synthetic");
     EXPECT_EQ(next(*client).settings().substeps(), 8U);
     EXPECT_EQ(next(*client).order().number(), 1U);
-    owner.publish(64);
+    app.publish(64);
     const auto first = next(*client);
     ASSERT_TRUE(first.has_frame());
     EXPECT_EQ(first.frame().spb().size(), 384U);
-    owner.publish(64);
+    app.publish(64);
     EXPECT_EQ(next(*client).frame().sequence(), first.frame().sequence() + 1);
 }
 
-TEST(Stream, GrantsThirtyFramesWhenNoRateIsAskedAndSixtyAtMost) {
-    Owner owner;
+TEST(Stream, DefaultsToThirtyFramesAndAllowsSixty) {
+    FakeApp app;
     v1::ClientMessage hello;
     hello.mutable_hello();
-    const auto plain = connect(owner);
+    const auto plain = connect(app);
     ASSERT_TRUE(plain->send(hello));
     EXPECT_TRUE(next(*plain).has_welcome());
     const v1::Stream granted = next(*plain).stream();
     EXPECT_EQ(granted.rate(), 30U);
     EXPECT_EQ(granted.tier(), v1::NORMAL);
     EXPECT_FALSE(granted.reduced());
-    const auto greedy = connect(owner);
+    const auto greedy = connect(app);
     ASSERT_TRUE(greedy->send(helloOf(1000)));
     EXPECT_TRUE(next(*greedy).has_welcome());
     EXPECT_EQ(next(*greedy).stream().rate(), 60U);
-    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 2 && owner.server().demands().size() == 2; }));
+    EXPECT_TRUE(eventually([&] { return app.server().viewers() == 2 && app.server().subscriptions().size() == 2; }));
 }
 
-TEST(Stream, ChangesTheChainAtAWordOfTheClient) {
-    Owner owner;
-    owner.publishEvery(10ms, 64);
-    const auto client = join(owner, 60);
+TEST(Stream, ChangesRenditionOnRequest) {
+    FakeApp app;
+    app.publishEvery(10ms, 64);
+    const auto client = join(app, 60);
     EXPECT_EQ(next(*client).frame().tier(), v1::NORMAL);
     v1::ClientMessage view;
     view.mutable_view()->set_rate(10);
@@ -58,78 +58,78 @@ TEST(Stream, ChangesTheChainAtAWordOfTheClient) {
     EXPECT_EQ(next(*client).frame().tier(), v1::FINE);
     view.mutable_view()->set_rate(0);
     ASSERT_TRUE(client->send(view));
-    EXPECT_TRUE(eventually([&] { return owner.server().viewers() == 0; }));
+    EXPECT_TRUE(eventually([&] { return app.server().viewers() == 0; }));
 }
 
-TEST(Stream, GivesAKeyframeToWhoSaysThatItLostTheChain) {
-    Owner owner;
-    const auto client = join(owner, 60);
-    const auto other = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
-    owner.publish(64);
+TEST(Stream, SendsKeyframeAfterClientReportsLoss) {
+    FakeApp app;
+    const auto client = join(app, 60);
+    const auto other = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 2; }));
+    app.publish(64);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
     EXPECT_EQ(next(*other).frame().sequence(), 1U);
     v1::ClientMessage ack;
     ack.mutable_ack()->set_sequence(1);
     ack.mutable_ack()->set_lost(true);
     ASSERT_TRUE(client->send(ack));
-    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
-    EXPECT_EQ(owner.counters().chainsLost, 1U);
-    owner.publish(64);
+    ASSERT_TRUE(eventually([&] { return app.server().subscriptions().front().lost; }));
+    EXPECT_EQ(app.counters().chainsLost, 1U);
+    app.publish(64);
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
     EXPECT_EQ(next(*other).frame().sequence(), 2U);
-    EXPECT_FALSE(owner.server().demands().front().lost);
+    EXPECT_FALSE(app.server().subscriptions().front().lost);
 }
 
-// As when the io thread was busy for two frames, and only the second of them has reached the session.
-TEST(Stream, AsksForAKeyframeAtOnceWhenAFrameWasReplacedOnItsWay) {
-    Owner owner;
-    const auto client = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    const frame::Channel channel{v1::NORMAL, 60};
-    const auto give = [&](frame::Link::Kind kind, std::uint32_t number) {
-        owner.server().publish(linkOf(kind, number, 1, 64, channel));
+// The io thread is busy during two frames, so only the second one reaches the session.
+TEST(Stream, RequestsKeyframeWhenAFrameWasReplaced) {
+    FakeApp app;
+    const auto client = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    const codec::Rendition rendition{v1::NORMAL, 60};
+    const auto give = [&](codec::EncodedFrame::Kind kind, std::uint32_t number) {
+        app.server().publish(encodedFrame(kind, number, 1, 64, rendition));
     };
-    give(frame::Link::Kind::Join, 1);
+    give(codec::EncodedFrame::Kind::Resync, 1);
     EXPECT_EQ(next(*client).frame().sequence(), 1U);
-    give(frame::Link::Kind::Delta, 3);
-    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; })) << "though nothing is written";
-    EXPECT_EQ(owner.counters().chainsLost, 1U);
-    give(frame::Link::Kind::Join, 3);
+    give(codec::EncodedFrame::Kind::Delta, 3);
+    ASSERT_TRUE(eventually([&] { return app.server().subscriptions().front().lost; })) << "no write is in progress";
+    EXPECT_EQ(app.counters().chainsLost, 1U);
+    give(codec::EncodedFrame::Kind::Resync, 3);
     EXPECT_EQ(next(*client).frame().sequence(), 3U);
 }
 
-// A keyframe that a delta has overtaken must be asked for again, or nothing ever comes.
-TEST(Stream, AsksAgainForAKeyframeThatWasReplacedOnItsWay) {
-    Owner owner;
-    const auto client = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    const frame::Channel channel{v1::NORMAL, 60};
-    owner.hold = true;
+// A keyframe replaced by a delta frame must be requested again, or no frame ever comes.
+TEST(Stream, RequestsAReplacedKeyframeAgain) {
+    FakeApp app;
+    const auto client = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    const codec::Rendition rendition{v1::NORMAL, 60};
+    app.hold = true;
     v1::ClientMessage command;
     command.mutable_command()->mutable_query();
     ASSERT_TRUE(client->send(command));
-    ASSERT_TRUE(eventually([&] { return owner.held.load(); }));
-    owner.server().publish(linkOf(frame::Link::Kind::Join, 1, 1, 64, channel));
-    EXPECT_FALSE(owner.server().demands().front().newcomer);
-    owner.server().publish(linkOf(frame::Link::Kind::Delta, 2, 1, 64, channel));
-    owner.hold = false;
+    ASSERT_TRUE(eventually([&] { return app.held.load(); }));
+    app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64, rendition));
+    EXPECT_FALSE(app.server().subscriptions().front().newcomer);
+    app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Delta, 2, 1, 64, rendition));
+    app.hold = false;
     EXPECT_TRUE(next(*client).has_result());
-    ASSERT_TRUE(eventually([&] { return owner.server().demands().front().lost; }));
-    owner.server().publish(linkOf(frame::Link::Kind::Join, 2, 1, 64, channel));
+    ASSERT_TRUE(eventually([&] { return app.server().subscriptions().front().lost; }));
+    app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 2, 1, 64, rendition));
     EXPECT_EQ(next(*client).frame().sequence(), 2U);
 }
 
-TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
-    Owner owner;
-    const auto client = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.publish(64);
+TEST(Stream, SendsAQuarterOfASecondWithoutAcks) {
+    FakeApp app;
+    const auto client = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    app.publish(64);
     v1::ClientMessage ack;
     ack.mutable_ack()->set_sequence(next(*client).frame().sequence());
     ASSERT_TRUE(client->send(ack));
     std::this_thread::sleep_for(100ms);
-    owner.publishEvery(5ms, 64);
+    app.publishEvery(5ms, 64);
     int frames = 0;
     for (;;) {
         const auto received = client->receive(400ms);
@@ -139,13 +139,13 @@ TEST(Stream, SendsNoMoreThanAQuarterOfASecondOfFramesToWhoAcksNone) {
     }
     EXPECT_GE(frames, 1);
     EXPECT_LE(frames, 15);
-    EXPECT_GE(owner.counters().chainsLost, 1U);
+    EXPECT_GE(app.counters().chainsLost, 1U);
 }
 
-TEST(Stream, SpeaksJsonToAClientThatSaidHelloInText) {
-    Owner owner;
-    owner.publishEvery(10ms, 64);
-    const auto client = connect(owner);
+TEST(Stream, AnswersATextHelloInJson) {
+    FakeApp app;
+    app.publishEvery(10ms, 64);
+    const auto client = connect(app);
     ASSERT_TRUE(client->sendBytes(R"({"hello":{"client":"shell","view":{"rate":60}}})", Encoding::Text));
     EXPECT_TRUE(next(*client).has_welcome());
     EXPECT_EQ(client->receivedAs(), Encoding::Text);
@@ -159,50 +159,50 @@ TEST(Stream, SpeaksJsonToAClientThatSaidHelloInText) {
     EXPECT_EQ(state.frame().spb(), expected);
 }
 
-TEST(Stream, ShowsTwoClientsTheSameStates) {
-    Owner owner;
-    const auto one = join(owner, 60);
-    const auto two = join(owner, 60);
-    owner.publishEvery(40ms, 64);
+TEST(Stream, SendsTheSameStatesToTwoClients) {
+    FakeApp app;
+    const auto one = join(app, 60);
+    const auto two = join(app, 60);
+    app.publishEvery(40ms, 64);
     for (int i = 0; i < 5; ++i) {
         EXPECT_EQ(next(*one).frame().SerializeAsString(), next(*two).frame().SerializeAsString());
     }
 }
 
-TEST(Stream, AsksForAKeyframeForEachNewcomer) {
-    Owner owner;
-    const auto first = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.publish(64);
+TEST(Stream, RequestsKeyframeForEachNewSession) {
+    FakeApp app;
+    const auto first = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    app.publish(64);
     EXPECT_EQ(next(*first).frame().sequence(), 1U);
-    EXPECT_FALSE(owner.server().demands().front().newcomer);
-    const auto second = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 2; }));
-    EXPECT_TRUE(owner.server().demands().front().newcomer);
-    owner.server().publish(linkOf(frame::Link::Kind::Join, 1, 1, 64));
+    EXPECT_FALSE(app.server().subscriptions().front().newcomer);
+    const auto second = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 2; }));
+    EXPECT_TRUE(app.server().subscriptions().front().newcomer);
+    app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Resync, 1, 1, 64));
     EXPECT_EQ(next(*second).frame().sequence(), 1U);
     const auto none = first->receive(100ms);
-    EXPECT_TRUE(none && !*none) << "it has that state";
+    EXPECT_TRUE(none && !*none) << "this client has that state already";
 }
 
-TEST(Stream, SendsNoStatesAndCountsNoViewerForRateZero) {
-    Owner owner;
-    const auto client = join(owner, 0);
-    EXPECT_EQ(owner.server().viewers(), 0U);
-    EXPECT_TRUE(owner.server().demands().empty());
-    owner.publishEvery(10ms, 64);
+TEST(Stream, SendsNothingForRateZero) {
+    FakeApp app;
+    const auto client = join(app, 0);
+    EXPECT_EQ(app.server().viewers(), 0U);
+    EXPECT_TRUE(app.server().subscriptions().empty());
+    app.publishEvery(10ms, 64);
     const auto received = client->receive(200ms);
     ASSERT_TRUE(received);
     EXPECT_FALSE(received->has_value());
 }
 
-TEST(Stream, NeverShowsAStateBeforeTheFactsOfItsEpoch) {
-    Owner owner;
-    owner.publishEvery(1ms, 64);
-    const auto client = join(owner, 60);
-    std::jthread changer([&owner](const std::stop_token& stop) {
+TEST(Stream, SendsFactsBeforeStatesOfAnEpoch) {
+    FakeApp app;
+    app.publishEvery(1ms, 64);
+    const auto client = join(app, 60);
+    std::jthread changer([&app](const std::stop_token& stop) {
         for (std::uint32_t epoch = 2; !stop.stop_requested(); ++epoch) {
-            owner.setEpoch(epoch);
+            app.setEpoch(epoch);
             std::this_thread::sleep_for(7ms);
         }
     });
@@ -220,26 +220,26 @@ TEST(Stream, NeverShowsAStateBeforeTheFactsOfItsEpoch) {
     EXPECT_GT(epoch, 5U);
 }
 
-TEST(Stream, HoldsAFrameUntilTheFactsAndTheOrderOfItsEpochCome) {
-    Owner owner;
-    const auto client = join(owner, 60);
-    ASSERT_TRUE(eventually([&] { return owner.server().viewers() == 1; }));
-    owner.server().publish(linkOf(frame::Link::Kind::Keyframe, 1, 2, 64));
-    owner.server().keep(factsOf(2, 64));
-    owner.server().setOrder(orderOf(2));
+TEST(Stream, HoldsAFrameUntilItsFactsAndOrderCome) {
+    FakeApp app;
+    const auto client = join(app, 60);
+    ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
+    app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Keyframe, 1, 2, 64));
+    app.server().retain(factsOf(2, 64));
+    app.server().setOrder(orderOf(2));
     EXPECT_EQ(next(*client).scene().epoch(), 2U);
     EXPECT_EQ(next(*client).order().epoch(), 2U);
     EXPECT_EQ(next(*client).frame().epoch(), 2U);
 }
 
-TEST(Stream, TellsEveryoneOfEventsAndNewSettings) {
-    Owner owner;
-    const auto one = join(owner, 0);
-    const auto two = join(owner, 0);
-    owner.server().broadcast(eventOf("mind the gap"));
+TEST(Stream, BroadcastsEventsAndSettings) {
+    FakeApp app;
+    const auto one = join(app, 0);
+    const auto two = join(app, 0);
+    app.server().broadcast(eventOf("mind the gap"));
     v1::ServerMessage settings;
     settings.mutable_settings()->set_substeps(9);
-    owner.server().keep(std::make_shared<frame::Message>(std::move(settings)));
+    app.server().retain(std::make_shared<codec::Message>(std::move(settings)));
     for (Client* client : {one.get(), two.get()}) {
         EXPECT_EQ(next(*client).event().text(), "mind the gap");
         EXPECT_EQ(next(*client).settings().substeps(), 9U);

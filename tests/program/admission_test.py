@@ -89,7 +89,7 @@ class Tokens(Files):
                           server.said)
 
     def test_what_cannot_be_meant_is_refused_with_what_to_do(self):
-        self.assertIn("others reach it", self.refused("--listen", "0.0.0.0:0"))
+        self.assertIn("other machines can reach this server", self.refused("--listen", "0.0.0.0:0"))
         self.assertIn("give 16 to 256", self.refused(SPHERULE_VIEWER_TOKEN="short"))
         self.assertIn("is empty", self.refused("--viewer-token-file", self.file("e", "")))
         self.assertIn("give one of the two", self.refused("--open", SPHERULE_VIEWER_TOKEN=VIEWERS))

@@ -166,7 +166,7 @@ class Record(Files):
             steps = server.metrics()["spherule_steps", ""]
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_steps", ""] > steps + 10))
             self.assertEqual(server.end(), 0)
-            self.assertRegex(server.said, r"The recording \S*a\.sph has ended: cannot be written on after 300000 bytes: "
+            self.assertRegex(server.said, r"The recording \S*a\.sph has ended: writing failed after 300000 bytes: "
                                           r"File too large; raise the limit \(ulimit -f\) or write less; what has been "
                                           r"written stays as it is\.")
         self.assertIn("is cut off", self.length_of(self.recording)[2])

@@ -171,7 +171,7 @@ class Record(Files):
                     "--record-rate", "60", preexec_fn=little_room)
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertRegex(done.stderr.splitlines()[-1],
-                         r"run.sph: cannot be written on after 1500000 bytes: File too large; raise the limit \(ulimit "
+                         r"run.sph: writing failed after 1500000 bytes: File too large; raise the limit \(ulimit "
                          r"-f\) or write less; what has been written stays as it is$")
         done = call("export", self.recording, "--format", "vtk", "--out", self.at("run"), "--every", "0.5s")
         self.assertEqual(done.returncode, 0)
@@ -288,7 +288,7 @@ class Export(Files):
             file.seek(0)
             file.write(content)
         said = self.refused("export", self.recording, "--format", "csv", "--out", self.at("a.csv"))
-        self.assertRegex(said, r"the record at byte [0-9]+ is damaged: its checksum is another; [0-9]+ frames before it "
+        self.assertRegex(said, r"the record at byte [0-9]+ is damaged: its checksum differs; [0-9]+ frames before it "
                                "were exported; --from goes on behind it$")
         before = frames_of(self.at("a.csv"))
         self.assertGreater(len(before), 10)

@@ -12,8 +12,8 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = frame::Link::Kind;
-constexpr frame::Channel normal{v1::NORMAL, 30};
+using Kind = codec::EncodedFrame::Kind;
+constexpr codec::Rendition normal{v1::NORMAL, 30};
 
 // A world of spheres on the CPU device that somebody watches.
 class Watched : public testing::Test {
@@ -22,7 +22,7 @@ class Watched : public testing::Test {
 
     Watched()
         : chains_(
-              *device_, [this](const frame::Link& link) { links_.push_back(link); },
+              *device_, [this](const codec::EncodedFrame& encoded) { encoded_.push_back(encoded); },
               [this](auto order) { orders_.push_back(std::move(order)); },
               [this](const std::string& text) { complaints_.push_back(text); }) {
         position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
@@ -40,22 +40,23 @@ class Watched : public testing::Test {
     }
 
     // The world as it is after `steps` more; the kinds of the frames that came.
-    std::string serve(std::vector<frame::Demand> demands, std::chrono::milliseconds later, std::uint64_t steps = 1) {
+    std::string serve(std::vector<codec::Subscription> subscriptions, std::chrono::milliseconds later,
+                      std::uint64_t steps = 1) {
         version_ += steps;
         now_ += later;
-        links_.clear();
-        chains_.serve(scenery(), demands, now_);
+        encoded_.clear();
+        chains_.serve(scenery(), subscriptions, now_);
         std::string kinds;
-        for (const frame::Link& link : links_)
-            kinds += link.kind == Kind::Keyframe ? 'K' : link.kind == Kind::Join ? 'J' : 'D';
+        for (const codec::EncodedFrame& encoded : encoded_)
+            kinds += encoded.kind == Kind::Keyframe ? 'K' : encoded.kind == Kind::Resync ? 'J' : 'D';
         return kinds;
     }
 
     std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
     std::unique_ptr<compute::Buffer> position_;
     sim::State state_;
-    std::vector<frame::Link> links_;
-    std::vector<frame::SharedMessage> orders_;
+    std::vector<codec::EncodedFrame> encoded_;
+    std::vector<codec::SharedMessage> orders_;
     std::vector<std::string> complaints_;
     Chains chains_;
     std::uint32_t count_ = spheres;
@@ -67,51 +68,52 @@ class Watched : public testing::Test {
 TEST_F(Watched, MakesNothingForNobodyAndAKeyframeForTheFirst) {
     EXPECT_EQ(serve({}, 1s), "");
     EXPECT_TRUE(orders_.empty());
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "K");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "K");
     ASSERT_EQ(orders_.size(), 1U);
     EXPECT_EQ(orders_[0]->content().order().ids().size(), 3 * spheres);
-    EXPECT_EQ(links_[0].message->content().frame().order(), orders_[0]->content().order().number());
-    EXPECT_EQ(links_[0].number, 1U);
-    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "D");
-    EXPECT_EQ(links_[0].number, 2U);
+    EXPECT_EQ(encoded_[0].message->content().frame().order(), orders_[0]->content().order().number());
+    EXPECT_EQ(encoded_[0].number, 1U);
+    EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "D");
+    EXPECT_EQ(encoded_[0].number, 2U);
 }
 
 TEST_F(Watched, KeepsToTheRateOfEachChain) {
-    const frame::Channel slow{v1::ECO, 10};
-    serve({{.channel = normal}, {.channel = slow}}, 1s);
+    const codec::Rendition slow{v1::ECO, 10};
+    serve({{.rendition = normal}, {.rendition = slow}}, 1s);
     std::size_t fast = 0;
     std::size_t slowly = 0;
     for (int k = 0; k < 1000; ++k) {
-        serve({{.channel = normal}, {.channel = slow}}, 2ms);
-        for (const frame::Link& link : links_) ++(link.channel == slow ? slowly : fast);
+        serve({{.rendition = normal}, {.rendition = slow}}, 2ms);
+        for (const codec::EncodedFrame& encoded : encoded_) ++(encoded.rendition == slow ? slowly : fast);
     }
     EXPECT_NEAR(static_cast<double>(fast), 60, 2);
     EXPECT_NEAR(static_cast<double>(slowly), 20, 1);
 }
 
 TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
-    serve({{.channel = normal, .newcomer = true}}, 1s);
-    EXPECT_EQ(serve({{.channel = normal}}, 1s, 0), "");
+    serve({{.rendition = normal, .newcomer = true}}, 1s);
+    EXPECT_EQ(serve({{.rendition = normal}}, 1s, 0), "");
     EXPECT_FALSE(chains_.due());
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s, 0), "J");
-    EXPECT_EQ(links_[0].number, 1U) << "of the state that others have";
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s, 0), "J");
+    EXPECT_EQ(encoded_[0].number, 1U) << "of the state that others have";
 }
 
 TEST_F(Watched, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
-    serve({{.channel = normal, .newcomer = true}}, 1s);
-    for (const frame::Demand& demand : {frame::Demand{normal, true, false}, frame::Demand{normal, false, true}}) {
+    serve({{.rendition = normal, .newcomer = true}}, 1s);
+    for (const codec::Subscription& subscription :
+         {codec::Subscription{normal, true, false}, codec::Subscription{normal, false, true}}) {
         std::string kinds;
-        for (int k = 0; k < 6; ++k) kinds += serve({demand}, 200ms);
+        for (int k = 0; k < 6; ++k) kinds += serve({subscription}, 200ms);
         EXPECT_NE(kinds.find('J'), std::string::npos) << kinds;
         EXPECT_NE(kinds.find('D'), std::string::npos) << kinds << ": all others go on";
     }
 }
 
 TEST_F(Watched, LetsThoseWhoKeepLosingTheChainWait) {
-    serve({{.channel = normal}}, 1s);
+    serve({{.rendition = normal}}, 1s);
     int joins = 0;
     for (int k = 0; k < 200; ++k) {
-        const std::string kinds = serve({{.channel = normal, .lost = true}}, 5ms);
+        const std::string kinds = serve({{.rendition = normal, .lost = true}}, 5ms);
         joins += static_cast<int>(std::ranges::count(kinds, 'J'));
     }
     EXPECT_GE(joins, 3);
@@ -119,24 +121,24 @@ TEST_F(Watched, LetsThoseWhoKeepLosingTheChainWait) {
 }
 
 TEST_F(Watched, BeginsAnewForOtherSpheresAndForWhoComesBack) {
-    serve({{.channel = normal}}, 1s);
+    serve({{.rendition = normal}}, 1s);
     epoch_ = 2;
-    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "K");
+    EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "K");
     EXPECT_EQ(orders_.size(), 2U);
     serve({}, 40ms);
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 40ms), "K");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 40ms), "K");
     EXPECT_EQ(orders_.size(), 2U) << "the spheres are the same";
     count_ = 0;
     epoch_ = 3;
-    EXPECT_EQ(serve({{.channel = normal}}, 40ms), "");
+    EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "");
 }
 
 TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
     const std::uint64_t before = memory::claimed().held;
     count_ = 200'000;
     memory::setLimit(1);
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "");
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 1s), "");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
     const Result<void> refused = chains_.open(normal, scenery());
     memory::setLimit(0);
     ASSERT_EQ(complaints_.size(), 1U) << "not again and again";
@@ -147,7 +149,7 @@ TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
     ASSERT_FALSE(refused) << "a recording would be refused";
     EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
     count_ = spheres;
-    EXPECT_EQ(serve({{.channel = normal, .newcomer = true}}, 11s), "K") << "tried again";
+    EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 11s), "K") << "tried again";
     EXPECT_GT(memory::claimed().held, before);
 }
 

@@ -7,33 +7,33 @@
 
 #include "app/options.h"
 #include "app/player.h"
-#include "store/record.h"
-#include "store_support.h"
+#include "recording/record.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
 
 // A film whose frames come two at a time, as of worlds that were paused.
 void doubled(const std::string& path) {
-    store::film(path, 10);
-    const auto file = store::RecordFile::open(path);
-    std::string content = store::fileHead();
-    std::uint64_t offset = store::fileHeadBytes;
+    recording::film(path, 10);
+    const auto file = recording::RecordFile::open(path);
+    std::string content = recording::fileHead();
+    std::uint64_t offset = recording::fileHeadBytes;
     for (auto record = file->read(offset); record; record = file->read(record->end))
-        if (record->kind != store::Kind::Index)
-            content += store::recordBytes(record->kind, std::floor(5 * record->time + 0.01) / 5, record->payload);
-    store::put(path, content);
+        if (record->kind != recording::Kind::Index)
+            content += recording::recordBytes(record->kind, std::floor(5 * record->time + 0.01) / 5, record->payload);
+    recording::writeFile(path, content);
 }
 
 TEST(Export, OfFramesOfOneTimeHasOne) {
-    const store::Folder folder;
+    const recording::TemporaryFolder folder;
     doubled(folder / "film.sph");
     CLI::App app;
     int code = -1;
     addExport(app, code);
     app.parse("export " + (folder / "film.sph") + " --format vtk --out " + (folder / "film.pvd"));
     EXPECT_EQ(code, 0);
-    const std::string list = store::contentOf(folder / "film.pvd");
+    const std::string list = recording::contentOf(folder / "film.pvd");
     for (const char* const time : {"\"0\"", "\"0.2\"", "\"0.4\"", "\"0.6\"", "\"0.8\""}) {
         const auto first = list.find(std::string("timestep=") + time);
         EXPECT_NE(first, std::string::npos) << time << " in " << list;
@@ -42,10 +42,10 @@ TEST(Export, OfFramesOfOneTimeHasOne) {
 }
 
 TEST(Player, OfFramesOfOneTimeShowsOne) {
-    const store::Folder folder;
+    const recording::TemporaryFolder folder;
     doubled(folder / "film.sph");
     Player::Clock::time_point now{};
-    Player player(store::Recording::open(folder / "film.sph").value(), "film.sph", false, now);
+    Player player(recording::Recording::open(folder / "film.sph").value(), "film.sph", false, now);
     player.advance(now);
     v1::Command step;
     step.mutable_step()->set_count(1);

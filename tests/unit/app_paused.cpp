@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 class Looping : public testing::Test {
   protected:
     Looping() {
-        store::put(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
+        recording::writeFile(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
             "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
         thread_ = std::jthread([this](const std::stop_token& stop) {
             SimLoop loop(World::open("cpu:1", folder_ / "one.json", {}).value(), {requests_, live_, outlets()},
@@ -49,24 +49,24 @@ class Looping : public testing::Test {
 
   private:
     Outlets outlets() {
-        return {.keep = [](const frame::SharedMessage&) {},
-                .everybody = [](const frame::SharedMessage&) {},
-                .order = [](const frame::SharedMessage&) {},
+        return {.retain = [](const codec::SharedMessage&) {},
+                .broadcast = [](const codec::SharedMessage&) {},
+                .order = [](const codec::SharedMessage&) {},
                 .frame =
-                    [this](const frame::Link& link) {
+                    [this](const codec::EncodedFrame& encoded) {
                         const std::scoped_lock lock(mutex_);
-                        frames_.push_back(link.message->content().frame());
+                        frames_.push_back(encoded.message->content().frame());
                         changed_.notify_all();
                     },
                 .reply = [](std::uint64_t, const v1::CommandResult&) {},
                 .viewers = [] { return 1U; },
-                .demands =
+                .subscriptions =
                     [] {
-                        return std::vector<frame::Demand>{{.channel = {v1::NORMAL, 60}}};
+                        return std::vector<codec::Subscription>{{.rendition = {v1::NORMAL, 60}}};
                     }};
     }
 
-    store::Folder folder_;
+    recording::TemporaryFolder folder_;
     Requests requests_;
     Live live_;
     std::mutex mutex_;

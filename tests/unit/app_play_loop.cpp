@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "codec/order.h"
 #include "codec_support.h"
-#include "frame/order.h"
-#include "store/record.h"
-#include "store_support.h"
+#include "recording/record.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -32,7 +32,7 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
     std::vector<std::uint32_t> ids(spheres);
     for (std::uint32_t id = 0; id < spheres; ++id) ids[id] = id;
     v1::ServerMessage order;
-    *order.mutable_order() = frame::orderMessage(epoch, 1, ids);
+    *order.mutable_order() = codec::orderMessage(epoch, 1, ids);
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
     frame.set_epoch(epoch);
@@ -40,9 +40,9 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
     frame.set_quantum(0.125);
     frame.set_count(spheres);
     frame.set_spb(bytes.data(), bytes.size());
-    return store::recordBytes(store::Kind::Scene, time, scene.SerializeAsString()) +
-           store::recordBytes(store::Kind::Order, time, order.SerializeAsString()) +
-           store::recordBytes(store::Kind::Keyframe, time, message.SerializeAsString());
+    return recording::recordBytes(recording::Kind::Scene, time, scene.SerializeAsString()) +
+           recording::recordBytes(recording::Kind::Order, time, order.SerializeAsString()) +
+           recording::recordBytes(recording::Kind::Keyframe, time, message.SerializeAsString());
 }
 
 // What a viewer is told while a recording is played in a loop, until the scene has changed `changes` times.
@@ -52,7 +52,7 @@ class Stage {
     std::vector<v1::Frame> frames;
 
     void play(const std::string& path, std::size_t changes) {
-        Player player(std::move(*store::Recording::open(path)), "film.sph", true, Player::Clock::now());
+        Player player(std::move(*recording::Recording::open(path)), "film.sph", true, Player::Clock::now());
         PlayLoop loop(std::move(*compute::openDevice("cpu:1")), std::move(player),
                       {requests_, live_, outlets(changes)});
         EXPECT_TRUE(loop.run(stop_.get_token()));
@@ -60,20 +60,22 @@ class Stage {
 
   private:
     Outlets outlets(std::size_t changes) {
-        return {.keep =
-                    [this, changes](const frame::SharedMessage& message) {
-                        if (message->content().has_scene()) scenes.push_back(message->content().scene());
-                        if (scenes.size() > changes) stop_.request_stop();
-                    },
-                .everybody = [](const frame::SharedMessage&) {},
-                .order = [](const frame::SharedMessage&) {},
-                .frame = [this](const frame::Link& link) { frames.push_back(link.message->content().frame()); },
-                .reply = [](std::uint64_t, const v1::CommandResult&) {},
-                .viewers = [] { return 1U; },
-                .demands =
-                    [] {
-                        return std::vector<frame::Demand>{{.channel = {v1::NORMAL, 60}, .newcomer = true}};
-                    }};
+        return {
+            .keep =
+                [this, changes](const codec::SharedMessage& message) {
+                    if (message->content().has_scene()) scenes.push_back(message->content().scene());
+                    if (scenes.size() > changes) stop_.request_stop();
+                },
+            .broadcast = [](const codec::SharedMessage&) {},
+            .order = [](const codec::SharedMessage&) {},
+            .frame =
+                [this](const codec::EncodedFrame& encoded) { frames.push_back(encoded.message->content().frame()); },
+            .reply = [](std::uint64_t, const v1::CommandResult&) {},
+            .viewers = [] { return 1U; },
+            .subscriptions =
+                [] {
+                    return std::vector<codec::Subscription>{{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
+                }};
     }
 
     Requests requests_;
@@ -83,9 +85,10 @@ class Stage {
 
 TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
     for (const std::uint32_t second : {1U, 2U}) {
-        const store::Folder folder;
+        const recording::TemporaryFolder folder;
         const std::string path = folder / "film.sph";
-        store::put(path, store::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
+        recording::writeFile(
+            path, recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
         Stage stage;
         stage.play(path, 6);
         ASSERT_EQ(stage.scenes.size(), 7U);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "store_support.h"
+#include "recording_support.h"
 
 namespace spherule::app {
 namespace {
@@ -20,10 +20,10 @@ class Playing : public testing::Test {
   protected:
     static constexpr double end = 2.2;  // s
 
-    Playing() { store::film(path_, 23); }
+    Playing() { recording::film(path_, 23); }
 
     void open(bool again = false) {
-        auto recording = store::Recording::open(path_);
+        auto recording = recording::Recording::open(path_);
         if (!recording) throw std::runtime_error(recording.error().text());
         player_.emplace(std::move(*recording), "film.sph", again, now_);
         moved_ = player_->advance(now_);
@@ -60,18 +60,18 @@ class Playing : public testing::Test {
         return give(command).has_value();
     }
     // Changes a bit of the first record of that kind after `time`; says where it begins.
-    std::uint64_t damage(double time, store::Kind kind = store::Kind::Delta) {
-        const auto file = store::RecordFile::open(path_);
-        std::uint64_t offset = store::fileHeadBytes;
+    std::uint64_t damage(double time, recording::Kind kind = recording::Kind::Delta) {
+        const auto file = recording::RecordFile::open(path_);
+        std::uint64_t offset = recording::fileHeadBytes;
         for (;;) {
             const auto record = file->readHead(offset);
             if (!record) throw std::runtime_error(record.error().text());
             if (record->kind == kind && record->time > time) break;
             offset = record->end;
         }
-        std::string content = store::contentOf(path_);
+        std::string content = recording::contentOf(path_);
         content[offset + 40] = static_cast<char>(content[offset + 40] ^ 4);
-        store::put(path_, content);
+        recording::writeFile(path_, content);
         return offset;
     }
     // What a loop does: comes when it is due, at most so often. False where it waits for a command.
@@ -83,7 +83,7 @@ class Playing : public testing::Test {
         return true;
     }
 
-    store::Folder folder_;
+    recording::TemporaryFolder folder_;
     std::string path_ = folder_ / "film.sph";
     Player::Clock::time_point now_ = Player::Clock::now();
     std::optional<Player> player_;
@@ -250,7 +250,7 @@ TEST_F(Playing, ADamagedEndIsTheEnd) {
 
 TEST_F(Playing, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
     damage(1.55);
-    damage(1.95, store::Kind::Join);
+    damage(1.95, recording::Kind::Resync);
     open();
     EXPECT_NEAR(after(1300ms), 1.3, 1e-9);
     after(400ms);
@@ -263,15 +263,15 @@ TEST_F(Playing, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
 
 TEST_F(Playing, WaitsForAFrameThatIsLongInComing) {
     // The same frames, 10,000 s apart.
-    std::string content = store::fileHead();
-    const auto film = store::RecordFile::open(path_);
-    for (std::uint64_t offset = store::fileHeadBytes;;) {
+    std::string content = recording::fileHead();
+    const auto film = recording::RecordFile::open(path_);
+    for (std::uint64_t offset = recording::fileHeadBytes;;) {
         const auto record = film->read(offset);
-        if (!record || record->kind == store::Kind::Index) break;
-        content += store::recordBytes(record->kind, 1e5 * record->time, record->payload);
+        if (!record || record->kind == recording::Kind::Index) break;
+        content += recording::recordBytes(record->kind, 1e5 * record->time, record->payload);
         offset = record->end;
     }
-    store::put(path_, content);
+    recording::writeFile(path_, content);
     open();
     EXPECT_NEAR(after(5000s), 0, 1e-9);
     ASSERT_TRUE(player_->due());
@@ -305,7 +305,7 @@ TEST_F(Playing, GoingElsewhereEndsTheSteps) {
 }
 
 TEST_F(Playing, ANameThatIsNoTextBecomesOne) {
-    auto recording = store::Recording::open(path_);
+    auto recording = recording::Recording::open(path_);
     const Player player(std::move(*recording), "bed-\xff.sph", false, now_);
     EXPECT_EQ(player.timeline().file(), "bed-\xEF\xBF\xBD.sph");
 }

@@ -61,20 +61,20 @@ class Desk {
     }
     Outlets outlets() {
         return {.keep =
-                    [this](const frame::SharedMessage& message) {
+                    [this](const codec::SharedMessage& message) {
                         if (message->content().has_change()) changes.push_back(message->content().change());
                         look();
                     },
-                .everybody = [](const frame::SharedMessage&) {},
-                .order = [](const frame::SharedMessage&) {},
-                .frame = [](const frame::Link&) {},
+                .broadcast = [](const codec::SharedMessage&) {},
+                .order = [](const codec::SharedMessage&) {},
+                .frame = [](const codec::EncodedFrame&) {},
                 .reply =
                     [this](std::uint64_t, v1::CommandResult result) {
                         answers.push_back(std::move(result));
                         look();
                     },
                 .viewers = [] { return 0U; },
-                .demands = [] { return std::vector<frame::Demand>(); }};
+                .subscriptions = [] { return std::vector<codec::Subscription>(); }};
     }
 
     Requests requests_;

@@ -1,25 +1,28 @@
 #!/usr/bin/env python3
-"""architecture.py ROOT: who includes whom in server/, and how long our files may be.
+"""Checks the dependencies of server/ and the length of source files: architecture.py ROOT
 
-The arrows below are the architecture. The build refuses most wrong includes already, because a module's headers are
-only visible to targets that use it; this also catches a USES line that should not have been added."""
+MODULES lists the modules from the lowest to the highest, with the modules that each may use. The build refuses most wrong
+includes already, because only targets that use a module see its headers. This script also checks the USES lines of
+CMake, and finds include cycles between files."""
 import re
 import sys
 from pathlib import Path
 
-ALLOWED = {
-    "app": {"net", "measure", "quality", "sim", "store", "frame", "scene", "compute", "core"},
-    "measure": {"sim", "scene", "compute", "core"},
-    "sim": {"compute", "scene", "core"},
-    "quality": {"scene", "core"},
-    "frame": {"scene", "core"},
-    "store": {"frame", "scene", "core"},
-    "net": {"frame", "core"},
-    "scene": {"core"},
-    "compute": {"core"},
+# A module may use only modules above its own line in this table.
+MODULES = {
     "core": set(),
+    "compute": {"core"},
+    "scene": {"core"},
+    "quality": {"scene", "core"},
+    "sim": {"compute", "scene", "core"},
+    "measure": {"sim", "scene", "compute", "core"},
+    "codec": {"scene", "core"},
+    "recording": {"codec", "scene", "core"},
+    "net": {"codec", "core"},
+    "client": {"net", "core"},
+    "app": {"client", "net", "measure", "quality", "sim", "recording", "codec", "scene", "compute", "core"},
 }
-# Quoted includes that belong to no module: messages, files embedded at build time, kernels' layout.
+# Quoted includes outside of server/: messages, files embedded at build time, layout of the kernels' data.
 SHARED = {"spherule", "embedded", "shared"}
 
 LONGEST = 400
@@ -28,16 +31,17 @@ SOURCES = {".cpp", ".h", ".comp", ".glsl", ".proto", ".ts", ".mjs", ".css", ".ht
 NOT_OURS = {"node_modules", "dist", "gen"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"/]+)/[^"]*"', re.MULTILINE)
+QUOTED = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 USES = re.compile(r"\bUSES\b([^)]*?)(?:\bSOURCES\b|\bLIBRARIES\b|\))")
 
 
 def wrong_includes(server):
     for folder in sorted(path for path in server.iterdir() if path.is_dir() and path.name != "scenes"):
         module = folder.name
-        if module not in ALLOWED:
-            yield f"server/{module}: not in the architecture; add it to {Path(__file__).name} with its arrows"
+        if module not in MODULES:
+            yield f"server/{module}: not in the architecture; add it to {Path(__file__).name} with the modules it uses"
             continue
-        allowed = ALLOWED[module] | {module} | SHARED
+        allowed = MODULES[module] | {module} | SHARED
         for source in sorted(folder.rglob("*")):
             if source.suffix not in {".cpp", ".h"}:
                 continue
@@ -46,8 +50,39 @@ def wrong_includes(server):
                     yield f"{source.relative_to(server.parent)}: {module} may not include {target}/"
         build = folder / "CMakeLists.txt"
         for used in USES.findall(build.read_text(encoding="utf-8")) if build.exists() else []:
-            for target in set(used.split()) - ALLOWED[module] - {"proto"}:
+            for target in set(used.split()) - MODULES[module] - {"proto"}:
                 yield f"server/{module}/CMakeLists.txt: {module} may not use {target}"
+
+
+def upward_modules():
+    names = list(MODULES)
+    for module, used in MODULES.items():
+        for target in sorted(used):
+            if names.index(target) >= names.index(module):
+                yield f"{Path(__file__).name}: {module} may not use {target}, which is not a lower module"
+
+
+def include_cycles(server):
+    """Follows the quoted includes of the files of server/. Each cycle is reported once, where a walk closes it."""
+    includes = {}
+    for source in sorted(server.rglob("*")):
+        if source.suffix in {".cpp", ".h"}:
+            names = QUOTED.findall(source.read_text(encoding="utf-8"))
+            found = [path for name in names for path in (server / name, source.parent / name) if path.is_file()]
+            includes[source] = [path.resolve() for path in found]
+    finished = set()
+
+    def walk(source, path):
+        if source in path:
+            cycle = [*path[path.index(source):], source]
+            yield "include cycle: " + " -> ".join(str(file.relative_to(server.parent)) for file in cycle)
+        elif source not in finished:
+            for target in includes.get(source, []):
+                yield from walk(target, [*path, source])
+            finished.add(source)
+
+    for source in includes:
+        yield from walk(source, [])
 
 
 def long_files(root):
@@ -60,7 +95,8 @@ def long_files(root):
                 yield f"{source.relative_to(root)}: {lines} lines, more than {LONGEST}"
 
 
-root = Path(sys.argv[1])
-problems = list(wrong_includes(root / "server")) + list(long_files(root))
-print("\n".join(problems) or "every include follows the architecture; no file is too long")
+root = Path(sys.argv[1]).resolve()
+server = root / "server"
+problems = [*wrong_includes(server), *upward_modules(), *include_cycles(server), *long_files(root)]
+print("\n".join(problems) or "every include follows the architecture, without a cycle; no file is too long")
 sys.exit(1 if problems else 0)

@@ -1,15 +1,13 @@
-// Frames in a row: who may begin where, and what happens to those who miss one.
+// Sequences of frames: where a decoder may start, and the effect of a missed frame.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
-
-using frame::codec::Decoder;
 
 constexpr std::uint32_t spheres = 2500;
 
@@ -32,7 +30,7 @@ struct CodecChain : testing::Test {
     std::vector<glm::ivec3> cells_;
 };
 
-TEST_F(CodecChain, WhoJoinsGoesOnWithTheSharedFrames) {
+TEST_F(CodecChain, ResyncContinuesWithSharedFrames) {
     Decoder first(spheres);
     ASSERT_TRUE(first.apply(begin()));
     for (int k = 0; k < 5; ++k) ASSERT_TRUE(first.apply(next()));
@@ -52,7 +50,7 @@ TEST_F(CodecChain, WhoJoinsGoesOnWithTheSharedFrames) {
     EXPECT_TRUE(std::ranges::equal(first.before(), second.before()));
 }
 
-TEST_F(CodecChain, AKeyframeOfTheStateIsTheSameHoweverOftenItIsMade) {
+TEST_F(CodecChain, RepeatedResyncsAreEqual) {
     begin();
     next();
     next();
@@ -60,7 +58,7 @@ TEST_F(CodecChain, AKeyframeOfTheStateIsTheSameHoweverOftenItIsMade) {
     EXPECT_EQ(encoder_.join(), once);
 }
 
-TEST_F(CodecChain, ADecoderThatMissedAFrameWantsAKeyframe) {
+TEST_F(CodecChain, DecoderNeedsAKeyframeAfterAMissedFrame) {
     Decoder decoder(spheres);
     ASSERT_TRUE(decoder.apply(begin()));
     next();
@@ -71,7 +69,7 @@ TEST_F(CodecChain, ADecoderThatMissedAFrameWantsAKeyframe) {
     expectNow(decoder);
 }
 
-TEST_F(CodecChain, AKeyframeIsWelcomeAtAnyTime) {
+TEST_F(CodecChain, DecoderAcceptsAKeyframeAtAnyTime) {
     Decoder decoder(spheres);
     ASSERT_TRUE(decoder.apply(begin()));
     ASSERT_TRUE(decoder.apply(next()));
@@ -83,7 +81,7 @@ TEST_F(CodecChain, AKeyframeIsWelcomeAtAnyTime) {
     expectNow(decoder);
 }
 
-TEST_F(CodecChain, AHashThatDiffersIsFound) {
+TEST_F(CodecChain, DetectsAWrongHash) {
     Decoder decoder(spheres);
     ASSERT_TRUE(decoder.apply(begin()));
     Bytes frame = next();
@@ -91,24 +89,24 @@ TEST_F(CodecChain, AHashThatDiffersIsFound) {
     expectRefusal(decoder, frame, "frame, head: has another hash than its positions");
 }
 
-TEST_F(CodecChain, AFrameOfOtherSpheresIsRefused) {
+TEST_F(CodecChain, RefusesAnotherNumberOfSpheres) {
     Decoder decoder(spheres + 1);
     expectRefusal(decoder, begin(), "frame, head: has 2500 spheres where there are 2501");
 }
 
-TEST_F(CodecChain, FramesComeToTheHostWholeHoweverLong) {
+TEST_F(CodecChain, ReadsBackFramesOfAnyLength) {
     Decoder decoder(spheres);
     Motion large(40000);
     Encoder encoder("cpu:1", 40000);
     Decoder far(40000);
     for (int k = 0; k < 8; ++k) {
-        // What rests for three frames makes the fourth long.
+        // Spheres that rest for three frames make the fourth frame long.
         static Positions positions;
         if (k % 4 == 0) positions = positionsAt(large.next());
         const auto source = encoder.put(positions);
         k == 0 ? encoder.tier().begin(source) : encoder.tier().next(source, k % 2 == 1);
         const auto frame = encoder.tier().poll();
-        ASSERT_TRUE(frame) << "on the CPU device copies arrive at once";
+        ASSERT_TRUE(frame) << "on the CPU device read-backs complete at once";
         EXPECT_EQ(*frame, encoder.tier().download());
         const auto head = far.apply(*frame);
         ASSERT_TRUE(head) << head.error().text();

@@ -1,9 +1,9 @@
-// codec_chains SEED FILE: chains of random frames, sound and garbled, with what the decoder made of each, for other
-// decoders to be compared with. All numbers are 32 bits, little endian:
+// codec_chains SEED FILE: writes chains of random frames, valid and garbled, with the results of our decoder, for the
+// comparison with other decoders. All numbers are 32 bits, little endian.
 //
-//     chain: spheres, frames; then for each frame: its bytes' count, those bytes; 1 where it was taken, else 0; the
-//     count of bytes of the reason why not, those bytes; newest positions; where the decoder has two states, 1 and
-//     those before, else 0
+// A chain: number of spheres, number of frames, then the frames. A frame: its size and bytes; 1 if it was accepted,
+// else 0; size and bytes of the error; newest positions. If the decoder has two states, then 1 and the previous
+// positions, else 0.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
@@ -39,7 +39,7 @@ void put(std::ostream& out, std::size_t number) {
     put(out, std::as_bytes(std::span(&word, 1)));
 }
 
-// Mostly small; at the edges of blocks, groups and chunks; now and then of several chunks.
+// Mostly small numbers, also at the limits of blocks, groups and chunks; sometimes several chunks.
 std::uint32_t drawSpheres(Random& random) {
     constexpr std::array<std::uint32_t, 10> edges{1, 2, 63, 64, 65, 2047, 2048, 2049, 16384, 16385};
     const std::uint32_t kind = draw(random, 8);
@@ -48,7 +48,7 @@ std::uint32_t drawSpheres(Random& random) {
     return 1 + draw(random, 1U << (4 + draw(random, 9)));
 }
 
-// Positions that are anything, also no numbers.
+// Random positions, some of them NaN or infinite.
 Positions wild(Random& random, std::uint32_t spheres) {
     constexpr float inf = std::numeric_limits<float>::infinity();
     constexpr std::array<float, 7> odd{inf, -inf, std::numeric_limits<float>::quiet_NaN(), 3e38F, -3e38F, 1e9F, -1e9F};
@@ -154,7 +154,7 @@ class Chain {
     std::uint32_t spheres_;
     Encoder encoder_{"cpu:1", spheres_};
     Motion motion_{spheres_, random_()};
-    frame::codec::Decoder decoder_{spheres_};
+    codec::Decoder decoder_{spheres_};
     Bytes last_;
 };
 

@@ -1,4 +1,4 @@
-// The encoder on the CPU device with any number of threads and on Mesa's software renderer: the same bytes.
+// The encoder makes the same bytes on the CPU device, with any number of threads, and on Mesa's software renderer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ std::vector<Bytes> framesOn(const std::string& device) {
     return frames;
 }
 
-TEST(CodecDevices, GiveTheSameBytes) {
+TEST(CodecDevices, ProduceTheSameBytes) {
     const auto wanted = framesOn("software");
     for (const char* const device : {"cpu:1", "cpu:3", "cpu-double"}) {
         const auto got = framesOn(device);
@@ -29,7 +29,7 @@ TEST(CodecDevices, GiveTheSameBytes) {
     }
 }
 
-TEST(CodecDevices, PutWhatIsNotFiniteOnTheSameEdge) {
+TEST(CodecDevices, ClampNonFinitePositionsAlike) {
     const auto edges = [](const char* device) {
         Encoder encoder(device, 70);
         Positions wild(70, glm::vec4(1, 2, 3, 1));

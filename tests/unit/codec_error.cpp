@@ -1,12 +1,11 @@
-// What viewers are promised of a position, over all scenes that come with the program and all tiers: decoded, it is
-// within half a quantum of the simulation's, and what float32 rounds on the way. The encoder computes floor(fl(fl(x
-// fl(1 / quantum)) + 0.5)) in float32 from x relative to the bounds' centre: three roundings of at most 2^-24 each, of
-// up to |x| + quantum / 2 in all. So it is off by at most
+// The largest error of a decoded position, for all shipped scenes and tiers: half a quantum plus float32 rounding. The
+// encoder computes floor(fl(fl(x fl(1 / quantum)) + 0.5)) in float32, where x is relative to the centre of the bounds.
+// There are three roundings of at most 2^-24 each, of values up to |x| + quantum / 2. So the error is at most
 //
 //     quantum / 2 + 3 * 2^-24 * (|x| + quantum / 2)
 //
-// per axis. The decoder's side is in double, whose roundings are 2^29 times smaller; they, and the products of two
-// roundings, are covered by the part of quantum that the last product does not need.
+// per axis. The decoder uses double, whose roundings are 2^29 times smaller. The slack in the last product covers them
+// and the products of two roundings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,9 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "codec/decoder.h"
+#include "codec/rendition.h"
 #include "compute/device.h"
-#include "frame/channel.h"
-#include "frame/codec.h"
 #include "scene/catalog.h"
 #include "scene/json.h"
 #include "scene/load.h"
@@ -43,8 +42,8 @@ double bound(double x, double quantum) {
     return quantum / 2 + 3 * std::ldexp(std::abs(x) + quantum / 2, -24);
 }
 
-// A scene of a lattice of more spheres than this gets its first so many: `stress-1m` stays as wide as it is, which is
-// what the rounding hangs on, but is only some layers high.
+// Larger lattices are cut to this number of spheres. `stress-1m` keeps its width, which determines the rounding, but
+// has only some layers.
 constexpr std::uint32_t mostSpheres = 100'000;
 
 scene::Scene sceneOf(const std::string& name) {
@@ -57,14 +56,14 @@ scene::Scene sceneOf(const std::string& name) {
     return valueOf(scene::build(message));
 }
 
-// One chain and who decodes it: from its beginning, and from a keyframe in the middle.
+// One chain with two decoders: one from the start, and one from a resync keyframe in the middle.
 struct Chain {
     Chain(sim::TierTools& tools, double step)
         : quantum(step), tier(valueOf(sim::Tier::create(tools, {.quantum = step}))) {}
 
     double quantum;  // m
     std::unique_ptr<sim::Tier> tier;
-    std::unique_ptr<frame::codec::Decoder> first, joined;
+    std::unique_ptr<codec::Decoder> first, joined;
     double worst = 0;  // error, in quanta
 };
 
@@ -77,7 +76,7 @@ class CodecError : public testing::TestWithParam<std::string> {
         order_ = sim::mortonOrder(simulation_->snapshot().position);
         tools_->setOrder(order_);
         for (const v1::Tier tier : tiers)
-            chains_.emplace_back(*tools_, frame::quantumOf(tier, simulation_->radii().smallest));
+            chains_.emplace_back(*tools_, codec::quantumOf(tier, simulation_->radii().smallest));
     }
 
     sim::TierSource source() { return simulation_->tierSource(); }
@@ -87,8 +86,8 @@ class CodecError : public testing::TestWithParam<std::string> {
             if (const auto done = simulation_->step(); !done) throw std::runtime_error(done.error().text());
     }
 
-    void take(Chain& chain, std::unique_ptr<frame::codec::Decoder>& decoder, const sim::State& state) {
-        if (!decoder) decoder = std::make_unique<frame::codec::Decoder>(simulation_->count());
+    void take(Chain& chain, std::unique_ptr<codec::Decoder>& decoder, const sim::State& state) {
+        if (!decoder) decoder = std::make_unique<codec::Decoder>(simulation_->count());
         const auto head = decoder->apply(chain.tier->download());
         ASSERT_TRUE(head) << head.error().text();
         const auto cells = decoder->newest();
@@ -112,8 +111,8 @@ class CodecError : public testing::TestWithParam<std::string> {
     std::vector<Chain> chains_;
 };
 
-// Few steps of many spheres, many of few: 30 between frames takes the small scenes through their impacts.
-TEST_P(CodecError, StaysWithinWhatIsStated) {
+// Fewer steps for more spheres. With 30 steps between frames, small scenes get through their impacts.
+TEST_P(CodecError, StaysWithinTheStatedBound) {
     constexpr int frames = 6;
     const std::uint32_t spheres = simulation_->count();
     const int between = std::clamp(static_cast<int>(20'000 / spheres), 1, 30);
@@ -130,7 +129,7 @@ TEST_P(CodecError, StaysWithinWhatIsStated) {
             take(chain, chain.joined, state);
         }
     }
-    // Of so many spheres some are nearly half way between two places of the grid, or the comparison would mean nothing.
+    // With many spheres some are nearly half way between two grid points. Otherwise the comparison would prove nothing.
     if (spheres < 1000) return;
     for (const Chain& chain : chains_) EXPECT_GT(chain.worst, 0.499);
 }

@@ -1,5 +1,5 @@
-// The frames in tests/golden/codec, which the page's decoder reads in its tests too: the encoder still makes them, and
-// the decoder still reads them. With SPHERULE_WRITE_GOLDEN=1 they are written instead.
+// The frames in tests/golden/codec: the encoder makes them, and the decoder reads them. Tests of the page read them
+// too. SPHERULE_WRITE_GOLDEN=1 writes them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
@@ -34,8 +34,8 @@ void write(const std::string& name, std::span<const std::byte> bytes) {
 
 const bool writing = std::getenv("SPHERULE_WRITE_GOLDEN") != nullptr;
 
-// The frame is as it was, and the decoder takes it.
-void compare(const std::string& name, const Bytes& made, frame::codec::Decoder& decoder) {
+// The frame is unchanged, and the decoder accepts it.
+void compare(const std::string& name, const Bytes& made, codec::Decoder& decoder) {
     if (writing) write(name, made);
     const Bytes golden = read(name);
     EXPECT_TRUE(made == golden) << name;
@@ -44,12 +44,12 @@ void compare(const std::string& name, const Bytes& made, frame::codec::Decoder& 
     EXPECT_TRUE(head->hash);
 }
 
-TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
+TEST(CodecGolden, FramesAreUnchanged) {
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres, 2);
-    frame::codec::Decoder decoder(spheres);
+    codec::Decoder decoder(spheres);
     for (int k = 0; k < 8; ++k) {
-        // Who joins begins with frame 5, a keyframe of the state after frame 4.
+        // A new viewer starts with frame 5, a keyframe of the state after frame 4.
         const Bytes made = k == 0   ? encoder.begin(positionsAt(motion.next()))
                            : k == 5 ? encoder.join()
                                     : encoder.next(positionsAt(motion.next()));
@@ -61,8 +61,8 @@ TEST(CodecGolden, FramesAreMadeAndReadAsEver) {
     EXPECT_EQ(std::memcmp(positions.data(), decoder.newest().data(), positions.size()), 0);
 }
 
-// Of docs/codec.md. Two chunks, of which the second has two groups, of which the second has one block, of one sphere.
-// Blocks lie apart and move as wholes, one of 16 at a time, so that the files are small.
+// The example of docs/codec.md: two chunks; the second has two groups; the last group has one block with one sphere.
+// Blocks are apart and move as a whole, one of 16 at a time, so that the files are small.
 std::vector<glm::ivec3> crowd(int frame) {
     std::vector<glm::ivec3> cells;
     for (int k = 0; k < 16384 + 2048 + 1; ++k) {
@@ -74,10 +74,10 @@ std::vector<glm::ivec3> crowd(int frame) {
     return cells;
 }
 
-TEST(CodecGolden, FramesOfSeveralChunksAreMadeAndReadAsEver) {
+TEST(CodecGolden, FramesOfSeveralChunksAreUnchanged) {
     const auto count = static_cast<std::uint32_t>(crowd(0).size());
     Encoder encoder("cpu:1", count);
-    frame::codec::Decoder decoder(count);
+    codec::Decoder decoder(count);
     for (int k = 0; k < 4; ++k) {
         const Positions positions = positionsAt(crowd(6 * k));
         compare("chunks-" + std::to_string(k) + ".spb", k == 0 ? encoder.begin(positions) : encoder.next(positions),

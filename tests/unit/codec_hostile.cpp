@@ -1,18 +1,16 @@
-// Frames that nobody should send.
+// Hand-written, invalid and garbled frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
 
 namespace spherule::codec {
 namespace {
 
-using frame::codec::Decoder;
-
-// A frame by hand: words of 32 bits.
+// Makes a frame from words of 32 bits.
 Bytes frameOf(std::vector<std::uint32_t> words) {
     const auto bytes = std::as_bytes(std::span(words));
     return {bytes.begin(), bytes.end()};
@@ -21,7 +19,7 @@ Bytes frameOf(std::vector<std::uint32_t> words) {
 constexpr std::uint32_t delta = 0x00015053;
 constexpr std::uint32_t key = 0x01015053;
 
-// Of one block of spheres: plain, no bits; with the base 5, 6, -7.
+// A keyframe of one block: no value bits, base 5, 6, -7.
 const std::vector<std::uint32_t> still{key, 64, 1, 0, 6, 1, 0x000f, 0x00000000, 5, 6, 0xfffffff9U};
 
 std::string refusal(Decoder& decoder, const std::vector<std::uint32_t>& words) {
@@ -29,7 +27,7 @@ std::string refusal(Decoder& decoder, const std::vector<std::uint32_t>& words) {
     return got ? "" : got.error().text();
 }
 
-// `still`, then this delta frame of one block: its group's words.
+// Decodes `still`, then a delta frame of one block with these words as its group.
 std::string refusalOf(std::vector<std::uint32_t> group) {
     Decoder decoder(64);
     EXPECT_EQ(refusal(decoder, still), "");
@@ -38,24 +36,24 @@ std::string refusalOf(std::vector<std::uint32_t> group) {
     return refusal(decoder, words);
 }
 
-TEST(CodecHostile, AFrameByHandIsAsTheDocumentSays) {
+TEST(CodecHostile, DecodesAHandWrittenFrame) {
     Decoder decoder(64);
     ASSERT_EQ(refusal(decoder, still), "");
     EXPECT_TRUE(std::ranges::all_of(decoder.newest(), [](auto q) { return q == glm::ivec3(5, 6, -7); }));
 }
 
-TEST(CodecHostile, AMaskByHand) {
+TEST(CodecHostile, DecodesAHandWrittenMask) {
     Decoder decoder(64);
     ASSERT_EQ(refusal(decoder, still), "");
-    // Mask, previous, widths 1 0 2; which runs of x, y, z, then which values of runs 0 and 5 of x, 5 of y, 5 of z; then
-    // of x 0 and 1 (for 1 and 2), of y nothing (for 1), of z 2 (for 3).
+    // Header: mask, previous, widths 1 0 2. Then the changed runs of x, y, z. Then the changed values of runs 0 and 5
+    // of x, 5 of y, 5 of z. Then the values: x 0 and 1 (for 1 and 2), y none (for 1), z 2 (for 3).
     ASSERT_EQ(refusal(decoder, {delta, 64, 2, 0, 4, 1, 0x20212011, 0x01010220, 0x00000a01}), "");
     EXPECT_EQ(decoder.newest()[0], glm::ivec3(5, 6, -7));
     EXPECT_EQ(decoder.newest()[1], glm::ivec3(4, 6, -7));
     EXPECT_EQ(decoder.newest()[40], glm::ivec3(6, 5, -9));
 }
 
-TEST(CodecHostile, WhatIsWrongAndWhereIsSaid) {
+TEST(CodecHostile, ReportsDefectAndPlace) {
     Decoder decoder(64);
     EXPECT_EQ(decoder.apply(Bytes(15)).error().text(), "frame, head: has 15 bytes of 16");
     EXPECT_EQ(refusal(decoder, {0x00025053, 64, 1, 0}), "frame, head: is not that of codec SPB, version 1");
@@ -81,7 +79,7 @@ TEST(CodecHostile, WhatIsWrongAndWhereIsSaid) {
     EXPECT_EQ(refusalOf({0}), "");
 }
 
-TEST(CodecHostile, TruncatedAndGarbledFramesAreRefusedOrMeanSomething) {
+TEST(CodecHostile, SurvivesTruncatedAndGarbledFrames) {
     constexpr std::uint32_t spheres = 5000;
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres);

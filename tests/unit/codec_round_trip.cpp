@@ -1,4 +1,4 @@
-// What the encoder's kernels make on the CPU device, and the decoder back.
+// The decoder restores the positions that the encoder has encoded on the CPU device.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,14 +8,12 @@
 #include <random>
 #include <set>
 
+#include "codec/block.h"
+#include "codec/decoder.h"
 #include "codec_support.h"
-#include "frame/codec.h"
-#include "frame/codec_block.h"
 
 namespace spherule::codec {
 namespace {
-
-using frame::codec::Decoder;
 
 std::vector<glm::ivec3> decoded(Decoder& decoder, const Bytes& frame) {
     const auto head = decoder.apply(frame);
@@ -28,7 +26,7 @@ std::vector<glm::ivec3> decoded(Decoder& decoder, const Bytes& frame) {
 
 class CodecCounts : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(CodecCounts, AllThatSpheresDoComesBackExactly) {
+TEST_P(CodecCounts, AnyMotionIsDecodedExactly) {
     const std::uint32_t spheres = GetParam();
     Encoder encoder("cpu:1", spheres);
     Decoder decoder(spheres);
@@ -44,7 +42,7 @@ TEST_P(CodecCounts, AllThatSpheresDoComesBackExactly) {
 INSTANTIATE_TEST_SUITE_P(Spheres, CodecCounts,
                          testing::Values(1, 2, 63, 64, 65, 127, 128, 2047, 2048, 2049, 16383, 16384, 16385, 70001));
 
-// Otherwise the test above says less than it seems to.
+// Ensures that the test above covers every case.
 TEST(Codec, EveryModePredictorAndWidthIsUsed) {
     constexpr std::uint32_t spheres = 64 * 32;
     Encoder encoder("cpu:1", spheres);
@@ -58,7 +56,7 @@ TEST(Codec, EveryModePredictorAndWidthIsUsed) {
         std::size_t unit = 2 * (4 + 1 + 1);  // behind head, table and bitmap
         for (std::uint32_t rest = words[5]; rest != 0; rest &= rest - 1) {
             const std::uint32_t header = words[unit / 2] >> 16 * (unit % 2) & 0xffffU;
-            frame::codec::Block block;
+            codec::Block block;
             ASSERT_TRUE(block.read(words, unit, bytes.size() / 2));
             unit = block.end();
             modes.insert(static_cast<int>(block.mode()));
@@ -71,7 +69,7 @@ TEST(Codec, EveryModePredictorAndWidthIsUsed) {
     EXPECT_EQ(codes, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}));
 }
 
-TEST(Codec, PositionsBeyondTheGridOrNotFiniteGoToItsEdge) {
+TEST(Codec, ClampsPositionsToTheGrid) {
     constexpr float inf = std::numeric_limits<float>::infinity();
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr int edge = 1 << 30;
@@ -88,7 +86,7 @@ TEST(Codec, PositionsBeyondTheGridOrNotFiniteGoToItsEdge) {
     EXPECT_EQ(decoded(decoder, encoder.next(wild)), cells);
 }
 
-TEST(Codec, TheGridsOriginAndQuantumHold) {
+TEST(Codec, AppliesOriginAndQuantum) {
     constexpr double quantum = 0.00064;
     constexpr glm::vec3 origin(-1.5F, 2, 0.125F);
     Encoder encoder("cpu:1", 1000, quantum, origin);
@@ -108,7 +106,7 @@ TEST(Codec, TheGridsOriginAndQuantumHold) {
     }
 }
 
-TEST(Codec, SpheresComeInTheOrderThatWasSet) {
+TEST(Codec, KeepsTheOrderOfSpheres) {
     constexpr std::uint32_t spheres = 3000;
     Encoder encoder("cpu:1", spheres);
     std::vector<std::uint32_t> order(spheres);
@@ -123,7 +121,7 @@ TEST(Codec, SpheresComeInTheOrderThatWasSet) {
     for (std::uint32_t k = 0; k < spheres; ++k) ASSERT_EQ(cells[k], byId[order[k]]);
 }
 
-TEST(Codec, WhatDoesNotMoveCostsABitPerBlock) {
+TEST(Codec, SpheresAtRestCostOneBitPerBlock) {
     constexpr std::uint32_t spheres = 2048 * 8 * 2;
     Encoder encoder("cpu:1", spheres);
     Motion motion(spheres);

@@ -101,7 +101,7 @@ const std::vector<glm::ivec3>& Motion::next() {
         glm::ivec3& q = cells_[k];
         const std::uint32_t block = k / 64;
         switch (block % 8) {
-            case 0:  // rests but for a jump now and then
+            case 0:  // rests, except for rare jumps
                 if ((frame_ + block / 8) % 5 == 0) q += 1000;
                 break;
             case 1:  // creeps, one sphere of ten

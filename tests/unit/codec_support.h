@@ -17,7 +17,7 @@ namespace spherule::codec {
 using Bytes = std::vector<std::byte>;
 using Positions = std::vector<glm::vec4>;
 
-// An encoder with positions of its own, in slots that are a permutation of the ids. Throws what goes wrong.
+// An encoder with its own positions, in slots that are a permutation of the ids. Throws errors as exceptions.
 class Encoder {
   public:
     Encoder(const std::string& device, std::uint32_t spheres, double quantum = 1, glm::vec3 origin = {});
@@ -38,15 +38,15 @@ class Encoder {
     std::vector<std::uint32_t> slots_;  // by id
 };
 
-// What the encoder is to make of a position.
+// Returns the grid position that the encoder must produce.
 glm::ivec3 onGrid(glm::vec4 position, double quantum = 1, glm::vec3 origin = {});
 std::vector<glm::ivec3> onGrid(const Positions& positions);
 
-// Positions whose cells are these, for a quantum of 1; |q| up to 2^24, or so coarse that float32 holds them.
+// Returns positions with these grid positions, for a quantum of 1. Each must be exact in float32.
 Positions positionsAt(const std::vector<glm::ivec3>& cells);
 
-// Frame after frame of spheres that do, group by group of some hundred, all that they can do: rest, creep one by one,
-// fly, slow down, jitter by 1 to 2^24 cells, jump.
+// Generates frames with all kinds of motion, one kind per group of some hundred spheres. They rest, creep one by one,
+// fly, slow down, jitter by 1 to 2^24 cells, or jump.
 class Motion {
   public:
     explicit Motion(std::uint32_t spheres, std::uint64_t seed = 1);

@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "core/input_file.h"
+#include "temporary_folder.h"
 
 namespace spherule {
 namespace {
@@ -15,18 +15,12 @@ namespace fs = std::filesystem;
 
 class InputFiles : public ::testing::Test {
   protected:
-    InputFiles() {
-        std::string name = fs::temp_directory_path() / "spherule-core-XXXXXX";
-        folder_ = mkdtemp(name.data());
-    }
-    ~InputFiles() override { fs::remove_all(folder_); }
-
     std::string write(const std::string& text) {
-        std::ofstream(path_ = folder_ / "file", std::ios::binary) << text;
+        path_ = folder_.write("file", text);
         return path_;
     }
     LineReader lines(const std::string& text) { return LineReader(*InputFile::open(write(text))); }
-    // Makes every further read of the file fail, as of a disk that is gone.
+    // Makes every further read of the file fail, as if the disk had been removed.
     void breakReads() const {
         for (const auto& open : fs::directory_iterator("/proc/self/fd")) {
             std::error_code gone;
@@ -38,7 +32,8 @@ class InputFiles : public ::testing::Test {
         }
     }
 
-    fs::path folder_, path_;
+    support::TemporaryFolder folder_;
+    fs::path path_;
 };
 
 TEST_F(InputFiles, AreReadWhole) {
@@ -49,23 +44,23 @@ TEST_F(InputFiles, AreReadWhole) {
     EXPECT_EQ(readFile(write(large), large.size()).value(), large);
 }
 
-TEST_F(InputFiles, WithoutASizeTheyAreReadUpToTheLimit) {
+TEST_F(InputFiles, WithoutSizeAreReadUpToTheLimit) {
     EXPECT_GT(readFile("/proc/self/maps", 10 << 20).value().size(), 100U);
     EXPECT_EQ(readFile("/proc/self/maps", 100).error().text(),
               "/proc/self/maps: is longer than the 100 bytes that are allowed");
 }
 
-TEST_F(InputFiles, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
+TEST_F(InputFiles, NonRegularFilesAreRefusedWithoutBlocking) {
     const std::string pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_EQ(readFile(pipe, 10).error().text(), pipe + ": is a pipe, must be a regular file");
     EXPECT_EQ(readFile("/dev/zero", 10).error().text(), "/dev/zero: is a device, must be a regular file");
     EXPECT_EQ(readFile("/tmp", 10).error().text(), "/tmp: is a folder, must be a regular file");
-    EXPECT_EQ(readFile(folder_ / "none", 10).error().text(), (folder_ / "none").string() + ": there is no such file");
+    EXPECT_EQ(readFile(folder_ / "none", 10).error().text(), (folder_ / "none") + ": there is no such file");
     EXPECT_EQ(readFile("/proc/self/mem", 10).error().text(), "/proc/self/mem: cannot be read: Input/output error");
 }
 
-TEST_F(InputFiles, LinesAreThoseOfTheText) {
+TEST_F(InputFiles, AreReadLineByLine) {
     for (const std::size_t length : {0U, 1U, 65'534U, 65'535U, 65'536U, 70'000U}) {
         const std::string first(length, 'a');
         for (const char* const end : {"", "\n"}) {
@@ -80,7 +75,7 @@ TEST_F(InputFiles, LinesAreThoseOfTheText) {
     }
 }
 
-TEST_F(InputFiles, AByteOrderMarkIsNoPartOfTheFirstLine) {
+TEST_F(InputFiles, ByteOrderMarkIsRemoved) {
     LineReader reader = lines("\xef\xbb\xbfx\n\xef\xbb\xbfy\n");
     ASSERT_TRUE(reader.next(10).value());
     EXPECT_EQ(reader.line(), "x");
@@ -88,14 +83,14 @@ TEST_F(InputFiles, AByteOrderMarkIsNoPartOfTheFirstLine) {
     EXPECT_EQ(reader.line(), "\xef\xbb\xbfy");
 }
 
-TEST_F(InputFiles, ALineHasALimit) {
+TEST_F(InputFiles, LineLengthIsLimited) {
     LineReader reader = lines("abc\nabcdef\n");
     ASSERT_TRUE(reader.next(5).value());
     EXPECT_EQ(reader.next(5).error().message, "the line is longer than 5 bytes");
     EXPECT_EQ(reader.number(), 2U);
 }
 
-TEST_F(InputFiles, AnErrorIsNotTheEnd) {
+TEST_F(InputFiles, ErrorIsNotEndOfFile) {
     std::string text;
     for (int k = 0; k < 50'000; ++k) text += "line\n";
     LineReader reader = lines(text);

@@ -19,7 +19,7 @@ class ControlGroup : public testing::Test {
         fs::create_directories((root_ / path).parent_path());
         std::ofstream(root_ / path) << text;
     }
-    // That the control groups leave.
+    // Room that the control groups leave.
     [[nodiscard]] std::optional<std::uint64_t> room() const {
         const auto found = roomInControlGroup(root_);
         return found ? std::optional(found->left) : std::nullopt;
@@ -28,7 +28,7 @@ class ControlGroup : public testing::Test {
     fs::path root_ = fs::temp_directory_path() / ("spherule_cgroup_" + std::to_string(getpid()));
 };
 
-TEST_F(ControlGroup, WithoutALimitThereIsNone) {
+TEST_F(ControlGroup, WithoutLimitIsNullopt) {
     EXPECT_FALSE(room());
     file("proc/self/cgroup", "0::/\n");
     file("sys/fs/cgroup/memory.max", "max\n");
@@ -36,7 +36,7 @@ TEST_F(ControlGroup, WithoutALimitThereIsNone) {
     EXPECT_FALSE(room());
 }
 
-TEST_F(ControlGroup, Version2LeavesWhatIsNotHeld) {
+TEST_F(ControlGroup, Version2SubtractsUsedMemory) {
     file("proc/self/cgroup", "0::/\n");
     file("sys/fs/cgroup/memory.max", "10000\n");
     file("sys/fs/cgroup/memory.current", "7000\n");
@@ -47,7 +47,7 @@ TEST_F(ControlGroup, Version2LeavesWhatIsNotHeld) {
     EXPECT_EQ(room(), 0U);
 }
 
-TEST_F(ControlGroup, TheNarrowestOfTheGroupsCounts) {
+TEST_F(ControlGroup, LeastRoomOfTheGroupsCounts) {
     file("proc/self/cgroup", "0::/outer/inner\n");
     file("sys/fs/cgroup/outer/memory.max", "4000\n");
     file("sys/fs/cgroup/outer/memory.current", "1000\n");
@@ -56,15 +56,15 @@ TEST_F(ControlGroup, TheNarrowestOfTheGroupsCounts) {
     EXPECT_EQ(room(), 3000U);
 }
 
-TEST_F(ControlGroup, Version1IsReadToo) {
+TEST_F(ControlGroup, Version1IsRead) {
     file("proc/self/cgroup", "5:cpu:/a\n4:memory:/docker/1f\n");
-    file("sys/fs/cgroup/memory/memory.limit_in_bytes", "8000\n");  // what a container sees as its root
+    file("sys/fs/cgroup/memory/memory.limit_in_bytes", "8000\n");  // the root that a container sees
     file("sys/fs/cgroup/memory/memory.usage_in_bytes", "3000\n");
     file("sys/fs/cgroup/memory/memory.stat", "inactive_file 1\ntotal_inactive_file 1000\n");
     EXPECT_EQ(room(), 6000U);
 }
 
-TEST_F(ControlGroup, TheNarrowerOfMachineAndGroupIsTheLimit) {
+TEST_F(ControlGroup, LimitIsTheLesserOfMachineAndGroup) {
     file("proc/meminfo", "MemTotal: 8000 kB\nMemFree: 100 kB\nMemAvailable:    6000 kB\n");
     EXPECT_EQ(memory::room(root_).left, 6000U * 1024);
     EXPECT_EQ(memory::room(root_).limit, 8000U * 1024);
@@ -81,14 +81,14 @@ TEST_F(ControlGroup, TheNarrowerOfMachineAndGroupIsTheLimit) {
 
 constexpr std::uint64_t mebi = 1U << 20U;
 
-// As if this process might hold 1 GiB.
+// Limits this process to 1 GiB.
 class Claims : public testing::Test {
   protected:
     Claims() { setLimit(1024 * mebi); }
     ~Claims() override { setLimit(0); }
 };
 
-TEST_F(Claims, WhatIsPromisedIsNotPromisedAgain) {
+TEST_F(Claims, ReducesTheFreeMemory) {
     auto first = Claim::make("load", "a scene", 600 * mebi);
     ASSERT_TRUE(first) << first.error().text();
     EXPECT_EQ(claimed().promised, 600 * mebi);
@@ -100,7 +100,7 @@ TEST_F(Claims, WhatIsPromisedIsNotPromisedAgain) {
     EXPECT_TRUE(Claim::make("load", "another scene", 600 * mebi));
 }
 
-TEST_F(Claims, ARefusalSaysWhatIsNeededWhatIsHeldAndTheLimit) {
+TEST_F(Claims, RefusalStatesNeededHeldAndLimit) {
     auto world = Claim::make("load", "a scene", 300 * mebi);
     ASSERT_TRUE(world);
     world->settle(300 * mebi, 0);
@@ -111,7 +111,7 @@ TEST_F(Claims, ARefusalSaysWhatIsNeededWhatIsHeldAndTheLimit) {
         EXPECT_NE(refused.error().text().find(part), std::string::npos) << part << " in: " << refused.error().text();
 }
 
-TEST_F(Claims, MoveWithTheirHolderAndEndWithIt) {
+TEST_F(Claims, AreMovable) {
     {
         Claim held;
         {
@@ -128,7 +128,7 @@ TEST_F(Claims, MoveWithTheirHolderAndEndWithIt) {
     EXPECT_EQ(claimed().promised, 0U);
 }
 
-TEST_F(Claims, ATrifleIsGrantedWhateverIsLeft) {
+TEST_F(Claims, SmallOnesAreAlwaysGranted) {
     const auto all = Claim::make("", "a scene", 900 * mebi);
     setLimit(mebi);
     EXPECT_TRUE(Claim::make("", "a few spheres", mebi / 2));

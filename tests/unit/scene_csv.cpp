@@ -24,7 +24,7 @@ class SceneCsv : public ::testing::Test {
         return text.substr(std::min(text.size(), text.find("balls.csv:")));
     }
 
-    Folder folder_;
+    TemporaryFolder folder_;
 };
 
 constexpr const char* radius = R"(, "radius": {"constant": 0.1}, "velocity": [0, 0, 2], "spin": [3, 0, 0])";
@@ -115,7 +115,7 @@ TEST_F(SceneCsv, AFileThatFailsToBeReadIsNotTheEnd) {
 }
 
 TEST_F(SceneCsv, MustBeARegularFile) {
-    const std::string pipe = folder_.path("pipe");
+    const std::string pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     for (const auto& [file, kind] :
          {std::pair<std::string, std::string>(pipe, "a pipe"), {"/dev/zero", "a device"}, {"/tmp", "a folder"}}) {

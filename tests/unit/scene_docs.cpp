@@ -20,7 +20,7 @@ std::string blockOf(const std::string& language) {
 }
 
 TEST(SceneDocs, TheCompleteExampleLoads) {
-    const Folder folder;
+    const TemporaryFolder folder;
     (void)folder.write("everything.csv", blockOf("csv"));
     const auto scene = load(folder.write("everything.json", blockOf("json")), "software");
     ASSERT_TRUE(scene) << scene.error().text();

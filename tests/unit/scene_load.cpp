@@ -8,7 +8,7 @@
 namespace spherule::scene::testing {
 namespace {
 
-std::string refusalOfFile(const Folder& folder, const std::string& json) {
+std::string refusalOfFile(const TemporaryFolder& folder, const std::string& json) {
     const auto scene = load(folder.write("falling.json", json), "software");
     if (scene) return "accepted";
     const std::string text = scene.error().text();
@@ -72,8 +72,8 @@ TEST(SceneLoad, MissingFilesAreRefused) {
 }
 
 TEST(SceneLoad, OnlyRegularFilesAreRead) {
-    const Folder folder;
-    const std::string pipe = folder.path("pipe");
+    const TemporaryFolder folder;
+    const std::string pipe = folder / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_EQ(load(pipe, "gpu").error().text(), pipe + ": is a pipe, must be a regular file");
     EXPECT_EQ(load("/tmp", "gpu").error().text(), "/tmp: is a folder, must be a regular file");
@@ -82,7 +82,7 @@ TEST(SceneLoad, OnlyRegularFilesAreRead) {
 }
 
 TEST(SceneLoad, FilesThatAreTooLargeAreRefusedBeforeTheyAreRead) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string path = folder.write("large.json", "{}");
     std::filesystem::resize_file(path, 2ULL << 30U);  // takes up no room on the disk
     EXPECT_EQ(load(path, "gpu").error().text(), path + ": has 2147483648 bytes, at most 33554432 are allowed");
@@ -94,7 +94,7 @@ TEST(SceneLoad, FilesThatAreTooLargeAreRefusedBeforeTheyAreRead) {
 }
 
 TEST(SceneLoad, AFileMayBeginWithAByteOrderMark) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string scene = "\xef\xbb\xbf{\"bounds\": {\"min\": [0,0,0], \"max\": [1,1,1]}";
     EXPECT_EQ(refusalOfFile(folder, scene + "}"), "accepted");
     EXPECT_EQ(refusalOfFile(folder, scene + " x}"),
@@ -102,14 +102,14 @@ TEST(SceneLoad, AFileMayBeginWithAByteOrderMark) {
 }
 
 TEST(SceneLoad, AFileWithoutANameIsNamedAfterItself) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto scene = load(folder.write("quiet.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}})"), "gpu");
     ASSERT_TRUE(scene) << scene.error().text();
     EXPECT_EQ(scene->name, "quiet");
 }
 
 TEST(SceneLoad, ErrorsCarryFileAndFieldPath) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(
         refusalOfFile(folder, R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"list": {}}, {"list": {}},
         {"lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": -0.1}, "radius": {"constant": 0.1}}]})"),
@@ -117,14 +117,14 @@ TEST(SceneLoad, ErrorsCarryFileAndFieldPath) {
 }
 
 TEST(SceneLoad, UnknownFieldsAreNamed) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, R"({"gravitation": 1})"), "falling.json: gravitation: is not a field of a scene");
     EXPECT_EQ(refusalOfFile(folder, R"({"groups": [{"lattice": {"spacin": 1}}]})"),
               "falling.json: groups[0].lattice.spacin: is not a field of a scene");
 }
 
 TEST(SceneLoad, WrongTypesAreNamed) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, R"({"groups": [{"lattice": {"count": -1}}]})"),
               "falling.json: groups[0].lattice.count: invalid value -1 for type TYPE_UINT32");
     EXPECT_EQ(refusalOfFile(folder, R"({"sphereContacts": 1})"),
@@ -135,7 +135,7 @@ TEST(SceneLoad, WrongTypesAreNamed) {
 }
 
 TEST(SceneLoad, SyntaxErrorsCarryLineAndColumn) {
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, "{\n  \"gravity\": [1, 2, 3\n  \"bounds\": {}\n}"),
               "falling.json:3:3: is not JSON: Expected , or ] after array value.");
     EXPECT_EQ(refusalOfFile(folder, "{\n  \"gravity\": [1, NaN]}"),
@@ -146,7 +146,7 @@ TEST(SceneLoad, SyntaxErrorsCarryLineAndColumn) {
 
 TEST(SceneLoad, ASyntaxErrorWhoseTextOccursTwiceHasNoLine) {
     const std::string row = std::string(30, ' ') + "{\"a\" 1}" + std::string(30, ' ') + ",";
-    const Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, "{\"groups\": [" + row + row + "]}"),
               "falling.json: is not JSON: Expected : between key:value pair.");
 }

@@ -57,7 +57,7 @@ TEST(SceneRefusals, NamesAreLimited) {
 }
 
 TEST(SceneRefusals, NamesOfFilesBecomeUtf8) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto named = load(folder.write("caf\xe9.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}})"), "cpu");
     ASSERT_TRUE(named) << named.error().text();
     EXPECT_EQ(named->name, "caf\xef\xbf\xbd");

@@ -1,9 +1,7 @@
 #include "scene_support.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
 
 #include "scene/json.h"
 
@@ -38,23 +36,6 @@ std::string object(std::string_view members) {
 
 std::string group(std::string_view members) {
     return std::string(R"("groups": [{)").append(members).append("}]");
-}
-
-Folder::Folder() {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("spherule-scene-" + std::to_string(getpid()) + "-" + std::to_string(++count));
-    std::filesystem::create_directories(path_);
-}
-
-Folder::~Folder() {
-    std::filesystem::remove_all(path_);
-}
-
-std::string Folder::write(std::string_view name, std::string_view text) const {
-    const std::filesystem::path path = path_ / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path.string();
 }
 
 }  // namespace spherule::scene::testing

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "scene/load.h"
+#include "temporary_folder.h"
 
 namespace spherule::scene::testing {
 
@@ -25,21 +25,6 @@ std::string group(std::string_view members);
 
 v1::Scene parsed(const std::string& json);
 
-// A folder for one test, removed after it.
-class Folder {
-  public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    // The path of a new file.
-    [[nodiscard]] std::string write(std::string_view name, std::string_view text) const;
-    // What a path in it is called.
-    [[nodiscard]] std::string path(std::string_view name) const { return (path_ / name).string(); }
-
-  private:
-    std::filesystem::path path_;
-};
+using support::TemporaryFolder;
 
 }  // namespace spherule::scene::testing

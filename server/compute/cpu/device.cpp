@@ -9,7 +9,7 @@
 #include "compute/check.h"
 #include "compute/cpu/features.h"
 #include "compute/cpu/host.h"
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 
 namespace spherule::compute::cpu {
 namespace {
@@ -101,7 +101,7 @@ CpuDevice::CpuDevice(unsigned threads, Precision precision, const std::string& r
 
 Result<std::unique_ptr<Buffer>> CpuDevice::createBuffer(std::string_view label, std::size_t bytes,
                                                         std::string_view words) {
-    pulse::beat("making room in memory");
+    heartbeat::beat("making room in memory");
     return CpuBuffer::create(label, bytes, Words(words, precision_));
 }
 
@@ -160,7 +160,7 @@ void CpuDevice::launch(const Launch& launch) {
                                 .parameters = entry.wantsParameters ? cpuBuffer(*launch.parameters).data() : nullptr,
                                 .phase = launch.phase,
                                 .features = kernel.features()}};
-    pulse::beat(entry.name);
+    heartbeat::beat(entry.name);
     const std::uint32_t wanted = countOf(launch);
     if (wanted == 0) return;
     const std::uint32_t count = std::min(wanted, entry.count(work.binding));

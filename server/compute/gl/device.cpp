@@ -9,7 +9,7 @@
 #include "compute/gl/buffer.h"
 #include "compute/gl/kernel.h"
 #include "compute/gl/limits.h"
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 
 namespace spherule::compute::gl {
 namespace {
@@ -72,7 +72,7 @@ Result<std::unique_ptr<Buffer>> GlDevice::createBuffer(std::string_view label, s
                                 static_cast<double>(bytes) / mebi, info_.renderer,
                                 static_cast<double>(info_.maxBufferBytes) / mebi));
     }
-    pulse::beat("making room on the device");
+    heartbeat::beat("making room on the device");
     return GlBuffer::create(context_, label, bytes);
 }
 
@@ -82,13 +82,13 @@ std::uint64_t GlDevice::hostBytes(std::uint64_t bytes, std::string_view /*words*
 
 Result<std::unique_ptr<Kernel>> GlDevice::createKernel(const SourceSet& sources, std::string_view file,
                                                        std::span<const Define> defines) {
-    pulse::beat("compiling a kernel");
+    heartbeat::beat("compiling a kernel");
     return GlKernel::create(context_, sources, file, defines);
 }
 
 void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
     checkRange("upload", buffer, offset, bytes.size());
-    pulse::beat("copying to the device");
+    heartbeat::beat("copying to the device");
     context_->use();
     context_->state().beforeCopy();
     glNamedBufferSubData(glBuffer(buffer).id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
@@ -124,7 +124,7 @@ void GlDevice::fill(Buffer& buffer, std::uint32_t value) {
 void GlDevice::launch(const Launch& launch) {
     if (launch.kernel == nullptr) programError("a launch without a kernel");
     const auto& kernel = static_cast<const GlKernel&>(*launch.kernel);
-    pulse::beat("launching a kernel");
+    heartbeat::beat("launching a kernel");
     context_->use();
     auto& state = context_->state();
     bindBuffers(state, kernel, launch);

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/pulse.h"
+#include "core/heartbeat.h"
 
 namespace spherule::compute::gl {
 namespace {
@@ -34,7 +34,7 @@ void Fences::wait() {
 }
 
 void Fences::waitForFirst() {
-    pulse::beat("waiting for the device");
+    heartbeat::beat("waiting for the device");
     while (glClientWaitSync(fences_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, look) == GL_TIMEOUT_EXPIRED &&
            !context_->resetCause()) {
     }

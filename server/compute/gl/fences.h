@@ -7,7 +7,7 @@
 
 namespace spherule::compute::gl {
 
-// Waits for the device, with a sign of life (core/pulse.h) for each part of the work that has ended: a wait may be
+// Waits for the device, with a sign of life (core/heartbeat.h) for each part of the work that has ended: a wait may be
 // long, as long as something moves.
 class Fences {
   public:

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "frame/codec.h"
+#include "codec/decoder.h"
 #include "rivals.h"
 #include "sim/morton.h"
 #include "sim/tier.h"
@@ -55,7 +55,7 @@ Ours ours(compute::Device& device, const Trajectory& trajectory, double quantum,
     const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     tools->setOrder(order);
-    frame::codec::Decoder decoder(spheres);
+    codec::Decoder decoder(spheres);
     std::size_t bytes = 0;
     for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
         const Metres& metres = trajectory.frames[k];

@@ -11,7 +11,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "frame/codec.h"
+#include "codec/decoder.h"
 #include "sim/morton.h"
 #include "sim/tier.h"
 
@@ -146,7 +146,7 @@ CodecSpeed timed(compute::Device& device, World& world, double quantum, const st
 
     put();
     tier->begin(source);
-    frame::codec::Decoder decoder(spheres);
+    codec::Decoder decoder(spheres);
     const auto keyframeMade = tier->download();
     (void)valueOf(decoder.apply(keyframeMade));
     write(keep, "frame-0.spb", keyframeMade);

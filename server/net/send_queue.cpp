@@ -1,0 +1,87 @@
+#include "net/send_queue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spherule::net {
+
+namespace {
+
+// Kinds of which only the newest message matters: a new one replaces a queued one.
+bool replaceable(v1::ServerMessage::KindCase kind) {
+    using enum v1::ServerMessage::KindCase;
+    return kind == kScene || kind == kOrder || kind == kSettings || kind == kDial || kind == kDiagnostics ||
+           kind == kStream || kind == kTimeline || kind == kRecording || kind == kControl || kind == kChange;
+}
+
+}  // namespace
+
+void SendQueue::follow(const codec::Rendition& rendition) {
+    rendition_ = rendition;
+    breakChain();
+}
+
+bool SendQueue::reportLoss(std::uint64_t sequence) {
+    if (rendition_.rate == 0 || sequence < keyframeSequence_) return false;
+    breakChain();
+    return true;
+}
+
+void SendQueue::breakChain() {
+    lastNumber_.reset();
+    frame_.reset();
+}
+
+bool SendQueue::push(codec::SharedMessage message) {
+    const auto kind = message->content().kind_case();
+    if (replaceable(kind))
+        std::erase_if(reliable_, [kind](const auto& waiting) { return waiting->content().kind_case() == kind; });
+    if (reliable_.size() >= capacity_) return false;
+    if (message->content().has_scene()) {
+        sceneEpoch_ = message->content().scene().epoch();
+        orderNumber_.reset();
+    }
+    if (message->content().has_order()) orderNumber_ = message->content().order().number();
+    reliable_.push_back(std::move(message));
+    return true;
+}
+
+SendQueue::OfferResult SendQueue::offer(const codec::EncodedFrame& encoded) {
+    if (rendition_.rate == 0 || encoded.rendition != rendition_) return OfferResult::Accepted;
+    const bool keyframe = encoded.kind != codec::EncodedFrame::Kind::Delta;
+    if (lastEpoch_ != encoded.message->content().frame().epoch()) breakChain();
+    if (keyframe && lastNumber_ == encoded.number) return OfferResult::Accepted;  // a resync for other viewers
+    if (!keyframe && !lastNumber_) return OfferResult::Accepted;                  // chain lost already
+    if (!keyframe && (frame_ || encoded.number != *lastNumber_ + 1)) {
+        const OfferResult why = frame_ ? OfferResult::Busy : OfferResult::Gap;
+        breakChain();
+        return why;
+    }
+    if (keyframe) keyframeSequence_ = encoded.message->content().frame().sequence();
+    lastNumber_ = encoded.number;
+    lastEpoch_ = encoded.message->content().frame().epoch();
+    frame_ = encoded.message;
+    return OfferResult::Accepted;
+}
+
+codec::SharedMessage SendQueue::next(bool frames) {
+    if (!reliable_.empty()) {
+        auto message = std::move(reliable_.front());
+        reliable_.pop_front();
+        return message;
+    }
+    if (!frames || !frameIsReady()) return nullptr;
+    return std::exchange(frame_, nullptr);
+}
+
+bool SendQueue::frameIsReady() const {
+    return frame_ && sceneEpoch_ == frame_->content().frame().epoch() &&
+           orderNumber_ == frame_->content().frame().order();
+}
+
+void SendQueue::clear() {
+    reliable_.clear();
+    frame_.reset();
+}
+
+}  // namespace spherule::net

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/input_file.h"
+#include "core/result.h"
+#include "recording/format.h"
+
+// Records of docs/recordings.md.
+namespace spherule::recording {
+
+struct Record {
+    Kind kind = Kind::Other;
+    double time = 0;  // s simulated
+    std::string payload;
+    std::uint64_t end = 0;  // where the next record begins in the file
+};
+
+// Returns a record with head and checksum, as in the file. The payload has at most mostPayload bytes.
+std::string recordBytes(Kind kind, double time, std::string_view payload);
+
+std::string fileHead();
+
+// Reads the records of a file, which may be hostile or cut off. Used by one thread.
+class RecordFile {
+  public:
+    // Input if the file is no recording.
+    static Result<RecordFile> open(const std::string& path);
+
+    // Reads the record at `offset`. Input if it is cut off or damaged. Allocates memory for the payload only if the
+    // file is long enough for it.
+    [[nodiscard]] Result<Record> read(std::uint64_t offset) const;
+    // Same as read(), but without the payload and its checksum.
+    [[nodiscard]] Result<Record> readHead(std::uint64_t offset) const;
+
+    // Offset of the index, from the trailer; 0 if there is no trailer.
+    [[nodiscard]] std::uint64_t indexOffset() const;
+
+    [[nodiscard]] std::uint64_t size() const { return file_.size(); }  // bytes, at the time of open()
+    [[nodiscard]] const std::string& path() const { return file_.path(); }
+
+  private:
+    explicit RecordFile(InputFile file) : file_(std::move(file)) {}
+    bool get(std::uint64_t offset, char* bytes, std::size_t count) const;
+    [[nodiscard]] tl::unexpected<Error> bad(std::uint64_t offset, const std::string& what) const;
+
+    InputFile file_;
+};
+
+}  // namespace spherule::recording

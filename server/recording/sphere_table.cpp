@@ -1,0 +1,49 @@
+#include "recording/sphere_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "codec/order.h"
+
+namespace spherule::recording {
+
+namespace {
+
+tl::unexpected<Error> bad(const char* what) {
+    return fail(ErrorKind::Input, "scene facts", what);
+}
+
+// Returns false when `from` is not a finite position.
+bool set(glm::dvec3& target, const google::protobuf::RepeatedField<double>& from) {
+    if (from.size() != 3) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        target[axis] = from[axis];
+        if (!std::isfinite(from[axis])) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<SphereTable> SphereTable::from(const v1::SceneFacts& facts, const v1::Order& order) {
+    SphereTable table{.epoch = facts.epoch(), .radii = {}, .order = order.number(), .ids = {}};
+    if (order.epoch() != facts.epoch()) return bad("are of another epoch than the order");
+    if (!set(table.low, facts.bounds_min()) || !set(table.high, facts.bounds_max())) return bad("have no bounds");
+    for (int axis = 0; axis < 3; ++axis)
+        if (table.low[axis] > table.high[axis]) return bad("have no bounds");
+    if (facts.count() == 0) return bad("have no spheres");
+    auto ids = codec::idsOf(order, facts.count());
+    if (!ids) return tl::unexpected(ids.error());
+    table.ids = std::move(*ids);
+    table.radii.assign(facts.count(), facts.radius());
+    if (!(facts.radius() > 0)) {
+        if (facts.radii().size() != table.radii.size() * sizeof(float)) return bad("have radii of other spheres");
+        std::memcpy(table.radii.data(), facts.radii().data(), facts.radii().size());
+    }
+    if (!std::ranges::all_of(table.radii, [](float radius) { return radius > 0 && std::isfinite(radius); }))
+        return bad("have a radius that is none");
+    return table;
+}
+
+}  // namespace spherule::recording

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/result.h"
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::recording {
+
+// Data of the spheres that frames do not repeat, from scene facts and order. Any thread.
+struct SphereTable {
+    std::uint32_t epoch = 0;
+    glm::dvec3 low{}, high{};        // bounds, m
+    std::vector<float> radii;        // by id, m
+    std::uint32_t order = 0;         // number of the order
+    std::vector<std::uint32_t> ids;  // in codec order
+
+    [[nodiscard]] std::uint32_t spheres() const { return static_cast<std::uint32_t>(ids.size()); }
+
+    // Builds the table from messages that may be hostile. Allocates no more memory than they have. Input if they do not
+    // fit each other.
+    static Result<SphereTable> from(const v1::SceneFacts& facts, const v1::Order& order);
+};
+
+}  // namespace spherule::recording

@@ -1,0 +1,121 @@
+// A recording plays the recorded frames.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "recording_support.h"
+
+namespace spherule::recording {
+namespace {
+
+constexpr double bound = Film::quantum / 2 + 1e-6;  // m
+
+class RoundTrip : public testing::Test {
+  protected:
+    TemporaryFolder folder_;
+    std::string path_ = folder_ / "film.sph";
+};
+
+TEST_F(RoundTrip, EveryFrameIsReadInIdOrderInMetres) {
+    const Film film = recording::film(path_, 23);
+    auto recording = Recording::open(path_);
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(recording->frames(), 23U);
+    EXPECT_EQ(recording->begin(), 0);
+    EXPECT_DOUBLE_EQ(recording->end(), 2.2);
+    EXPECT_EQ(recording->facts().name(), "film");
+    EXPECT_EQ(recording->damage(), "");
+    for (std::uint32_t n = 0; n < 23; ++n) {
+        const auto more = recording->next();
+        ASSERT_TRUE(more && *more) << n;
+        const Snapshot now = recording->now();
+        EXPECT_LE(distance({now.positions.begin(), now.positions.end()}, film.frames[n]), bound) << n;
+        EXPECT_EQ(now.step, 6 * n);
+        EXPECT_DOUBLE_EQ(now.time, 0.1 * n);
+        EXPECT_EQ(now.error, Film::quantum / 2);
+        EXPECT_EQ(now.radii[0], 1.5F);
+        EXPECT_EQ(now.radii[69], 0.5F);
+    }
+    EXPECT_FALSE(*recording->next());
+}
+
+TEST_F(RoundTrip, FilePlaysWhileItIsWritten) {
+    const Film film = recording::film(folder_ / "whole.sph", 1);
+    auto writer = Writer::create(path_, false);
+    ASSERT_TRUE(writer);
+    for (const std::string& record : film.records) {
+        const std::size_t bytes = record.size() - recordHeadBytes - checksumBytes;
+        ASSERT_TRUE(writer->add(static_cast<Kind>(record[4]), 0, record.substr(recordHeadBytes, bytes)));
+    }
+    auto recording = Recording::open(path_);
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(recording->frames(), 1U);
+}
+
+TEST_F(RoundTrip, SeekFindsTheLastFrameNotAfterTheTime) {
+    const Film film = recording::film(path_, 23);
+    auto recording = Recording::open(path_);
+    ASSERT_TRUE(recording);
+    for (const double time : {1.0, 0.52, 2.2, 0.0, 1.49, -3.0, 99.0, 0.5}) {
+        ASSERT_TRUE(recording->seek(time));
+        const auto n = static_cast<std::size_t>(std::clamp(std::floor(time / 0.1 + 1e-6), 0.0, 22.0));
+        const Snapshot now = recording->now();
+        EXPECT_NEAR(now.time, 0.1 * static_cast<double>(n), 1e-12) << time;
+        EXPECT_LE(distance({now.positions.begin(), now.positions.end()}, film.frames[n]), bound) << time;
+        const auto rest = play(*recording);
+        ASSERT_EQ(rest.size(), 22 - n) << time;
+        for (std::size_t k = 0; k < rest.size(); ++k)
+            EXPECT_LE(distance(rest[k], film.frames[n + 1 + k]), bound) << time;
+    }
+}
+
+TEST_F(RoundTrip, SceneMayChange) {
+    recording::film(path_, 3, false);
+    const std::string first = contentOf(path_);
+    // The same records again, with another epoch and later times.
+    std::string second;
+    for (std::uint64_t offset = fileHeadBytes; const auto& kind : {Kind::Scene, Kind::Order, Kind::Keyframe}) {
+        const auto record = RecordFile::open(path_)->read(offset);
+        ASSERT_TRUE(record);
+        v1::ServerMessage message;
+        ASSERT_TRUE(message.ParseFromString(record->payload));
+        if (message.has_scene()) message.mutable_scene()->set_epoch(2);
+        if (message.has_order()) message.mutable_order()->set_epoch(2);
+        if (message.has_frame()) message.mutable_frame()->set_epoch(2);
+        second += recordBytes(kind, 5, message.SerializeAsString());
+        offset = record->end;
+    }
+    writeFile(path_, first + second);
+    auto recording = Recording::open(path_);
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_EQ(play(*recording).size(), 4U);
+    EXPECT_EQ(recording->facts().epoch(), 2U);
+    ASSERT_TRUE(recording->seek(0.1));
+    EXPECT_EQ(recording->facts().epoch(), 1U);
+    ASSERT_TRUE(recording->seek(7));
+    EXPECT_EQ(recording->facts().epoch(), 2U);
+}
+
+TEST_F(RoundTrip, ExistingFileIsReplacedOnlyOnRequest) {
+    writeFile(path_, "precious");
+    const auto refused = Writer::create(path_, false);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().text(), path_ + ": is there already; give --force to replace it, or another name");
+    EXPECT_EQ(contentOf(path_), "precious");
+    EXPECT_TRUE(Writer::create(path_, true));
+}
+
+TEST_F(RoundTrip, ReportsPathAndReasonOfAWriteError) {
+    EXPECT_EQ(Writer::create(folder_ / "no/film.sph", false).error().text(),
+              (folder_ / "no/film.sph") + ": cannot be written: No such file or directory; make its folder first");
+    const auto full = Writer::create("/dev/full", true);
+    ASSERT_FALSE(full);
+    EXPECT_EQ(full.error().kind, ErrorKind::Refused);
+    EXPECT_EQ(full.error().text(),
+              "/dev/full: writing failed after 0 bytes: No space left on device; make room there or write to "
+              "another disk; what has been written stays as it is");
+}
+
+}  // namespace
+}  // namespace spherule::recording
