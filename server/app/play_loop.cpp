@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "app/facts.h"
+#include "app/to_proto.h"
 #include "core/log.h"
 #include "core/pulse.h"
 #include "core/text.h"

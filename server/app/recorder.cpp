@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/facts.h"
+#include "app/to_proto.h"
 #include "core/pulse.h"
 #include "frame/channel.h"
 #include "frame/order.h"

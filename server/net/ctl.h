@@ -13,7 +13,7 @@
 namespace spherule::net {
 
 // The forms that commandFrom takes, one per line.
-extern const std::string_view commandForms;
+std::string commandForms();
 
 // Of `set gravity 0 0 -1.6` and the like, or of one word that is the JSON form of a Command. `load FILE.json` reads the
 // file. Anything else is an error that lists what is accepted.

@@ -1,6 +1,7 @@
-// What a session may command.
+// The commands of a session.
 #include <utility>
 
+#include "net/command_rules.h"
 #include "net/session.h"
 
 namespace spherule::net {
@@ -9,14 +10,9 @@ namespace {
 
 constexpr const char* tooMany = "too many commands came from this client within a second";
 
-// Who may give it: a controller what changes anything, everybody what does not.
-bool changes(v1::Command::KindCase kind) {
-    return kind != v1::Command::kQuery;
-}
-
 }  // namespace
 
-// Parsing takes time and memory: for a long message, only when what it asks for may then wait.
+// Parsing takes time and memory. A long message is parsed only if its command may then wait.
 bool Session::refusesUnparsed(const Preview& preview, std::size_t bytes) {
     const Options& options = context_.options;
     if (preview.cost > options.maxMessageCost) {
@@ -47,7 +43,7 @@ void Session::onCommand(v1::Command command, std::size_t cost) {
     if (!commands_.take(TokenBucket::Clock::now())) return refuse(id, Rejection::CommandRate, tooMany);
     if (command.kind_case() == v1::Command::KIND_NOT_SET)
         return refuse(id, Rejection::UnknownCommand, "the command is not known to this server");
-    if (changes(command.kind_case())) {
+    if (!rulesOf(command).viewer_may()) {
         if (role_ != v1::CONTROLLER)
             return refuse(id, Rejection::ViewersCommand, "a viewer may not command: that takes the controllers' token");
         if (context_.leased && !context_.lease.take(id_, client_))
@@ -69,7 +65,7 @@ void Session::refuse(std::uint64_t command, Rejection cause, const std::string& 
     queue(std::make_shared<frame::Message>(std::move(message)));
 }
 
-// Where everybody has the controls, there is nothing to ask for.
+// A server that takes commands from every controller has no control to ask for.
 void Session::onControls(const v1::ClientMessage& message) {
     if (!context_.leased) return;
     if (role_ != v1::CONTROLLER || !commands_.take(TokenBucket::Clock::now())) {
