@@ -219,7 +219,7 @@ Result<void> plain(const pb::FieldDescriptor& kind, Words words, v1::Command& co
 std::string plainForm(const pb::FieldDescriptor& kind) {
     std::string form = kind.name();
     for (int k = 0; k < kind.message_type()->field_count(); ++k)
-        form += " " + upper(kind.message_type()->field(k)->name());
+        form.append(" ").append(upper(kind.message_type()->field(k)->name()));
     return form;
 }
 
@@ -243,17 +243,18 @@ Result<void> parse(const std::string& name, Words words, v1::Command& command) {
 }  // namespace
 
 std::string commandForms() {
-    constexpr std::size_t helpColumn = 45;
+    constexpr std::size_t helpColumn = 43;
     std::string forms;
     for (const auto* const kind : commandFields()) {
         const std::string& help = kind->options().GetExtension(v1::command_rules).help();
         if (help.empty()) continue;
-        std::string line = "  " + plainForm(*kind);
+        std::string line = plainForm(*kind);
         line.resize(std::max(helpColumn, line.size() + 1), ' ');
-        forms += line + help + "\n";
+        forms.append("  ").append(line).append(help).append("\n");
     }
     forms += ownForms;
-    return forms + "  JSON                                       a command, such as {\"step\":{\"count\":10}}";
+    forms.append("  JSON                                       a command, such as {\"step\":{\"count\":10}}");
+    return forms;
 }
 
 Result<v1::Command> commandFrom(const std::vector<std::string>& words) {
