@@ -84,8 +84,11 @@ TEST(ResultOf, HasTheSphereThatWasHitAndTheStatisticsOfAQuery) {
     EXPECT_EQ(hit.applied().step(), 3U);
     EXPECT_TRUE(hit.applied().has_sphere());
     EXPECT_FALSE(hit.applied().has_statistics());
-    const v1::CommandResult asked = resultOf(
-        command, sim::Applied{.step = 3, .statistics = sim::Statistics{.step = 3, .time = 0.05, .spheres = 2}});
+    sim::Statistics statistics;
+    statistics.step = 3;
+    statistics.time = 0.05;
+    statistics.spheres = 2;
+    const v1::CommandResult asked = resultOf(command, sim::Applied{.step = 3, .statistics = statistics});
     EXPECT_FALSE(asked.applied().has_sphere());
     EXPECT_EQ(asked.applied().statistics().step(), 3U);
     EXPECT_EQ(asked.applied().statistics().sim_time(), 0.05);
