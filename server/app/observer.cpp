@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/facts.h"
+#include "app/to_proto.h"
 
 namespace spherule::app {
 
@@ -66,7 +66,7 @@ Observer::Sight Observer::look(sim::Simulation& simulation, const std::vector<do
     v1::Diagnostics& diagnostics = sight.diagnostics;
     sim::Statistics statistics = simulation.statistics();
     statistics.impacts = statistics.impacts.since(std::exchange(impacts_, statistics.impacts));
-    *diagnostics.mutable_statistics() = simulation.message(statistics);
+    *diagnostics.mutable_statistics() = statisticsMessage(statistics);
     diagnostics.set_substeps(simulation.substeps());
     addPasses(diagnostics, passSeconds, steps_);
     if (simulation.substeps() != substeps_) energy_.disturbed();

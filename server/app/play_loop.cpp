@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "app/facts.h"
+#include "app/to_proto.h"
 #include "core/heartbeat.h"
 #include "core/log.h"
 #include "core/text.h"

@@ -9,6 +9,7 @@
 
 #include "app/pacer.h"
 #include "core/text.h"
+#include "net/command_rules.h"
 
 namespace spherule::app {
 
@@ -21,6 +22,10 @@ double secondsOf(Player::Clock::duration time) {
     return std::chrono::duration<double>(time).count();
 }
 
+tl::unexpected<Error> refusal() {
+    return fail(ErrorKind::Refused, "", "a recording is played here: nothing in it can be changed");
+}
+
 }  // namespace
 
 Player::Player(recording::Recording recording, std::string name, bool again, Clock::time_point now)
@@ -28,7 +33,8 @@ Player::Player(recording::Recording recording, std::string name, bool again, Clo
     wanted_ = recording_.begin();
 }
 
-Result<v1::Applied> Player::apply(const v1::Command& command, Clock::time_point now) {
+Result<sim::Applied> Player::apply(const v1::Command& command, Clock::time_point now) {
+    if (!net::rulesOf(command).while_playing()) return refusal();
     Result<void> done;
     switch (command.kind_case()) {
         case v1::Command::kPause:
@@ -53,12 +59,10 @@ Result<v1::Applied> Player::apply(const v1::Command& command, Clock::time_point 
             done = setSpeed(command.set(), now);
             break;
         default:
-            return fail(ErrorKind::Refused, "", "a recording is played here: nothing in it can be changed");
+            return refusal();
     }
     if (!done) return tl::unexpected(done.error());
-    v1::Applied applied;
-    applied.set_step(recording_.step());
-    return applied;
+    return sim::Applied{.step = recording_.step()};
 }
 
 Result<void> Player::setSpeed(const v1::Set& set, Clock::time_point now) {

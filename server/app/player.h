@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "recording/recording.h"
+#include "sim/commands.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::app {
@@ -20,8 +21,8 @@ class Player {
     // `again`: from the end it goes on at the beginning.
     Player(recording::Recording recording, std::string name, bool again, Clock::time_point now);
 
-    // Takes a command, or refuses it and changes nothing. Seeking is done by the next advance().
-    Result<v1::Applied> apply(const v1::Command& command, Clock::time_point now);
+    // Carries a command out, or refuses it and changes nothing. The next advance() does a seek.
+    Result<sim::Applied> apply(const v1::Command& command, Clock::time_point now);
 
     struct Moved {
         bool shown = false;                            // another moment is

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/facts.h"
+#include "app/to_proto.h"
 #include "codec/order.h"
 #include "codec/rendition.h"
 #include "core/heartbeat.h"

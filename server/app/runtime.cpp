@@ -6,8 +6,8 @@
 
 #include <new>
 
-#include "app/facts.h"
 #include "app/options.h"
+#include "app/to_proto.h"
 #include "core/heartbeat.h"
 #include "core/text.h"
 
@@ -146,10 +146,8 @@ void Runtime::beginToEnd(const std::optional<Error>& failure) {
 
 void Runtime::refuseWaiting() {
     const auto refuse = [this](const Request& request) {
-        v1::CommandResult result;
-        result.set_id(request.command.id());
-        result.mutable_refused()->set_reason("the server is stopping");
-        server_->reply(request.session, std::move(result));
+        const Error error{ErrorKind::Refused, "", "the server is stopping"};
+        server_->reply(request.session, resultOf(request.command, tl::unexpected(error)));
     };
     while (const auto request = requests_.tryPop()) refuse(*request);
     for (const Request& query : requests_.takeQueries()) refuse(query);

@@ -26,14 +26,6 @@ struct Outlets {
     std::function<std::vector<codec::Subscription>()> subscriptions;
 };
 
-// The answer to a command. The field of a refusal is a path that begins at the Command: `applied` names it from the
-// command's own message. Whatever else is at fault is named in the reason.
-v1::CommandResult resultOf(const v1::Command& command, const Result<v1::Applied>& applied);
-
-// The change that a command asks for, in words: "load box-50k", "reset",
-// "spawn", "set", "step".
-std::string changeOf(const v1::Command& command);
-
 // What a show has to do with: what is asked of it, what it says of itself, where its results go.
 struct Stage {
     Requests& requests;

@@ -8,9 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "app/facts.h"
+#include "app/to_proto.h"
 #include "core/heartbeat.h"
 #include "core/log.h"
+#include "net/command_rules.h"
 
 namespace spherule::app {
 
@@ -28,20 +29,7 @@ constexpr auto longestHold = 500ms;  // of a command that waits for a change und
 constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of those commands
 constexpr std::size_t mostStepCommands = 64;
 
-// Whether the world, or how it goes on, may be another after it.
-bool changesWorld(const v1::Command& command) {
-    return command.has_set() || command.has_load() || command.has_reset() || command.has_spawn() || command.has_push();
-}
-
-// Needs the world as it is, and so waits while that is being changed.
-bool waitsForChange(const v1::Command& command) {
-    return command.has_set() || command.has_spawn() || command.has_push() || command.has_step();
-}
-
-// Ends the steps that were asked for.
-bool endsSteps(const v1::Command& command) {
-    return command.has_pause() || command.has_resume() || command.has_load() || command.has_reset();
-}
+constexpr const char* noMemory = "there is not enough memory for this";
 
 }  // namespace
 
@@ -134,9 +122,9 @@ Request SimLoop::takeHeld() {
 }
 
 void SimLoop::serve(Request request) {
-    const v1::Command& command = request.command;
-    // Behind those that wait already.
-    if (!waitsForChange(command) || (!world_.changing() && held_.empty())) return carryOut(std::move(request));
+    // Commands that wait for the end of a change keep their order.
+    const bool waits = net::rulesOf(request.command).waits_for_change();
+    if (!waits || (!world_.changing() && held_.empty())) return carryOut(std::move(request));
     if (heldBytes_ + request.bytes > mostHeldBytes)
         return refuse(request, "too much waits already for what is under way");
     heldBytes_ += request.bytes;
@@ -145,61 +133,46 @@ void SimLoop::serve(Request request) {
 
 void SimLoop::carryOut(Request request) {
     const v1::Command& command = request.command;
-    std::optional<Result<v1::Applied>> applied;
-    try {
-        applied = apply(command);
-    } catch (const std::bad_alloc&) {
-        applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
-    } catch (const std::exception& error) {
-        applied = fail(ErrorKind::Refused, "", error.what());
-    }
+    const auto applied = apply(command);
     if (!applied) {
-        if (change_) refuseChange(fmt::format("session {} has asked for {}", request.session, changeOf(command)));
+        if (change_) refuseChange(fmt::format("session {} has asked for {}", request.session, wordsFor(command)));
         change_ = Asked{std::move(request), Pacer::Clock::now()};
     } else if (command.has_step() && *applied) {
         announce();
         const std::uint32_t count = command.step().count();
         steps_.push_back({.asked = {std::move(request), Pacer::Clock::now()}, .left = count});
     } else {
+        // A change that ends the steps leaves those that wait for it: they came later.
+        if (*applied && net::rulesOf(command).ends_steps()) refuseHeldSteps();
         finish(request, *applied);
     }
 }
 
-void SimLoop::finish(const Request& request, const Result<v1::Applied>& applied) {
-    const v1::Command& command = request.command;
-    if (applied && changesWorld(command)) {
+void SimLoop::finish(const Request& request, const Result<sim::Applied>& applied) {
+    const v1::CommandRules& rules = net::rulesOf(request.command);
+    if (applied && rules.changes_world()) {
         tellNotices();
         tuner_.forget();
         observer_.disturbed();
         nextReport_ = {};  // what energy there is at the start is soon gone
+        if (!world_.simulation().midStep()) stepMs_ = 0;
     }
-    if (applied && (command.has_load() || command.has_reset())) stepMs_ = 0;
-    if (applied && (command.has_pause() || command.has_resume())) refuseHeldSteps();
-    if (applied && endsSteps(command)) refuseSteps("came before all its steps were done");
+    if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done");
     if (applied) announce();
-    outlets_.reply(request.session, resultOf(command, applied));
+    outlets_.reply(request.session, resultOf(request.command, applied));
 }
 
-// Nothing: a change is under way, and has its result later.
-std::optional<Result<v1::Applied>> SimLoop::apply(const v1::Command& command) {
-    Result<void> done;
-    if (command.has_start_recording()) {
-        done = startRecording();
-    } else if (command.has_stop_recording()) {
-        done = tape_.stop();
-    } else if (command.has_seek()) {
-        done = fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that");
-    } else if (command.has_cancel()) {
-        done = cancel();
-    } else if (command.has_step() && steps_.size() >= mostStepCommands) {
-        done = fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()));
-    } else {
-        return world_.apply(command);
+// nullopt: a change is under way, and its result comes later.
+std::optional<Result<sim::Applied>> SimLoop::apply(const v1::Command& command) {
+    if (command.has_step() && steps_.size() >= mostStepCommands)
+        return fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()));
+    try {
+        return dispatch(command, world_, *this);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorKind::Refused, "", noMemory);
+    } catch (const std::exception& error) {
+        return fail(ErrorKind::Refused, "", error.what());
     }
-    if (!done) return tl::unexpected(done.error());
-    v1::Applied applied;
-    applied.set_step(world_.simulation().steps());
-    return applied;
 }
 
 Result<void> SimLoop::cancel() {
@@ -251,12 +224,12 @@ void SimLoop::refuseSteps(std::string_view reason) {
 
 // A part of the change under way.
 void SimLoop::advanceChange(Pacer::Clock::duration slice) {
-    std::optional<Result<v1::Applied>> applied;
+    std::optional<Result<sim::Applied>> applied;
     try {
         applied = world_.advanceChange(slice);
     } catch (const std::bad_alloc&) {
         world_.cancelChange();
-        applied = fail(ErrorKind::Refused, "", "there is not enough memory for this");
+        applied = fail(ErrorKind::Refused, "", noMemory);
     } catch (const std::exception& error) {
         world_.cancelChange();
         applied = fail(ErrorKind::Refused, "", error.what());
@@ -273,11 +246,7 @@ void SimLoop::answerQueries() {
     if (queries.empty()) return;
     const auto now = Pacer::Clock::now();
     if (!answered_ || now - *answered_ > oldestAnswer) {
-        try {
-            answer_ = *world_.apply(queries.front().command);
-        } catch (const std::bad_alloc&) {
-            answer_ = fail(ErrorKind::Refused, "", "there is not enough memory for this");
-        }
+        answer_ = *apply(queries.front().command);
         answered_ = now;
     }
     for (const Request& query : queries) outlets_.reply(query.session, resultOf(query.command, answer_));
@@ -323,10 +292,8 @@ Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
 // For whoever asked for it.
 void SimLoop::countStep() {
     if (steps_.empty() || --steps_.front().left > 0) return;
-    v1::Applied applied;
-    applied.set_step(world_.simulation().steps());
     const Request& request = steps_.front().asked.request;
-    outlets_.reply(request.session, resultOf(request.command, applied));
+    outlets_.reply(request.session, resultOf(request.command, world_.applied()));
     steps_.pop_front();
 }
 

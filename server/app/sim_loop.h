@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/chains.h"
+#include "app/dispatch.h"
 #include "app/observer.h"
 #include "app/show.h"
 #include "app/state_rate.h"
@@ -21,7 +22,7 @@ namespace spherule::app {
 
 // What the simulation thread does: commands, steps, states. It waits for a command, for the next step or for the device
 // to end one, never for the network, for the disk or for the copy of a state.
-class SimLoop : public Show {
+class SimLoop : public Show, private HostCommands {
   public:
     SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Table table, TapeOptions recordings);
 
@@ -35,13 +36,13 @@ class SimLoop : public Show {
     void serve(Request request);
     void carryOut(Request request);
     Request takeHeld();
-    std::optional<Result<v1::Applied>> apply(const v1::Command& command);
-    void finish(const Request& request, const Result<v1::Applied>& applied);
+    std::optional<Result<sim::Applied>> apply(const v1::Command& command);
+    void finish(const Request& request, const Result<sim::Applied>& applied);
     void refuse(const Request& request, const std::string& reason);
     void refuseChange(const std::string& reason);
     void refuseSteps(std::string_view reason);
     void refuseHeldSteps();
-    Result<void> cancel();
+    Result<void> cancel() override;
     void answerQueries();
     bool goOn(Result<void>& done);
     Result<void> stepFor(Pacer::Clock::time_point now);
@@ -59,7 +60,8 @@ class SimLoop : public Show {
     void stopAtNonFinite();
     void lookAtStill();
     Result<void> roomForTape();
-    Result<void> startRecording();
+    Result<void> startRecording() override;
+    Result<void> stopRecording() override { return tape_.stop(); }
     void produce(Pacer::Clock::time_point now);
     Scenery scenery(Pacer::Clock::time_point now);
     v1::Frame head(Pacer::Clock::time_point now);
@@ -83,7 +85,7 @@ class SimLoop : public Show {
     Pacer::Clock::time_point nextReport_{};
     Tuner tuner_;
     Observer observer_;
-    Result<v1::Applied> answer_;                        // to queries; nothing newer is needed before
+    Result<sim::Applied> answer_;                       // to queries; nothing newer is needed before
     std::optional<Pacer::Clock::time_point> answered_;  // when it was made, the world as it was then
     std::optional<v1::Diagnostics> seen_;               // of the last report while somebody watched
     std::uint64_t version_ = 0;                         // of the world, as far as viewers can see

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/sim_loop.h"
+#include "app/to_proto.h"
 #include "core/log.h"
 #include "core/text.h"
 
@@ -78,7 +79,7 @@ void SimLoop::tellOfTape() {
 // "load box-50k is under way (placing spheres, 34 %)".
 std::string SimLoop::changeInWords() const {
     const Progress::Seen seen = world_.changeProgress();
-    return fmt::format("{} is under way ({}, {:.0f} %)", changeOf(change_->request.command), seen.doing,
+    return fmt::format("{} is under way ({}, {:.0f} %)", wordsFor(change_->request.command), seen.doing,
                        100 * seen.share);
 }
 
@@ -91,7 +92,7 @@ void SimLoop::tellOfChange() {
     if (asked != nullptr) {
         if (now - asked->since < toldAfter || now < nextTold_) return;
         nextTold_ = now + toldEvery;
-        change.set_what(changeOf(asked->request.command));
+        change.set_what(wordsFor(asked->request.command));
         change.set_session(asked->request.session);
         if (change_) {
             const Progress::Seen seen = world_.changeProgress();

@@ -6,17 +6,19 @@
 #include <optional>
 #include <string>
 
+#include "app/from_proto.h"
 #include "app/pacer.h"
 #include "compute/device.h"
 #include "core/progress.h"
 #include "scene/load.h"
+#include "sim/commands.h"
 #include "sim/preparation.h"
 #include "sim/simulation.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::app {
 
-// A device, the simulation on it, and how it is paced: all that commands change. Used by the simulation thread.
+// A device, the simulation on it, and the pace of its steps. Used by the simulation thread.
 class World {
   public:
     using Clock = Pacer::Clock;
@@ -24,22 +26,28 @@ class World {
     static Result<std::unique_ptr<World>> open(const std::string& deviceChoice, const std::string& scene,
                                                const scene::Overrides& overrides);
 
-    // Carries a command out, or refuses it and changes nothing. Nothing: a change is under way now, and advanceChange()
-    // gives the result. While one is under way only pause, resume and query may be applied, and load and reset, which
-    // take its place.
-    std::optional<Result<v1::Applied>> apply(const v1::Command& command);
+    // Commands. Each returns a result, or refuses and changes nothing. nullopt: a change is under way now, and
+    // advanceChange() gives the result. change() and step() need that no change is under way; load() and a reset take
+    // the place of one.
+    std::optional<Result<sim::Applied>> change(const sim::Command& command, std::optional<double> speed = {});
+    std::optional<Result<sim::Applied>> load(MakeScene make);
+    Result<void> step(std::uint32_t count);  // adds to the steps that are still to do
+    void pause() { paused_ = true, pendingSteps_ = 0; }
+    void resume();
+    sim::Applied query();
+    // The result of a command that is done now.
+    [[nodiscard]] sim::Applied applied() const { return {.step = simulation_->steps()}; }
 
-    [[nodiscard]] bool changing() const { return change_ != nullptr; }
-    [[nodiscard]] Progress::Seen changeProgress() const { return change_->progress(); }
-    // Does pieces of the change for about `slice`, or waits that long for the thread that builds. Its result, once it
-    // has one.
-    std::optional<Result<v1::Applied>> advanceChange(Clock::duration slice);
+    [[nodiscard]] bool changing() const { return change_.has_value(); }
+    [[nodiscard]] Progress::Seen changeProgress() const { return change_->preparation->progress(); }
+    // Does pieces of the change for about `slice`, or waits that long for the thread that builds. Returns the result of
+    // the change once it is done.
+    std::optional<Result<sim::Applied>> advanceChange(Clock::duration slice);
     void cancelChange() { change_.reset(); }
 
     // Whether steps are to be done, as soon as they are due. None are while a change begins from the present state.
     [[nodiscard]] bool running() const { return (!paused_ || pendingSteps_ > 0) && !heldStill(); }
     [[nodiscard]] bool paused() const { return paused_; }
-    void pause() { paused_ = true, pendingSteps_ = 0; }
     // Substeps, at least one, until `until` or the end of the step: true then.
     Result<bool> advance(Clock::time_point until);
 
@@ -50,27 +58,29 @@ class World {
 
     [[nodiscard]] sim::Simulation& simulation() { return *simulation_; }
     [[nodiscard]] compute::Device& device() { return *device_; }
+    [[nodiscard]] const scene::Overrides& overrides() const { return overrides_; }
     [[nodiscard]] Pacer& pacer() { return pacer_; }
 
   private:
     World(std::unique_ptr<compute::Device> device, const scene::Overrides& overrides)
         : device_(std::move(device)), overrides_(overrides) {}
 
-    [[nodiscard]] v1::Applied applied() const;
-    std::optional<Result<v1::Applied>> load(const v1::LoadScene& load);
-    std::optional<Result<v1::Applied>> simulate(const v1::Command& command);
-    Result<v1::Applied> stepBy(std::uint32_t count);
-    v1::Applied finishChange();
+    // A change of the world that is under way.
+    struct Change {
+        enum class Kind : std::uint8_t { Load, Reset, Other };
+        Kind kind = Kind::Other;
+        std::unique_ptr<sim::Preparation> preparation;
+        std::optional<double> speed{};  // that is set with it
+    };
+    sim::Applied finishChange();
     void adopt(std::unique_ptr<sim::Preparation> preparation);
     void refreshFacts();
-    [[nodiscard]] bool heldStill() const { return change_ != nullptr && changeKind_ != v1::Command::kLoad; }
+    [[nodiscard]] bool heldStill() const { return change_ && change_->kind != Change::Kind::Load; }
 
     std::unique_ptr<compute::Device> device_;
     scene::Overrides overrides_;
     std::unique_ptr<sim::Simulation> simulation_;
-    std::unique_ptr<sim::Preparation> change_;  // under way
-    v1::Command::KindCase changeKind_{};        // of its command
-    std::optional<double> changeSpeed_;         // that comes with it
+    std::optional<Change> change_;
     Pacer pacer_;
     bool paused_ = false;
     std::uint32_t pendingSteps_ = 0;

@@ -12,17 +12,25 @@
 #include <span>
 #include <utility>
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/util/json_util.h>
 
 #include "core/json_error.h"
 #include "core/quantity.h"
+<<<<<<< HEAD:server/client/command_parser.cpp
+=======
+#include "net/command_rules.h"
+#include "net/ctl.h"
+>>>>>>> commands15:server/net/command_words.cpp
 
 namespace spherule::client {
 
-const std::string_view commandForms =
-    "  pause\n"
-    "  resume\n"
+namespace {
+
+// The commands with forms of their own. commandForms() adds the others.
+constexpr std::string_view ownForms =
     "  step [N]\n"
+<<<<<<< HEAD:server/client/command_parser.cpp
     "  reset\n"
     "  cancel                                     ends a load, a spawn or steps in progress\n"
     "  load NAME | load FILE.json\n"
@@ -36,8 +44,18 @@ const std::string_view commandForms =
     "  record | record stop\n"
     "  query\n"
     "  JSON                                       a command, such as {\"step\":{\"count\":10}}";
+=======
+    "  load NAME | load FILE.json\n"
+    "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
+    "  set model fast|balanced|accurate | set substeps N\n"
+    "  set auto MSms | set auto PERCENT% | set auto off   substeps that hold a time per step, or a mean overlap\n"
+    "  spawn JSON                                 a group of spheres\n"
+    "  push SPHERE JX JY JZ                       an impulse in N s\n"
+    "  push ray OX OY OZ DX DY DZ JX JY JZ        at the first sphere that the ray meets\n"
+    "  record | record stop\n";
+>>>>>>> commands15:server/net/command_words.cpp
 
-namespace {
+namespace pb = google::protobuf;
 
 using Words = std::span<const std::string>;
 
@@ -45,10 +63,14 @@ constexpr std::uintmax_t largestScene = std::uintmax_t{16}
                                         << 20U;  // bytes of JSON; a server accepts messages up to 1 MiB
 
 tl::unexpected<Error> refuse(const std::string& what) {
-    return fail(ErrorKind::Input, "command", what + "; accepted are\n" + std::string(commandForms));
+    return fail(ErrorKind::Input, "command", what + "; accepted are\n" + commandForms());
 }
 
+<<<<<<< HEAD:server/client/command_parser.cpp
 // Parses a finite number that fills the whole word.
+=======
+// The finite number that the whole word is.
+>>>>>>> commands15:server/net/command_words.cpp
 template <class T>
 Result<T> number(const std::string& word) {
     T value{};
@@ -65,6 +87,33 @@ Result<void> numbers(Words words, Field* field) {
         const auto value = number<double>(word);
         if (!value) return tl::unexpected(value.error());
         field->Add(*value);
+    }
+    return {};
+}
+
+std::string upper(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+    return text;
+}
+
+// Sets a field to the value that the word is, or adds it to a list. Fields of commands with help, and those of Set but
+// for `auto`, are of the types here.
+Result<void> readField(const std::string& word, pb::Message& message, const pb::FieldDescriptor& field) {
+    const pb::Reflection& fields = *message.GetReflection();
+    if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE) {
+        const auto value = number<double>(word);
+        if (!value) return tl::unexpected(value.error());
+        field.is_repeated() ? fields.AddDouble(&message, &field, *value) : fields.SetDouble(&message, &field, *value);
+    } else if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT32) {
+        const auto value = number<std::uint32_t>(word);
+        if (!value) return tl::unexpected(value.error());
+        fields.SetUInt32(&message, &field, *value);
+    } else if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_ENUM) {
+        const auto* const value = field.enum_type()->FindValueByName(upper(word));
+        if (value == nullptr || value->number() == 0) return refuse("'" + word + "' is no " + field.name());
+        fields.SetEnum(&message, &field, value);
+    } else {
+        return refuse("'" + field.name() + "' can be given in JSON only");
     }
     return {};
 }
@@ -136,37 +185,12 @@ Result<void> set(Words words, v1::Command& command) {
     const std::string& name = words[0];
     const Words values = words.subspan(1);
     v1::Set& change = *command.mutable_set();
-    if (name == "gravity") {
-        if (auto right = wantWords(values, 3, "set gravity"); !right) return right;
-        return numbers(values, change.mutable_gravity());
-    }
-    static const std::map<std::string_view, void (v1::Set::*)(double)> numbersByName = {
-        {"restitution", &v1::Set::set_restitution},
-        {"friction", &v1::Set::set_friction},
-        {"speed", &v1::Set::set_speed}};
-    const auto plainNumber = numbersByName.find(name);
-    if (plainNumber == numbersByName.end() && name != "substeps" && name != "model" && name != "auto")
-        return refuse("'" + name + "' cannot be set");
-    if (auto right = wantWords(values, 1, "set " + name); !right) return right;
-    if (name == "substeps") {
-        const auto count = number<std::uint32_t>(values[0]);
-        if (!count) return tl::unexpected(count.error());
-        change.set_substeps(*count);
-        return {};
-    }
-    if (name == "auto") return setAuto(values[0], *change.mutable_auto_());
-    if (name == "model") {
-        std::string upper = values[0];
-        std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });
-        v1::Model model{};
-        if (!v1::Model_Parse(upper, &model) || model == v1::MODEL_UNSPECIFIED)
-            return refuse("'" + values[0] + "' is no model");
-        change.set_model(model);
-        return {};
-    }
-    const auto value = number<double>(values[0]);
-    if (!value) return tl::unexpected(value.error());
-    (change.*plainNumber->second)(*value);
+    const auto* const field = v1::Set::descriptor()->FindFieldByName(name);
+    if (field == nullptr) return refuse("'" + name + "' cannot be set");
+    if (auto right = wantWords(values, field->is_repeated() ? 3 : 1, "set " + name); !right) return right;
+    if (field->number() == v1::Set::kAutoFieldNumber) return setAuto(values[0], *change.mutable_auto_());
+    for (const std::string& value : values)
+        if (auto read = readField(value, change, *field); !read) return read;
     return {};
 }
 
@@ -194,14 +218,6 @@ Result<void> push(Words words, v1::Command& command) {
     return numbers(words.subspan(1), push.mutable_impulse());
 }
 
-Result<void> seek(Words words, v1::Command& command) {
-    if (auto right = wantWords(words, 1, "seek"); !right) return right;
-    const auto time = number<double>(words[0]);
-    if (!time) return tl::unexpected(time.error());
-    command.mutable_seek()->set_time(*time);
-    return {};
-}
-
 Result<void> record(Words words, v1::Command& command) {
     if (words.empty()) {
         command.mutable_start_recording();
@@ -212,35 +228,67 @@ Result<void> record(Words words, v1::Command& command) {
     return {};
 }
 
+<<<<<<< HEAD:server/client/command_parser.cpp
 // A command without arguments.
 template <auto Make>
 Result<void> plain(Words words, v1::Command& command) {
     if (!words.empty()) return refuse("'" + words[0] + "' is one word too many");
     (command.*Make)();
+=======
+// A command whose words are the values of its fields, in their order.
+Result<void> plain(const pb::FieldDescriptor& kind, Words words, v1::Command& command) {
+    const pb::Descriptor& type = *kind.message_type();
+    const auto count = static_cast<std::size_t>(type.field_count());
+    if (words.size() > count) return refuse("'" + words[count] + "' is one word too many");
+    if (auto right = wantWords(words, count, kind.name()); !right) return right;
+    pb::Message& message = *command.GetReflection()->MutableMessage(&command, &kind);
+    for (int k = 0; k < type.field_count(); ++k)
+        if (auto read = readField(words[static_cast<std::size_t>(k)], message, *type.field(k)); !read) return read;
+>>>>>>> commands15:server/net/command_words.cpp
     return {};
+}
+
+// "seek TIME".
+std::string plainForm(const pb::FieldDescriptor& kind) {
+    std::string form = kind.name();
+    for (int k = 0; k < kind.message_type()->field_count(); ++k)
+        form.append(" ").append(upper(kind.message_type()->field(k)->name()));
+    return form;
 }
 
 using Parse = Result<void> (*)(Words, v1::Command&);
 
+// The parsers of the commands with forms of their own.
 const std::map<std::string_view, Parse>& parsers() {
-    static const std::map<std::string_view, Parse> table = {
-        {"pause", plain<&v1::Command::mutable_pause>},
-        {"resume", plain<&v1::Command::mutable_resume>},
-        {"reset", plain<&v1::Command::mutable_reset>},
-        {"cancel", plain<&v1::Command::mutable_cancel>},
-        {"query", plain<&v1::Command::mutable_query>},
-        {"step", step},
-        {"load", load},
-        {"set", set},
-        {"spawn", spawn},
-        {"push", push},
-        {"seek", seek},
-        {"record", record},
-    };
+    static const std::map<std::string_view, Parse> table = {{"step", step},   {"load", load}, {"set", set},
+                                                            {"spawn", spawn}, {"push", push}, {"record", record}};
     return table;
 }
 
+Result<void> parse(const std::string& name, Words words, v1::Command& command) {
+    if (const auto own = parsers().find(name); own != parsers().end()) return own->second(words, command);
+    for (const auto* const kind : commandFields())
+        if (kind->name() == name && !kind->options().GetExtension(v1::command_rules).help().empty())
+            return plain(*kind, words, command);
+    return refuse("'" + name + "' is no command");
+}
+
 }  // namespace
+
+std::string commandForms() {
+    constexpr std::size_t helpColumn = 43;
+    std::string forms;
+    for (const auto* const kind : commandFields()) {
+        const std::string& help = kind->options().GetExtension(v1::command_rules).help();
+        if (help.empty()) continue;
+        std::string line = plainForm(*kind);
+        line.resize(std::max(helpColumn, line.size() + 1), ' ');
+        forms.append("  ").append(line).append(help).append("\n");
+    }
+    forms += ownForms;
+    forms.append("  JSON                                       a command, such as {\"step\":{\"count\":10}}");
+    return forms;
+}
 
 Result<v1::Command> commandFrom(const std::vector<std::string>& words) {
     if (words.empty()) return refuse("nothing was given");
@@ -249,10 +297,8 @@ Result<v1::Command> commandFrom(const std::vector<std::string>& words) {
         if (command && command->kind_case() == v1::Command::KIND_NOT_SET) return refuse("the JSON names no command");
         return command;
     }
-    const auto parser = parsers().find(words[0]);
-    if (parser == parsers().end()) return refuse("'" + words[0] + "' is no command");
     v1::Command command;
-    if (auto parsed = parser->second(Words(words).subspan(1), command); !parsed) return tl::unexpected(parsed.error());
+    if (auto parsed = parse(words[0], Words(words).subspan(1), command); !parsed) return tl::unexpected(parsed.error());
     return command;
 }
 

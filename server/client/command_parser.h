@@ -11,7 +11,7 @@
 namespace spherule::client {
 
 // The forms that commandFrom() accepts, one per line.
-extern const std::string_view commandForms;
+std::string commandForms();
 
 // Parses words such as `set gravity 0 0 -1.6`, or one word with the JSON form of a Command. `load FILE.json` reads the
 // file. Input, with the accepted forms, for anything else.

@@ -19,36 +19,31 @@ scene::Scene smallBed() {
     return scene;
 }
 
-v1::Command drawCommand(scene::Random& random, std::uint32_t spheres) {
-    v1::Command command;
-    v1::Set& set = *command.mutable_set();
+glm::dvec3 drawVector(scene::Random& random, double most) {
+    glm::dvec3 vector{};
+    for (int axis = 0; axis < 3; ++axis) vector[axis] = random.uniform(-most, most);
+    return vector;
+}
+
+sim::Command drawCommand(scene::Random& random, std::uint32_t spheres) {
     switch (static_cast<int>(random.uniform(0, 7))) {
         case 0:
-            for (int axis = 0; axis < 3; ++axis) set.add_gravity(random.uniform(-20, 20));
-            break;
+            return sim::Set{.gravity = drawVector(random, 20)};
         case 1:
-            set.set_restitution(random.uniform());
-            break;
+            return sim::Set{.restitution = random.uniform()};
         case 2:
-            set.set_friction(random.uniform(0, 2));
-            break;
+            return sim::Set{.friction = random.uniform(0, 2)};
         case 3:
-            set.set_model(static_cast<v1::Model>(1 + static_cast<int>(random.uniform(0, 3))));
-            break;
+            return sim::Set{.model = static_cast<scene::Model>(static_cast<int>(random.uniform(0, 3)))};
         case 4:
-            set.set_substeps(static_cast<std::uint32_t>(random.uniform(1, 40)));
-            break;
+            return sim::Set{.substeps = static_cast<std::uint32_t>(random.uniform(1, 40))};
         case 5: {
-            v1::Push& push = *command.mutable_push();
-            push.set_sphere(static_cast<std::uint32_t>(random.uniform(0, spheres)));
-            for (int axis = 0; axis < 3; ++axis) push.add_impulse(random.uniform(-5, 5));
-            break;
+            const auto sphere = static_cast<std::uint32_t>(random.uniform(0, spheres));
+            return sim::Push{.target = sphere, .impulse = drawVector(random, 5)};
         }
         default:
-            command.mutable_reset();
-            break;
+            return sim::Reset();
     }
-    return command;
 }
 
 Result<void> randomCommands(Bench& bench) {

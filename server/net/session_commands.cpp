@@ -1,6 +1,7 @@
 // Checks and forwards the commands of a session.
 #include <utility>
 
+#include "net/command_rules.h"
 #include "net/session.h"
 
 namespace spherule::net {
@@ -8,11 +9,6 @@ namespace spherule::net {
 namespace {
 
 constexpr const char* tooMany = "too many commands came from this client within a second";
-
-// Returns true for commands that only controllers may send.
-bool changes(v1::Command::KindCase kind) {
-    return kind != v1::Command::kQuery;
-}
 
 }  // namespace
 
@@ -47,7 +43,7 @@ void Session::onCommand(v1::Command command, std::size_t cost) {
     if (!commands_.take(TokenBucket::Clock::now())) return refuse(id, RejectReason::CommandRate, tooMany);
     if (command.kind_case() == v1::Command::KIND_NOT_SET)
         return refuse(id, RejectReason::UnknownCommand, "the command is not known to this server");
-    if (changes(command.kind_case())) {
+    if (!rulesOf(command).viewer_may()) {
         if (role_ != v1::CONTROLLER)
             return refuse(id, RejectReason::ViewersCommand,
                           "a viewer may not command: that takes the controllers' token");

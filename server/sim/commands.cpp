@@ -1,12 +1,13 @@
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "scene/goal.h"
-#include "scene/load.h"
 #include "scene/materials.h"
 #include "scene/quality.h"
+#include "sim/commands.h"
 #include "sim/need.h"
 #include "sim/parameters.h"
 #include "sim/picking.h"
@@ -20,24 +21,22 @@ constexpr double mostGravity = 1e6;  // m/s^2
 constexpr double farthest = 1e9;     // m
 
 tl::unexpected<Error> refusal(const Error& error) {
-    // By the command's name for it.
+    // The command names a field of the quality without its prefix.
     constexpr std::string_view prefix = "quality.";
     const bool quality = error.where.starts_with(prefix);
     return fail(ErrorKind::Refused, quality ? error.where.substr(prefix.size()) : error.where, error.message);
 }
 
-Result<void> setGravity(scene::Scene& scene, const v1::Set& set) {
-    if (set.gravity().empty()) return {};
-    auto gravity = scene::vectorOf(set.gravity(), "gravity");
-    if (!gravity) return tl::unexpected(gravity.error());
-    if (!(glm::length(*gravity) <= mostGravity))
+Result<void> setGravity(scene::Scene& scene, const Set& set) {
+    if (!set.gravity) return {};
+    if (!(glm::length(*set.gravity) <= mostGravity))
         return fail(ErrorKind::Refused, "gravity",
-                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*gravity), mostGravity));
-    scene.gravity = *gravity;
+                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), mostGravity));
+    scene.gravity = *set.gravity;
     return {};
 }
 
-// Sets a property of all materials, and ends what pairs have of their own.
+// Sets a property of all materials, and removes the values that pairs have of their own.
 Result<void> setMaterials(scene::Scene& scene, double value, double most, const char* name,
                           double scene::Material::*ofMaterial, std::optional<double> scene::MaterialPair::*ofPair) {
     if (!(value >= 0 && value <= most))
@@ -47,145 +46,53 @@ Result<void> setMaterials(scene::Scene& scene, double value, double most, const 
     return {};
 }
 
-Result<void> setRestitution(scene::Scene& scene, const v1::Set& set) {
-    if (!set.has_restitution()) return {};
-    return setMaterials(scene, set.restitution(), 1, "restitution", &scene::Material::restitution,
+Result<void> setRestitution(scene::Scene& scene, const Set& set) {
+    if (!set.restitution) return {};
+    return setMaterials(scene, *set.restitution, 1, "restitution", &scene::Material::restitution,
                         &scene::MaterialPair::restitution);
 }
 
-Result<void> setFriction(scene::Scene& scene, const v1::Set& set) {
-    if (!set.has_friction()) return {};
-    return setMaterials(scene, set.friction(), scene::largestFriction, "friction", &scene::Material::friction,
+Result<void> setFriction(scene::Scene& scene, const Set& set) {
+    if (!set.friction) return {};
+    return setMaterials(scene, *set.friction, scene::largestFriction, "friction", &scene::Material::friction,
                         &scene::MaterialPair::friction);
 }
 
-// With the substeps that suit the new model, unless the command has its own.
-Result<void> setModel(scene::Scene& scene, const v1::Set& set) {
-    if (!set.has_model()) return {};
-    if (set.model() <= v1::MODEL_UNSPECIFIED || set.model() > v1::ACCURATE)
-        return fail(ErrorKind::Refused, "model",
-                    fmt::format("is {}, must be FAST, BALANCED or ACCURATE", static_cast<int>(set.model())));
-    scene.quality.model = scene::modelOf(set.model());
+// The substeps become those that suit the new model, unless the command has its own.
+Result<void> setModel(scene::Scene& scene, const Set& set) {
+    if (!set.model) return {};
+    scene.quality.model = *set.model;
     scene.quality.pinned = false;
     scene.quality.goal.reset();
     if (auto fits = scene::checkModel(scene); !fits) return refusal(fits.error());
     return {};
 }
 
-Result<void> setSubsteps(scene::Scene& scene, const v1::Set& set) {
-    if (!set.has_substeps()) return {};
+Result<void> setSubsteps(scene::Scene& scene, const Set& set) {
+    if (!set.substeps) return {};
     scene.quality.pinned = true;
-    scene.quality.substeps = set.substeps();
+    scene.quality.substeps = *set.substeps;
     scene.quality.goal.reset();
     return {};
 }
 
-Result<void> setGoal(scene::Scene& scene, const v1::Set& set) {
-    if (!set.has_auto_()) return {};
-    auto goal = scene::goalOf(set.auto_(), "auto");
-    if (!goal) return refusal(goal.error());
-    scene.quality.goal = *goal;
+Result<void> setGoal(scene::Scene& scene, const Set& set) {
+    if (set.goal) scene.quality.goal = *set.goal;
     return {};
 }
 
-}  // namespace
-
-Result<v1::Applied> Simulation::apply(const v1::Command& command) {
-    auto outcome = begin(command);
-    if (!outcome) return tl::unexpected(outcome.error());
-    if (!outcome->preparation) return std::move(outcome->applied);
-    if (auto done = outcome->preparation->finish(); !done) return tl::unexpected(done.error());
-    return adopt(std::move(outcome->preparation));
-}
-
-Result<Simulation::Outcome> Simulation::begin(const v1::Command& command) {
-    Result<Outcome> outcome;
-    switch (command.kind_case()) {
-        case v1::Command::kSet:
-            outcome = set(command.set());
-            break;
-        case v1::Command::kSpawn:
-            outcome = spawn(command.spawn());
-            break;
-        case v1::Command::kPush: {
-            auto hit = push(command.push());
-            if (!hit) return tl::unexpected(hit.error());
-            outcome->applied.set_sphere(*hit);
-            break;
-        }
-        case v1::Command::kReset:
-            outcome = reset();
-            break;
-        case v1::Command::kQuery:
-            *outcome->applied.mutable_statistics() = message(statistics());
-            break;
-        default:
-            return fail(ErrorKind::Refused, "", "this command is not one for a simulation");
-    }
-    if (outcome) outcome->applied.set_step(steps_);
-    return outcome;
-}
-
-Result<Simulation::Outcome> Simulation::set(const v1::Set& set) {
-    const bool disturbs = !set.gravity().empty() || set.has_restitution() || set.has_friction() || set.has_model();
-    if (!disturbs && !set.has_substeps() && !set.has_auto_()) return {};
-    scene::Scene changed = scene_;
-    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
-        if (auto done = part(changed, set); !done) return tl::unexpected(done.error());
-    return change(std::move(changed), disturbs);
-}
-
-// The same features at any number of substeps: nothing is to be prepared.
-Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
-    scene::Scene changed = scene_;
-    changed.quality.pinned = true;
-    changed.quality.substeps = substeps;
-    auto outcome = change(std::move(changed), false);
-    if (!outcome) return tl::unexpected(outcome.error());
-    return {};
-}
-
-Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
-    // Gravity and the model have a say in how short a substep must be.
-    if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
-    Features features = featuresOf(changed);
-    features.set(Feature::Levels, plan().features.has(Feature::Levels));  // a matter of the spheres alone
-    if (features == plan().features) {
-        scene_ = std::move(changed);
-        mostSubsteps_ = scene::mostRaised(scene_);
-        writeConstants(*pipeline_, scene_);
-        useSubsteps(scene_.quality.substeps);
-        // A change of substeps alone disturbs nobody's sleep.
-        if (disturbs) pipeline_->wakeAll();
-        return {};
-    }
-    auto copies = memory::Claim::make("", "a change of the scene", copiesToChange(plan()));
-    if (!copies) return tl::unexpected(copies.error());
-    auto state = liveState();
-    if (!state) return tl::unexpected(state.error());
-    return prepare(Anew::Nothing, std::move(*copies), Built{std::move(changed), std::move(*state)});
-}
-
-Result<Simulation::Outcome> Simulation::reset() {
-    auto copies = memory::Claim::make("", "the scene as it began", copiesToChange(plan()));
-    if (!copies) return tl::unexpected(copies.error());
-    return prepare(Anew::World, std::move(*copies), Built{initial_, stateOf(initial_)});
-}
-
-namespace {
-
-// The scene as it is, with the group's spheres, and all spheres' states: those of the old ones are `state`.
-Result<Built> grownBy(const v1::Group& group, scene::Scene scene, State state, Progress& progress) {
+// The scene with the spheres of the group added, and the states of all spheres. `state` has those of the present ones.
+Result<Built> withGroup(const Spawn& spawn, scene::Scene scene, State state, Progress& progress) {
     const glm::dvec3 centre = scene.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 now = glm::dvec3(state.position[id]);
-        // One that has left the numbers, or the world, counts where it began.
+        // A sphere without a finite position, or very far away, counts where it began.
         if (glm::dot(now, now) < farthest * farthest) scene.spheres[id].position = now + centre;
     }
-    auto added = scene::buildGroup(group, scene, &progress);
+    auto added = spawn.place(scene, progress);
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
-    scene.groups.push_back({group.name(), state.count(), static_cast<std::uint32_t>(added->size()), group.colour()});
+    scene.groups.push_back({spawn.name, state.count(), static_cast<std::uint32_t>(added->size()), spawn.colour});
     const State fresh = stateOf(scene, *added);
     state.position.insert(state.position.end(), fresh.position.begin(), fresh.position.end());
     state.velocity.insert(state.velocity.end(), fresh.velocity.begin(), fresh.velocity.end());
@@ -199,25 +106,137 @@ Result<Built> grownBy(const v1::Group& group, scene::Scene scene, State state, P
 
 }  // namespace
 
-Result<Simulation::Outcome> Simulation::spawn(const v1::Spawn& spawn) {
-    auto copies = memory::Claim::make("group", "adding spheres to those that there are", copiesToSpawn(plan()));
+// Carries out each kind of Command.
+class Simulation::CommandHandler {
+  public:
+    explicit CommandHandler(Simulation& simulation) : simulation_(simulation) {}
+
+    Result<Outcome> operator()(const Set& set);
+    Result<Outcome> operator()(const Reset& reset);
+    Result<Outcome> operator()(const Spawn& spawn);
+    Result<Outcome> operator()(const Push& push);
+
+  private:
+    Result<std::uint32_t> targetOf(const Push& push);
+    Result<void> checkPush(std::uint32_t id, const glm::dvec3& impulse);
+
+    Simulation& simulation_;
+};
+
+Result<Simulation::Outcome> Simulation::begin(const Command& command) {
+    auto outcome = std::visit(CommandHandler(*this), command);
+    if (outcome) outcome->applied.step = steps_;
+    return outcome;
+}
+
+Result<Applied> Simulation::apply(const Command& command) {
+    auto outcome = begin(command);
+    if (!outcome) return tl::unexpected(outcome.error());
+    if (!outcome->preparation) return std::move(outcome->applied);
+    if (auto done = outcome->preparation->finish(); !done) return tl::unexpected(done.error());
+    return adopt(std::move(outcome->preparation));
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& set) {
+    const bool disturbs = set.gravity || set.restitution || set.friction || set.model;
+    if (!disturbs && !set.substeps && !set.goal) return {};
+    scene::Scene changed = simulation_.scene_;
+    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
+        if (auto done = part(changed, set); !done) return tl::unexpected(done.error());
+    return simulation_.change(std::move(changed), disturbs);
+}
+
+// The features stay the same at any number of substeps, so nothing has to be prepared.
+Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
+    scene::Scene changed = scene_;
+    changed.quality.pinned = true;
+    changed.quality.substeps = substeps;
+    auto outcome = change(std::move(changed), false);
+    if (!outcome) return tl::unexpected(outcome.error());
+    return {};
+}
+
+Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
+    // How short a substep must be depends on gravity and on the model.
+    if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
+    Features features = featuresOf(changed);
+    features.set(Feature::Levels, plan().features.has(Feature::Levels));  // they depend on the spheres alone
+    if (features == plan().features) {
+        scene_ = std::move(changed);
+        mostSubsteps_ = scene::mostRaised(scene_);
+        writeConstants(*pipeline_, scene_);
+        useSubsteps(scene_.quality.substeps);
+        // A change of the substeps alone wakes no sphere.
+        if (disturbs) pipeline_->wakeAll();
+        return {};
+    }
+    auto copies = memory::Claim::make("", "a change of the scene", copiesToChange(plan()));
     if (!copies) return tl::unexpected(copies.error());
-    auto live = liveState();
+    auto state = liveState();
+    if (!state) return tl::unexpected(state.error());
+    return prepare(Anew::Nothing, std::move(*copies), Built{std::move(changed), std::move(*state)});
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Reset& /*reset*/) {
+    auto copies = memory::Claim::make("", "the scene as it began", copiesToChange(simulation_.plan()));
+    if (!copies) return tl::unexpected(copies.error());
+    const scene::Scene& initial = simulation_.initial_;
+    return simulation_.prepare(Anew::World, std::move(*copies), Built{initial, stateOf(initial)});
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& spawn) {
+    auto copies =
+        memory::Claim::make("group", "adding spheres to those that there are", copiesToSpawn(simulation_.plan()));
+    if (!copies) return tl::unexpected(copies.error());
+    auto live = simulation_.liveState();
     if (!live) return tl::unexpected(live.error());
-    return prepare(Anew::Spheres, std::move(*copies),
-                   [group = spawn.group(), scene = scene_, state = std::move(*live)](Progress& progress) mutable {
-                       return grownBy(group, std::move(scene), std::move(state), progress);
-                   });
+    return simulation_.prepare(
+        Anew::Spheres, std::move(*copies),
+        [spawn, scene = simulation_.scene_, state = std::move(*live)](Progress& progress) mutable {
+            return withGroup(spawn, std::move(scene), std::move(state), progress);
+        });
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& push) {
+    const auto id = targetOf(push);
+    if (!id) return tl::unexpected(id.error());
+    if (auto slow = checkPush(*id, push.impulse); !slow) return tl::unexpected(slow.error());
+    Pipeline& pipeline = *simulation_.pipeline_;
+    const scene::Scene& scene = simulation_.scene_;
+    pipeline.kick(*id, glm::vec3(push.impulse));
+    const double speed = glm::length(glm::dvec3(pipeline.velocityOf(*id)));
+    const double moved = speed * scene.step / simulation_.substeps_ / static_cast<double>(scene.spheres[*id].radius);
+    if (moved > static_cast<double>(FAR_MOTION)) simulation_.fitToMotion(moved);
+    return Outcome{.applied = {.sphere = *id}};
+}
+
+// The id of the sphere to push.
+Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
+    const std::uint32_t count = simulation_.count();
+    if (const auto* const ray = std::get_if<Ray>(&push.target)) {
+        const double length = glm::length(ray->direction);
+        if (!(length > 0)) return fail(ErrorKind::Refused, "ray.direction", "has no length");
+        const glm::dvec3 origin = ray->origin - simulation_.scene_.bounds.centre();
+        const auto hit = firstHit(simulation_.snapshot(), origin, ray->direction / length);
+        if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere");
+        return *hit;
+    }
+    const auto id = std::get<std::uint32_t>(push.target);
+    if (id >= count)
+        return fail(ErrorKind::Refused, "sphere", fmt::format("is {}, the scene has {} spheres", id, count));
+    return id;
 }
 
 // Refuses an impulse that would make the sphere faster than the scene can compute.
-Result<void> Simulation::checkPush(std::uint32_t id, const glm::dvec3& impulse) {
-    const glm::dvec4 now(pipeline_->velocityOf(id));
+Result<void> Simulation::CommandHandler::checkPush(std::uint32_t id, const glm::dvec3& impulse) {
+    const scene::Scene& scene = simulation_.scene_;
+    const glm::dvec4 now(simulation_.pipeline_->velocityOf(id));
     const glm::dvec3 velocity(now);
     const glm::dvec3 change = impulse * std::abs(now.w);
-    const double radius = static_cast<double>(scene_.spheres[id].radius);
-    // One that is faster already may still be slowed down.
-    const double most = std::max(scene::farMotion * radius * mostSubsteps_ / scene_.step, glm::length(velocity));
+    const double radius = static_cast<double>(scene.spheres[id].radius);
+    // A sphere that is faster already may still be slowed down.
+    const double most =
+        std::max(scene::farMotion * radius * simulation_.mostSubsteps_ / scene.step, glm::length(velocity));
     if (glm::length(velocity + change) <= most) return {};
     // The share of the impulse that makes it as fast as it can be.
     const double b = glm::dot(velocity, change);
@@ -229,64 +248,6 @@ Result<void> Simulation::checkPush(std::uint32_t id, const glm::dvec3& impulse) 
                             "it at most {:g} N s",
                             glm::length(impulse), id, glm::length(velocity + change), most,
                             std::max(share, 0.0) * glm::length(impulse)));
-}
-
-Result<std::uint32_t> Simulation::push(const v1::Push& push) {
-    auto impulse = scene::vectorOf(push.impulse(), "impulse");
-    if (!impulse) return tl::unexpected(impulse.error());
-    std::uint32_t id = push.sphere();
-    if (push.has_ray()) {
-        auto origin = scene::vectorOf(push.ray().origin(), "ray.origin");
-        auto direction = scene::vectorOf(push.ray().direction(), "ray.direction");
-        if (!origin) return tl::unexpected(origin.error());
-        if (!direction) return tl::unexpected(direction.error());
-        const double length = glm::length(*direction);
-        if (!(length > 0)) return fail(ErrorKind::Refused, "ray.direction", "has no length");
-        const auto hit = firstHit(snapshot(), *origin - scene_.bounds.centre(), *direction / length);
-        if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere");
-        id = *hit;
-    } else if (push.target_case() != v1::Push::kSphere) {
-        return fail(ErrorKind::Refused, "target", "is missing: give a sphere or a ray");
-    }
-    if (id >= count())
-        return fail(ErrorKind::Refused, "sphere", fmt::format("is {}, the scene has {} spheres", id, count()));
-    if (auto bearable = checkPush(id, *impulse); !bearable) return tl::unexpected(bearable.error());
-    pipeline_->kick(id, glm::vec3(*impulse));
-    const double speed = glm::length(glm::dvec3(pipeline_->velocityOf(id)));
-    if (const double moved = speed * scene_.step / substeps_ / static_cast<double>(scene_.spheres[id].radius);
-        moved > static_cast<double>(FAR_MOTION))
-        fitToMotion(moved);
-    return id;
-}
-
-v1::Statistics Simulation::message(const Statistics& s) const {
-    v1::Statistics message;
-    message.set_step(steps_);
-    message.set_sim_time(time());
-    message.set_spheres(count());
-    message.set_kinetic_energy(s.kineticEnergy);
-    message.set_rotational_energy(s.rotationalEnergy);
-    message.set_elastic_energy(s.elasticEnergy);
-    message.set_potential_energy(s.potentialEnergy);
-    message.set_push_work(s.pushWork);
-    for (int axis = 0; axis < 3; ++axis) message.add_momentum(s.momentum[axis]);
-    for (int axis = 0; axis < 3; ++axis) message.add_angular_momentum(s.angularMomentum[axis]);
-    message.set_contacts(s.contacts);
-    message.set_overlap_mean(s.overlapMean);
-    message.set_overlap_max(s.overlapMax);
-    message.set_wall_overlap_max(s.wallOverlapMax);
-    message.set_speed_max(s.speedMax);
-    message.set_speed_rms(s.speedRms);
-    message.set_mean_height(s.meanHeight);
-    message.set_sleeping(s.sleeping);
-    message.set_outside(s.outside);
-    message.set_non_finite(s.nonFinite);
-    if (s.impacts.count > 0) {
-        message.set_impacts(static_cast<std::uint64_t>(s.impacts.count));
-        message.set_restitution(s.impacts.restitution());
-        message.set_restitution_asked(s.impacts.restitutionAsked());
-    }
-    return message;
 }
 
 }  // namespace spherule::sim

@@ -103,7 +103,7 @@ Simulation::Outcome Simulation::prepare(Anew anew, memory::Claim copies, Built b
     return {.preparation = std::move(preparation)};
 }
 
-v1::Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
+Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     if (anew_ == Anew::World) {
         steps_ = 0;
         begun_ = 0;
@@ -114,9 +114,7 @@ v1::Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
         impacts_ = {};
         ++generation_;
     }
-    v1::Applied applied;
-    applied.set_step(steps_);
-    return applied;
+    return {.step = steps_};
 }
 
 void Simulation::put(const State& state) {
@@ -178,6 +176,9 @@ Result<bool> Simulation::advance() {
 
 Statistics Simulation::statistics() {
     Statistics now = measure(*pipeline_, scene_);
+    now.step = steps_;
+    now.time = time();
+    now.spheres = count();
     addImpacts(impacts_, *pipeline_);
     now.impacts = impacts_;
     return now;

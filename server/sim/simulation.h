@@ -10,13 +10,13 @@
 #include "compute/device.h"
 #include "core/memory.h"
 #include "scene/scene.h"
+#include "sim/commands.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"
 #include "sim/preparation.h"
 #include "sim/state.h"
 #include "sim/statistics.h"
 #include "sim/tier.h"
-#include "spherule/v1/control.pb.h"
 
 namespace spherule::sim {
 
@@ -35,25 +35,23 @@ class Simulation {
     [[nodiscard]] bool midStep() const { return left_ > 0; }
     [[nodiscard]] double shareOfStep() const;  // of the step under way, that is done
 
-    // What becomes of a command: it is done, or it needs the preparation, which adopt() takes once that is done. Until
-    // then nothing has changed, and nothing but that may change the simulation.
+    // The outcome of a command: it is done, or it needs `preparation`, which adopt() takes once that is done. Until
+    // then nothing has changed, and no other call may change the simulation.
     struct Outcome {
-        v1::Applied applied{};
+        Applied applied{};
         std::unique_ptr<Preparation> preparation{};  // null: the command is done
     };
-    // set, spawn, push, reset and query; Refused, with nothing changed, for what cannot be done.
-    Result<Outcome> begin(const v1::Command& command);
-    v1::Applied adopt(std::unique_ptr<Preparation> preparation);
-    // Both, and what lies between.
-    Result<v1::Applied> apply(const v1::Command& command);
+    // Refuses a command that cannot be carried out, and then changes nothing.
+    Result<Outcome> begin(const Command& command);
+    Applied adopt(std::unique_ptr<Preparation> preparation);
+    // begin(), the whole preparation, and adopt().
+    Result<Applied> apply(const Command& command);
 
     [[nodiscard]] Statistics statistics();
     // As they were in the last statistics().
     [[nodiscard]] const Impacts& impacts() const { return impacts_; }
     // Whether some steps are observed: they are, until this says otherwise. Never changes the state.
     void observe(bool on) { observing_ = on; }
-    // With the step and the time that they are of: now.
-    [[nodiscard]] v1::Statistics message(const Statistics& statistics) const;
     [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download()); }
     void put(const State& state);  // of as many spheres
 
@@ -117,12 +115,8 @@ class Simulation {
     void fitToMotion(double radiiPerSubstep);
     void keep();
 
-    Result<Outcome> set(const v1::Set& set);
+    class CommandHandler;
     Result<Outcome> change(scene::Scene changed, bool disturbs);
-    Result<Outcome> reset();
-    Result<Outcome> spawn(const v1::Spawn& spawn);
-    Result<std::uint32_t> push(const v1::Push& push);
-    Result<void> checkPush(std::uint32_t id, const glm::dvec3& impulse);
 
     compute::Device& device_;
     memory::Claim claim_;

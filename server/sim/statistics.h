@@ -27,6 +27,9 @@ struct Impacts {
 
 // SI units; overlaps as fractions of the (smaller) radius.
 struct Statistics {
+    std::uint64_t step = 0;
+    double time = 0;  // s simulated
+    std::uint32_t spheres = 0;
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
     double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models, whose spheres are hard

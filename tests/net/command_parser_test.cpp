@@ -23,6 +23,10 @@ TEST(CommandParser, ParsesEveryCommand) {
     EXPECT_EQ(parsed({"resume"}), "resume { }");
     EXPECT_EQ(parsed({"reset"}), "reset { }");
     EXPECT_EQ(parsed({"query"}), "query { }");
+    EXPECT_EQ(parsed({"cancel"}), "cancel { }");
+    EXPECT_EQ(parsed({"seek", "12.5"}), "seek { time: 12.5 }");
+    EXPECT_EQ(parsed({"record"}), "start_recording { }");
+    EXPECT_EQ(parsed({"record", "stop"}), "stop_recording { }");
     EXPECT_EQ(parsed({"step"}), "step { count: 1 }");
     EXPECT_EQ(parsed({"step", "25"}), "step { count: 25 }");
     EXPECT_EQ(parsed({"load", "box-10k"}), "load { name: \"box-10k\" }");
@@ -64,6 +68,10 @@ TEST(CommandParser, ReportsAcceptedForms) {
         {},
         {"dance"},
         {"pause", "now"},
+        {"seek"},
+        {"seek", "soon"},
+        {"seek", "1", "2"},
+        {"start_recording"},
         {"step", "many"},
         {"set", "auto", "16"},
         {"set", "auto", "fastms"},

@@ -28,9 +28,7 @@ TEST(Determinism, AResetSceneGoesTheSameWayAgain) {
     run(*simulation, 0.3);
     const std::uint64_t first = sim::hashOf(simulation->snapshot());
     run(*simulation, 0.2);
-    v1::Command reset;
-    reset.mutable_reset();
-    ASSERT_TRUE(simulation->apply(reset));
+    ASSERT_TRUE(simulation->apply(sim::Reset()));
     run(*simulation, 0.3);
     EXPECT_EQ(sim::hashOf(simulation->snapshot()), first);
 }

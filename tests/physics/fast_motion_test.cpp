@@ -59,9 +59,7 @@ TEST(FastMotion, IsForgottenWithTheRunItWasIn) {
     const auto simulation = simulate(shots(scene::Model::Balanced, 200, {0, 0.3, 0.5}));
     run(*simulation, 0.3);
     const std::uint64_t first = sim::hashOf(simulation->snapshot());
-    v1::Command reset;
-    reset.mutable_reset();
-    ASSERT_TRUE(simulation->apply(reset));
+    ASSERT_TRUE(simulation->apply(sim::Reset()));
     run(*simulation, 0.3);
     EXPECT_EQ(sim::hashOf(simulation->snapshot()), first);
 }
@@ -84,10 +82,7 @@ TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
 TEST(FastMotion, OfAPushIsSeenBeforeTheNextStep) {
     scene::Scene scene = shots(scene::Model::Balanced, 0, {-1.9});
     const auto simulation = simulate(scene);
-    v1::Command command;
-    command.mutable_push()->set_sphere(0);
-    for (const double component : {0.0, 0.0, -300.0}) command.mutable_push()->add_impulse(component);
-    ASSERT_TRUE(simulation->apply(command));
+    ASSERT_TRUE(simulation->apply(sim::Push{.target = 0U, .impulse = {0, 0, -300}}));
     EXPECT_GT(simulation->substeps(), 300U);
     run(*simulation, 0.1);
     EXPECT_EQ(simulation->statistics().outside, 0U);

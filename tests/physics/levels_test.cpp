@@ -136,16 +136,11 @@ TEST(Levels, SleepersWakeWhenSpheresOfOtherSizesComeToThem) {
     ASSERT_TRUE(simulation->plan().features.has(sim::Feature::Levels));
     run(*simulation, 3);
     ASSERT_EQ(sleepers(simulation->snapshot()), simulation->count());
-    v1::Command finer;
-    finer.mutable_set()->set_substeps(10);
-    ASSERT_TRUE(simulation->apply(finer));
+    ASSERT_TRUE(simulation->apply(sim::Set{.substeps = 10}));
     EXPECT_EQ(sleepers(simulation->snapshot()), simulation->count()) << "other substeps wake nobody";
     auto push = [&](std::uint32_t id, double x, double y) {
         const double mass = massOf(simulation->snapshot(), id);
-        v1::Command command;
-        command.mutable_push()->set_sphere(id);
-        for (const double speed : {x, y, 0.0}) command.mutable_push()->add_impulse(mass * speed);
-        ASSERT_TRUE(simulation->apply(command));
+        ASSERT_TRUE(simulation->apply(sim::Push{.target = id, .impulse = mass * glm::dvec3(x, y, 0)}));
     };
     push(large, 1, 0);
     push(small, 0, 2);

@@ -45,10 +45,8 @@ TEST(Relax, ASqueezedBedRisesGentlyWhenSpringsTakeOver) {
     const auto simulation = simulate(scene);
     run(*simulation, 2);
     const sim::Statistics squeezed = simulation->statistics();
-    v1::Command command;
-    command.mutable_set()->set_model(v1::ACCURATE);
     static_cast<void>(noticesOf(*simulation));
-    ASSERT_TRUE(simulation->apply(command));
+    ASSERT_TRUE(simulation->apply(sim::Set{.model = scene::Model::Accurate}));
     ASSERT_GT(squeezed.overlapMax, 2 * sim::deepestBearable(simulation->scene())) << "not squeezed";
     EXPECT_NE(noticesOf(*simulation).find("moved apart beforehand"), std::string::npos);
     double fastest = 0;

@@ -18,10 +18,7 @@ scene::Sphere at(glm::dvec3 position) {
 
 void push(sim::Simulation& simulation, std::uint32_t id, glm::dvec3 velocity) {
     const double mass = massOf(simulation.snapshot(), id);
-    v1::Command command;
-    command.mutable_push()->set_sphere(id);
-    for (int axis = 0; axis < 3; ++axis) command.mutable_push()->add_impulse(mass * velocity[axis]);
-    ASSERT_TRUE(simulation.apply(command));
+    ASSERT_TRUE(simulation.apply(sim::Push{.target = id, .impulse = mass * velocity}));
 }
 
 // A column of balls, one exactly on top of the other, all asleep.
@@ -150,9 +147,7 @@ TEST(Sleep, EndsWhenTheSupportCreepsAwayInABusyWorld) {
 
 TEST(Sleep, EndsWhenGravityChanges) {
     const auto simulation = sleepingColumn(3);
-    v1::Command command;
-    for (const double component : {0.0, 0.0, 2.0}) command.mutable_set()->add_gravity(component);
-    ASSERT_TRUE(simulation->apply(command));
+    ASSERT_TRUE(simulation->apply(sim::Set{.gravity = glm::dvec3(0, 0, 2)}));
     run(*simulation, 0.5);
     const sim::State state = simulation->snapshot();
     for (std::uint32_t id = 0; id < 3; ++id) {

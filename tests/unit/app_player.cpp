@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "net/command_rules.h"
 #include "recording_support.h"
 
 namespace spherule::app {
@@ -37,7 +38,7 @@ class Playing : public testing::Test {
         return player_->recording().time();
     }
 
-    Result<v1::Applied> give(const v1::Command& command) { return player_->apply(command, now_); }
+    Result<sim::Applied> give(const v1::Command& command) { return player_->apply(command, now_); }
     bool seek(double time) {
         v1::Command command;
         command.mutable_seek()->set_time(time);
@@ -198,6 +199,21 @@ TEST_F(Playing, ChangesNothingInWhatIsPlayed) {
     EXPECT_FALSE(give(both));
     EXPECT_FALSE(setSpeed(0));
     EXPECT_EQ(player_->speed(), 1);
+}
+
+TEST_F(Playing, CarriesOutWhatTheRulesAllowWhilePlaying) {
+    open();
+    int carriedOut = 0;
+    for (const auto* const kind : net::commandFields()) {
+        v1::Command command;
+        command.GetReflection()->MutableMessage(&command, kind);
+        const auto applied = give(command);
+        const bool unknown =
+            !applied && applied.error().message.find("nothing in it can be changed") != std::string::npos;
+        EXPECT_EQ(!unknown, net::rulesOf(command).while_playing()) << kind->name();
+        if (applied) ++carriedOut;
+    }
+    EXPECT_GE(carriedOut, 5);  // a step without a count is refused
 }
 
 TEST_F(Playing, WhatIsDamagedIsToldAndSkipped) {

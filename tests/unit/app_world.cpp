@@ -10,6 +10,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <glm/geometric.hpp>
 
+#include "app_support.h"
 #include "scene/quality.h"
 
 namespace spherule::app {
@@ -25,20 +26,20 @@ v1::Command commandOf(const std::string& json) {
 }
 
 // Result of a command that is carried out at once.
-v1::Applied done(World& world, const std::string& json) {
-    const auto applied = world.apply(commandOf(json));
+sim::Applied done(World& world, const std::string& json) {
+    const auto applied = give(world, commandOf(json));
     EXPECT_TRUE(applied && *applied) << json;
-    return applied && *applied ? **applied : v1::Applied();
+    return applied && *applied ? **applied : sim::Applied();
 }
 
 Error refusalOf(World& world, const std::string& json) {
-    const auto applied = world.apply(commandOf(json));
+    const auto applied = give(world, commandOf(json));
     EXPECT_TRUE(applied && !*applied) << json;
     return applied && !*applied ? applied->error() : Error();
 }
 
 // Pieces until the change has its result.
-int piecesOf(World& world, int most, Result<v1::Applied>& result) {
+int piecesOf(World& world, int most, Result<sim::Applied>& result) {
     for (int pieces = 1; pieces <= most; ++pieces) {
         if (auto applied = world.advanceChange(0ns)) {
             result = std::move(*applied);
@@ -61,8 +62,8 @@ constexpr const char* thrown =
        "list":{"spheres":[{"position":[0,0,0]}]}}])";
 
 void load(World& world, const std::string& scene) {
-    ASSERT_FALSE(world.apply(commandOf(R"({"load":{"scene":{)" + scene + "}}}")));
-    Result<v1::Applied> result;
+    ASSERT_FALSE(give(world, commandOf(R"({"load":{"scene":{)" + scene + "}}}")));
+    Result<sim::Applied> result;
     while (true) {
         auto applied = world.advanceChange(10ms);
         if (!applied) continue;
@@ -137,7 +138,7 @@ TEST(World, SubstepsMayChangeWithinAStep) {
 TEST(World, GoesOnWhileAnotherSceneIsMade) {
     const auto world = open("box-4k");
     const std::uint32_t epoch = world->epoch();
-    ASSERT_FALSE(world->apply(commandOf(R"({"load":{"name":"box-10k"}})")));
+    ASSERT_FALSE(give(*world, commandOf(R"({"load":{"name":"box-10k"}})")));
     int pieces = 0;
     while (true) {
         EXPECT_TRUE(world->changing());
@@ -164,7 +165,7 @@ TEST(World, ACancelledLoadLeavesTheWorldAsItWas) {
     const std::uint32_t epoch = world->epoch();
     const std::uint64_t hash = sim::hashOf(world->simulation().snapshot());
     for (const int pieces : {0, 1, 5, 30}) {
-        ASSERT_FALSE(world->apply(commandOf(R"({"load":{"name":"box-4k"}})")));
+        ASSERT_FALSE(give(*world, commandOf(R"({"load":{"name":"box-4k"}})")));
         for (int k = 0; k < pieces; ++k) ASSERT_FALSE(world->advanceChange(0ns));
         world->cancelChange();
         EXPECT_FALSE(world->changing());
@@ -180,10 +181,12 @@ TEST(World, HoldsStillWhileSpheresAreAdded) {
     }
     const std::uint64_t hash = sim::hashOf(world->simulation().snapshot());
     const std::uint64_t steps = world->simulation().steps();
-    ASSERT_FALSE(world->apply(commandOf(
-        R"({"spawn":{"group":{"radius":{"constant":0.01},"fill":{"min":[0,0,0],"max":[0.1,0.1,0.1],"count":3}}}})")));
+    ASSERT_FALSE(give(
+        *world,
+        commandOf(
+            R"({"spawn":{"group":{"radius":{"constant":0.01},"fill":{"min":[0,0,0],"max":[0.1,0.1,0.1],"count":3}}}})")));
     EXPECT_FALSE(world->running());
-    Result<v1::Applied> result;
+    Result<sim::Applied> result;
     EXPECT_GT(piecesOf(*world, 1'000'000'000, result), 10);
     ASSERT_TRUE(result) << result.error().text();
     EXPECT_TRUE(world->running());
@@ -199,10 +202,10 @@ TEST(World, HoldsStillWhileSpheresAreAdded) {
 // Sweep by sweep, and a look after every 16.
 TEST(World, SpheresInOnePointArePushedApartInPieces) {
     const auto world = open("two-spheres");
-    ASSERT_FALSE(world->apply(commandOf(R"({"load":{"scene":{"bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
+    ASSERT_FALSE(give(*world, commandOf(R"({"load":{"scene":{"bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
         "groups":[{"radius":{"constant":0.02},
                    "lattice":{"min":[-0.1,-0.1,-0.1],"max":[0.1,0.1,0.1],"spacing":1e-6,"count":300}}]}}})")));
-    Result<v1::Applied> result;
+    Result<sim::Applied> result;
     EXPECT_GT(piecesOf(*world, 1'000'000'000, result), 60);
     ASSERT_TRUE(result) << result.error().text();
     EXPECT_EQ(world->simulation().count(), 300U);
@@ -252,11 +255,11 @@ TEST(World, RefusesAPushThatIsTooFastAndTakesTheLargest) {
 TEST(World, ASpeedComesWithTheRestOfItsCommand) {
     const auto world = open("two-spheres");
     const char* set = R"({"set":{"speed":4,"model":"ACCURATE"}})";
-    ASSERT_FALSE(world->apply(commandOf(set)));
+    ASSERT_FALSE(give(*world, commandOf(set)));
     world->cancelChange();
     EXPECT_EQ(world->pacer().speed(), 1);
-    ASSERT_FALSE(world->apply(commandOf(set)));
-    Result<v1::Applied> result;
+    ASSERT_FALSE(give(*world, commandOf(set)));
+    Result<sim::Applied> result;
     piecesOf(*world, 1'000'000'000, result);
     ASSERT_TRUE(result) << result.error().text();
     EXPECT_EQ(world->pacer().speed(), 4);
@@ -285,8 +288,8 @@ TEST(World, RefusesSpheresThatBeginTooFast) {
         std::string text = scene;
         return text.replace(text.find("{},"), 2, speed);
     };
-    ASSERT_FALSE(world->apply(commandOf(R"({"load":{"scene":{)" + with("1e8") + "}}}")));
-    Result<v1::Applied> result;
+    ASSERT_FALSE(give(*world, commandOf(R"({"load":{"scene":{)" + with("1e8") + "}}}")));
+    Result<sim::Applied> result;
     piecesOf(*world, 1'000'000'000, result);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().where, "scene.groups[0]");

@@ -134,24 +134,21 @@ TEST_F(SimMemory, CommandsThatCopyAreRefusedAndChangeNothing) {
     const auto simulation = Simulation::create(*device_, std::move(*scene));
     ASSERT_TRUE(simulation);
     ASSERT_TRUE((*simulation)->step());
-    v1::Command reset;
-    reset.mutable_reset();
-    v1::Command friction;
-    friction.mutable_set()->set_friction(0.3);
-    v1::Command spawn;
-    *spawn.mutable_spawn()->mutable_group() = latticeOf(1, 0).groups(0);
-    for (const v1::Command& command : {reset, friction, spawn}) {
+    const Spawn spawn{.place = [group = latticeOf(1, 0).groups(0)](const scene::Scene& to, Progress& progress) {
+        return scene::buildGroup(group, to, &progress);
+    }};
+    for (const Command& command : {Command(Reset()), Command(Set{.friction = 0.3}), Command(spawn)}) {
         memory::setLimit(held());
         const auto refused = (*simulation)->apply(command);
         memory::setLimit(0);
-        ASSERT_FALSE(refused) << command.ShortDebugString();
+        ASSERT_FALSE(refused) << command.index();
         EXPECT_EQ(refused.error().kind, ErrorKind::Refused);
         EXPECT_NE(refused.error().text().find("more of memory are needed"), std::string::npos)
             << refused.error().text();
     }
     EXPECT_EQ((*simulation)->steps(), 1U);
     EXPECT_EQ((*simulation)->count(), 100'000U);
-    EXPECT_TRUE((*simulation)->apply(reset)) << "with room it goes";
+    EXPECT_TRUE((*simulation)->apply(Reset())) << "with room it goes";
 }
 
 }  // namespace

@@ -100,9 +100,8 @@ std::vector<Trajectory> collapse(compute::Device& device, std::uint32_t spheres)
     const sim::State bed = simulation->snapshot();
     for (unsigned k = 180; k < 240; ++k) {
         const glm::dvec3 gravity = stirring((k - 180) / framesPerSecond);
-        v1::Command command;
-        set(command.mutable_set()->mutable_gravity(), gravity);
-        if (auto done = simulation->apply(command); !done) throw std::runtime_error(done.error().text());
+        if (auto done = simulation->apply(sim::Set{.gravity = gravity}); !done)
+            throw std::runtime_error(done.error().text());
         if (k >= 192) record(*simulation, stirred);
         advance(*simulation, 1);
     }

@@ -1,8 +1,10 @@
-#include "app/facts.h"
+#include "app/to_proto.h"
 
 #include <cstring>
 #include <string>
 
+#include "core/text.h"
+#include "net/command_rules.h"
 #include "scene/goal.h"
 #include "scene/quality.h"
 
@@ -96,6 +98,79 @@ v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool 
     settings.set_friction(scene.materials.front().friction);
     if (scene.quality.goal) *settings.mutable_auto_() = scene::messageOf(*scene.quality.goal);
     return message;
+}
+
+v1::Statistics statisticsMessage(const sim::Statistics& s) {
+    v1::Statistics message;
+    message.set_step(s.step);
+    message.set_sim_time(s.time);
+    message.set_spheres(s.spheres);
+    message.set_kinetic_energy(s.kineticEnergy);
+    message.set_rotational_energy(s.rotationalEnergy);
+    message.set_elastic_energy(s.elasticEnergy);
+    message.set_potential_energy(s.potentialEnergy);
+    message.set_push_work(s.pushWork);
+    set(message.mutable_momentum(), s.momentum);
+    set(message.mutable_angular_momentum(), s.angularMomentum);
+    message.set_contacts(s.contacts);
+    message.set_overlap_mean(s.overlapMean);
+    message.set_overlap_max(s.overlapMax);
+    message.set_wall_overlap_max(s.wallOverlapMax);
+    message.set_speed_max(s.speedMax);
+    message.set_speed_rms(s.speedRms);
+    message.set_mean_height(s.meanHeight);
+    message.set_sleeping(s.sleeping);
+    message.set_outside(s.outside);
+    message.set_non_finite(s.nonFinite);
+    if (s.impacts.count > 0) {
+        message.set_impacts(static_cast<std::uint64_t>(s.impacts.count));
+        message.set_restitution(s.impacts.restitution());
+        message.set_restitution_asked(s.impacts.restitutionAsked());
+    }
+    return message;
+}
+
+namespace {
+
+v1::Applied appliedMessage(const sim::Applied& applied) {
+    v1::Applied message;
+    message.set_step(applied.step);
+    if (applied.sphere) message.set_sphere(*applied.sphere);
+    if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
+    return message;
+}
+
+// The path from the Command to the field that `where` begins with; empty if the command's message has no such field.
+std::string fieldOf(const v1::Command& command, std::string_view where) {
+    const auto& kinds = *v1::Command::descriptor()->oneof_decl(0);
+    const auto* const kind = command.GetReflection()->GetOneofFieldDescriptor(command, &kinds);
+    const std::string_view root = where.substr(0, where.find_first_of(".["));
+    for (int k = 0; kind != nullptr && k < kind->message_type()->field_count(); ++k)
+        if (kind->message_type()->field(k)->json_name() == root)
+            return std::string(kind->json_name()).append(".").append(where);
+    return "";
+}
+
+}  // namespace
+
+v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied>& applied) {
+    v1::CommandResult result;
+    result.set_id(command.id());
+    if (applied) {
+        *result.mutable_applied() = appliedMessage(*applied);
+    } else {
+        std::string field = fieldOf(command, applied.error().where);
+        result.mutable_refused()->set_reason(utf8(field.empty() ? applied.error().text() : applied.error().message));
+        result.mutable_refused()->set_field(std::move(field));
+    }
+    return result;
+}
+
+std::string wordsFor(const v1::Command& command) {
+    const std::string& name = net::nameOf(command);
+    if (!command.has_load()) return name;
+    const v1::LoadScene& load = command.load();
+    return name + " " + utf8(load.has_scene() ? load.scene().name() : load.name());
 }
 
 }  // namespace spherule::app

@@ -1,11 +1,11 @@
-#include "app/show.h"
+#include "app/to_proto.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 
-#include "app/world.h"
+#include "app_support.h"
 
 namespace spherule::app {
 namespace {
@@ -40,12 +40,12 @@ TEST(ResultOf, IsFitForAMessageWhateverBytesAFileHas) {
     EXPECT_EQ(refusalOf(command, "a\xff.json").reason(), "a\xef\xbf\xbd.json: is wrong");
 }
 
-// What a world refuses of each command, as clients see it.
+// The refusals of each command, as clients see them.
 TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
     auto world = World::open("cpu:1", "cradle", {});
     ASSERT_TRUE(world);
     const auto refused = [&](const v1::Command& command) {
-        auto applied = (*world)->apply(command);
+        auto applied = give(**world, command);
         while (!applied) applied = (*world)->advanceChange(std::chrono::milliseconds(10));
         const auto result = resultOf(command, *applied);
         EXPECT_TRUE(result.has_refused()) << command.ShortDebugString();
@@ -74,6 +74,36 @@ TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
     command.mutable_push()->set_sphere(99);
     for (int axis = 0; axis < 3; ++axis) command.mutable_push()->add_impulse(1);
     EXPECT_EQ(refused(command), "push.sphere");
+}
+
+TEST(ResultOf, HasTheSphereThatWasHitAndTheStatisticsOfAQuery) {
+    v1::Command command;
+    command.set_id(7);
+    const v1::CommandResult hit = resultOf(command, sim::Applied{.step = 3, .sphere = 0});
+    EXPECT_EQ(hit.id(), 7U);
+    EXPECT_EQ(hit.applied().step(), 3U);
+    EXPECT_TRUE(hit.applied().has_sphere());
+    EXPECT_FALSE(hit.applied().has_statistics());
+    sim::Statistics statistics;
+    statistics.step = 3;
+    statistics.time = 0.05;
+    statistics.spheres = 2;
+    const v1::CommandResult asked = resultOf(command, sim::Applied{.step = 3, .statistics = statistics});
+    EXPECT_FALSE(asked.applied().has_sphere());
+    EXPECT_EQ(asked.applied().statistics().step(), 3U);
+    EXPECT_EQ(asked.applied().statistics().sim_time(), 0.05);
+    EXPECT_EQ(asked.applied().statistics().spheres(), 2U);
+}
+
+TEST(StatisticsMessage, HasNoRestitutionWithoutImpacts) {
+    sim::Statistics statistics;
+    EXPECT_FALSE(statisticsMessage(statistics).has_restitution());
+    EXPECT_FALSE(statisticsMessage(statistics).has_restitution_asked());
+    statistics.impacts = {.count = 2, .approach = 4, .parting = 2, .asked = 3};
+    const v1::Statistics message = statisticsMessage(statistics);
+    EXPECT_EQ(message.impacts(), 2U);
+    EXPECT_EQ(message.restitution(), 0.5);
+    EXPECT_EQ(message.restitution_asked(), 0.75);
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "scene/scene.h"
+#include "sim/statistics.h"
+
+// The commands that a simulation carries out, as plain values.
+namespace spherule::sim {
+
+// Changes the settings that are present.
+struct Set {
+    std::optional<glm::dvec3> gravity{};               // m/s^2
+    std::optional<double> restitution{};               // of all materials
+    std::optional<double> friction{};                  // of all materials
+    std::optional<scene::Model> model{};               // also removes the goal
+    std::optional<std::uint32_t> substeps{};           // per step; also removes the goal
+    std::optional<std::optional<scene::Goal>> goal{};  // nullopt inside: removes the goal
+};
+
+// Returns to the beginning of the scene.
+struct Reset {};
+
+// Adds a group of spheres.
+struct Spawn {
+    std::string name{};
+    std::string colour{};  // "#rrggbb" or empty
+    // Finds a place for each sphere of the group in the scene. Called on a thread that does not own the device.
+    std::function<Result<std::vector<scene::Sphere>>(const scene::Scene&, Progress&)> place{};
+};
+
+struct Ray {
+    glm::dvec3 origin{};     // m
+    glm::dvec3 direction{};  // any length but zero
+};
+
+// Gives an impulse to a sphere.
+struct Push {
+    std::variant<std::uint32_t, Ray> target{};  // the id of the sphere, or a ray: the first sphere that it meets
+    glm::dvec3 impulse{};                       // N s
+};
+
+using Command = std::variant<Set, Reset, Spawn, Push>;
+
+// The result of a command.
+struct Applied {
+    std::uint64_t step = 0;                  // the command holds from this step on
+    std::optional<std::uint32_t> sphere{};   // the sphere that a push hit
+    std::optional<Statistics> statistics{};  // of a query
+};
+
+}  // namespace spherule::sim
