@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(CommandRules, RulesOf,
                                          Row{"query", yes, no, no, no, no}, Row{"seek", no, no, no, no, yes},
                                          Row{"start_recording", no, no, no, no, no},
                                          Row{"stop_recording", no, no, no, no, no}, Row{"cancel", no, no, no, no, no}),
-                         [](const auto& info) { return std::string(info.param.command); });
+                         [](const auto& row) { return std::string(row.param.command); });
 
 TEST(CommandRules, NoCommandOfAViewerChangesAnything) {
     const auto wrong = [](const v1::CommandRules& rules) {
