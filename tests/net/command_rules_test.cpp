@@ -93,7 +93,7 @@ TEST(CommandRules, HelpMakesACommandOneOfTheShell) {
         const auto command = commandFrom(words);
         ASSERT_TRUE(command) << command.error().text();
         EXPECT_EQ(nameOf(*command), name);
-        EXPECT_NE(commandForms().find("\n  " + name), std::string::npos) << commandForms();
+        EXPECT_NE(("\n" + commandForms()).find("\n  " + name), std::string::npos) << commandForms();
     }
 }
 
