@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(CommandRules, RulesOf,
                                          Row{"query", yes, no, no, no, no}, Row{"seek", no, no, no, no, yes},
                                          Row{"start_recording", no, no, no, no, no},
                                          Row{"stop_recording", no, no, no, no, no}, Row{"cancel", no, no, no, no, no}),
-                         [](const auto& info) { return std::string(info.param.command); });
+                         [](const auto& row) { return std::string(row.param.command); });
 
 TEST(CommandRules, NoCommandOfAViewerChangesAnything) {
     const auto wrong = [](const v1::CommandRules& rules) {
@@ -93,7 +93,7 @@ TEST(CommandRules, HelpMakesACommandOneOfTheShell) {
         const auto command = commandFrom(words);
         ASSERT_TRUE(command) << command.error().text();
         EXPECT_EQ(nameOf(*command), name);
-        EXPECT_NE(commandForms().find("\n  " + name), std::string::npos) << commandForms();
+        EXPECT_NE(("\n" + commandForms()).find("\n  " + name), std::string::npos) << commandForms();
     }
 }
 
