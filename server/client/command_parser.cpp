@@ -17,11 +17,7 @@
 
 #include "core/json_error.h"
 #include "core/quantity.h"
-<<<<<<< HEAD:server/client/command_parser.cpp
-=======
 #include "net/command_rules.h"
-#include "net/ctl.h"
->>>>>>> commands15:server/net/command_words.cpp
 
 namespace spherule::client {
 
@@ -30,9 +26,6 @@ namespace {
 // The commands with forms of their own. commandForms() adds the others.
 constexpr std::string_view ownForms =
     "  step [N]\n"
-<<<<<<< HEAD:server/client/command_parser.cpp
-    "  reset\n"
-    "  cancel                                     ends a load, a spawn or steps in progress\n"
     "  load NAME | load FILE.json\n"
     "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
     "  set model fast|balanced|accurate | set substeps N\n"
@@ -40,20 +33,7 @@ constexpr std::string_view ownForms =
     "  spawn JSON                                 adds a group of spheres\n"
     "  push SPHERE JX JY JZ                       applies an impulse (N s)\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        to the first sphere that the ray hits\n"
-    "  seek SECONDS                               moves a recording to this time\n"
-    "  record | record stop\n"
-    "  query\n"
-    "  JSON                                       a command, such as {\"step\":{\"count\":10}}";
-=======
-    "  load NAME | load FILE.json\n"
-    "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
-    "  set model fast|balanced|accurate | set substeps N\n"
-    "  set auto MSms | set auto PERCENT% | set auto off   substeps that hold a time per step, or a mean overlap\n"
-    "  spawn JSON                                 a group of spheres\n"
-    "  push SPHERE JX JY JZ                       an impulse in N s\n"
-    "  push ray OX OY OZ DX DY DZ JX JY JZ        at the first sphere that the ray meets\n"
     "  record | record stop\n";
->>>>>>> commands15:server/net/command_words.cpp
 
 namespace pb = google::protobuf;
 
@@ -66,11 +46,7 @@ tl::unexpected<Error> refuse(const std::string& what) {
     return fail(ErrorKind::Input, "command", what + "; accepted are\n" + commandForms());
 }
 
-<<<<<<< HEAD:server/client/command_parser.cpp
 // Parses a finite number that fills the whole word.
-=======
-// The finite number that the whole word is.
->>>>>>> commands15:server/net/command_words.cpp
 template <class T>
 Result<T> number(const std::string& word) {
     T value{};
@@ -228,13 +204,6 @@ Result<void> record(Words words, v1::Command& command) {
     return {};
 }
 
-<<<<<<< HEAD:server/client/command_parser.cpp
-// A command without arguments.
-template <auto Make>
-Result<void> plain(Words words, v1::Command& command) {
-    if (!words.empty()) return refuse("'" + words[0] + "' is one word too many");
-    (command.*Make)();
-=======
 // A command whose words are the values of its fields, in their order.
 Result<void> plain(const pb::FieldDescriptor& kind, Words words, v1::Command& command) {
     const pb::Descriptor& type = *kind.message_type();
@@ -244,7 +213,6 @@ Result<void> plain(const pb::FieldDescriptor& kind, Words words, v1::Command& co
     pb::Message& message = *command.GetReflection()->MutableMessage(&command, &kind);
     for (int k = 0; k < type.field_count(); ++k)
         if (auto read = readField(words[static_cast<std::size_t>(k)], message, *type.field(k)); !read) return read;
->>>>>>> commands15:server/net/command_words.cpp
     return {};
 }
 
