@@ -71,7 +71,7 @@ TEST(RateController, ReducesRateForSlowDrawing) {
     EXPECT_EQ(acks, 30);
     EXPECT_EQ(controller.rendition(), (codec::Rendition{v1::NORMAL, 20}));
     RateController unknown = wanting({v1::NORMAL, 30});
-    for (int k = 0; k < 100; ++k) EXPECT_FALSE(unknown.acked(0, 1, start + k * 33ms));
+    for (int k = 0; k < 100; ++k) EXPECT_FALSE(unknown.onAck(0, 1, start + k * 33ms));
 }
 
 TEST(RateController, WaitsLongerForSlowDrawing) {

@@ -32,7 +32,7 @@ constexpr std::string_view upgrade =
 
 class SessionEnd : public testing::Test {
   protected:
-    Ends() {
+    SessionEnd() {
         if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends_.data()) != 0)
             throw std::runtime_error("no pair of sockets");
         const auto address = asio::ip::make_address("127.0.0.1");
@@ -42,7 +42,7 @@ class SessionEnd : public testing::Test {
                                          state_.limiter->admit(address), "127.0.0.1", state_)
             ->run();
     }
-    ~Ends() override { close(ends_[0]); }
+    ~SessionEnd() override { close(ends_[0]); }
 
     void send(std::string_view bytes) {
         ASSERT_EQ(::send(ends_[0], bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));

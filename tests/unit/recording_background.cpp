@@ -29,13 +29,13 @@ BackgroundWriter::Progress ended(BackgroundWriter& writer) {
 // A pipe without a reader stands for a disk that does not write.
 class SlowDisk : public testing::Test {
   protected:
-    Stuck() {
+    SlowDisk() {
         mkfifo(path_.c_str(), 0600);
         reader_ = open(path_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         fcntl(reader_, F_SETPIPE_SZ, 1 << 20);
         writer_ = std::move(*BackgroundWriter::create(path_, true, 0));
     }
-    ~Stuck() override {
+    ~SlowDisk() override {
         std::jthread drain([this](const std::stop_token& stop) {
             std::vector<char> bytes(1 << 20);
             while (!stop.stop_requested())
