@@ -235,7 +235,7 @@ const std::map<std::string_view, Parse>& parsers() {
 
 Result<void> parse(const std::string& name, Words words, v1::Command& command) {
     if (const auto own = parsers().find(name); own != parsers().end()) return own->second(words, command);
-    for (const auto* const kind : commandFields())
+    for (const auto* const kind : net::commandFields())
         if (kind->name() == name && !kind->options().GetExtension(v1::command_rules).help().empty())
             return plain(*kind, words, command);
     return refuse("'" + name + "' is no command");
@@ -246,7 +246,7 @@ Result<void> parse(const std::string& name, Words words, v1::Command& command) {
 std::string commandForms() {
     constexpr std::size_t helpColumn = 43;
     std::string forms;
-    for (const auto* const kind : commandFields()) {
+    for (const auto* const kind : net::commandFields()) {
         const std::string& help = kind->options().GetExtension(v1::command_rules).help();
         if (help.empty()) continue;
         std::string line = plainForm(*kind);
