@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "net/ctl.h"
+#include "client/command_parser.h"
 
 namespace spherule::net {
 namespace {
@@ -90,10 +90,10 @@ TEST(CommandRules, HelpMakesACommandOneOfTheShell) {
         const auto& type = *v1::Command::descriptor()->FindFieldByName(name)->message_type();
         std::vector<std::string> words{name};
         for (int k = 0; k < type.field_count(); ++k) words.emplace_back("1");
-        const auto command = commandFrom(words);
+        const auto command = client::commandFrom(words);
         ASSERT_TRUE(command) << command.error().text();
         EXPECT_EQ(nameOf(*command), name);
-        EXPECT_NE(("\n" + commandForms()).find("\n  " + name), std::string::npos) << commandForms();
+        EXPECT_NE(("\n" + client::commandForms()).find("\n  " + name), std::string::npos) << client::commandForms();
     }
 }
 

@@ -60,7 +60,7 @@ class Desk {
         if (enough_ && enough_()) stop_.request_stop();
     }
     Outlets outlets() {
-        return {.keep =
+        return {.retain =
                     [this](const codec::SharedMessage& message) {
                         if (message->content().has_change()) changes.push_back(message->content().change());
                         look();
