@@ -93,7 +93,8 @@ TEST(CommandRules, HelpMakesACommandOneOfTheShell) {
         const auto command = client::commandFrom(words);
         ASSERT_TRUE(command) << command.error().text();
         EXPECT_EQ(nameOf(*command), name);
-        EXPECT_NE(("\n" + client::commandForms()).find("\n  " + name), std::string::npos) << client::commandForms();
+        const std::string forms = client::commandForms();
+        EXPECT_TRUE(forms.starts_with("  " + name) || forms.find("\n  " + name) != std::string::npos) << forms;
     }
 }
 

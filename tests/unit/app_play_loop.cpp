@@ -61,7 +61,7 @@ class Stage {
   private:
     Outlets outlets(std::size_t changes) {
         return {
-            .keep =
+            .retain =
                 [this, changes](const codec::SharedMessage& message) {
                     if (message->content().has_scene()) scenes.push_back(message->content().scene());
                     if (scenes.size() > changes) stop_.request_stop();
