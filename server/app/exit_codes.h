@@ -14,10 +14,9 @@ constexpr int exitDeviceLost = 75;  // worth another start
 constexpr int exitBySignal = 128;   // plus its number: of a signal that ended the program before its work was done
 
 constexpr const char* exitCodesText =
-    "Exit codes: 0 done, 1 a fault of the program, 2 usage, scene or file, 3 no device, 4 refused (memory, disk, "
-    "port), "
-    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 129, 130 or 143 ended by a "
-    "signal before it was done.";
+    "Exit codes: 0 done; 1 fault of the program; 2 wrong usage, scene or file; 3 no device; 4 refused (memory, disk, "
+    "port); 5 non-finite position or velocity; 75 device lost or hanging, start again; 129, 130, 143 ended early by a "
+    "signal.";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {
