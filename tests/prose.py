@@ -60,10 +60,12 @@ class Finding:
 
 
 def plain(text):
-    """Markup away: links become their text, code a single word, emphasis nothing."""
-    text = re.sub(r"!\[([^\]]*)\]\([^)]*\)", r"\1", text)
-    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
-    text = re.sub(r"``.+?``|`[^`]*`", "`", text)
+    """Markup away: links become their text, code a single word, emphasis nothing. Line breaks stay."""
+    def kept(word):
+        return lambda found: word + "\n" * found.group().count("\n")
+
+    text = re.sub(r"!?\[([^\]]*)\]\(([^)]*)\)", r"\1", text)
+    text = re.sub(r"``.+?``|`[^`]*`", kept("`"), text)
     text = re.sub(r"https?://\S*[^\s.,;:)\]]", "URL", text)
     return text.replace("**", "").replace("<br>", " ")
 

@@ -44,6 +44,9 @@ class Sentences(unittest.TestCase):
         for markup in ("`a b c d`", "[word](https://example.org/a.b?c d)", "https://example.org/a,b.", "**word**"):
             self.assertEqual(prose.length(prose.plain(markup)), 1, markup)
 
+    def test_code_on_two_lines_moves_no_sentence(self):
+        self.assertEqual(split("Run `a", "b` now. It", "works. End"), [(1, "Run ` now."), (2, "It works."), (3, "End")])
+
     def test_thirty_words_are_enough(self):
         self.assertEqual(rules(LONG + "."), ["long"])
         self.assertEqual(rules(LONG.replace("very ", "", 1) + "."), [])
