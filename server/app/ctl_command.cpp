@@ -84,7 +84,7 @@ void addCtl(CLI::App& app, int& exitCode) {
         ->capture_default_str();
     // Numbers such as -1.6 are words of the command, not options.
     command->positionals_at_end();
-    command->footer(fmt::format("Commands:\n{}\n{}", net::commandForms, exitCodesText));
+    command->footer(fmt::format("Commands:\n{}\n\n{}", net::commandForms, exitCodesText));
     command->callback([options, &exitCode] { exitCode = ctl(*options); });
 }
 
