@@ -196,7 +196,7 @@ def paragraphs(lines):
     block = []
     for number, line in lines:
         stripped = line.strip()
-        drawn = re.match(r" {5,}\S", line) or not re.search(r"[A-Za-z]{2}", stripped) or stripped.startswith("|")
+        drawn = re.match(r" {5,}\S", line) or not re.search(r"[A-Za-z0-9]{2}", stripped) or stripped.startswith("|")
         directive = re.match(r"(NOLINT|clang-format|eslint|@ts-|prettier|language=|GCOV|IWYU)", stripped)
         item = re.match(r"([-*]|\d+[.)]) +(.*)", stripped)
         if drawn or directive or item:
