@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Reports sentences that are hard to read: prose.py [--count] [PATH ...]
 
-Reads Markdown, the comments of C++, shaders, TypeScript, JavaScript and protobuf, and the string literals of server/ and
-web-viewer/src (help texts and messages). A PATH is a file or a folder; without one, the whole project is read.
+Reads Markdown, the comments of C++, shaders, TypeScript, JavaScript and protobuf, and the string literals of server/
+and web-viewer/src (help texts and messages). A PATH is a file or a folder; without one, the whole project is read.
 Prints `file:line: rule: text` for each finding and exits with 1 if there are any. --count prints the number of findings
 of each folder in place of the findings."""
 import argparse
@@ -37,15 +37,15 @@ RULES = [(name, re.compile(pattern), advice) for name, pattern, advice in (
     ("numbers", r"\b(leaves?|left|leaving) the numbers\b", "write: became non-finite"),
     ("ending", r"\b(come|comes|came|coming) to (its|an|their) ends?\b", "write: ends, completed"),
     ("but-for", r"\bbut for\b", "write: except"),
-    ("idiom", r"\b(as it were|by and by|of before|have need of|has need of|the one here|may be others)\b", "say it plainly"),
+    ("idiom", r"\b(as it were|by and by|of before|ha(ve|s) need of|the one here|may be others)\b", "say it plainly"),
 )]
 
-ABBREVIATIONS = {"e.g.", "i.e.", "etc.", "vs.", "cf.", "approx.", "fig.", "no.", "al.", "resp.", "ca.", "ed.", "eq.", "sec."}
+ABBREVIATIONS = {"e.g.", "i.e.", "etc.", "vs.", "cf.", "approx.", "fig.", "no.", "al.", "resp.", "ca.", "eq.", "sec."}
 
 
 @dataclasses.dataclass
 class Text:
-    """Prose that belongs together: a paragraph, a list item, a table cell, a comment. `lines` has each line with its number."""
+    """Prose that belongs together: a paragraph, a list item, a table cell, a comment. `lines`: (number, line)."""
     lines: list
 
 
