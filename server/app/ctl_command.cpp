@@ -44,7 +44,7 @@ int ctl(const CtlOptions& options) {
     if (!token) return report(token.error());
     target.token = std::move(*token);
     if (!target.token.empty() && target.url.starts_with("ws://") && !isLocal(target.url))
-        fmt::print(stderr, "the token goes to {} in the clear: use wss:// where others may listen\n", target.url);
+        fmt::print(stderr, "the token goes to {} unencrypted: use wss:// on networks of other people\n", target.url);
     auto authorities = contentOf("--ca", options.authoritiesFile);
     if (!authorities) return report(authorities.error());
     target.authorities = std::move(*authorities);
@@ -76,15 +76,16 @@ void addCtl(CLI::App& app, int& exitCode) {
     command->add_option("command", options->words, "words, such as: set gravity 0 0 -1.6; or a JSON object")
         ->required();
     command->add_option("--token-file", options->tokenFile,
-                        "a file with the server's token; or give the token itself as SPHERULE_TOKEN");
-    command->add_option("--ca", options->authoritiesFile, "trust what these certificates (PEM) sign, and no others");
+                        "file with the token; SPHERULE_TOKEN takes the token itself");
+    command->add_option("--ca", options->authoritiesFile,
+                        "file with certificate authorities (PEM) to trust, in place of the system's");
     command
         ->add_option("--timeout", options->timeoutSeconds,
-                     "s to wait for the answer, or for word of how far it has come, and for the controls")
+                     "longest wait (s) for the answer, for progress, or for the controls")
         ->capture_default_str();
     // Numbers such as -1.6 are words of the command, not options.
     command->positionals_at_end();
-    command->footer(fmt::format("Commands:\n{}\n{}", client::commandForms(), exitCodesText));
+    command->footer(fmt::format("Commands:\n{}\n\n{}", client::commandForms(), exitCodesText));
     command->callback([options, &exitCode] { exitCode = ctl(*options); });
 }
 

@@ -11,13 +11,18 @@ constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
 constexpr int exitDiverged = 5;
 constexpr int exitDeviceLost = 75;  // worth another start
-constexpr int exitBySignal = 128;   // plus its number: of a signal that ended the program before its work was done
+constexpr int exitBySignal = 128;   // plus the number of the signal that ended the program early
 
 constexpr const char* exitCodesText =
-    "Exit codes: 0 done, 1 a fault of the program, 2 usage, scene or file, 3 no device, 4 refused (memory, disk, "
-    "port), "
-    "5 a sphere left the numbers, 75 the device was lost or hangs: worth another start, 129, 130 or 143 ended by a "
-    "signal before it was done.";
+    "Exit codes:\n"
+    "  0                                          done\n"
+    "  1                                          fault of the program\n"
+    "  2                                          wrong usage, scene or file\n"
+    "  3                                          no device\n"
+    "  4                                          refused: memory, disk, port\n"
+    "  5                                          non-finite position or velocity\n"
+    "  75                                         device lost or hanging; start again\n"
+    "  129, 130, 143                              ended early by a signal";
 
 constexpr int exitCodeOf(ErrorKind kind) {
     switch (kind) {

@@ -117,8 +117,8 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
         // What came before is sound, and finished; the damage decides the exit code.
         if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
         return fail(ErrorKind::Input, "",
-                    fmt::format("{}; {} frames before it were exported; --from goes on behind it", more.error().text(),
-                                written.frames));
+                    fmt::format("{}; {} frames before it were exported; --from exports the part after it",
+                                more.error().text(), written.frames));
     }
     if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
     return written;
@@ -157,20 +157,19 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
 
 void addExport(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* command = app.add_subcommand("export", "turn a recording into a format that other tools read");
+    CLI::App* command = app.add_subcommand("export", "convert a recording for other tools");
     command->add_option("file", options->file, "the recording")->required();
     command->add_option("--format", options->format, "xyz (OVITO, ASE), vtk (ParaView) or csv")
         ->required()
         ->check(CLI::IsMember({"xyz", "vtk", "csv"}));
     command
-        ->add_option(
-            "--out", options->out,
-            "the file to write, - for standard output; for vtk the .pvd, with a folder of the same name beside it")
+        ->add_option("--out", options->out,
+                     "output file, or - for standard output; for vtk the .pvd file, beside a folder of that name")
         ->required();
-    command->add_option("--every", options->every, "so far apart, such as 0.1s; absent: every frame");
-    command->add_option("--from", options->from, "from this simulated time on, such as 1.5s");
-    command->add_option("--to", options->to, "up to this simulated time");
-    command->add_flag("--force", options->replace, "replace what is there");
+    command->add_option("--every", options->every, "interval between frames, such as 0.1s [every frame]");
+    command->add_option("--from", options->from, "simulated time of the first frame, such as 1.5s");
+    command->add_option("--to", options->to, "simulated time of the last frame");
+    command->add_flag("--force", options->replace, "replace existing files");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
         Interrupt interrupt;

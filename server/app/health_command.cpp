@@ -44,10 +44,9 @@ int health(const HealthOptions& options) {
 
 void addHealth(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<HealthOptions>();
-    CLI::App* command =
-        app.add_subcommand("health", "ask a server on this machine whether it is ready, as its /readyz says");
+    CLI::App* command = app.add_subcommand("health", "ask a server on this machine for /readyz");
     addListen(*command, options->listen);
-    command->add_option("--tls-certificate", options->certificateFile, "it speaks TLS, with this certificate");
+    command->add_option("--tls-certificate", options->certificateFile, "the server's certificate, if it speaks TLS");
     command->footer(exitCodesText);
     addSettings(*command);
     command->callback([options, &exitCode] { exitCode = health(*options); });

@@ -29,11 +29,11 @@ int runCommand(int argc, char** argv) {
     app.add_option_function<std::string>(
            "--log-format",
            [&format](const std::string& name) { format = name == "json" ? LogFormat::Json : LogFormat::Text; },
-           "text or json, one object a line [text]")
+           "text, or json: one object a line [text]")
         ->check(CLI::IsMember({"text", "json"}))
         ->envname("SPHERULE_LOG_FORMAT");
     bool printConfig = false;
-    app.add_flag("--print-config", printConfig, "print the settings of the command instead, as --config takes them")
+    app.add_flag("--print-config", printConfig, "print the settings of the command in the form of --config, and end")
         ->configurable(false);
     addConfig(app);
     app.parse_complete_callback([&] {

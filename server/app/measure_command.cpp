@@ -46,11 +46,12 @@ Result<void> run(const MeasureOptions& options) {
 
 void addMeasure(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<MeasureOptions>();
-    CLI::App* command = app.add_subcommand("measure", "measure accuracy, cost and stability of every model here");
-    command->add_option("--suite", options->what.suite, "what to measure")
+    CLI::App* command =
+        app.add_subcommand("measure", "measure accuracy, cost and stability of every model on this machine");
+    command->add_option("--suite", options->what.suite, "the suite to run")
         ->check(CLI::IsMember({"accuracy", "cost", "stability", "all"}))
         ->capture_default_str();
-    command->add_flag("--quick", options->what.quick, "fewer rungs, fewer spheres: under a minute on two processors");
+    command->add_flag("--quick", options->what.quick, "fewer and smaller cases: under a minute on two processors");
     command->add_option("--device", options->device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")
         ->capture_default_str();
     command->add_option("--out", options->out, "folder for measure.csv, measure.md, measure.json and the plots")

@@ -35,8 +35,8 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     to.gauge("spherule_device_info", "The device, as labels", 1,
              {{"device", live.device.kind}, {"renderer", live.device.renderer}});
     to.gauge("spherule_spheres", "Spheres in the scene", live.spheres);
-    to.gauge("spherule_sleeping_spheres", "Spheres asleep, while somebody watches", live.status.sleeping());
-    to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while somebody watches", live.status.outside());
+    to.gauge("spherule_sleeping_spheres", "Spheres asleep, while a viewer watches", live.status.sleeping());
+    to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while a viewer watches", live.status.outside());
     to.gauge("spherule_non_finite_spheres", "Spheres without finite state", live.status.non_finite());
     to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", live.status.real_time_factor());
     to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(live.steps));
@@ -78,34 +78,36 @@ void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
     const v1::Statistics& now = diagnostics.statistics();
     to.gauge("spherule_substeps", "Substeps per step", diagnostics.substeps());
     to.gauge("spherule_step_seconds", "Wall time per step", diagnostics.step_ms() / 1000);
-    to.gauge("spherule_energy_rises", "1 while energy has risen lately that nothing can have given",
+    to.gauge("spherule_energy_rises", "1 if energy increased lately without an energy source",
              diagnostics.energy_rises() ? 1 : 0);
     constexpr const char* energy = "spherule_energy_joules";
-    constexpr const char* energyHelp = "Mechanical energy, the potential one above the floor of the bounds";
+    constexpr const char* energyHelp = "Mechanical energy; potential energy is 0 at the floor of the bounds";
     to.gauge(energy, energyHelp, now.kinetic_energy(), {{"kind", "kinetic"}});
     to.gauge(energy, energyHelp, now.rotational_energy(), {{"kind", "rotational"}});
     to.gauge(energy, energyHelp, now.elastic_energy(), {{"kind", "elastic"}});
     to.gauge(energy, energyHelp, now.potential_energy(), {{"kind", "potential"}});
-    to.gauge("spherule_push_work_joules", "Of the pushes of fast out of walls, against gravity", now.push_work());
+    to.gauge("spherule_push_work_joules", "Work against gravity when the model fast moves spheres out of walls",
+             now.push_work());
     const auto vector = [&to](const char* name, const char* help, const auto& values) {
         constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
         for (int axis = 0; axis < values.size(); ++axis) to.gauge(name, help, values[axis], {{"axis", axes[axis]}});
     };
     vector("spherule_momentum_newton_seconds", "Sum of mass times velocity", now.momentum());
-    vector("spherule_angular_momentum_newton_metre_seconds", "About the centre of the bounds, spins included",
-           now.angular_momentum());
+    vector("spherule_angular_momentum_newton_metre_seconds",
+           "Angular momentum about the centre of the bounds, spins included", now.angular_momentum());
     if (now.has_restitution()) {
         to.gauge("spherule_restitution_achieved_ratio",
-                 "Of spheres that met, in some of the steps of the last second in which any did: parting over approach",
-                 now.restitution());
-        to.gauge("spherule_restitution_asked_ratio", "What the scene asks for of the same", now.restitution_asked());
+                 "Speed of separation over speed of approach, of observed impacts between spheres", now.restitution());
+        to.gauge("spherule_restitution_asked_ratio", "Restitution that the materials require for the observed impacts",
+                 now.restitution_asked());
     }
     to.gauge("spherule_contacts", "Pairs of spheres that overlap", static_cast<double>(now.contacts()));
-    to.gauge("spherule_overlap_mean_ratio", "Mean overlap of those, over the smaller radius", now.overlap_mean());
+    to.gauge("spherule_overlap_mean_ratio", "Mean overlap of pairs that overlap, over the smaller radius",
+             now.overlap_mean());
     to.gauge("spherule_overlap_max_ratio", "Largest overlap", now.overlap_max());
     to.gauge("spherule_wall_overlap_max_ratio", "Deepest sphere in a wall, over its radius", now.wall_overlap_max());
-    to.gauge("spherule_speed_max_metres_per_second", "Of the fastest sphere", now.speed_max());
-    to.gauge("spherule_speed_rms_metres_per_second", "Root of the mean square", now.speed_rms());
+    to.gauge("spherule_speed_max_metres_per_second", "Speed of the fastest sphere", now.speed_max());
+    to.gauge("spherule_speed_rms_metres_per_second", "Root mean square of the speeds", now.speed_rms());
 }
 
 }  // namespace spherule::app

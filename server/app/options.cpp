@@ -45,16 +45,16 @@ void addQuality(CLI::App& command, scene::Overrides& overrides) {
     command
         .add_option_function<std::string>(
             "--quality", [&overrides](const std::string& name) { overrides.model = scene::modelNamed(name); },
-            "fast, balanced or accurate, in place of the scene's")
+            "contact model, in place of the scene's")
         ->check(CLI::IsMember({"fast", "balanced", "accurate"}));
-    command.add_option("--substeps", overrides.substeps, "per step, in place of the scene's");
+    command.add_option("--substeps", overrides.substeps, "substeps per step, in place of the scene's");
 }
 
 void addGoal(CLI::App& command, scene::Overrides& overrides) {
     command
         .add_option_function<std::string>(
             "--auto", [&overrides](const std::string& goal) { overrides.goal = goalFrom(goal); },
-            "move the substeps to hold this: wall time per step, such as 16ms, or mean overlap, such as 0.5%")
+            "move the substeps to hold a wall time per step, such as 16ms, or a mean overlap, such as 0.5%")
         ->check([](const std::string& goal) {
             return goalFrom(goal) ? "" : "'" + goal + "' is neither a time such as 16ms nor an overlap such as 0.5%";
         });
@@ -67,12 +67,13 @@ void SceneOptions::addTo(CLI::App& command) {
     command.add_option("--device", device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")->capture_default_str();
     addQuality(command, overrides);
     addGoal(command, overrides);
-    command.add_option("--seed", overrides.seed, "in place of the scene's seeds");
-    command.add_flag("--no-sleep", overrides.noSleep, "no sphere is put to sleep");
+    command.add_option("--seed", overrides.seed, "seed, in place of the scene's seeds");
+    command.add_flag("--no-sleep", overrides.noSleep, "put no sphere to sleep");
     command
-        .add_option_function<std::uint64_t>("--memory-limit", memory::setLimit,
-                                            "the most memory that the program may hold, such as 4GiB [what the machine "
-                                            "and its control groups allow]")
+        .add_option_function<std::uint64_t>(
+            "--memory-limit", memory::setLimit,
+            "largest memory of the program, such as 4GiB [the limit of the machine and its "
+            "control groups]")
         ->transform(CLI::AsSizeValue(false));
 }
 
@@ -82,7 +83,7 @@ void addWatchdog(CLI::App& command, double& seconds) {
     command
         .add_option_function<std::string>(
             name, [&seconds](const std::string& time) { seconds = secondsOf(time, name).value_or(seconds); },
-            "end with exit code 75 when no kernel has come to its end for this long; 0: never")
+            "end with exit code 75 when no kernel has completed for this time; 0: never")
         ->check([](const std::string& time) {
             const auto given = secondsOf(time, name);
             return given ? "" : given.error().text();

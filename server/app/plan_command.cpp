@@ -28,14 +28,14 @@ int plan(const PlanOptions& options) {
 
 void addPlan(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<PlanOptions>();
-    CLI::App* command = app.add_subcommand("plan", "show what a scene requires; needs no device");
+    CLI::App* command = app.add_subcommand("plan", "show the arrays, passes and memory of a scene; needs no device");
     command->add_option("scene", options->scene, "a scene file or a name")->capture_default_str();
     command->add_option("--device", options->kind, "the kind of device to plan for: gpu, cpu or software")
         ->check(CLI::IsMember({"gpu", "cpu", "software"}))
         ->capture_default_str();
     addQuality(*command, options->overrides);
-    command->add_option("--seed", options->overrides.seed, "in place of the scene's seeds");
-    command->add_flag("--no-sleep", options->overrides.noSleep, "no sphere is put to sleep");
+    command->add_option("--seed", options->overrides.seed, "seed, in place of the scene's seeds");
+    command->add_flag("--no-sleep", options->overrides.noSleep, "put no sphere to sleep");
     command->add_flag("--json", options->json, "print one line of JSON");
     command->callback([options, &exitCode] { exitCode = plan(*options); });
 }

@@ -62,8 +62,8 @@ void addPlay(CLI::App& app, int& exitCode) {
     command->add_option("file", options->file, "the recording")->required();
     options->serving.addTo(*command);
     command->add_option("--speed", options->speed, "recorded seconds per second")->capture_default_str();
-    command->add_flag("--loop", options->again, "from the end, go on at the beginning");
-    command->add_flag("--paused", options->paused, "wait for somebody to resume it");
+    command->add_flag("--loop", options->again, "begin again at the end");
+    command->add_flag("--paused", options->paused, "start paused");
     command->footer(exitCodesText);
     addSettings(*command);
     command->callback([options, &exitCode] {

@@ -25,7 +25,7 @@ int probe(const ProbeOptions& options) {
 void addProbe(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ProbeOptions>();
     CLI::App* command =
-        app.add_subcommand("probe", "show what there is to compute on, and what to do about what is missing");
+        app.add_subcommand("probe", "show the devices to compute on, with a remedy for each missing part");
     command->add_option("--device", options->device, "auto, gpu, gpu:N, cpu, cpu:THREADS or software")
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one line of JSON");

@@ -12,7 +12,7 @@ void addCommon(CLI::App& command, RecordOptions& options, CLI::Option* needed) {
                 [&options](const std::string& name) {
                     options.tier = name == "eco" ? v1::ECO : name == "normal" ? v1::NORMAL : v1::FINE;
                 },
-                "how exact positions are: fine, normal or eco, to 1/500, 1/50 or 1/16 of the smallest radius [fine]")
+                "precision of positions: fine, normal or eco, 1/500, 1/50 or 1/16 of the smallest radius [fine]")
             ->check(CLI::IsMember({"fine", "normal", "eco"}));
     if (needed != nullptr) tier->needs(needed);
 }
@@ -26,7 +26,7 @@ CLI::Option* addFile(CLI::App& command, RecordOptions& options) {
 void addRecord(CLI::App& command, RecordOptions& options) {
     CLI::Option* const file = addFile(command, options);
     addCommon(command, options, file);
-    command.add_flag("--force", options.replace, "replace the files of --record and --dump if they are there");
+    command.add_flag("--force", options.replace, "replace existing files of --record and --dump");
     command.add_option("--record-rate", options.rate, "frames per simulated second, at most one a step")
         ->capture_default_str()
         ->check(CLI::Range(0.001, 1e6))
@@ -36,16 +36,17 @@ void addRecord(CLI::App& command, RecordOptions& options) {
 void addTape(CLI::App& command, TapeOptions& options) {
     CLI::Option* const file = addFile(command, options);
     addCommon(command, options, nullptr);
-    command.add_flag("--force", options.replace, "replace the recording if it is there")->needs(file);
+    command.add_flag("--force", options.replace, "replace an existing recording")->needs(file);
     command.add_option("--record-rate", options.rate, "frames per second of recordings: 5, 10, 20, 30 or 60")
         ->capture_default_str()
         ->check(CLI::IsMember({5.0, 10.0, 20.0, 30.0, 60.0}));
     command
-        .add_option("--recordings", options.folder, "folder of the recordings that viewers start; empty: they cannot")
+        .add_option("--recordings", options.folder,
+                    "folder for recordings that controllers start; empty: none can be started")
         ->capture_default_str();
     command
         .add_option("--recordings-limit", options.folderBytes,
-                    "what all recordings in that folder may take up, such as 4GiB [4GiB]")
+                    "largest size of all recordings in that folder, such as 4GiB [4GiB]")
         ->transform(CLI::AsSizeValue(false));
 }
 

@@ -249,7 +249,7 @@ Result<void> run(const RunOptions& options) {
     if (!loaded) return tl::unexpected(loaded.error());
     if (loaded->quality.goal && loaded->quality.goal->of == scene::Goal::Of::StepTime)
         return fail(ErrorKind::Input, "quality.auto",
-                    "holds a time per step, so that the result would depend on how busy the machine is: give `run` an "
+                    "holds a time per step, so the result would depend on the load of the machine: give `run` an "
                     "overlap to hold, such as --auto 0.5%, or --substeps");
     if (!(*duration / loaded->step <= mostSteps))
         return fail(ErrorKind::Input, "--for",
@@ -263,11 +263,10 @@ Result<void> run(const RunOptions& options) {
 
 void addRun(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = app.add_subcommand("run", "simulate as fast as it goes, without the network");
+    CLI::App* command = app.add_subcommand("run", "simulate as fast as possible, without the network");
     options->scene.addTo(*command);
     command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
-    command->add_option("--every", options->every,
-                        "report this often, or with --dump write a state; absent: once, at the end");
+    command->add_option("--every", options->every, "interval of reports, or with --dump of states [once, at the end]");
     command->add_option("--dump", options->dump, "write states to this CSV file");
     addRecord(*command, options->record);
     addWatchdog(*command, options->watchdog);

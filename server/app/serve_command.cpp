@@ -45,8 +45,7 @@ void addServe(CLI::App& app, int& exitCode) {
     addTape(*command, options->recordings);
     command->add_option(
         "--quality-table", options->table,
-        "a measure.json of `spherule measure`: what the dial says of errors and costs, in place of what "
-        "came with the program");
+        "a measure.json of `spherule measure`, with errors and costs for the dial [a table in the program]");
     command->footer(exitCodesText);
     addSettings(*command);
     command->callback([options, &exitCode] { exitCode = serve(*options); });

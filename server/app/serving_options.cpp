@@ -14,18 +14,13 @@ void addListen(CLI::App& command, std::string& listen) {
 }
 
 void ServingOptions::addTo(CLI::App& command) {
-    constexpr const char* group = "Who may come in";
+    constexpr const char* group = "Access";
     addListen(command, listen);
     addWatchdog(command, watchdog);
-    command.add_option("--viewer-token-file", viewerTokenFile, "a file with the token of those who may watch")
+    command.add_option("--viewer-token-file", viewerTokenFile, "file with the token of viewers")->group(group);
+    command.add_option("--controller-token-file", controllerTokenFile, "file with the token of controllers")
         ->group(group);
-    command
-        .add_option("--controller-token-file", controllerTokenFile,
-                    "a file with the token of those who may also command")
-        ->group(group);
-    command
-        .add_flag("--open", net.open,
-                  "let everybody who reaches the address watch and command; for addresses that others reach")
+    command.add_flag("--open", net.open, "let every client watch and command, on an address that other machines reach")
         ->group(group);
     command
         .add_option("--origin", net.allowedNames.origins,
@@ -34,22 +29,20 @@ void ServingOptions::addTo(CLI::App& command) {
         ->expected(1)
         ->take_all()
         ->group(group);
-    command
-        .add_option("--host", net.allowedNames.hosts, "a name that this server goes by, beside localhost and addresses")
+    command.add_option("--host", net.allowedNames.hosts, "a name of this server, besides localhost and addresses")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
         ->group(group);
-    command.add_option("--tls-certificate", certificateFile, "speak TLS with this chain of certificates (PEM)")
-        ->group(group);
-    command.add_option("--tls-key", keyFile, "the certificate's private key (PEM)")->group(group);
+    command.add_option("--tls-certificate", certificateFile, "certificate chain for TLS (PEM)")->group(group);
+    command.add_option("--tls-key", keyFile, "private key of the certificate (PEM)")->group(group);
 
     constexpr const char* limits = "Limits (0: none)";
-    command.add_option("--max-sessions", net.connectionLimits.sessions, "viewers at a time")
+    command.add_option("--max-sessions", net.connectionLimits.sessions, "sessions at a time")
         ->capture_default_str()
         ->group(limits);
     command
-        .add_option("--max-sessions-per-address", net.connectionLimits.sessionsPerAddress, "the same, of one address")
+        .add_option("--max-sessions-per-address", net.connectionLimits.sessionsPerAddress, "sessions of one address at a time")
         ->capture_default_str()
         ->group(limits);
     command
@@ -58,7 +51,7 @@ void ServingOptions::addTo(CLI::App& command) {
         ->capture_default_str()
         ->check(finiteRate)
         ->group(limits);
-    command.add_option("--commands-per-second", net.commandsPerSecond, "of one client, on average")
+    command.add_option("--commands-per-second", net.commandsPerSecond, "commands of one session, on average")
         ->capture_default_str()
         ->check(finiteRate)
         ->group(limits);

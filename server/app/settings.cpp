@@ -71,7 +71,7 @@ void addConfig(CLI::App& app) {
     // CLI11 reads the environment too late for this one, so that the variable is its default.
     const char* const given = std::getenv("SPHERULE_CONFIG");
     app.set_config("--config", given == nullptr ? "" : given,
-                   "a file of settings, such as --print-config writes; or SPHERULE_CONFIG")
+                   "a file with settings in the form of --print-config; or SPHERULE_CONFIG")
         ->check([](const std::string& path) {
             const auto text = path.empty() ? "" : readFile(path, longestFile);
             return text ? "" : text.error().text();

@@ -126,7 +126,7 @@ void SimLoop::serve(Request request) {
     const bool waits = net::rulesOf(request.command).waits_for_change();
     if (!waits || (!world_.changing() && held_.empty())) return carryOut(std::move(request));
     if (heldBytes_ + request.bytes > mostHeldBytes)
-        return refuse(request, "too much waits already for what is under way");
+        return refuse(request, "too many commands wait already for the change under way");
     heldBytes_ += request.bytes;
     held_.push_back({std::move(request), Pacer::Clock::now()});
 }
@@ -312,7 +312,7 @@ void SimLoop::stopAtNonFinite() {
     say(v1::Event::NON_FINITE,
         fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
                     world_.simulation().divergence()));
-    refuseSteps("a sphere left the numbers");
+    refuseSteps("a position or velocity became non-finite");
     world_.simulation().restore();
     observer_.disturbed();
     announce();

@@ -13,7 +13,7 @@ bool usable(const ProbeDevice& device) {
 
 // Nothing here points to a GPU.
 std::string noGpu(const HostFacts& host) {
-    constexpr const char* meanwhile = "meanwhile scenes run on the CPU, with fewer spheres in real time";
+    constexpr const char* meanwhile = "until then scenes run on the CPU";
     switch (host.place) {
         case HostFacts::Place::Pod:
             return fmt::format(

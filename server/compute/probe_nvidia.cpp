@@ -8,7 +8,7 @@ namespace spherule::compute::detail {
 namespace {
 
 constexpr const char* wholeDriver =
-    "install the driver with its OpenGL part (on Debian: apt install libegl-nvidia0), or start the container with "
+    "install its OpenGL part (on Debian: apt install libegl-nvidia0), or start the container with "
     "NVIDIA_DRIVER_CAPABILITIES=compute,utility,graphics";
 
 bool contains(const std::string& text, const std::string& part) {
@@ -47,12 +47,11 @@ std::string libraryFails(const ProbeVendor& vendor) {
                            wholeDriver);
     if (!missing.empty())
         return fmt::format(
-            "EGL passes over NVIDIA's {} without a word, because {} is missing, which it needs: install that "
+            "EGL skips NVIDIA's {} silently, because {}, which it needs, is missing: install that "
             "part of the driver, or mount it into the container.",
             vendor.library, missing);
-    return fmt::format(
-        "EGL passes over NVIDIA's {} without a word, because it does not open ({}): install the driver anew.",
-        vendor.library, vendor.problem);
+    return fmt::format("EGL skips NVIDIA's {} silently, because it does not open ({}): install the driver again.",
+                       vendor.library, vendor.problem);
 }
 
 std::string noKernelModule(const HostFacts& host) {

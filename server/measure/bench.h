@@ -39,7 +39,7 @@ class Bench {
     double simulated_ = 0;
 };
 
-// Device seconds since the last call, but for statistics and packing.
+// Device seconds since the last call, except statistics and packing.
 double takeSubstepSeconds(compute::Device& device);
 
 }  // namespace spherule::measure

@@ -38,7 +38,8 @@ Result<void> slipToRoll(Bench& bench) {
     // Soft spheres lie in the floor by a little, and turn about where they touch it.
     const double arm = positionOf(after, 0).z + 0.5;
     const double inertia = 2.5 * arm * arm / (r * r);
-    // The speed falls evenly until it rolls, so the way beyond that of the last speed is half of the time slipped.
+    // The speed falls evenly until it rolls, so the extra way, beyond the last speed times the time, is half of the
+    // slip.
     const double way = positionOf(after, 0).x - start;
     const double slipped = 2 * (way - u * (*opened)->time()) / (u0 - u);
     Figure time = against("time until it rolls", slipped, u0 / ((1 + inertia) * mu * earth), "s");

@@ -23,7 +23,7 @@ const scene::Material magnesium{.name = "magnesium", .density = 1800, .restituti
 const scene::Material rigid{.name = "rigid", .restitution = 1, .young = 1e18, .poisson = 0.2};
 const scene::Material alumina{.name = "alumina", .density = 4000, .restitution = 1, .young = 380e9, .poisson = 0.23};
 
-// What Hertz's law says of an elastic impact.
+// An elastic impact by Hertz's law.
 struct Hertz {
     double modulus = 0;  // Pa, effective
     double radius = 0;   // m, effective
@@ -39,7 +39,7 @@ struct Hertz {
     [[nodiscard]] double time() const { return 2.943 * overlap() / speed; }
 };
 
-// Steps through the contact of sphere 0 with what lies along +x of it.
+// Steps through the contact of sphere 0 with its neighbour in the direction +x.
 Result<void> follow(Bench& bench, sim::Simulation& simulation, const Hertz& law, double reach, bool pair) {
     const double h = simulation.scene().step;
     const double mass = massOf(simulation.snapshot(), 0);
@@ -112,7 +112,7 @@ Result<void> sphereAtWall(Bench& bench, const scene::Material& material) {
     return follow(bench, **opened, law, static_cast<double>(static_cast<float>(r)), false);
 }
 
-// Of spheres that hit the floor of a scene once.
+// The spheres hit the floor of a scene once.
 constexpr double small = 0.0025;  // m, radius
 constexpr double fast = 3.9;      // m/s
 

@@ -31,7 +31,7 @@ double springForceOnFloor(const scene::Scene& scene, const sim::State& state) {
     return force;
 }
 
-// N, upwards, by what the tangential springs at the sides hold: walls that rub carry a share of a bed, or press it
+// The upward force (N) of the tangential springs at the sides: walls with friction carry a share of a bed, or press it
 // down.
 double springForceOnSides(sim::Simulation& simulation, const sim::State& state) {
     const double modulus =
@@ -47,8 +47,8 @@ double springForceOnSides(sim::Simulation& simulation, const sim::State& state) 
     return force;
 }
 
-// Adds the mean force on the floor over `steps`: by the springs where there are some, with what the sides hold, else by
-// what momentum lacks.
+// Adds the mean force on the floor over `steps`. With springs it is their force plus the force at the sides. Otherwise
+// it follows from the missing momentum.
 Result<void> addFloorForce(Bench& bench, sim::Simulation& simulation, int steps) {
     const sim::State before = simulation.snapshot();
     const double weight = weightOf(before);

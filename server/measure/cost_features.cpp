@@ -6,7 +6,7 @@
 #include "measure/scenes.h"
 #include "scene/random.h"
 
-// What a feature costs: two worlds in the same state, one with it and one without, take turns.
+// The cost of a feature: two worlds in the same state, one with it and one without, take turns.
 namespace spherule::measure {
 
 namespace {
@@ -109,7 +109,7 @@ const std::vector<Feature> features{
      .off = [](scene::Scene&) {},
      .on =
          [](scene::Scene& scene) {
-             // Hardly, so that the same spheres touch.
+             // Vary radii by at most 1e-5, so that both scenes have the same contacts.
              scene::Random random(4);
              for (scene::Sphere& sphere : scene.spheres)
                  sphere.radius *= static_cast<float>(random.uniform(0.99999, 1.00001));

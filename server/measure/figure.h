@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-// What `spherule measure` finds out: figures of cases, each at a model and at a number of substeps.
+// The results of `spherule measure`: figures of cases, each at a model and at a number of substeps.
 namespace spherule::measure {
 
 // A model and how many substeps it gets, as a multiple of those it would choose itself.
@@ -20,19 +20,19 @@ struct Figure {
     std::string name;
     double value = 0;
     std::optional<double> expected{};
-    std::optional<double> error{};  // of one: relative to what is expected unless the case says otherwise
+    std::optional<double> error{};  // relative to the expected value, unless the case defines another error
     std::string unit{};             // of value and expected
     std::string curve{};            // the work-precision curve that takes its error; empty: none
     std::string verdict{};          // "pass", what fails from where, or why it is refused; empty: only measured
 };
 
-// With its error relative to what is expected, or to `scale` where that is not 0.
+// A figure with its error relative to the expected value, or to `scale` if that is not 0.
 Figure against(std::string name, double value, double expected, std::string unit, double scale = 0);
 
 // Nothing to compare it with.
 Figure plain(std::string name, double value, std::string unit);
 
-// What one case gave at one rung.
+// The result of one case at one rung.
 struct Outcome {
     std::string suite;
     std::string name;

@@ -55,9 +55,8 @@ std::string markdownOf(const Report& report) {
     std::string text =
         fmt::format("# Measured\n\n`{}`\n\nOn {} ({}).\n", report.command, report.device.renderer, report.device.kind);
     text +=
-        "\nA model's `x2` takes twice as many substeps as it would choose for the scene. Errors are fractions of what "
-        "is "
-        "expected, or of the scale that the figure names.\n";
+        "\nA model's `x2` takes twice as many substeps as it would choose for the scene. Errors are fractions of the "
+        "expected value, or of the scale that the figure names.\n";
     text += overviewOf(report);
     std::string suite;
     for (std::size_t k = 0; k < report.outcomes.size();) {

@@ -6,7 +6,7 @@
 
 namespace spherule::measure {
 
-// What a reader of the tables should see first: headline errors with their cost, and everything that fails.
+// The summary above the tables: headline errors with their cost, and all failures.
 std::string overviewOf(const Report& report);
 
 }  // namespace spherule::measure

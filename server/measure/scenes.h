@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 #include "sim/state.h"
 
-// Scenes of the cases, around the origin, so that places in a state are those of the scene; and what is read of a
+// Scenes of the cases, around the origin, so a state has the same coordinates as its scene. Also functions that read a
 // state.
 namespace spherule::measure {
 
@@ -25,8 +25,8 @@ std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material);
 scene::Sphere& addSphere(scene::Scene& scene, glm::dvec3 position, double radius, glm::dvec3 velocity = {},
                          std::uint8_t material = 0);
 
-// A lattice of `count` spheres with a tenth of a diameter between them, each moved a little, over the floor of a
-// closed box `across` diameters wide and deep and open above.
+// A lattice of `count` spheres with gaps of a tenth of a diameter, each moved a little. It stands on the floor of a box
+// that is `across` diameters wide and deep, and open above.
 scene::Scene lattice(std::uint32_t count, double radius, double across);
 
 }  // namespace spherule::measure

@@ -12,8 +12,8 @@ struct Limits {
     double overlap = std::numeric_limits<double>::infinity();  // of the smaller radius, at the end
 };
 
-// Runs for `seconds`, or for fewer where that would take too many substeps, looks at the spheres some twenty times and
-// adds the figure `name`: the largest rise of the energy, and as the verdict "pass" or what went wrong first.
+// Runs for `seconds`, or less if that would take too many substeps, and reads the state about twenty times. Adds the
+// figure `name`: the largest rise of the energy, with the verdict "pass" or the first failure.
 Result<void> survive(Bench& bench, sim::Simulation& simulation, const std::string& name, double seconds,
                      const Limits& limits = {});
 

@@ -7,7 +7,7 @@
 #include "measure/stability.h"
 #include "scene/random.h"
 
-// What a user may do to a running simulation, and nothing at all for long.
+// Commands of a user to a running simulation, then a long time without any.
 namespace spherule::measure {
 
 namespace {

@@ -7,7 +7,7 @@
 #include "measure/stability.h"
 #include "scene/quality.h"
 
-// Some spheres, with settings at the ends of what is allowed.
+// A few spheres, with settings at the ends of their ranges.
 namespace spherule::measure {
 
 namespace {

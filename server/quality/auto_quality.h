@@ -8,7 +8,7 @@
 
 namespace spherule::quality {
 
-// Of some steps.
+// Measured over some steps.
 struct Reading {
     double stepMs = 0;  // wall time, mean
     std::uint64_t contacts = 0;
@@ -20,13 +20,13 @@ struct Decision {
     std::string text;
 };
 
-// Moves substeps to hold a goal. One reading beyond it moves nothing, several in a row do; and there is a band below
-// the goal in which nothing moves, so that substeps do not go up and down.
+// Moves substeps to hold a goal. One reading beyond the goal moves nothing; several in a row do. In a band below the
+// goal nothing moves, so substeps do not oscillate.
 class AutoQuality {
   public:
     AutoQuality(scene::Goal goal, scene::SubstepRange range) : goal_(goal), range_(range) {}
 
-    // Of steps with so many substeps.
+    // The reading of steps with `substeps` substeps.
     std::optional<Decision> take(const Reading& reading, std::uint32_t substeps);
 
   private:

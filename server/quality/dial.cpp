@@ -11,8 +11,8 @@ namespace spherule::quality {
 
 namespace {
 
-// Seconds that a substep of so many spheres takes: a line through the smallest and the largest case that were timed,
-// for what a substep costs in any case and what each sphere adds.
+// Seconds of a substep of `spheres` spheres, on a line through the smallest and the largest timed case. The line has a
+// constant cost per substep and a cost per sphere.
 double substepSeconds(const Rung& rung, double spheres) {
     const auto size = [](const auto& curve) { return curve.second.spheres; };
     const auto seconds = [](const Measured& measured) { return measured.cost * measured.substep; };

@@ -22,9 +22,9 @@ class EnergyWatch {
         bool soft = false;     // contacts hold energy that the others do not show
     };
 
-    // What to say of a rise, once until it has been quiet for a while.
+    // A message about a rise, once until there has been none for a while.
     std::optional<std::string> take(const Reading& reading);
-    // A command, or more substeps, may have given energy: what was read before says nothing of what comes.
+    // A command, or more substeps, may have added energy: earlier readings are discarded.
     void disturbed();
     // Nothing to compare with has been read.
     [[nodiscard]] bool fresh() const { return recent_.empty(); }

@@ -23,7 +23,7 @@ constexpr std::uint64_t longestFile = 4U << 20U;  // bytes
 
 constexpr std::string_view advice = "; `spherule measure --suite accuracy --out FOLDER` writes FOLDER/measure.json";
 
-// What is wrong, at a place in the table.
+// An error at a place in the table.
 struct Wrong {
     std::string where;
     std::string what;

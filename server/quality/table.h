@@ -11,7 +11,7 @@
 
 namespace spherule::quality {
 
-// Of one case with a known answer.
+// The errors of one case with a known answer.
 struct Measured {
     double error = 0;
     double cost = 0;     // device seconds per simulated second
@@ -25,7 +25,7 @@ struct Rung {
     std::map<std::string, Measured> curves;
 };
 
-// What `spherule measure` found.
+// The results of `spherule measure`.
 struct Table {
     std::string device;
     std::string renderer;

@@ -23,7 +23,7 @@ constexpr double largestComponent = 1e9;
 // A refused value comes back as a harmless one, so that reading may go on to the next ok().
 class Check {
   public:
-    // `progress`, where somebody waits for what is read, must outlive it.
+    // `progress` may be null; otherwise it must outlive the check.
     explicit Check(Progress* progress = nullptr) : progress_(progress) {}
 
     void refuse(std::string field, std::string reason);

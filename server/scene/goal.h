@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 #include "spherule/v1/scene.pb.h"
 
-// What `auto` quality holds.
+// The goal of `auto` quality.
 namespace spherule::scene {
 
 // The goal of a message, none where it names none; Input for one that makes no sense, with the field below `where`.

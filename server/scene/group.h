@@ -27,7 +27,7 @@ struct GroupContext {
 // Spheres of a group: each inside the bounds of `scene`, clear of its obstacles.
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context);
 
-// Adds those of `taken` that `occupancy`, which holds the first of them, has not yet. False when it is to end.
+// Adds the spheres of `taken` that `occupancy` lacks; it holds the first of them. Returns false if cancelled.
 bool addTaken(Check& check, std::span<const Sphere> taken, Occupancy& occupancy);
 
 }  // namespace spherule::scene

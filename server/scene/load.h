@@ -16,11 +16,11 @@ namespace spherule::scene {
 constexpr std::uint32_t maxSpheres = 16'000'000;
 constexpr std::uint32_t maxObstacles = 1000;
 constexpr std::uint64_t maxObstaclePairs = 30'000'000;  // every sphere meets each obstacle, in each substep
-constexpr std::uint32_t maxGroups = 10'000;             // each is told to every viewer, again with each that is added
+constexpr std::uint32_t maxGroups = 10'000;             // all are sent to every viewer, again with each new group
 constexpr std::size_t longestName = 200;                // bytes; of a scene and of a group
 constexpr std::uint32_t maxSubsteps = 1'000'000;
 
-// What a caller may change of a scene before it is built.
+// Values of a scene that a caller may replace before it is built.
 struct Overrides {
     std::optional<std::uint32_t> substeps{};
     std::optional<Model> model{};
@@ -31,15 +31,15 @@ struct Overrides {
 
 // `source` is a path to a JSON file, or the name of a scene that comes with the program. `deviceKind` ("gpu", "cpu",
 // "software") decides how many spheres the default scene `box` has.
-// `progress`, here and below, is told how far it has come, and may end it: Cancelled.
+// `progress`, here and below, receives the progress and may cancel the work: Cancelled.
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {},
                    Progress* progress = nullptr);
 
 // An inline scene, as a client sends it: may not name files. Errors carry the field path.
 Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {}, Progress* progress = nullptr);
 
-// Spheres for a Spawn command, to be added to `scene`: inside its bounds, clear of its obstacles and of the spheres it
-// has (where they are now; a fill finds places between them). Error paths start with "group".
+// Spheres for a Spawn command. They lie inside the bounds of `scene`, clear of its obstacles and of its spheres at
+// their present places; a fill finds places between them. Error paths start with "group".
 Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene, Progress* progress = nullptr);
 
 // Three finite numbers, or the error for `field`.

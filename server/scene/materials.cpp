@@ -48,7 +48,8 @@ std::vector<Material> readMaterials(Check& check, const google::protobuf::Repeat
         if (k > 0 && material.name.empty()) {
             check.refuse(at(field, "name"), "is missing; only the first material may go without");
         } else if (std::ranges::any_of(materials, same)) {
-            check.refuse(at(field, "name"), fmt::format("is {}, as that of an earlier material", shown(material.name)));
+            check.refuse(at(field, "name"),
+                         fmt::format("is {}, the name of an earlier material", shown(material.name)));
         }
         materials.push_back(std::move(material));
     }

@@ -20,8 +20,8 @@ std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::Repeat
 std::uint8_t materialNamed(Check& check, const std::string& name, const std::vector<Material>& materials,
                            std::string_view field);
 
-// What holds between two materials: the smaller restitution, the geometric mean of the others, unless a pair says
-// otherwise.
+// The law between two materials: the smaller restitution and the geometric mean of the other values. A MaterialPair
+// replaces them.
 struct PairLaw {
     double restitution = 0;
     double friction = 0;
@@ -31,7 +31,7 @@ struct PairLaw {
 
 bool hasWalls(const Scene& scene);  // some face of the bounds is closed
 
-// The laws that can come to act: of the spheres' materials with each other, and with those of walls and obstacles.
+// The laws that can act: between materials of spheres, and between them and materials of walls and obstacles.
 std::vector<PairLaw> actingLaws(const Scene& scene);
 
 PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);

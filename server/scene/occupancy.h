@@ -23,7 +23,7 @@ class Occupancy {
     // No sphere overlaps this one. Touching is free.
     [[nodiscard]] bool isFree(const glm::dvec3& centre, double radius);
 
-    // Cells and spheres looked at so far: what the questions have cost. Who asks may add what it cost to ask.
+    // Cells and spheres visited so far, as a measure of the work. A caller may add its own work.
     [[nodiscard]] std::uint64_t work() const { return work_; }
     void addWork(std::uint64_t work) { work_ += work; }
 

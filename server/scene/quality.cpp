@@ -16,9 +16,9 @@ namespace spherule::scene {
 
 namespace {
 
-// What `accurate` can do with at the least: substeps per contact of springs that have their stiffness from the
-// materials; and of springs that have it from the substeps, the overlap of the fastest impact: with more, spheres pass
-// each other and walls.
+// The limits of `accurate`. Springs with a stiffness from the materials need at least so many substeps per contact.
+// Springs with a stiffness from the substeps have at most this overlap at the fastest impact: with more, spheres pass
+// through each other and through walls.
 constexpr double fewestPerContact = 10;
 constexpr double softest = 0.5;  // of the radius
 
@@ -134,7 +134,7 @@ Result<void> fitSubsteps(Scene& scene) {
 }
 
 std::uint32_t mostSubsteps(const Scene& scene) {
-    // Of one step: some ten seconds on one processor.
+    // In one step: about ten seconds on one processor.
     constexpr double mostSphereSubsteps = 2e8;
     // The launches of a substep take as long as so many spheres.
     constexpr double launches = 1e4;
@@ -213,7 +213,7 @@ void readQuality(Check& check, const v1::Quality& message, const Overrides& over
     }
     quality.model = overrides.model.value_or(quality.model);
     if (auto goal = goalOf(message.auto_(), "quality.auto")) {
-        // Whoever asks for a model or for substeps means them to stay.
+        // A model or substeps that the caller requests stay.
         const bool asked = overrides.model || overrides.substeps;
         quality.goal = overrides.goal || asked ? overrides.goal : *goal;
     } else {

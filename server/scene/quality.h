@@ -18,7 +18,7 @@ v1::Model messageOf(Model model);
 // Whether the materials have what the model needs.
 Result<void> checkModel(const Scene& scene);
 
-// Chooses the substeps anew, unless they are pinned; then says whether the model can do with them.
+// Chooses the substeps, unless they are pinned. Returns an error if the model cannot work with them.
 Result<void> fitSubsteps(Scene& scene);
 
 // The substeps that the model would choose itself for the scene, or why it cannot have it.

@@ -32,7 +32,7 @@ struct Material {
     double poisson = 0.25;
 };
 
-// Between materials `a` and `b`, in place of what follows from each.
+// Values between materials `a` and `b`, in place of the values that follow from each.
 struct MaterialPair {
     std::uint8_t a = 0;
     std::uint8_t b = 0;
@@ -44,7 +44,7 @@ struct MaterialPair {
 
 enum class Model : std::uint8_t { Fast, Balanced, Accurate };
 
-// What substeps are moved for while a scene runs: the most that a step may take, or that spheres may overlap.
+// The goal for moving substeps while a scene runs: the longest time of a step, or the largest overlap of spheres.
 struct Goal {
     enum class Of : std::uint8_t { StepTime, Overlap } of = Of::StepTime;
     double most = 0;  // wall ms per step; mean overlap over the radius

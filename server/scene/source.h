@@ -15,7 +15,7 @@
 
 namespace spherule::scene {
 
-// What the sources of a group work from. The spheres they return have position, velocity, spin and radius;
+// The input of a group's sources. The spheres they return have position, velocity, spin and radius;
 // the material, and the check that each sphere has a place in the scene, are the group's.
 struct SourceInput {
     std::string field;             // of the source: "groups[2].lattice"
@@ -38,7 +38,7 @@ std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput inp
 
 std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, SourceInput input);
 
-// Reads `directory`/list.file(). Places in the file are told as file:line:column.
+// Reads `directory`/list.file(). Places in the file are reported as file:line:column.
 std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
                             SourceInput input);
 

@@ -19,7 +19,8 @@ constexpr double mostDamping = 15.8;  // parts with a thousandth of the speed; m
 // Substeps in a contact. The dashpots' error, which bears a share of the static force, falls with it: 1.3 % at 50,
 // below a hundredth here.
 constexpr double contactShare = 70;
-constexpr double dampedEnough = 2;  // stronger dashpots ask for shorter substeps: those of all contacts add up
+constexpr double dampedEnough =
+    2;  // stronger dashpots need shorter substeps, because the dashpots of all contacts add up
 constexpr double rayleighShare = 10;
 
 // Speed over approach speed after a contact with this damping ratio.
@@ -94,7 +95,7 @@ bool surfacesRub(const Scene& scene) {
     });
 }
 
-// What is left of `motion` along every face and plane: to nothing in the scene does it make a difference.
+// The part of `motion` along every face and plane. It changes nothing in the scene.
 glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
     std::vector<glm::dvec3> across;  // orthonormal
     const auto block = [&across](glm::dvec3 n) {
@@ -118,13 +119,13 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
 
 struct Meetings {
     double spheres = 0;   // m/s, of two spheres head-on
-    double surfaces = 0;  // m/s, of a sphere and what stands still
+    double surfaces = 0;  // m/s, of a sphere relative to bodies at rest
 };
 
-// Seen from a motion that all spheres have in common, as far as the surfaces of the scene allow it. With surfaces,
-// spheres that are thrown back may meet at twice the fastest speed. Without, gravity and a common motion are of no
-// account, and the speed is twice the largest difference of two: a light sphere leaves a heavy one twice as fast as
-// they met.
+// Relative to the common motion of all spheres, as far as the surfaces of the scene allow it. With surfaces, spheres
+// that bounce back may meet at twice the fastest speed. Without surfaces, gravity and a common motion do not count. The
+// speed is then twice the largest difference of two velocities, because a light sphere leaves a heavy one twice as fast
+// as they met.
 Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
@@ -178,7 +179,7 @@ double substepsPerContact(const Scene& scene) {
     return contactShare * strongest / dampedEnough;
 }
 
-// Of equal spheres of this radius and density: half their mass over the square of the contact's frequency.
+// For equal spheres of this radius and density: half their mass over the square of the contact's frequency.
 double modulusForSubstep(const Scene& scene) {
     const Extremes extremes = extremesOf(scene);
     const double contact = substepsPerContact(scene) * scene.step / scene.quality.substeps;
@@ -195,8 +196,8 @@ double compliance(const Material& material) {
     return (1 - material.poisson * material.poisson) / material.young;
 }
 
-// Pa: the effective modulus with which a sphere of this density gives way by `share` of its radius, under an impact at
-// `speed` and under `pressure`, or its own weight, at rest. Against one like it, or against a wall.
+// The effective modulus (Pa) at which the overlap is `share` of the radius, for a sphere of this density against an
+// equal one or a wall. It holds for an impact at `speed`, and at rest under `pressure` or the sphere's own weight.
 double modulusThatBears(double share, double density, double speed, double pressure, double ownWeight, bool wall) {
     const double impact =
         15.0 / 16 * 4.0 / 3 * pi * density * speed * speed / (wall ? 1 : std::sqrt(2)) / std::pow(share, 2.5);

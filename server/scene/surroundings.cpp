@@ -96,8 +96,8 @@ void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, 
     if (resolution <= allowed) return;
     check.refuse(
         std::string(field),
-        fmt::format("have a longest side of {} m, in which float32 resolves {:.3g} m, but the smallest radius of "
-                    "{:.6g} m needs {:.3g} m; make them at most {:.6g} m long or the spheres larger",
+        fmt::format("have a side of {} m, where float32 resolves {:.3g} m; the smallest radius of {:.6g} m needs "
+                    "{:.3g} m: make them at most {:.6g} m long, or enlarge spheres",
                     longest, resolution, smallestRadius, allowed, allowed * 0x1p24));
 }
 

@@ -18,8 +18,8 @@ std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::Repeat
 // Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius (m).
 void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, std::string_view field);
 
-// How far a sphere may reach into a face or an obstacle, as a share of its radius: what rounding of decimal figures and
-// of the radius to float32 can amount to.
+// The largest allowed depth of a sphere in a face or an obstacle, as a share of its radius. It covers the rounding of
+// decimal figures and of the radius to float32.
 constexpr double touchTolerance = 1e-6;
 
 // Why a sphere cannot be there ("reaches x = -0.1, outside the bounds, which are 0 to 5"), or nothing. Open faces count

@@ -104,7 +104,7 @@ TEST(ProbeHints, AVendorFileWhereEglDoesNotLookIsTold) {
 TEST(ProbeHints, ALibraryThatIsPassedOverIsNamedWithWhatItMisses) {
     ProbeVendor broken = nvidia;
     broken.problem = "libnvidia-glsi.so.535.183.01: cannot open shared object file: No such file or directory";
-    expectHint(withSoftware({broken}), withNvidia(), "because libnvidia-glsi.so.535.183.01 is missing");
+    expectHint(withSoftware({broken}), withNvidia(), "because libnvidia-glsi.so.535.183.01, which it needs, is missing");
     broken.problem = "libEGL_nvidia.so.0: invalid ELF header";
     expectHint(withSoftware({broken}), withNvidia(), "it does not open (libEGL_nvidia.so.0: invalid ELF header)");
 }

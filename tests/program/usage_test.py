@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """What the program says of wrong command lines, variables and files: usage_test.py BINARY."""
 import os
+import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
 BINARY = sys.argv.pop()
+COMMANDS = pathlib.Path(__file__).resolve().parents[2] / "docs/cli.md"
 
 
 class Usage(unittest.TestCase):
@@ -27,6 +30,37 @@ class Usage(unittest.TestCase):
                          "--quailty: is no option (did you mean --quality?); see `spherule run --help`")
         self.assertEqual(self.refusal("run", "bounce", "box", "--for", "1s"),
                          '"box" is one word too many; see `spherule run --help`')
+
+    def test_the_page_on_commands_names_each_command_and_option(self):
+        def help_of(*words):
+            return subprocess.run([BINARY, *words, "--help"], capture_output=True, text=True, timeout=60, check=True).stdout
+
+        def options(text):
+            return re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.MULTILINE)
+
+        page = COMMANDS.read_text(encoding="utf-8")
+        general, _, commands = help_of().partition("\nSubcommands:\n")
+        commands = re.findall(r"^  ([a-z]+) ", commands, re.MULTILINE)
+        self.assertGreater(len(commands), 8)
+        begin = page.index("## Options before the command")
+        scenes = page.index("## Scenes\n")
+        first = page.index("## `spherule serve")
+        shared = page.index("`serve` and `play` have the options of access")
+        sections = {"": page[begin:scenes]}
+        for command in commands:
+            section = re.search(rf"^## `spherule {command}\b.*?(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)
+            self.assertIsNotNone(section, f"{command} has no section")
+            sections[command] = section.group()
+            if command in ("serve", "run", "plan"):
+                sections[command] += page[scenes:first]
+            if command == "play":
+                sections[command] += page[shared:page.index("## `spherule run")]
+        for command, section in sections.items():
+            named = set(re.findall(r"--[a-z-]+", section)) | {"--help"}
+            listed = set(options(help_of(command) if command else general)) | {"--help"}
+            self.assertEqual(listed - named, set(), f"not in docs/cli.md: {command}")
+        everywhere = {option for command in ("", *commands) for option in options(help_of(*command.split()))}
+        self.assertEqual(set(re.findall(r"`(--[a-z-]+)`", page)) - everywhere, set(), "in docs/cli.md, not in the program")
 
     def test_errors_of_usage_have_one_form(self):
         run = ("run", "bounce", "--device", "cpu")

@@ -76,8 +76,8 @@ TEST(SceneBounds, AreNoLargerThanFloat32Resolves) {
     EXPECT_EQ(refusalOfBounds(bounds, ", " + ballAt("[5, 5, 5]", "1.2")), "accepted");
     EXPECT_EQ(
         refusalOfBounds(bounds, ", " + ballAt("[5, 5, 5]", "1")),
-        "bounds: have a longest side of 2000 m, in which float32 resolves 0.000119 m, but the smallest radius of 1 m "
-        "needs 0.0001 m; make them at most 1677.72 m long or the spheres larger");
+        "bounds: have a side of 2000 m, where float32 resolves 0.000119 m; the smallest radius of 1 m needs 0.0001 m: "
+        "make them at most 1677.72 m long, or enlarge spheres");
 }
 
 TEST(SceneObstacles, PlanesHaveUnitNormals) {
