@@ -107,7 +107,8 @@ TEST_F(ProbeFacts, AVendorThatMissesALibraryNamesIt) {
     seen.vendors = {vendors[2]};
     HostFacts host;
     host.nvidiaDriver = true;
-    EXPECT_NE(nvidiaHint(seen, host).find("because libspherule_vendor_part.so is missing"), std::string::npos)
+    EXPECT_NE(nvidiaHint(seen, host).find("because libspherule_vendor_part.so, which it needs, is missing"),
+              std::string::npos)
         << nvidiaHint(seen, host);
 }
 
