@@ -51,10 +51,13 @@ void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever
         float about = dot3(omega, n);
         moment = (rollingMoment(omega - n * about, c, law.z * most) + spinningMoment(n, about, c, law.w * most)) * 2.5f;
     }
+    // Compilers may factor these differently on each device.
+    precise vec3 changeA = moment * (va.w / (ra * ra)) - twist * (va.w / ra);
+    precise vec3 changeB = moment * (-vb.w / (rb * rb)) - twist * (vb.w / rb);
     addDeltaVelocity(a, impulse * va.w);
     addDeltaVelocity(b, impulse * -vb.w);
-    addDeltaOmega(a, moment * (va.w / (ra * ra)) - twist * (va.w / ra));
-    addDeltaOmega(b, moment * (-vb.w / (rb * rb)) - twist * (vb.w / rb));
+    addDeltaOmega(a, changeA);
+    addDeltaOmega(b, changeB);
 }
 
 void visitPair(uint a, uint b) {
