@@ -139,7 +139,7 @@ class Run(unittest.TestCase):
         self.assertEqual(call("serve", "bounce", "--quality", "best", "--device", DEVICE).returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1s", "--every", "0", "--dump", "/dev/null").returncode, 2)
         self.assertEqual(call("run", "bounce", "--for", "1s", "--device", "gpu:99").returncode, 3)
-        self.assertIn("75 the device was lost or hangs", call("run", "--help").stdout)
+        self.assertRegex(call("run", "--help").stdout, r"\n  75 +device lost or hanging; start again\n")
 
     def test_a_wrong_scene_is_refused_with_file_path_value_and_reason(self):
         with tempfile.TemporaryDirectory() as folder:

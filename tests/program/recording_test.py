@@ -289,7 +289,7 @@ class Export(Files):
             file.write(content)
         said = self.refused("export", self.recording, "--format", "csv", "--out", self.at("a.csv"))
         self.assertRegex(said, r"the record at byte [0-9]+ is damaged: its checksum differs; [0-9]+ frames before it "
-                               "were exported; --from goes on behind it$")
+                               "were exported; --from exports the part after it$")
         before = frames_of(self.at("a.csv"))
         self.assertGreater(len(before), 10)
         # From a keyframe, and from before one: what lies between is damaged.
