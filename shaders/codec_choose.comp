@@ -13,7 +13,7 @@ BUFFER(restrict, uint, before)
 BUFFER(writeonly, uint, blockWords)
 BUFFER(writeonly, uint, scratch)
 
-PRIVATE(uint, change[CODEC_VALUES])    // new positions less the newest; for the predictor `none` the positions themselves
+PRIVATE(uint, change[CODEC_VALUES])    // new positions less the newest; for the predictor `none`, the positions
 PRIVATE(uint, step[CODEC_VALUES])      // the newest positions less the ones before
 PRIVATE(uint, residual[CODEC_VALUES])  // of the predictor on trial
 PRIVATE(uint, values[CODEC_VALUES])    // the residuals around the base, without signs
@@ -200,7 +200,8 @@ void writeBlock(uint block) {
     scratch[block * CODEC_SCRATCH + CODEC_HEADER] = packBlock(block * CODEC_PACKED);
 }
 
-// Writes the positions in change[] to the state. Then subtracts the bits of the newest positions that are in `mask`.
+// Writes the positions in change[] to `before`, and sets step[]. Then subtracts the newest positions, masked by `mask`,
+// from change[].
 void takeState(int first, uint mask) {
     for (int k = 0; k < 192; ++k) {
         uint now = change[k];

@@ -91,7 +91,8 @@ bool leavesLists(vec3 to, vec4 start, float radius) {
     if (lost(vec4(vec3(start), radius))) return !lost(vec4(to, radius));
     vec3 drift = since - framePath();
     float most = ROOM_SHARE * abs(start.w);
-    // A sphere in a listed pair may move at most by the width of the strip, although a pair that parts needs no list.
+    // A sphere in a listed pair asks for new lists once it has moved by the width of the strip: a pair that parts need
+    // not stay listed.
     if (start.w < 0.0f) most = min(most, strip());
     return dot3(drift, drift) > most * most;
 }

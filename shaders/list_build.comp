@@ -12,7 +12,7 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, cellStart)
 BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uvec2, pairs)
-BUFFER(writeonly, uvec4, groupRange)  // first pair (or sample round of a group without a list), listed, touching, active
+BUFFER(writeonly, uvec4, groupRange)  // first pair, listed, touching, 1 if the group is active
 
 #define LOCAL_PAIRS 192u
 PRIVATE(uint, found)

@@ -16,8 +16,8 @@ BUFFER(restrict, vec4, listReference)
 
 #include "shared/falling_frame.h"
 
-// Returns true if a is faster. Of two equal speeds, the sphere with the lower id counts as faster, because the spheres
-// come in any order.
+// Returns true if a is faster than b. The sphere with the lower id counts as faster if the speeds are equal, because
+// the spheres come in any order.
 bool faster(uint a, uint b) {
     vec3 va = vec3(velocity[a]);
     vec3 vb = vec3(velocity[b]);
