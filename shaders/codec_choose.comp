@@ -44,10 +44,8 @@ uint quantise(float x, float origin) {
 
 // Indices of the long loops are int: C++ compilers cannot prove that uint indices, which may wrap around, are
 // contiguous.
-//
-// Writes the slots of the block's spheres to step[].
 
-// Into step[]: where the positions of the block lie.
+// Writes the slots of the block's spheres to step[].
 void takeSlots(int first) {
     if (first + 64 <= int(params.spheres))
         for (int k = 0; k < 64; ++k) step[k] = order[first + k];

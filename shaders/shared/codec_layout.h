@@ -26,8 +26,7 @@
 #define CODEC_NONE 3u
 
 // Scratch of a block:
-// - HEADER: in the lower half the block's header, in the upper half the header of the next block of the group that is
-// present
+// - HEADER: the block's header in the lower half; in the upper half, the header of the group's next present block
 // - SIZE: in units; 0: the block is absent
 // - OFFSET: in units, within the chunks
 #define CODEC_SCRATCH 4u        // words

@@ -1,6 +1,7 @@
-// Walls, planes and boxes that a sphere touches or overlaps. The includer defines `void visitWall(vec3 normal, float
-// depth, uint wallMaterial, uint surface)`, which may move the PRIVATE `wallPoint`. It binds `obstacles`: planes first,
-// then boxes. Surfaces are numbered through faces, planes and boxes.
+// Walls, planes and boxes that a sphere touches or overlaps. The includer defines
+//   `void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface)`,
+// which may move the PRIVATE `wallPoint`. It binds `obstacles`: planes first, then boxes. Surfaces are numbered through
+// faces, planes and boxes.
 //
 // A sphere within this share of its radius of a wall touches it, because the push leaves it within rounding of the
 // wall.
