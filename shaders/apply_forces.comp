@@ -1,4 +1,4 @@
-// Gives each sphere the changes that the contacts of this substep have added up to.
+// Applies to each sphere the sums of the changes by the contacts of this substep.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

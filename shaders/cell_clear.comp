@@ -1,4 +1,4 @@
-// Empties the cells. One more than there are, for the end of the last one.
+// Sets the counts of all cells to 0, and one more: the end of the last cell.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

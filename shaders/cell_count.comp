@@ -1,4 +1,4 @@
-// Counts the spheres of each cell; a sphere keeps the place it drew.
+// Counts the spheres of each cell. A sphere's rank is the count before it was added.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,5 +1,5 @@
-// Puts the spheres of a cell in id order: the scatter left them in the order in which the device happened to run. Heap
-// sort, so that a crowded cell costs n log n.
+// Sorts the spheres of each cell by id, because the scatter leaves them in the device's order of execution. It uses
+// heap sort, so that a crowded cell of n spheres costs n log n.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

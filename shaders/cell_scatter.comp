@@ -1,4 +1,4 @@
-// Writes each sphere's present slot to its place in cell order.
+// Writes the present slot of each sphere to its place in cell order.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,5 +1,5 @@
-// The codec, first pass, one invocation per block: quantises, chooses predictor and mode, and leaves the new state in
-// `before`, which the host then takes for `newest`, and the block's units to the passes behind.
+// First pass of the codec, one invocation per block: quantises positions and chooses predictor and mode. Leaves the new
+// state in `before`, which the host then uses as `newest`. Leaves the packed block to the later passes.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 #include "shared/codec.h"
@@ -13,16 +13,16 @@ BUFFER(restrict, uint, before)
 BUFFER(writeonly, uint, blockWords)
 BUFFER(writeonly, uint, scratch)
 
-PRIVATE(uint, change[CODEC_VALUES])    // new positions less the newest; for the predictor `none` the positions
-PRIVATE(uint, step[CODEC_VALUES])      // the newest less those before
-PRIVATE(uint, residual[CODEC_VALUES])  // of the predictor that is tried
+PRIVATE(uint, change[CODEC_VALUES])    // new positions less the newest; for the predictor `none`, the positions
+PRIVATE(uint, step[CODEC_VALUES])      // the newest positions less the ones before
+PRIVATE(uint, residual[CODEC_VALUES])  // of the predictor on trial
 PRIVATE(uint, values[CODEC_VALUES])    // the residuals around the base, without signs
-PRIVATE(uint, spread[CODEC_RUNS])      // all bits of the values of a run
-PRIVATE(uint, most[3])                 // the same of a whole axis
+PRIVATE(uint, spread[CODEC_RUNS])      // the values of a run, joined by OR
+PRIVATE(uint, most[3])                 // the values of an axis, joined by OR
 PRIVATE(uint, base[3])
 PRIVATE(uint, baseField)
 
-// The best so far.
+// The best choice so far.
 PRIVATE(uint, bestSize)
 PRIVATE(uint, bestMode)
 PRIVATE(uint, bestPredictor)
@@ -31,8 +31,9 @@ PRIVATE(uint, bestField)
 
 #include "shared/codec_pack.h"
 
-// Clamped by the bits, and rounded down by hand, because compilers make vectors of that but not of min, max and floor. What
-// is no number has larger bits than infinity, and goes where minus infinity goes.
+// The quantised coordinate. Clamping works on the bits and rounding down avoids floor(), because compilers do not
+// vectorise min, max and floor. The bits of NaN are larger than the bits of infinity; NaN is clamped like minus
+// infinity.
 uint quantise(float x, float origin) {
     uint bits = floatBitsToUint((x - origin) * params.grid.w + 0.5f);
     uint sign = (bits | (0x7f800000u - (floatBitsToUint(x) & 0x7fffffffu))) & 0x80000000u;
@@ -41,9 +42,10 @@ uint quantise(float x, float origin) {
     return uint(towardsZero - int(float(towardsZero) > place));
 }
 
-// Indices of the long loops are int: of uint, which may wrap around, C++ compilers do not know that they are contiguous.
+// Indices of the long loops are int: C++ compilers cannot prove that uint indices, which may wrap around, are
+// contiguous.
 
-// Into step[]: where the positions of the block lie.
+// Writes the slots of the block's spheres to step[].
 void takeSlots(int first) {
     if (first + 64 <= int(params.spheres))
         for (int k = 0; k < 64; ++k) step[k] = order[first + k];
@@ -53,7 +55,7 @@ void takeSlots(int first) {
         for (int k = 0; k < 64; ++k) step[k] = slotOf[step[k]];
 }
 
-// The positions of the next block, and the slots of the one behind it.
+// Prefetches the positions of the next block and the slots of the block after it.
 void prefetchAhead(int first) {
     if (first + 192 > int(params.spheres)) return;
     for (int k = first + 64; k < first + 128; ++k) {
@@ -86,13 +88,13 @@ void predict(uint predictor) {
         for (int k = 0; k < 192; ++k) residual[k] = change[k] - (step[k] & mask);
 }
 
-// All bits of the values of four residuals of a run around `middle`.
+// The values of four residuals of a run around `middle`, joined by OR.
 uint spreadOfFour(int k, uint middle) {
     return zigzag(residual[k] - middle) | zigzag(residual[k + 8] - middle) | zigzag(residual[k + 16] - middle) |
            zigzag(residual[k + 24] - middle);
 }
 
-// The lanes of a run are eight apart: all runs of an axis go through it at once.
+// The lanes of a run are eight apart, so that one loop handles all runs of an axis at once.
 void takeSpread(int axis, uint middle) {
     uint all = 0u;
     for (int run = 8 * axis; run < 8 * axis + 8; ++run) {
@@ -104,7 +106,8 @@ void takeSpread(int axis, uint middle) {
     most[axis] = all;
 }
 
-// As base the mean residual of each axis, counted from the first, so that it does not wrap around.
+// Sets the base to the mean residual of each axis. Residuals are counted from the first one, so that the sum does not
+// wrap around.
 void takeMean() {
     for (int axis = 0; axis < 3; ++axis) {
         uint sum = 0u;
@@ -114,7 +117,7 @@ void takeMean() {
     }
 }
 
-// What of the base fits into its field: three times ten bits and a common shift.
+// Rounds the base to its field: three numbers of ten bits with a common shift.
 void roundBase() {
     uint all = zigzag(base[0]) | zigzag(base[1]) | zigzag(base[2]);
     uint shift = all < 1024u ? 0u : (all < 4096u ? 2u : (all < 16384u ? 4u : 6u));
@@ -147,7 +150,7 @@ uint unitsOfMask() {
 uint unitsOfRuns() {
     uint least[CODEC_RUNS];
     for (int axis = 0; axis < 3; ++axis) {
-        uint narrowest = leastCode(codeFor(most[axis]));  // below 13, where codes are widths
+        uint narrowest = leastCode(codeFor(most[axis]));  // below 13: codes are equal to widths
         for (int run = 8 * axis; run < 8 * axis + 8; ++run) least[run] = narrowest;
     }
     uint bits = 0u;
@@ -166,7 +169,7 @@ void offer(uint mode, uint predictor, uint units) {
     }
 }
 
-// False: nothing has changed.
+// Returns false if no position of the block has changed.
 bool tryPredictor(uint predictor) {
     predict(predictor);
     takeMean();
@@ -195,7 +198,8 @@ void writeBlock(uint block) {
     scratch[block * CODEC_SCRATCH + CODEC_HEADER] = packBlock(block * CODEC_PACKED);
 }
 
-// Takes the positions in change[] for the state, and those that `mask` leaves of the newest from them.
+// Writes the positions in change[] to `before`, and sets step[]. Then subtracts the newest positions, masked by `mask`,
+// from change[].
 void takeState(int first, uint mask) {
     for (int k = 0; k < 192; ++k) {
         uint now = change[k];

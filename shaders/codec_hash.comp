@@ -1,4 +1,4 @@
-// The codec: adds the hash of the newest state to word 3 of the frame, one invocation per block.
+// Adds the hash of the newest state to word 3 of the frame, one invocation per block.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 #include "shared/codec.h"

@@ -1,5 +1,6 @@
-// The codec, after the prefix sum over the groups' words, one invocation per group: tells the blocks where they go and who
-// comes next, and writes all that is no block: the frame's head, the table of chunks, the groups' bitmaps.
+// Third pass of the codec, after the prefix sum over the words of groups, one invocation per group: gives each block
+// its offset and the header of the next block. Also writes the frame's head, the table of chunks and the bitmaps of the
+// groups.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 PARAMETERS

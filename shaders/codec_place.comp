@@ -1,5 +1,5 @@
-// The codec, last pass, one invocation per block: moves the units that `codec_choose` left to where they are in the frame.
-// Where a block begins in the upper half of a word, the block before it writes that half: it holds a header.
+// Last pass of the codec, one invocation per block: moves the units from `codec_choose` to their place in the frame. If
+// a block begins in the upper half of a word, the block before it writes that half, which is a header.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 PARAMETERS

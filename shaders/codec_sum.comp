@@ -1,4 +1,4 @@
-// The codec, second pass, one invocation per group: how many words it takes.
+// Second pass of the codec, one invocation per group: counts the words of the group.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 PARAMETERS

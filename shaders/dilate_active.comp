@@ -1,5 +1,5 @@
-// Tells each group whether it stirs: whether any sphere is awake in it or in the groups around it, which hold all that one
-// awake sphere touches and what those touch in turn. The solvers pass over groups that do not.
+// Sets whether each group is active: whether it or a group around it holds an awake sphere. These groups hold all
+// spheres that an awake sphere touches, and all neighbours of those. The solvers skip inactive groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,5 +1,6 @@
-// Moves every awake sphere along its ballistic arc, exactly: v += g h, x += v h - g h^2 / 2. Never derives a velocity
-// from positions, which float32 would not bear. Asks for new pair lists when a sphere has left its margin.
+// Moves each awake sphere along its ballistic arc, exactly: v += g h, x += v h - g h^2 / 2. Never derives a velocity
+// from positions, because float32 positions are too coarse for it. Asks for new pair lists when a sphere has left its
+// margin.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -19,16 +20,17 @@ BUFFER(readonly, Obstacle, obstacles)
 
 #include "shared/falling_frame.h"
 
-// Substeps are fitted after each step, to what was seen in it: what may be met within two must be seen.
+// The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
+// sphere must see all that it may meet within two steps.
 #define LOOK_AHEAD 2.0f
 
 PRIVATE(vec3, wallPoint)
-PRIVATE(vec3, flight)  // velocity of the sphere that looks ahead
-PRIVATE(float, reach)  // how far it looks, and its radius
-PRIVATE(float, own)    // its radius
+PRIVATE(vec3, flight)  // velocity of the sphere that looks ahead (m/s)
+PRIVATE(float, reach)  // its radius plus the distance that it looks ahead (m)
+PRIVATE(float, own)    // its radius (m)
 PRIVATE(bool, meets)
 
-// Whether the sphere may close the gap, in substeps that are too long for what it meets there.
+// Returns true if the sphere may close the gap while it looks ahead, and if the substeps are too long for the impact.
 bool closes(float gap, vec3 normal) {
     float ahead = LOOK_AHEAD * params.step;
     float speed = -dot3(flight, normal);
@@ -42,7 +44,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
 
 #include "shared/walls.h"
 
-// Whether a sphere outside may soon meet a wall, an obstacle, or what is inside the bounds.
+// Returns true if a sphere outside may soon meet a wall, an obstacle or a sphere inside the bounds.
 bool comesTo(vec3 p, vec3 v, float radius) {
     float ahead = LOOK_AHEAD * params.step;
     float speed = sqrt(dot3(v, v));
@@ -64,14 +66,15 @@ bool comesTo(vec3 p, vec3 v, float radius) {
     return meets;
 }
 
-// How far the sphere moves in a substep, as far as that may carry it past what it should hit. `start` is its anchor.
+// The motion of the sphere in a substep (m), as far as it may carry the sphere past an object that it should hit.
+// `start` is its row of `listReference`.
 float riskyMotion(vec4 sphere, vec3 v, vec4 start) {
     float h = params.substep;
     float motion = sqrt(dot3(v, v) * h * h);
     vec3 p = vec3(sphere);
     if (!(beyond(p) > 0.0f) || comesTo(p, v, HAS(RADII) ? sphere.w : params.radius)) return motion;
     if (!HAS(CONTACTS) || start.w >= UNLIMITED_ROOM || counters[COUNTER_REBUILDS] == 0u) return 0.0f;
-    // Among others outside, what counts is how fast it moves among them.
+    // Among spheres outside, only its motion relative to their frame counts.
     vec3 drift = v - frameVelocity();
     float speed = sqrt(dot3(drift, drift));
     vec3 since = p - vec3(start) - framePath();
@@ -79,7 +82,7 @@ float riskyMotion(vec4 sphere, vec3 v, vec4 start) {
     return start.w > 0.0f && used < 0.5f * start.w ? 0.0f : speed * h;
 }
 
-// Whether the lists may lack a pair of this sphere, which has moved to `to`.
+// Returns true if the lists may lack a pair of this sphere, which has moved to `to`.
 bool leavesLists(vec3 to, vec4 start, float radius) {
     vec3 since = to - vec3(start);
     bool far = dot3(since, since) > params.rebuildMove * params.rebuildMove;
@@ -88,7 +91,8 @@ bool leavesLists(vec3 to, vec4 start, float radius) {
     if (lost(vec4(vec3(start), radius))) return !lost(vec4(to, radius));
     vec3 drift = since - framePath();
     float most = ROOM_SHARE * abs(start.w);
-    // Those that a list pairs and that part need not be paired any longer.
+    // A sphere in a listed pair asks for new lists once it has moved by the width of the strip: a pair that parts need
+    // not stay listed.
     if (start.w < 0.0f) most = min(most, strip());
     return dot3(drift, drift) > most * most;
 }
@@ -109,7 +113,8 @@ KERNEL(params.spheres) {
     }
     precise vec3 to = vec3(x) + moved * h;
     if (HAS(LOW_BITS)) {
-        // What float32 cannot hold of the position: short substeps would not move a slow sphere at all.
+        // Adds the residual of the position beyond float32. Without it, short substeps would not move a slow sphere at
+        // all.
         vec4 residual = positionLow[invocation];
         precise vec3 low = vec3(residual) + moved * h;
         to = vec3(x) + low;
@@ -118,7 +123,7 @@ KERNEL(params.spheres) {
     }
     position[invocation] = vec4(to, x.w);
     if (!finite3(to)) {
-        // Counted and reported; such a sphere touches nothing, because comparisons with it fail.
+        // The sphere is counted and reported. It touches nothing, because comparisons with its position are false.
         atomicAdd(counters[COUNTER_NON_FINITE], 1u);
         atomicMax(counters[COUNTER_FIRST_ID], ~idOf(idAndMaterial[invocation]));
         return;
@@ -131,8 +136,8 @@ KERNEL(params.spheres) {
     }
     if (HAS(CONTACTS)) {
         if (leavesLists(to, start, x.w)) atomicOr(counters[COUNTER_REBUILD], 1u);
-        // Not from `listReference`, which starts anew whenever some other sphere needs new lists: a slow one would never have
-        // moved at all.
+        // Does not use `listReference`, which is reset whenever any sphere needs new lists: a slow sphere would then
+        // never have moved away.
         if (HAS(SLEEP)) {
             uint id = idOf(idAndMaterial[invocation]);
             vec3 crept = to - vec3(restReference[id]);

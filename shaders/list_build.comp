@@ -1,6 +1,6 @@
-// Lists the pairs of each group whose gap is below the margin: one walk fills a local array, which is then copied to a
-// stretch of the pair array. A group with more pairs walks a second time. If one finds no room, none has a list (list_fit),
-// and the solvers then walk the cells themselves.
+// Lists the pairs of each group whose gap is below the margin. One walk fills a local array, which is then copied to a
+// range of the pair array. A group with more pairs walks a second time. If a group finds no room, no group has a list
+// (list_fit.comp), and the solvers then walk the cells themselves.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -12,12 +12,11 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, cellStart)
 BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uvec2, pairs)
-BUFFER(writeonly, uvec4, groupRange)  // per group: first pair, or the turn of one without a list, listed,
-                                              // touching, whether it stirs
+BUFFER(writeonly, uvec4, groupRange)  // first pair, listed, touching, 1 if the group is active
 
 #define LOCAL_PAIRS 192u
 PRIVATE(uint, found)
-PRIVATE(uint, base)      // where the pairs go; UNLISTED during the first walk
+PRIVATE(uint, base)      // index of the first pair; UNLISTED during the first walk
 PRIVATE(uvec2, local[LOCAL_PAIRS])
 
 void visitPair(uint a, uint b) {
@@ -43,7 +42,7 @@ KERNEL(params.groups * 8u) {
     visitGroupNumber(invocation, sampleRound);
     uint count = found;
     if (crowded) {
-        // With every new list, other pairs have their turn: so there is a new one in every substep.
+        // Each new list takes another share of the pairs. The group therefore asks for a new list in each substep.
         atomicAdd(counters[COUNTER_SAMPLED], 1u);
         atomicOr(counters[COUNTER_REBUILD], 1u);
     }
@@ -54,7 +53,7 @@ KERNEL(params.groups * 8u) {
     }
     groupRange[invocation] = uvec4(start, count, 0u, 1u);
     if (count <= LOCAL_PAIRS) {
-        // One from each half in turn: a solver then need not wait for the result of the pair before.
+        // Alternates between the two halves, so that a solver need not wait for the result of the pair before.
         uint middle = (count + 1u) / 2u;
         for (uint k = 0u; k < middle; ++k) {
             pairs[start + 2u * k] = local[k];

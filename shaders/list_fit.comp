@@ -1,5 +1,5 @@
-// Where there is no room for all pairs, no group has a list: which ones found room would depend on the order in which the
-// device happened to run.
+// If there is no room for all pairs, no group has a list. Otherwise the groups that find room would depend on the
+// device's order of execution.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,5 +1,5 @@
-// Tells each sphere outside the bounds how much room it has among the others there, and whether a list pairs it with one of
-// them. Starts the frame in which they hold their places: with the fastest of them, or at rest where one is asleep.
+// Sets the room of each sphere outside the bounds among the others there, and whether a list pairs it with one of them.
+// Starts the frame of the spheres outside with the velocity of the fastest one, or at rest if one of them is asleep.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -16,7 +16,8 @@ BUFFER(restrict, vec4, listReference)
 
 #include "shared/falling_frame.h"
 
-// Of two as fast as each other, the lower id: they come in any order.
+// Returns true if a is faster than b. The sphere with the lower id counts as faster if the speeds are equal, because
+// the spheres come in any order.
 bool faster(uint a, uint b) {
     vec3 va = vec3(velocity[a]);
     vec3 vb = vec3(velocity[b]);

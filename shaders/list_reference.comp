@@ -1,5 +1,5 @@
-// Remembers where the spheres are as the lists are built, and where each id went. Collects those outside the bounds in
-// `cellOrder`, which has served by now.
+// Records the positions of the spheres when the lists are built, and the slot of each id. Collects the spheres outside
+// the bounds in `cellOrder`, which is no longer needed for sorting.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,6 +1,7 @@
-// Marks the groups that hold a sphere that is awake, with the number of the substep: on its level, and on the coarser ones,
-// whose groups have the pairs that it makes with larger spheres. Not on finer ones: those pairs are its own group's, and who
-// is woken by it marks its own group in the next substep. A sphere that is in no list stirs nothing.
+// Marks the groups that hold an awake sphere, by the number of the substep. It marks the sphere's group on its own
+// level and on the coarser ones, whose groups have its pairs with larger spheres. It does not mark finer levels,
+// because the sphere's own group has these pairs. A smaller sphere that it wakes marks its own group in the next
+// substep. A sphere that is in no list marks no group.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -9,7 +10,7 @@ PARAMETERS
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, velocity)
-BUFFER(readonly, vec4, listReference)  // which cell the lists have it in
+BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's cell
 BUFFER(readonly, uint, counters)
 BUFFER(coherent, uint, activeGroup)
 BUFFER(readonly, vec4, position)

@@ -1,4 +1,5 @@
-// Sizes the launches of the rebuild: all of it, or none of it. So the host never waits to know.
+// Sets the sizes of a rebuild's launches, either all of them or none, so that the host never waits for the decision.
+// Also counts the substep and moves the frame of the spheres outside.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,4 +1,4 @@
-// Prefix sum, first half: adds up blocks of SCAN_BLOCK values. `phase` is the number of values.
+// Prefix sum, first pass: adds up blocks of SCAN_BLOCK values. `phase` is the number of values.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 

@@ -1,4 +1,4 @@
-// Prefix sum, second half: turns values into exclusive prefix sums, block by block. `phase` is the number of values.
+// Prefix sum, last pass: turns values into exclusive prefix sums, block by block. `phase` is the number of values.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 

@@ -1,4 +1,4 @@
-// Prefix sum, the turn: the few sums of the last level become exclusive prefix sums. `phase` is their number.
+// Prefix sum, middle pass: turns the few sums of the last level into exclusive prefix sums. `phase` is their number.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 

@@ -1,9 +1,14 @@
-// Puts a sphere to sleep that has stayed in one place for the sleep time, and is slow and carried now. Staying is told by
-// its place, not by its speed in every substep: under load, the solver's pushes make it jitter about where it is. Slow
-// and in place is not enough: so is every sphere at the top of its flight, if gravity is weak. Carried means that contacts
-// took up at least half of gravity's pull in this substep. A spin about the normal of its only friction is slow to end:
-// the longer a sphere has stayed, the faster it may turn. For one that falls asleep outside, there are new lists: it would
-// no longer see that the frame moves away from it.
+// Puts a sphere to sleep if it has stayed in one place for the sleep time, and if it is slow and carried now.
+//
+// A sphere stays in one place if it neither moves away nor reaches the wake speed. It need not be slow in every
+// substep: under load, the solver's pushes make it jitter in place.
+//
+// A slow sphere in one place may also be at the top of its flight in weak gravity. A sphere therefore counts as carried
+// only if contacts took up at least half of gravity's pull in this substep.
+//
+// A spin about the normal of a sphere's only contact with friction takes long to end. The longer a sphere has stayed,
+// the faster it may therefore turn. A sphere that falls asleep outside the bounds asks for new lists, because it would
+// not notice that the frame moves away from it.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -12,7 +17,7 @@ PARAMETERS
 
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
-BUFFER(restrict, vec4, velocityBefore)  // w: s spent in one place
+BUFFER(restrict, vec4, velocityBefore)  // w: time spent in one place (s), or MOVED_AWAY
 BUFFER(readonly, vec4, position)
 BUFFER(coherent, uint, counters)
 
@@ -39,7 +44,7 @@ KERNEL(params.spheres) {
         return;
     }
     if (beyond(vec3(position[invocation])) > 0.0f) atomicOr(counters[COUNTER_REBUILD], 1u);
-    // A sleeper has no velocity before the substep either: its neighbours bounce off what stands still.
+    // The velocity before the substep is zero too: neighbours bounce off a sphere at rest.
     velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     velocity[invocation] = vec4(0.0f, 0.0f, 0.0f, -v.w);
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);

@@ -1,5 +1,5 @@
-// Puts each contact to its owner: the slip as the owner sees it, and the partner's id. Leaves in keptStart where each
-// owner's contacts end, which is where those of the next id begin.
+// Copies each contact to its owner's part of `carriedSlip`: the slip as the owner sees it, and the id of the partner.
+// Advances the owner's offset in `carriedOffsets` to the end of its contacts, where the contacts of the next id begin.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

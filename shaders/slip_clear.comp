@@ -1,4 +1,4 @@
-// Empties the owners' counts. One more than there are spheres, for the end of the last one.
+// Sets the counts of all owners to 0, and one more: the end of the last owner's contacts.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

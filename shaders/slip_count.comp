@@ -1,4 +1,4 @@
-// Before the lists are rebuilt: counts the contacts that each sphere keeps for itself and its partners.
+// Before the lists are rebuilt: counts the contacts whose tangential slip each sphere owns.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

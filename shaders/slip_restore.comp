@@ -1,4 +1,4 @@
-// After the lists are rebuilt: gives each listed pair what it remembers, found with its owner.
+// After the lists are rebuilt: copies the tangential slip of each listed pair back from its owner.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,6 +1,7 @@
-// The model `accurate`: the forces between overlapping soft spheres, added up on both sides while velocities stay as they
-// are. (Were they changed at once, each pair would see the half-way sum of the others' forces, take it for slip, and wind
-// up its spring.) The stretch of the tangential spring is remembered with the listed pair. `phase` is the level and the colour of the groups.
+// The model `accurate`: adds up the forces between overlapping soft spheres on both sides, while velocities stay
+// unchanged. (If velocities changed at once, each pair would see the incomplete sum of the other forces, take it for
+// slip, and load its spring.) The displacement of the tangential spring is stored with the listed pair. `phase` is the
+// level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -20,18 +21,19 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(restrict, vec4, tangentialSlip)  // per listed pair: stretch, of the first against the second, m; w: 1 in touch
+BUFFER(restrict, vec4, tangentialSlip)  // per listed pair: displacement of the first (m); w: 1 in touch
 BUFFER(readonly, ContactParams, contactParams)
 
 PRIVATE(vec3, displacement)
 PRIVATE(bool, touches)
-PRIVATE(bool, listed)     // the contact remembers; another is stretched in every substep as if it had just begun
+PRIVATE(bool, listed)     // the pair keeps its displacement; an unlisted pair begins anew in each substep
 
 #include "shared/contact_params.h"
 #include "shared/deltas.h"
 #include "shared/spring.h"
 
-// `lever`: distance over the sum of the radii. The centres share the distance to the point of contact in proportion to the radii.
+// `lever` is the distance over the sum of the radii. The centres share the distance to the point of contact in
+// proportion to the radii.
 void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];

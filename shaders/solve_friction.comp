@@ -1,5 +1,5 @@
-// Friction of the touching pairs, once all normal speeds are settled: while they are not, what a pair sees as slip is the
-// half-way sum of its neighbours' impulses. Coulomb's limit follows from the whole normal impulse of the substep.
+// Friction of the touching pairs, after all normal speeds are settled. Until then, the slip of a pair contains the
+// incomplete sum of its neighbours' impulses. Coulomb's limit follows from the whole normal impulse of the substep.
 // `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
@@ -25,7 +25,7 @@ BUFFER(readonly, ContactParams, contactParams)
 KERNEL(groupsOfPhase()) {
     uvec4 mine = groupRange[groupOfPhase(invocation)];
     if (HAS(SLEEP) && mine.w == 0u) return;
-    // Groups without lists know no impulses: they go without friction.
+    // Groups without lists store no impulses: they have no friction.
     if (mine.y == UNLISTED) return;
     for (uint k = mine.x; k < mine.x + mine.z; ++k) {
         float pressing = normalImpulses[k];

@@ -1,6 +1,6 @@
 // The model `fast`: one sweep over the listed pairs (Gauss-Seidel). A pair that approaches gets the impulse of
-// restitution and friction; an overlap is moved apart, by position alone, so that it never becomes speed. Both conserve
-// momentum, and no impulse adds energy. `phase` is the level and the colour of the groups.
+// restitution and friction. An overlap is removed by moving positions alone, so that it never becomes speed. Both
+// conserve momentum, and no impulse adds energy. `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -56,7 +56,7 @@ void visitPair(uint a, uint b) {
     float speed = dot3(vec3(va) - vec3(vb), n);
     if (speed >= 0.0f) return;
     vec4 law = contactOf(a, b);
-    // What is slower than this is the weight of a pile, which one sweep does not balance.
+    // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce.
     float e = HAS(RESTITUTION) && speed < -params.deadBand ? law.x : 0.0f;
     float load = -(1.0f + e) * speed * inverse;
     vec3 impulse = n * load;

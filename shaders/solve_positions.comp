@@ -1,5 +1,7 @@
-// Pushes overlapping spheres apart, pair after pair (Gauss-Seidel), both sides at once, so that momentum is conserved;
-// the push also becomes velocity, which is what carries the weight of a pile. `phase` is the level and the colour of the groups.
+// Pushes overlapping spheres apart, pair after pair (Gauss-Seidel). Both sides move at once, so that momentum is
+// conserved. The push also becomes velocity, which carries the weight of a pile. `phase` is the level and the colour of
+// the groups.
+//
 // Mueller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics"; Macklin et al. 2019,
 // "Small Steps in Physics Simulation": one iteration, small substeps.
 #include "shared/kernel.h"
@@ -21,13 +23,13 @@ BUFFER(readonly, vec4, velocityBefore)
 
 #include "shared/wake_pair.h"
 
-// Overlaps deeper than this share of the radius did not come about by impacts or weight: undoing them stops what
-// approaches, but throws nothing.
+// Overlaps deeper than this share of the radius were not caused by impacts or weight. Removing them stops spheres that
+// approach, but adds no separation speed.
 #define DEEP 0.25f
 
-PRIVATE(float, load)  // of the last pair: the impulse of its push, N s
+PRIVATE(float, load)  // impulse of the push of the last pair (N s)
 
-// True when the pair overlaps.
+// Returns true if the pair overlaps and at least one of its spheres can move.
 bool separate(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
@@ -50,8 +52,8 @@ bool separate(uint a, uint b) {
     float ma = mobility(va.w);
     float mb = mobility(vb.w);
     if (ma + mb == 0.0f) return false;
-    // A sleeper stays, but its share of the push is not the other's: of an overlap that both have borne under load, all
-    // would throw the one out that falls asleep last.
+    // A sleeper stays, but the other sphere does not get its share of the push. Otherwise, if both have borne an
+    // overlap under load, the sphere that falls asleep last would be thrown out by all of it.
     float inverse = 1.0f / (abs(va.w) + abs(vb.w));
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);

@@ -1,7 +1,7 @@
-// Gives each touching pair the normal speed that physics allows, pair after pair. Restitution works on running
-// velocities that start from those before the substep: an impact passes from pair to pair as it does in a cradle. The
-// position pass may have added separation speed: it is cut to what the impact, or the pair's own parting, justifies.
-// `phase` is the level and the colour of the groups.
+// Gives each touching pair its physical normal speed, pair after pair. Restitution works on running velocities that
+// start from the velocities before the substep: an impact passes from pair to pair as in Newton's cradle. The position
+// pass may have added separation speed. It is cut to the speed that the impact, or the pair's own separation,
+// justifies. `phase` is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -22,7 +22,7 @@ BUFFER(readonly, ContactParams, contactParams)
 
 #include "shared/contact_params.h"
 
-// Returns the impulse along the normal, N s; negative where it takes from the push of the position pass.
+// Returns the impulse along the normal (N s). It is negative if it reduces the push of the position pass.
 float collide(uint a, uint b, bool known) {
     vec4 pa = position[a];
     vec4 pb = position[b];
@@ -44,7 +44,7 @@ float collide(uint a, uint b, bool known) {
     vec4 law = contactOf(a, b);
     float approach = dot3(vec3(ua) - vec3(ub), n);
     float e = HAS(RESTITUTION) ? law.x : 0.0f;
-    // Without a branch on the sign of `approach`, which is a toss-up between spheres at rest.
+    // Avoids a branch on the sign of `approach`, which is random between spheres at rest.
     float least = max(-e * approach, 0.0f);
     float most = max(approach, least);
     vec3 rebound = n * ((most - approach) * inverse);

@@ -1,4 +1,4 @@
-// Overlaps of each group's pairs; the host adds up the parts.
+// Adds up the overlaps of the pairs of each group. The host adds up the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -9,7 +9,7 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(writeonly, vec4, overlaps)  // per group: contacts, sum and largest of overlap / r, J in springs
+BUFFER(writeonly, vec4, overlaps)  // contacts, sum and largest of overlap / r, energy in springs (J)
 
 PRIVATE(float, contacts)
 PRIVATE(float, sum)

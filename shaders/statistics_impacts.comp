@@ -1,6 +1,6 @@
-// In an observed step, after the solver: how fast the pairs of each group that met have approached and have parted.
-// `fast` and `balanced` carry an impact out within one substep. Groups without lists are left out of what is observed, and
-// so is what meets as slowly as the weight of a pile makes it, which `fast` lets go without a bounce.
+// In an observed step, after the solver: adds up the speeds at which the pairs of each group that met approached and
+// parted. `fast` and `balanced` resolve an impact within one substep. Groups without lists are not observed. Approaches
+// as slow as the weight of a pile causes are not observed either, because `fast` gives them no bounce.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -15,12 +15,11 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(restrict, vec4, impacts)  // per group, until the host takes them: impacts, sums of the speeds of
-                                                 // approach, of parting, and of the parting that was asked for
+BUFFER(restrict, vec4, impacts)  // until the host takes them: impacts, sums of approach, parting, required parting
 
 #include "shared/contact_params.h"
 
-// Of speeds in dead bands.
+// The slowest approach that is observed, in multiples of params.deadBand.
 #define WEIGHTLESS 10.0f
 
 PRIVATE(vec4, sum)
@@ -36,7 +35,7 @@ void visitPair(uint a, uint b) {
     float approach = dot3(vec3(velocityBeforeSolve[b]) - vec3(velocityBeforeSolve[a]), n);
     if (!(approach > WEIGHTLESS * params.deadBand)) return;
     float parting = dot3(vec3(velocity[a]) - vec3(velocity[b]), n);
-    // One that goes on as it came has not met yet: it is within the tolerance only.
+    // A pair that still approaches as before has not met yet: it is only within the tolerance.
     if (!(parting > -0.5f * approach)) return;
     sum = sum + vec4(1.0f, approach, parting, contactOf(a, b).x * approach);
 }

@@ -1,4 +1,5 @@
-// Partial sums over STATISTIC_BLOCK spheres each, of those with finite states; the host adds up the parts.
+// Adds up the spheres with finite states and counts the others, in parts of STATISTIC_BLOCK spheres. The host adds up
+// the parts.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,5 +1,5 @@
-// What the springs between the spheres of each group hold, in the model `accurate`; after statistics_contacts.comp, whose rows it
-// completes. Groups without lists are left out.
+// Adds up the energies of the springs between the spheres of each group, in the model `accurate`. It runs after
+// statistics_contacts.comp and completes its rows. Groups without lists are left out.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

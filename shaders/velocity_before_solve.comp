@@ -1,4 +1,4 @@
-// In an observed step: the velocities that the solver starts from, for statistics_impacts.comp.
+// In an observed step: copies the velocities from which the solver starts, for statistics_impacts.comp.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

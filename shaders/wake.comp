@@ -1,6 +1,6 @@
-// Before the lists are rebuilt: flags the sleepers whose neighbours leave so fast that they are out of reach after this
-// one substep. The new lists no longer hold such a pair; the old ones do. Run over all groups at once, so it only raises
-// flags; wake_flagged.comp acts on them.
+// Before the lists are rebuilt: flags the sleepers with a neighbour that leaves so fast that it is out of reach after
+// this one substep. The new lists do not hold such a pair, but the old ones do. The kernel runs over all groups at
+// once, so it only raises flags. wake_flagged.comp wakes the spheres.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -16,7 +16,7 @@ BUFFER(readonly, uvec4, groupRange)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(coherent, uint, wakeFlags)
 
-// Whether the one that moves was at the sleeper as the substep began.
+// Flags the sleeper if the mover was within its wake gap when the substep began.
 void leave(uint sleeper, uint mover) {
     vec4 u = velocityBefore[mover];
     if (!canWake(u)) return;

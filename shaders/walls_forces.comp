@@ -1,5 +1,5 @@
-// Walls and obstacles in the model `accurate`: the force of the same springs, the wall being a sphere of infinite mass and
-// radius. The stretch of the tangential spring at each wall is remembered by the wall's number.
+// Walls and obstacles in the model `accurate`. The springs are those between spheres, and a wall is a sphere of
+// infinite mass and radius. The displacement of the tangential spring at each wall is stored with the wall's number.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -16,7 +16,7 @@ BUFFER(restrict, vec4, deltaOmega)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(restrict, vec4, wallSlip)  // by id, params.wallContacts each: stretch, m; w: surface + 1
+BUFFER(restrict, vec4, wallSlip)  // by id, params.wallContacts each: displacement (m); w: surface + 1
 BUFFER(coherent, uint, counters)
 
 #define NO_PLACE 0xffffffffu
@@ -24,20 +24,21 @@ BUFFER(coherent, uint, counters)
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
-PRIVATE(vec3, residual)   // what float32 cannot hold of the position
-PRIVATE(vec3, moving)     // m/s
-PRIVATE(vec3, omega)    // rad/s
-PRIVATE(vec3, push)       // of all walls together, N s
-PRIVATE(vec3, torque)     // times the substep, N s m
+PRIVATE(vec3, residual)   // of the position beyond float32 (m)
+PRIVATE(vec3, moving)     // velocity (m/s)
+PRIVATE(vec3, omega)      // rad/s
+PRIVATE(vec3, push)       // of all walls together (N s)
+PRIVATE(vec3, torque)     // times the substep (N s m)
 PRIVATE(vec3, displacement)
 PRIVATE(float, inverseMass)
-PRIVATE(uint, seen)       // bits of the remembered walls that it still touches
+PRIVATE(uint, seen)       // one bit for each remembered wall that the sphere still touches
 
 #include "shared/wall_contact_params.h"
 #include "shared/deltas.h"
 #include "shared/spring.h"
 
-// Where the stretch at this surface is kept: where it was, or a place that nothing uses.
+// The index of the displacement at this surface in `wallSlip`: its present entry, or a free one. NO_PLACE if there is
+// none.
 uint placeOf(uint surface) {
     uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
     uint empty = NO_PLACE;
@@ -49,7 +50,8 @@ uint placeOf(uint surface) {
     return empty;
 }
 
-// `fall`: what gravity has added to the velocity since the middle of the last motion. `arm`: from the centre to the wall.
+// `fall` is the velocity that gravity has added since the middle of the last motion (m/s). `arm` is the distance from
+// the centre to the wall (m).
 void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 law) {
     uint place = placeOf(surface);
     bool known = place != NO_PLACE && wallSlip[place].w != 0.0f;
@@ -103,7 +105,7 @@ KERNEL(params.spheres) {
     wallSphere = invocation;
     wallRadius = HAS(RADII) ? x.w : params.radius;
     wallPoint = vec3(x);
-    vec4 spin = vec4(0.0f, 0.0f, 0.0f, 0.0f);  // w: whether any wall is remembered
+    vec4 spin = vec4(0.0f, 0.0f, 0.0f, 0.0f);  // w: 1 while any wall is remembered
     if (HAS(FRICTION)) spin = angularVelocity[invocation];
     if (spin.w == 0.0f && clearOfWalls(wallPoint, wallRadius)) return;
     residual = vec3(positionLow[invocation]);

@@ -1,4 +1,4 @@
-// Friction at walls and obstacles, within what they have pushed in this substep.
+// Friction at walls and obstacles, limited by their normal impulses in this substep.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -18,7 +18,7 @@ PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, solvedVelocity)  // m/s
-PRIVATE(vec3, omega)    // rad/s
+PRIVATE(vec3, omega)           // rad/s
 
 #include "shared/wall_contact_params.h"
 #include "shared/friction_wall.h"

@@ -1,5 +1,6 @@
-// Walls and obstacles in the model `fast`: the impulse of restitution and friction, then out of the wall. The speed at
-// the moment of impact follows from the depth: sqrt(v^2 - 2 g depth), so that a bounce neither gains nor loses height.
+// Walls and obstacles in the model `fast`: applies the impulse of restitution and friction, then moves the sphere out
+// of the wall. The speed at the moment of impact follows from the depth: sqrt(v^2 - 2 g depth), so that a bounce
+// neither gains nor loses height.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -13,20 +14,21 @@ BUFFER(restrict, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(restrict, float, wallWork)  // by id: J that pushes out of walls have done against gravity
+BUFFER(restrict, float, wallWork)  // by id: work of pushes out of walls against gravity (J)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, solvedVelocity)  // m/s
-PRIVATE(vec3, omega)    // rad/s
+PRIVATE(vec3, omega)           // rad/s
 PRIVATE(bool, met)
 
 #include "shared/wall_contact_params.h"
 #include "shared/friction_wall.h"
 
-// Change of the speed along the normal in an impact, m/s. `speed` is that before it (m/s, negative), `pull` gravity along the
-// normal (m/s^2), `depth` how far the sphere is in the wall (m). A function of its own: what is precise ends here.
+// The change of the normal speed in an impact (m/s). `speed` is the normal speed before the impact (m/s, negative).
+// `pull` is gravity along the normal (m/s^2). `depth` is the depth of the sphere in the wall (m). It is a function of
+// its own, so that `precise` applies to nothing else.
 float impactChange(float speed, float pull, float depth, float restitution) {
     precise float impact = sqrt(max(speed * speed + 2.0f * pull * depth, 0.0f));
     precise float change = restitution * impact - speed;

@@ -1,6 +1,6 @@
 // Pushes spheres out of walls and obstacles. With restitution, the running velocity bounces at once, with the speed at
-// the moment of impact: sqrt(v0^2 + 2 g gap) from the gap that was open before the substep; with the speed at its end,
-// a bounce of e = 0.8 would gain or lose percents of its height.
+// the moment of impact. This speed is sqrt(v0^2 + 2 g gap), from the gap before the substep. With the speed at the end
+// of the substep, a bounce of e = 0.8 would gain or lose percents of its height.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -13,21 +13,21 @@ BUFFER(restrict, vec4, velocityBefore)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(writeonly, vec4, wallImpulse)  // sum of the pushes, m/s
+BUFFER(writeonly, vec4, wallImpulse)  // sum of the pushes (m/s)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
-PRIVATE(vec3, wallPoint)  // where the sphere is, as the pushes go on
-PRIVATE(vec3, running)    // velocity before the substep, then after the bounces
-PRIVATE(vec3, solvedVelocity)  // velocity with the pushes
+PRIVATE(vec3, wallPoint)  // position, updated by each push (m)
+PRIVATE(vec3, running)    // velocity before the substep, then after the bounces (m/s)
+PRIVATE(vec3, solvedVelocity)  // velocity with the pushes (m/s)
 PRIVATE(vec3, pushes)
 PRIVATE(bool, met)
 
 #include "shared/wall_contact_params.h"
 
-// Static friction by position: gravity has moved the sphere along the wall, which the push would not have let it.
-// (Velocities are the business of walls_velocities.comp. Between spheres this is left out: in a pile, it feeds the
-// jitter of the pushes more than it stops the creep.)
+// Static friction by position: undoes the motion along the wall by gravity, which friction would have prevented.
+// (walls_velocities.comp handles velocities. Between spheres this is left out: in a pile, it would increase the jitter
+// by the pushes more than it would stop the slow drift.)
 void hold(vec3 n, float most) {
     float h = params.substep;
     vec3 along = (vec3(params.gravity) - n * dot3(vec3(params.gravity), n)) * (0.5f * h * h);
@@ -49,7 +49,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     }
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
-    // A wall stops what comes; it does not throw.
+    // A wall stops a sphere that comes, but does not throw it back.
     float speed = dot3(solvedVelocity, normal);
     float stopped = max(speed, min(speed + push * params.perSubstep, 0.0f));
     solvedVelocity = solvedVelocity + normal * (stopped - speed);

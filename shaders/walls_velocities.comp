@@ -1,4 +1,5 @@
-// Normal speed of spheres at walls and obstacles: away with what the bounce gave, never into them.
+// Sets the normal speed of spheres at walls and obstacles: away from them with the speed of the bounce, never into
+// them.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -27,7 +28,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float speed = dot3(solvedVelocity, normal);
     precise float wanted = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {
-        // Negative where neighbours have pushed the sphere at the wall since its bounce.
+        // The speed is negative if neighbours have pushed the sphere at the wall since its bounce.
         float start = dot3(running, normal);
         wanted = start < 0.0f ? -law.x * start : start;
         running = running + normal * (wanted - start);

@@ -1,9 +1,9 @@
-// The cells of a finer level that a sphere reaches: rows along x, each of which is one stretch of a ring of cells.
+// The cells of a finer level that a sphere reaches: rows along x. The cells of a row are a run on a ring of cells.
 
 struct CellRun {
-    float from;  // the first cell, before it is wrapped
-    uint start;  // the same on the ring
-    uint count;  // at most all cells of the ring, so that none comes twice
+    float from;  // the first cell, before wrapping
+    uint start;  // the first cell on the ring
+    uint count;  // at most all cells of the ring, so that no cell comes twice
 };
 
 CellRun cellRunOf(float centre, float reach, uint cells) {
@@ -14,8 +14,8 @@ CellRun cellRunOf(float centre, float reach, uint cells) {
     return s;
 }
 
-// How far the centre is from the cells number `index` of the stretch; 0 where these are the whole ring, which lies around
-// it more than once.
+// The distance of the centre from cell `index` of the run, in cells. Returns 0 if the run is the whole ring: the reach
+// may then go around the ring more than once.
 float distanceTo(CellRun s, uint index, float centre, uint cells) {
     if (s.count == cells) return 0.0f;
     return max(abs(s.from + float(index) + 0.5f - centre) - 0.5f, 0.0f);
@@ -27,7 +27,7 @@ uint onRing(uint place, uint cells) {
 
 struct Reach {
     uvec4 cells;  // of the finer level
-    vec3 centre;  // in its cells, as is the radius
+    vec3 centre;  // in cells of that level, like the radius
     float radius;
     CellRun y;
     CellRun z;
@@ -38,7 +38,7 @@ Reach reachOf(vec4 sphere, uint level) {
     Reach r;
     r.cells = cellsOf(level);
     r.centre = vec3(sphere) * inverseCellOf(level);
-    // A little more than it is, for what rounding makes of the others' cells.
+    // A little more than the exact radius, because the cells of the other spheres are rounded.
     float farthest = max(max(abs(r.centre.x), abs(r.centre.y)), abs(r.centre.z));
     r.radius = (sphere.w + params.levelSize[level].y + params.margin) * inverseCellOf(level) * 1.0001f + 0.01f +
                farthest * 1.0e-6f;
@@ -50,12 +50,12 @@ Reach reachOf(vec4 sphere, uint level) {
     return r;
 }
 
-// First cell of the row at `y` and `z` of the sphere's stretches, and where on the row it reaches: the chord of a ball.
-// None: a count of 0.
+// The first cell of row (`y`, `z`) of the sphere's runs.
 uint rowStart(Reach r, uint y, uint z) {
     return cellIndex(r.cells, 0u, onRing(r.y.start + y, r.cells.y), onRing(r.z.start + z, r.cells.z));
 }
 
+// The run of cells that the sphere reaches on the row: the chord of a ball. Its count is 0 if the ball misses the row.
 CellRun rowRun(Reach r, uint rowY, uint rowZ) {
     float y = distanceTo(r.y, rowY, r.centre.y, r.cells.y);
     float z = distanceTo(r.z, rowZ, r.centre.z, r.cells.z);

@@ -1,15 +1,15 @@
-// What the host and the kernels of the codec agree on; docs/codec.md says what the words of a frame are.
+// The layout on which the host and the kernels of the codec agree. docs/codec.md describes the words of a frame.
 
 #define CODEC_BLOCK 64u         // spheres
-#define CODEC_VALUES 192u       // of a block: 64 x, 64 y, 64 z; within each, laneOf(k) is sphere k
+#define CODEC_VALUES 192u       // of a block: 64 x, 64 y, 64 z; on each axis, sphere k is at laneOf(k)
 #define CODEC_RUN 8u            // spheres that share their widths
 #define CODEC_RUNS 24u          // of a block
 #define CODEC_GROUP 32u         // blocks
 #define CODEC_CHUNK 8u          // groups
 #define CODEC_FRAME_HEAD 4u     // words
 #define CODEC_MOST_WORDS 197u   // of a block
-#define CODEC_PACKED 208u       // words from one block to the next where they wait to be put together: whole cache lines
-#define CODEC_MASK_WIDTHS 12u   // bits of x, y and z together above which a mask is not tried
+#define CODEC_PACKED 208u       // words from one packed block to the next before they are placed: whole cache lines
+#define CODEC_MASK_WIDTHS 12u   // no mask is tried if x, y and z together have more bits
 
 #define CODEC_MAGIC 0x00015053u
 #define CODEC_KEYFRAME 0x01000000u  // flags of a frame
@@ -25,8 +25,10 @@
 #define CODEC_HALF 2u
 #define CODEC_NONE 3u
 
-// Scratch of a block: HEADER (and in the upper half the header of the next block of the group that is there), SIZE (units;
-// 0: not there), OFFSET (units in the chunks).
+// Scratch of a block:
+// - HEADER: the block's header in the lower half; in the upper half, the header of the group's next present block
+// - SIZE: in units; 0: the block is absent
+// - OFFSET: in units, within the chunks
 #define CODEC_SCRATCH 4u        // words
 #define CODEC_HEADER 0u
 #define CODEC_SIZE 1u
@@ -41,6 +43,6 @@ struct Parameters {
     uint chunks;
     uint number;         // of the frame
     uint flags;
-    uint predictors;     // bit per predictor that blocks may have
-    uint fromState;      // not 0: the frame is made of `newest`, which stays as it is, and not of positions
+    uint predictors;     // one bit for each predictor that blocks may have
+    uint fromState;      // not 0: the frame is made from `newest`, which stays unchanged, instead of positions
 };

@@ -1,17 +1,17 @@
-// Packs a block as its units are in the frame. The includer has the buffer `blockWords` and, PRIVATE, values[], spread[], most[]
-// and what was best.
+// Packs a block into the units that it has in the frame. The includer has the buffer `blockWords`, and as PRIVATE
+// variables values[], spread[], most[] and the best choice (bestMode and the others).
 
-PRIVATE(uint, word)  // not full yet
+PRIVATE(uint, word)  // the word that is being filled
 PRIVATE(uint, fill)  // bits in it, below 32
-PRIVATE(uint, at)    // where it goes
+PRIVATE(uint, at)    // index of the word in blockWords
 PRIVATE(uint, runWidth[CODEC_RUNS])    // bits of a run's values
-PRIVATE(uint, runChanged[CODEC_RUNS])  // bit per value of a run
+PRIVATE(uint, runChanged[CODEC_RUNS])  // one bit for each value of a run
 PRIVATE(uint, selectors[CODEC_RUNS])
-PRIVATE(uint, runLow[CODEC_RUNS])      // the values of a run, where two words hold them
+PRIVATE(uint, runLow[CODEC_RUNS])      // the values of a run, if two words can hold them
 PRIVATE(uint, runHigh[CODEC_RUNS])
 
-// `value` has at most `bits` bits, of 32. Writes the word before it is full, too: whether it is cannot be foretold, which
-// costs processors more than a write.
+// Appends a value of `bits` bits, at most 32. Always writes the word, even before it is full: a mispredicted branch
+// costs more than a write.
 void put(uint value, uint bits) {
     word = word | (value << fill);
     blockWords[at] = word;
@@ -23,7 +23,7 @@ void put(uint value, uint bits) {
     fill = next & 31u;
 }
 
-// The same for up to 64 bits, the first 32 in `first`; a multiple of 8.
+// Appends up to 64 bits, the first 32 in `first`. `bits` is a multiple of 8.
 void putLong(uint first, uint second, uint bits) {
     uint a = word | (first << fill);
     uint b = ((first >> 1u) >> (31u - fill)) | (second << fill);
@@ -41,8 +41,8 @@ uint joinFour(int k, uint bits) {
     return values[k] | (values[k + 8] << bits) | (values[k + 16] << (2u * bits)) | (values[k + 24] << (3u * bits));
 }
 
-// The values of runs together, for widths up to 8, with which they take two words at most; what is joined for wider ones is
-// not used.
+// Joins the values of each run. Runs of widths up to 8 take at most two words; the words joined for wider runs are not
+// used.
 void joinRuns() {
     for (int axis = 0; axis < 3; ++axis)
         for (int run = 8 * axis; run < 8 * axis + 8; ++run) {
@@ -55,7 +55,7 @@ void joinRuns() {
         }
 }
 
-// A run's values are eight apart.
+// Appends the values of all runs. The values of a run are eight places apart.
 void putRuns() {
     joinRuns();
     for (int run = 0; run < 24; ++run) {
@@ -70,7 +70,7 @@ void putRuns() {
     }
 }
 
-// The values that are not 0, and before them which these are.
+// Appends bitmaps that mark the values other than 0, then these values.
 void putChanged() {
     for (int axis = 0; axis < 3; ++axis) {
         uint there = 0u;
@@ -89,7 +89,7 @@ void putChanged() {
             put(values[run + run / 8 * 56 + 8 * findLSB(rest)] - 1u, runWidth[run]);
 }
 
-// All bits of the values of an axis that are not 0, less 1.
+// The bits of all values of an axis that are not 0, each less 1, joined by OR.
 uint spreadOfChanged(int axis) {
     uint all = 0u;
     for (int k = 64 * axis; k < 64 * axis + 64; ++k) all = all | (values[k] - uint(values[k] != 0u));
@@ -110,7 +110,7 @@ void takeSpreadOfValues() {
     }
 }
 
-// Widths and selectors of the runs; gives the header with the axes' codes.
+// Sets the widths and selectors of the runs. Returns the header with the codes of the axes.
 uint takeWidths() {
     uint header = bestMode | (bestPredictor << 2u);
     uint widest[CODEC_RUNS];
@@ -119,7 +119,7 @@ uint takeWidths() {
         for (int run = 8 * axis; run < 8 * axis + 8; ++run) widest[run] = code;
         header = header | (code << (4 + 4 * axis));
     }
-    uint narrower = bestMode < CODEC_SELECT ? 0u : 3u;  // by so many codes at most
+    uint narrower = bestMode < CODEC_SELECT ? 0u : 3u;  // codes by which a run may be narrower than its axis, at most
     for (int run = 0; run < 24; ++run) {
         uint least = max(widest[run], narrower) - narrower;
         uint code = min(max(codeFor(spread[run]), least), widest[run]);
@@ -129,14 +129,14 @@ uint takeWidths() {
     return header;
 }
 
-// Two bits of each run of an axis.
+// Joins the selectors of an axis: two bits for each run.
 uint joinSelectors(int axis) {
     uint all = 0u;
     for (int run = 0; run < 8; ++run) all = all | (selectors[8 * axis + run] << (2 * run));
     return all;
 }
 
-// Into blockWords[place ..]; gives the header.
+// Packs the block into blockWords, from index `place` on. Returns the header.
 uint packBlock(uint place) {
     word = 0u;
     fill = 0u;

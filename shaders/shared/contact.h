@@ -1,10 +1,10 @@
 // The geometry of a pair of spheres.
 
-// After the push apart, which leaves pairs within rounding of touching, those count as touching that are this much further
-// apart than their radii.
+// Spheres touch up to this gap, as a share of the sum of their radii. The push apart leaves pairs within rounding of
+// touching.
 #define TOUCH_TOLERANCE 1.0e-4f
 
-// A direction for coincident centres, from the ids, so that it is the same on every run.
+// A direction for coincident centres. It follows from the ids, so that it is the same in every run.
 vec3 directionFromIds(uint a, uint b) {
     uint hash = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
     hash ^= hash >> 15u;
@@ -16,14 +16,14 @@ vec3 directionFromIds(uint a, uint b) {
     return vec3(x, y, z) * (1.0f / sqrt(x * x + y * y + z * z));
 }
 
-// Normal from b to a, and their distance.
+// The unit normal from b to a; w: the distance of the centres (m).
 vec4 normalAndDistance(vec3 difference, float squared, uint a, uint b) {
     float distance = sqrt(squared);
     if (distance < 1.0e-12f) return vec4(directionFromIds(a, b), 0.0f);
     return vec4(difference * (1.0f / distance), distance);
 }
 
-// Asleep is a negative inverse mass: to its neighbours a sleeper is immovable.
+// A sleeping sphere has a negative inverse mass: its mobility is 0, so that its neighbours cannot move it.
 float mobility(float inverseMass) {
     return max(inverseMass, 0.0f);
 }

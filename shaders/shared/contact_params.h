@@ -1,4 +1,4 @@
-// What holds between two spheres. The includer binds `idAndMaterial` and `contactParams`.
+// The contact parameters of two spheres. The includer binds `idAndMaterial` and `contactParams`.
 
 uint contactIndex(uint a, uint b) {
     return materialOf(idAndMaterial[a]) * params.materials + materialOf(idAndMaterial[b]);

@@ -1,30 +1,32 @@
 // Friction and rolling between two bodies that touch, for solid spheres (I = 2/5 m r^2), as impulses.
 //
-// With the normal n from b to a, contact velocity (of a's surface against b's)
-//     slip = (va - vb) tangential - (ra wa + rb wb) x n,
-// an impulse J on a (and -J on b) changes slip by 7/2 (1/ma + 1/mb) J; a rolling moment T on a (and -T on b) changes
-// wa - wb by 5/2 (1/(ma ra^2) + 1/(mb rb^2)) T. A wall is a body b of infinite mass and radius.
+// With the normal n from b to a, the contact velocity (of a's surface relative to b's) is
+//       slip = (va - vb) tangential - (ra wa + rb wb) x n.
+// An impulse J on a (and -J on b) changes slip by 7/2 (1/ma + 1/mb) J. A rolling moment T on a (and -T on b) changes wa
+// - wb by 5/2 (1/(ma ra^2) + 1/(mb rb^2)) T. A wall is a body b of infinite mass and radius.
 
 struct FrictionImpulse {
     vec3 impulse;   // J, N s
     vec3 moment;    // T x n, N s m
 };
 
-// The moment about n that slows a spin of `about` (rad/s) about it, at most `most` (N s m); c: change of spin per moment.
+// The moment about n that slows a spin of `about` (rad/s) about n, at most `most` (N s m). `c`: change of the spin per
+// moment.
 vec3 spinningMoment(vec3 n, float about, float c, float most) {
     float moment = min(abs(about) / c, most);
     return n * (about < 0.0f ? moment : -moment);
 }
 
-// The moment that slows a rolling at `roll` (rad/s, in the plane of the contact).
+// The moment that slows rolling at `roll` (rad/s, in the plane of the contact), at most `most` (N s m).
 vec3 rollingMoment(vec3 roll, float c, float most) {
     float speed = sqrt(dot3(roll, roll));
     return roll * (speed > 0.0f ? -min(speed / c, most) / speed : 0.0f);
 }
 
-// With roll = (wa - wb) x n. Finds the impulse and the moment that stop slip and roll together, within `most` (N s) and `mostMoment` (N s m);
-// where that is too much, those that stop each by itself, cut to what they may be. `mobility` = 1/ma + 1/mb;
-// `coupling` = 1/(ma ra) - 1/(mb rb), `inertia` = 1/(ma ra^2) + 1/(mb rb^2).
+// Finds the impulse and the moment that stop slip and roll together, where roll = (wa - wb) x n. Their limits are
+// `most` (N s) and `mostMoment` (N s m). If either exceeds its limit, finds the ones that stop slip and roll
+// separately, each cut to its limit.
+// `mobility` = 1/ma + 1/mb, `coupling` = 1/(ma ra) - 1/(mb rb), `inertia` = 1/(ma ra^2) + 1/(mb rb^2).
 FrictionImpulse frictionImpulse(vec3 slip, vec3 roll, float mobility, float coupling, float inertia, float most, float mostMoment) {
     FrictionImpulse result;
     float s = 3.5f * mobility;

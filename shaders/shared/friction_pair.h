@@ -1,7 +1,7 @@
-// Friction between two touching spheres. The includer binds `velocity`, with the spins behind the velocities.
+// Friction between two touching spheres. The includer binds `velocity` and `angularVelocity`.
 
-// Rubs a against b; n from b to a, `pressing` is the impulse that presses them together (N s), `law` their
-// ContactParams.contact.
+// Applies friction between a and b. The normal n points from b to a. `pressing` is the impulse that presses them
+// together (N s). `law` is their ContactParams.contact.
 void applyPairFriction(uint a, uint b, vec3 n, float ra, float rb, float pressing, vec4 law) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];

@@ -1,6 +1,7 @@
-// Friction between a sphere and a wall. The includer has the PRIVATE `solvedVelocity` (m/s) and `omega` (rad/s).
+// Friction between a sphere and a wall. The includer has the PRIVATE variables `solvedVelocity` (m/s) and `omega`
+// (rad/s).
 
-// `pressing` is what presses the sphere to the wall, per mass (m/s); `law` is ContactParams.contact.
+// `pressing` is the impulse that presses the sphere to the wall, per mass (m/s). `law` is ContactParams.contact.
 void applyWallFriction(vec3 n, float radius, float pressing, vec4 law) {
     vec3 slip = solvedVelocity - n * dot3(solvedVelocity, n) - cross3(omega, n) * radius;
     float lever = 1.0f / radius;

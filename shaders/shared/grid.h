@@ -1,10 +1,10 @@
-// The cell grid: a torus, so that memory is bounded wherever the spheres go. Cells per axis are multiples of 4: groups of
-// 2 x 2 x 2 cells then come in 8 colours, and two groups of one colour never touch the same cell.
+// The cell grid is a torus, so that memory is bounded wherever the spheres go. Cells per axis are multiples of 4.
+// Groups of 2 x 2 x 2 cells therefore have 8 colours, and two groups of one colour never touch the same cell.
 //
-// Where radii differ much, there is one such grid for each class of sizes, a level, with cells as wide as its largest
-// sphere: finest first, the cells of one after those of the other.
+// If radii differ much, each class of sizes has a grid of its own, a level. Its cells are as wide as its largest
+// sphere. Levels are ordered from fine to coarse, and the cells of a level follow the cells of the finer ones.
 
-// Cells of a level per axis; w: the first of them.
+// Cells of a level per axis; w: its first cell.
 uvec4 cellsOf(uint level) {
     if (HAS(LEVELS)) return params.levelCells[level];
     return uvec4(params.cells.x, params.cells.y, params.cells.z, 0u);
@@ -14,7 +14,7 @@ float inverseCellOf(uint level) {
     return HAS(LEVELS) ? params.levelSize[level].x : params.inverseCell;
 }
 
-// More spheres of a level than this in one of its cells: not all of their pairs are visited at once.
+// A cell with more spheres of the level than this is crowded: not all of their pairs are visited at once.
 uint crowdLimit(uint level) {
     return uint(params.levelSize[level].z);
 }
@@ -34,20 +34,21 @@ uint levelOfGroup(uint group) {
 }
 
 uint wrapCell(float coordinate, uint cells) {
-    // Far away coordinates are clamped before the conversion, which would be undefined for them; the shift, a multiple of
-    // the cells, keeps the remainder's operands from being negative, which GLSL leaves undefined too.
+    // Distant coordinates are clamped, because their conversion would be undefined. The shift is a multiple of the
+    // cells. It keeps the operands of the remainder from being negative, which GLSL leaves undefined too.
     float bounded = min(max(floor(coordinate), -1.0e9f), 1.0e9f);
     uint shift = (1000000000u / cells + 1u) * cells;
     return uint(int(bounded) + int(shift)) % cells;
 }
 
-// By x, then z, then y. With a horizontal axis last, a share of the cells, the groups or the sorted spheres is a slice of the
-// scene from bottom to top: threads that take the same share of each find their own spheres, and as many, in a pile too.
+// Cells are ordered by x, then z, then y. The last axis is horizontal: a share of the cells, the groups or the sorted
+// spheres is a slice of the scene from bottom to top. Threads that take equal shares of each therefore find their own
+// spheres, and equally many, in a pile too.
 uint cellIndex(uvec4 cells, uint x, uint y, uint z) {
     return cells.w + (y * cells.z + z) * cells.x + x;
 }
 
-// Of a sphere on its level.
+// The cell of a sphere on its level.
 uint cellOf(vec4 sphere) {
     vec3 point = vec3(sphere);
     if (!finite3(point)) return 0u;
@@ -66,19 +67,19 @@ uint groupAt(vec3 point, uint level) {
     return cells.w / 8u + row * (cells.x / 2u) + wrapCell(p.x, cells.x) / 2u;
 }
 
-// What a launch over groups gets as its phase: level and colour (0 .. 7).
+// The level of a launch over groups: its phase holds level and colour (0 .. 7).
 uint levelOfPhase() {
     return HAS(LEVELS) ? phase >> 3u : 0u;
 }
 
-// Groups of the launch's level that have its colour.
+// The number of groups of the launch's level that have its colour.
 uint groupsOfPhase() {
     if (!HAS(LEVELS)) return params.groups;
     uvec4 cells = cellsOf(levelOfPhase());
     return cells.x * cells.y * cells.z / 64u;
 }
 
-// Number `index` of them: its place, as a number over all groups.
+// The group with number `index` among these, as a number over all groups.
 uint groupOfPhase(uint index) {
     uvec4 cells = cellsOf(levelOfPhase());
     uint gx = cells.x / 4u;

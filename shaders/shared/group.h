@@ -1,14 +1,15 @@
-// Pairs of a group of 2 x 2 x 2 cells: of its cells with themselves and with their 13 forward neighbours, and of their
-// spheres with those of finer levels. The includer defines `void visitPair(uint a, uint b)` before, and binds `cellStart`
-// and `position`.
+// The pairs of a group of 2 x 2 x 2 cells. Its cells are paired with themselves and with their 13 forward neighbours,
+// and its spheres with the spheres of finer levels. The includer defines `void visitPair(uint a, uint b)` before, and
+// binds `cellStart` and `position`.
 //
-// A smaller sphere within reach of a larger one lies within one cell of the larger one's cell, on the larger one's level:
-// two groups of one colour and level, whose cells are two or more apart, never touch the same sphere. (Without lists, they
-// may look at the same one; it is far away from one of them.)
+// A smaller sphere within reach of a larger one lies at most one cell from the larger one's cell, on the larger one's
+// level. Two groups of one colour and level, whose cells are two or more apart, therefore never touch the same sphere.
+// (Without lists, both may visit the same sphere; it is far away from one of them.)
 
 #include "shared/cell_runs.h"
 
-// Of a crowd, each sphere meets so many others at a turn: fewer where there are very many, so that a cell's work is bounded.
+// Each sphere of a crowd meets at most CROWD_MOST others in a turn. It meets fewer, but at least CROWD_LEAST, if the
+// crowd is very large, so that the work of a cell is bounded.
 #define CROWD_MOST 32u
 #define CROWD_LEAST 4u
 #define CROWD_VISITS 32768u
@@ -17,7 +18,7 @@ PRIVATE(bool, crowded)  // some cells held so many spheres that not all of their
 PRIVATE(Reach, reached)
 PRIVATE(CellRun, chord)
 
-// One call of visitPair in the text: GLSL compilers copy it to each place, which costs seconds.
+// Has only one call of visitPair: GLSL compilers copy the function to each call, which takes seconds.
 void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     uvec4 cells = cellsOf(level);
     uint cell = cellIndex(cells, x, y, z);
@@ -32,7 +33,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     uint above = z + 1u == cells.z ? 0u : z + 1u;
     bool whole = x > 0u && x + 1u < nx;
     uint meets = max(CROWD_LEAST, min(CROWD_VISITS / (last - first), CROWD_MOST));
-    // Once for the level itself, then for each sphere and each finer level.
+    // One pass for the level itself, then one for each sphere and each finer level.
     uint passes = HAS(LEVELS) ? 1u + (last - first) * level : 1u;
     for (uint pass = 0u; pass < passes; ++pass) {
         bool finer = HAS(LEVELS) && pass > 0u;
@@ -41,8 +42,9 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
             one = first + (pass - 1u) / level;
             reached = reachOf(position[one], (pass - 1u) % level);
         }
-        // On the level itself, row 0: the cell itself and the one to the east. The others: cells x - 1 .. x + 1 of the rows
-        // north, south above, above and north above, each one range of the sorted spheres unless the torus cuts it.
+        // On the level itself, row 0 is the cell itself and the cell to the east. The other rows are cells x - 1 .. x +
+        // 1 to the north, above the south, above, and above the north. Each row is one range of the sorted spheres
+        // unless the torus cuts it.
         uint rows = finer ? reached.rows : 5u;
         for (uint row = 0u; row < rows; ++row) {
             uint ry = row == 0u || row == 3u ? y : (row == 2u ? south : north);
@@ -71,7 +73,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
                     uint b = row + part == 0u && !finer ? a + 1u : begin;
                     uint stop = end;
                     if (stop - b > crowd) {
-                        // A share of the others; another one at the next turn.
+                        // Visits a share of the others now and another share in the next turn.
                         uint shares = (stop - b + meets - 1u) / meets;
                         b = b + sampleRound % shares * meets;
                         stop = min(b + meets, stop);
@@ -84,7 +86,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     }
 }
 
-// `sampleRound` says which of the pairs of a crowd are visited: all are, one share after the other.
+// `sampleRound` selects the share of the pairs of a crowd that is visited. Successive rounds visit all shares in turn.
 void visitGroupNumber(uint group, uint sampleRound) {
     uint level = levelOfGroup(group);
     uvec4 cells = cellsOf(level);

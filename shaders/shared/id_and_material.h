@@ -1,4 +1,4 @@
-// What tells spheres apart: a word with the id in the low 24 bits, the material above.
+// A word per sphere: the id in the low 24 bits, the material above them.
 
 uint idOf(uint word) {
     return word & 0xffffffu;

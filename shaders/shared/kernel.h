@@ -1,12 +1,12 @@
 // Makes a .comp file both a GLSL compute shader and the body of a C++ struct.
 //
-//   BUFFER(access, type, name)  on a line of its own, in a .comp file: storage buffer `name[]`; access: readonly,
-//                               writeonly, restrict (both), coherent (atomics). The host writes the GLSL for it
-//                               (compute/source.h): the macro language of GLSL cannot make the name of its block
-//   KERNEL(count) { ... }                    the body; `invocation` runs over 0 .. count - 1
-//   HAS(FEATURE)                             whether the scene requires it: a constant in GLSL, a value in C++
-//   PREFETCH(element)                        of a buffer: it will be read soon; means something to processors only
-//   PRIVATE(type, name)                      a variable of the invocation that functions share
+//   BUFFER(access, type, name)  Declares the storage buffer `name[]`, on a line of its own, in a .comp file. Access is
+//                               readonly, writeonly, restrict (both) or coherent (atomics). The host writes its GLSL
+//                               (compute/source.h), because the macro language of GLSL cannot form the block's name.
+//   KERNEL(count) { ... }       Defines the body; `invocation` runs over 0 .. count - 1.
+//   HAS(FEATURE)                Is true if the scene requires the feature: a constant in GLSL, a value in C++.
+//   PREFETCH(element)           Announces that an element of a buffer is read soon. It has an effect on CPUs only.
+//   PRIVATE(type, name)         Declares a variable of the invocation that functions share.
 #ifndef __cplusplus
 
 #ifndef LOCAL_SIZE

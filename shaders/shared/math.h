@@ -1,4 +1,5 @@
-// Written out, because compilers may contract or reorder the built-in ones differently on each device.
+// Dot and cross products are written out, because compilers may contract or reorder the built-in ones differently on
+// each device.
 float dot3(vec3 a, vec3 b) {
     precise vec3 products = a * b;
     precise float total = products.x + products.y + products.z;
@@ -10,7 +11,8 @@ vec3 cross3(vec3 a, vec3 b) {
     return product;
 }
 
-// From the exponent's bits: compilers take x - x == 0 and its like for granted.
+// Returns true if all components are finite. Tests the bits of the exponent, because compilers assume that tests such
+// as x - x == 0 are always true.
 bool finite3(vec3 a) {
     return (floatBitsToUint(a.x) & 0x7f800000u) != 0x7f800000u && (floatBitsToUint(a.y) & 0x7f800000u) != 0x7f800000u &&
            (floatBitsToUint(a.z) & 0x7f800000u) != 0x7f800000u;

@@ -1,28 +1,34 @@
-// Spheres outside the bounds: they have left through an open face. One that is far from all others asks for no new lists,
-// however fast it is.
+// Spheres outside the bounds have left through an open face. A sphere that is far from all others asks for no new
+// lists, however fast it is.
 //
-// The lists hold in two frames. A sphere inside must stay within params.rebuildMove of its anchor. One outside must stay
-// within its share of its room, the gap to the nearest sphere outside that no list pairs it with, of the place where its
-// anchor is in a frame that moves: on a ballistic arc, as fast as the fastest sphere outside, so that those that fall
-// together hold still in it. Near the bounds, where it may meet spheres inside, both hold.
+// The lists hold in two frames of reference. A sphere inside must stay within params.rebuildMove of its list reference.
+//
+// A sphere outside must stay close to its list reference in a frame that moves. The frame follows a ballistic arc, as
+// fast as the fastest sphere outside, so that spheres that fall together rest in it. The allowed distance is a share of
+// the sphere's room. The room is the gap to the nearest sphere outside that no list pairs with it. Near the bounds,
+// where the sphere may meet spheres inside, both conditions hold.
 
-// What `listReference` holds in w: 0 inside; outside the room, negative where a list pairs the sphere with another one outside.
+// listReference.w is 0 for a sphere inside. For a sphere outside it is its room (m), negative if a list pairs it with
+// another one outside. This value means that there is no limit.
 #define UNLIMITED_ROOM 1.0e18f
 
-// Of its room, what a sphere may use up before there are new lists: two do so at a time, and each looks ahead as far.
+// The share of its room that a sphere may use up before there are new lists. Two spheres use up the same gap, and each
+// looks ahead as far.
 #define ROOM_SHARE 0.25f
 
-// In radii. Further out, float32 resolves no thousandth of the radius, and a sphere meets no others.
+// A sphere farther out than this, in radii, is lost: float32 does not resolve a thousandth of its radius, and it meets
+// no other sphere.
 #define LOST_DISTANCE 8388.608f
 
-// Where a sphere stays for ever, m: its square is still a number.
+// A sphere beyond this distance (m) stays there for ever: the square of the distance is still finite.
 #define LAST_PLACE 1.0e18f
 
 float beyondFace(uint face, float distance) {
     return (params.closedFaces & (1u << face)) == 0u ? distance : -1.0f;
 }
 
-// How far the point is outside, along the axis on which that is most; negative or 0 inside. Nothing is outside a closed face.
+// The distance of the point outside the bounds (m), along the axis on which it is largest. It is negative or 0 inside.
+// No point is outside a closed face.
 float beyond(vec3 p) {
     if (params.closedFaces == 63u) return -1.0f;
     float x = max(beyondFace(0u, params.wallMin.x - p.x), beyondFace(1u, p.x - params.wallMax.x));
@@ -31,7 +37,7 @@ float beyond(vec3 p) {
     return max(x, max(y, z));
 }
 
-// As wide as a cell of the coarsest level, the strip around the bounds in which a sphere may touch one inside.
+// The width (m) of the strip around the bounds in which a sphere may touch one inside: a cell of the coarsest level.
 float strip() {
     return 1.0f / params.inverseCell;
 }

@@ -1,5 +1,6 @@
-// What two spheres remember of their contact is kept, while the lists are rebuilt, with the smaller of them, which has few
-// neighbours of its own size or above; with the lower id where both are equal. The includer binds `position` and `idAndMaterial`.
+// Returns true if a owns the tangential slip of the pair, which is kept with its owner while the lists are rebuilt. The
+// owner is the smaller sphere, which has few neighbours of its own size or above. If radii are equal, it is the sphere
+// with the lower id. The includer binds `position` and `idAndMaterial`.
 bool firstKeepsSlip(uint a, uint b) {
     if (HAS(RADII)) {
         float ra = position[a].w;

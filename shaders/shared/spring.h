@@ -1,39 +1,43 @@
-// The contact law of the model `accurate`: soft spheres. The includer has the PRIVATE `displacement`.
+// The contact law of the model `accurate`: soft spheres. The includer has the PRIVATE variable `displacement`.
 //
-// Normal force, with overlap d, effective radius R and mass m of the pair:
-//   linear spring-dashpot   F = k d - c v,           k = 2 Y R,              c = 2 z sqrt(k m)
-//   Hertz                   F = 2/3 S d - c v,       S = 2 Y sqrt(R d),      c = 2 z sqrt(5/6 S m)
-// with Y the effective modulus and z the damping ratio of the restitution asked for, given that contacts do not pull.
-// Tangential: a spring and a dashpot side by side,
-//   linear spring-dashpot   F = k_t x + c_t u,       k_t = 2 G R
-//   Mindlin                 the same,                k_t = 8 G sqrt(R d)
-// with u the slip, x the stretch of the spring and G the effective shear modulus. While the contact sticks, x grows with
-// the slip. As a Hertz contact closes, F keeps what it has and x shrinks with 1 / k_t; as it opens, x stays and F falls
-// with k_t: so a contact never gains energy (Thornton, Cummins and Cleary 2013; `mindlin_rescale` in LAMMPS). Where F would
-// exceed Coulomb's limit it is held there, and the spring takes what the dashpot leaves: x = (limit - c_t u) / k_t (Luding
+// Normal force, with overlap d, parting speed v, effective radius R and mass m of the pair:
+//      linear spring-dashpot   F = k d - c v,           k = 2 Y R,              c = 2 z sqrt(k m)
+//      Hertz                   F = 2/3 S d - c v,       S = 2 Y sqrt(R d),      c = 2 z sqrt(5/6 S m)
+// Y is the effective modulus. z is the damping ratio for the required restitution, given that contacts do not pull.
+//
+// Tangential force, a spring and a dashpot side by side:
+//      linear spring-dashpot   F = k_t x + c_t u,       k_t = 2 G R
+//      Mindlin                 F = k_t x + c_t u,       k_t = 8 G sqrt(R d)
+// u is the slip velocity, x the displacement of the spring and G the effective shear modulus. While the contact sticks,
+// x grows with the slip.
+//
+// While a Hertz contact closes, F stays and x shrinks with 1 / k_t. While it opens, x stays and F falls with k_t. A
+// contact therefore never gains energy (Thornton, Cummins and Cleary 2013; `mindlin_rescale` in LAMMPS). F is limited
+// to Coulomb's limit. At the limit, the spring takes the rest of the dashpot's force: x = (limit - c_t u) / k_t (Luding
 // 2008, Granular Matter 10, 235).
 //
-// Positions are known at the end of a substep, velocities before and after the impulse that acts there: an impulse stands
-// for half a substep before and half a substep after.
+// Positions are known at the end of a substep, velocities before and after the impulse that acts there. An impulse
+// therefore stands for half a substep before and half a substep after.
 
-// Damping ratio up to which the tangential dashpot follows the normal one: the dashpots of all contacts of a sphere add
-// up.
+// The largest damping ratio at which the tangential dashpot follows the normal one. The limit is there because the
+// dashpots of all contacts of a sphere add up.
 #define MOST_DRAG 0.3f
 
 // A contact in a substep.
 struct Spring {
-    float impulse;  // normal, N s, >= 0
-    float now;      // N: the normal force at the end of the substep's motion
-    float stiff;    // N/m: k_t
-    float drag;     // N s/m: c_t
-    float share;    // of the motion, from when on they touched: 1 unless the contact has just begun
-    float part;     // of a substep that the dashpots' impulse stands for: 1 unless it has just begun
+    float impulse;  // of the normal force (N s), >= 0
+    float now;      // normal force at the end of the substep's motion (N)
+    float stiff;    // k_t (N/m)
+    float drag;     // c_t (N s/m)
+    float share;    // share of the motion during which they touched: 1 unless the contact has just begun
+    float part;     // share of a substep for which the dashpots' impulse stands: 1 unless it has just begun
     float acted;    // share of the impulse that acts before the end of the motion
-    float closed;   // k_t before the motion over k_t now; 1 where the contact opens
-    float onset;    // N: the normal force with which the contact has begun, by its dashpot
+    float closed;   // k_t before the motion over k_t now; 1 if the contact opens
+    float onset;    // force of the normal dashpot when the contact began (N)
 };
 
-// `path` is the normal speed in the substep's motion, `speed` that before the impulse; both are positive when parting.
+// `path` is the normal speed in the substep's motion, `speed` the normal speed before the impulse (m/s). Both are
+// positive when the spheres part.
 Spring springOf(float overlap, float path, float speed, float radius, float mobility, vec4 law) {
     Spring spring;
     float h = params.substep;
@@ -65,13 +69,15 @@ Spring springOf(float overlap, float path, float speed, float radius, float mobi
         force = stiffness * overlap;
         damping = 2.0f * law.y * sqrt(stiffness * mass);
         tangential = 2.0f * law.z * radius;
-        // The dashpot sets in with a jump: in the first substep, only for the time since the contact began.
+        // The dashpot's force begins with a jump. In the first substep it acts only for the time since the contact
+        // began.
         if (begins) {
             spring.part = 0.5f + spring.share;
             spring.onset = damping * -path;
         }
     }
-    // The dashpot sees the mean of the speeds before and after: second order, and never more than what stops the pair.
+    // The dashpot acts on the mean of the speeds before and after, which is of second order. It never does more than
+    // stop the pair.
     precise float c = min(damping * spring.part, 2.0f / (h * mobility));
     precise float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * mobility), 0.0f);
     spring.impulse = impulse;
@@ -85,9 +91,9 @@ Spring springOf(float overlap, float path, float speed, float radius, float mobi
     return spring;
 }
 
-// The tangential impulse over a substep. `path` is the slip in the substep's motion, `slip` that before the impulse, both in
-// m/s; `mobility` is how much an impulse changes it. `displacement` (m), turned into the plane of the contact, is brought up to
-// date.
+// The tangential impulse over a substep (N s). `path` is the slip in the substep's motion, `slip` the slip before the
+// impulse (m/s). `mobility` is the change of slip per impulse. Updates `displacement` (m), which must lie in the plane
+// of the contact.
 vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, float friction) {
     float h = params.substep;
     precise vec3 old = displacement * spring.closed;
@@ -96,17 +102,17 @@ vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, floa
         old = vec3(0.0f, 0.0f, 0.0f);
         grown = path * (h * spring.share);
         if (HAS(HERTZ)) {
-            // The mean of k_t since the contact began.
+            // The factor accounts for the mean of k_t since the contact began.
             grown = grown * 0.66666667f;
         } else {
-            // Where the dashpot begins beyond Coulomb's limit.
+            // The displacement if the dashpot begins beyond Coulomb's limit.
             float speed = sqrt(dot3(path, path));
             float beyond = spring.drag * speed - friction * spring.onset;
             if (beyond > 0.0f) old = path * (-beyond / (spring.stiff * speed));
         }
     }
     displacement = old + grown;
-    // The dashpot sees the mean of the slips before and after.
+    // The dashpot acts on the mean of the slips before and after.
     precise float weight = -h / (1.0f + 0.5f * h * spring.drag * spring.part * mobility);
     precise vec3 impulse = ((old * spring.part + grown) * spring.stiff + slip * (spring.drag * spring.part)) * weight;
     float squared = dot3(impulse, impulse);
@@ -119,19 +125,19 @@ vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, floa
     return impulse;
 }
 
-// The overlap when the speeds are reached: they are known half a substep after the places.
+// The overlap (m) at the time of the velocities, which are known half a substep after the positions.
 float overlapWithSpeed(float overlap, float speed) {
     return max(overlap - speed * (0.5f * params.substep), 0.0f);
 }
 
-// J: what the springs of a contact hold.
+// The energy in the springs of a contact (J).
 float springEnergy(float overlap, float radius, vec4 law, vec3 path) {
     if (HAS(HERTZ))
         return sqrt(radius * overlap) * (0.53333333f * law.x * overlap * overlap + 4.0f * law.z * dot3(path, path));
     return radius * (law.x * overlap * overlap + law.z * dot3(path, path));
 }
 
-// Into the plane across n, as long as before.
+// Turns `path` into the plane with normal n and keeps its length.
 vec3 rotateToPlane(vec3 path, vec3 n) {
     precise vec3 within = path - n * dot3(path, n);
     float was = dot3(path, path);

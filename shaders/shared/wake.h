@@ -1,14 +1,15 @@
-// What wakes a sleeping neighbour: a sphere that has moved away from where it was, or is faster than what the solver
-// itself makes of a support under load.
+// A sphere wakes a sleeping neighbour if it has moved away from its place, or if it is faster than the solver makes a
+// support under load.
 
-// Takes what `velocityBefore` holds of it: the velocity before the substep, because the present one holds the kicks of
-// unfinished pushes, and CREPT in place of the quiet time.
+// `v` is the sphere's row of `velocityBefore`: the velocity before the substep, because the present one contains
+// impulses of unfinished pushes. v.w is its quiet time, or MOVED_AWAY.
 bool canWake(vec4 v) {
     return v.w == MOVED_AWAY || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
-// Up to this gap a sphere wakes its neighbour. It must be more than what may be crept before it is noticed, which is from
-// one side of a resting place to the other: twice params.creep, at most two thirds of the margin.
+// A sphere wakes its neighbour up to this gap (m). The gap must exceed the distance that a sphere can move before it
+// counts as moved away. That distance is from one side of a resting place to the other: twice params.creep, at most two
+// thirds of the margin.
 float wakeGap() {
     return 0.7f * params.margin;
 }

@@ -1,5 +1,5 @@
-// What holds between sphere `wallSphere` (a PRIVATE slot of the includer's) and a wall's material. The includer binds
-// `idAndMaterial` and `contactParams`.
+// The contact parameters of the sphere `wallSphere` (a PRIVATE variable of the includer: its slot) and a wall's
+// material. The includer binds `idAndMaterial` and `contactParams`.
 
 uint wallContactIndex(uint wallMaterial) {
     uint mine = HAS(MATERIALS) ? materialOf(idAndMaterial[wallSphere]) : params.material;

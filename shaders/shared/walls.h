@@ -1,8 +1,10 @@
 // Walls, planes and boxes that a sphere touches or overlaps. The includer defines
-// `void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface)`, which may move the
-// private `wallPoint`, and binds `obstacles`: planes first, then boxes. Surfaces count through faces, planes and boxes.
+//   `void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface)`,
+// which may move the PRIVATE `wallPoint`. It binds `obstacles`: planes first, then boxes. Surfaces are numbered through
+// faces, planes and boxes.
 //
-// A sphere within rounding of a wall counts as touching it: after the push it lies there.
+// A sphere within this share of its radius of a wall touches it, because the push leaves it within rounding of the
+// wall.
 #define WALL_TOLERANCE 2.0e-4f
 
 void visitFace(uint face, vec3 normal, float depth, float radius) {
@@ -23,7 +25,7 @@ void visitBox(Obstacle box, uint surface, float radius) {
         visitWall(d * (1.0f / distance), radius - distance, uint(box.b.w), surface);
         return;
     }
-    // The centre is inside: out through the nearest side.
+    // The centre is inside the box: the sphere leaves through the nearest side.
     vec3 toLow = wallPoint - low;
     vec3 toHigh = high - wallPoint;
     float depth = toLow.x;
@@ -36,14 +38,14 @@ void visitBox(Obstacle box, uint surface, float radius) {
     visitWall(normal, depth + radius, uint(box.b.w), surface);
 }
 
-// Whether the sphere is so far inside the bounds that it meets none of their faces. Most are.
+// Returns true if the sphere is so far inside the bounds that it meets none of their faces, as most spheres are.
 bool clearOfFaces(vec3 p, float radius) {
     float r = radius * (1.0f + 2.0f * WALL_TOLERANCE);
     return p.x - r > params.wallMin.x && p.x + r < params.wallMax.x && p.y - r > params.wallMin.y &&
            p.y + r < params.wallMax.y && p.z - r > params.wallMin.z && p.z + r < params.wallMax.z;
 }
 
-// Whether it meets nothing, as far as that can be told at once.
+// Returns true if a quick test shows that the sphere meets no surface.
 bool clearOfWalls(vec3 p, float radius) {
     return !HAS(PLANES) && !HAS(BOXES) && clearOfFaces(p, radius);
 }
