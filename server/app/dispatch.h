@@ -10,7 +10,7 @@
 // The only place that maps each command of a simulating server to the code that carries it out.
 namespace spherule::app {
 
-// Carries out the commands that concern the server rather than its world.
+// Carries out the commands that World does not: recordings and cancel.
 class HostCommands {
   public:
     HostCommands() = default;
