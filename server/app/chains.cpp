@@ -15,7 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A keyframe costs everybody on the chain the prediction of the next frame, so those who keep losing it wait a little.
+// After a keyframe, the next frame cannot be predicted from velocities, which makes it larger for every viewer of the
+// chain. So a viewer that loses the chain again waits before it gets a keyframe.
 constexpr auto keyframesEvery = 250ms;
 constexpr auto newcomersEvery = 50ms;
 constexpr auto retryEvery = 10s;
@@ -50,7 +51,7 @@ void Chains::serve(const Scenery& world, const std::vector<codec::Subscription>&
         if (!chain->making) begin(subscription, *chain, world, now);
         if (chain->making) making.emplace_back(subscription.rendition, chain);
     }
-    // The device copies few at a time: whose turn was first goes first.
+    // The device copies only a few frames at a time, so the oldest goes first.
     std::ranges::sort(making, {}, [](const auto& entry) { return entry.second->turn; });
     for (const auto& [rendition, chain] : making) collect(rendition, *chain);
 }
@@ -74,7 +75,7 @@ Result<void> Chains::open(const codec::Rendition& rendition, const Scenery& worl
     return {};
 }
 
-// The order holds for an epoch: neighbours of its beginning stay near each other for long.
+// Creates the order of the spheres for an epoch. Neighbours at its beginning stay near each other for long.
 Result<void> Chains::prepare(const Scenery& world) {
     const bool slots = world.source.slotOf != nullptr;
     if (!tools_ || tools_->spheres() != world.spheres || slots_ != slots) {
@@ -104,8 +105,8 @@ Result<Chains::Chain*> Chains::chainOf(const codec::Rendition& rendition, const 
     return &chain;
 }
 
-// A keyframe for who waits and the next frame for all others take turns where the world is so slow that the next frame
-// is always due.
+// In a slow world the next frame is always due. Then keyframes for waiting viewers and frames for all viewers
+// alternate.
 void Chains::begin(const codec::Subscription& subscription, Chain& chain, const Scenery& world, Clock::time_point now) {
     using enum codec::EncodedFrame::Kind;
     const bool begun = chain.tier->number() > 0;

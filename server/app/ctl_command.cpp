@@ -28,7 +28,7 @@ bool isLocal(const std::string& url) {
     return parts && (parts->host == "localhost" || parts->host == "::1" || parts->host.starts_with("127."));
 }
 
-// Who named a scene file that is not there may have meant a scene.
+// Adds the names of the scenes to an error about a scene file: the word may have been meant as a name.
 Error withScenes(Error error, const std::vector<std::string>& words) {
     if (words.size() == 2 && words[0] == "load" && error.where == words[1])
         error.message += fmt::format(" (one of {})", fmt::join(scene::names(), ", "));

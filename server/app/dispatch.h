@@ -7,10 +7,10 @@
 #include "sim/commands.h"
 #include "spherule/v1/control.pb.h"
 
-// The one place where each command of a server that simulates meets the code that carries it out.
+// The only place that maps each command of a simulating server to the code that carries it out.
 namespace spherule::app {
 
-// Carries out the commands that change what the server does beside its world.
+// Carries out the commands that World does not: recordings and cancel.
 class HostCommands {
   public:
     HostCommands() = default;
@@ -23,9 +23,9 @@ class HostCommands {
     virtual Result<void> cancel() = 0;
 };
 
-// Carries out a command, or refuses it and changes nothing. nullopt: a change of the world has begun, and
-// World::advanceChange() gives the result. A command may come while a change is under way only if it does not wait for
-// changes by its rules in control.proto; a new change replaces the present one.
+// Carries out a command, or refuses it and changes nothing. Returns nullopt when a change of the world has begun;
+// World::advanceChange() gives the result. While a change is under way, only commands that do not wait for changes (see
+// control.proto) may come. A new change replaces the present one.
 std::optional<Result<sim::Applied>> dispatch(const v1::Command& command, World& world, HostCommands& host);
 
 }  // namespace spherule::app

@@ -8,11 +8,11 @@
 
 namespace spherule::app {
 
-// States as text: time,id,x,y,z,vx,vy,vz,radius in SI units, world coordinates. Each is there once write() has
-// returned; without any, there is no file.
+// Writes states as text: time,id,x,y,z,vx,vy,vz,radius in SI units, world coordinates. After write() the state is in
+// the file. Without a state there is no file.
 class Dump {
   public:
-    // As OutputFile::create.
+    // See OutputFile::create().
     static Result<Dump> create(const std::string& path, bool replace);
     Result<void> write(sim::Simulation& simulation);
     Result<void> finish() { return file_.close(); }

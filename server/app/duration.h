@@ -6,7 +6,7 @@
 
 namespace spherule::app {
 
-// "2s", "250ms", "1.5min" or plain seconds; `option` names it in the error.
+// Parses "2s", "250ms", "1.5min" or plain seconds. `option`: the name in the error.
 Result<double> secondsOf(const std::string& text, const std::string& option);
 
 }  // namespace spherule::app

@@ -12,7 +12,7 @@ struct Endpoint {
     std::uint16_t port = 0;
 };
 
-// "host:port"; an IPv6 address in brackets.
+// Parses "host:port", with an IPv6 address in brackets.
 Result<Endpoint> endpointOf(const std::string& text);
 
 }  // namespace spherule::app

@@ -5,12 +5,12 @@
 namespace spherule::app {
 
 constexpr int exitDone = 0;
-constexpr int exitFault = 1;  // of the program
-constexpr int exitInput = 2;  // usage, scene or file
+constexpr int exitFault = 1;  // fault of the program
+constexpr int exitInput = 2;  // wrong usage, scene or file
 constexpr int exitNoDevice = 3;
 constexpr int exitRefused = 4;
 constexpr int exitDiverged = 5;
-constexpr int exitDeviceLost = 75;  // worth another start
+constexpr int exitDeviceLost = 75;  // a new start may help
 constexpr int exitBySignal = 128;   // plus the number of the signal that ended the program early
 
 constexpr const char* exitCodesText =

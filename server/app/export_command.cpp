@@ -27,14 +27,14 @@ struct ExportOptions {
     bool replace = false;
 };
 
-// Times in s simulated.
+// Times in simulated seconds.
 struct Range {
     double every = 0;  // 0: every frame
     double from = -std::numeric_limits<double>::infinity();
     double to = std::numeric_limits<double>::infinity();
 };
 
-constexpr double sameTime = 1e-6;  // s; times are sums of steps
+constexpr double sameTime = 1e-6;  // tolerance (s): times are sums of steps
 
 Result<Range> rangeOf(const ExportOptions& options) {
     Range range;
@@ -62,10 +62,11 @@ recording::MadeExporter exporterFor(const ExportOptions& options) {
     return recording::vtkExporter(options.out, options.replace);
 }
 
-// To the first frame that is not before `from`; false where there is none, or the export is to stop.
+// Moves to the first frame that is not before `from`. Returns false if there is none, or when the export is
+// interrupted.
 Result<bool> enter(recording::Recording& recording, double from, const Interrupt& interrupt) {
     if (auto done = recording.seek(from); !done) {
-        // Behind what is damaged the next keyframe is the first that there is.
+        // After damage, the next readable keyframe is the first usable frame.
         spdlog::warn("{}", done.error().text());
         if (!recording.recover(from)) return tl::unexpected(done.error());
     }
@@ -79,11 +80,11 @@ Result<bool> enter(recording::Recording& recording, double from, const Interrupt
 
 struct Written {
     std::uint64_t frames = 0;
-    double error = 0;  // m, of positions on each axis, at most
+    double error = 0;  // largest error of a coordinate (m)
 };
 
-// With `every`, the first frame at or after each multiple of it, counted from the first one. Interrupted, it stops
-// before the end, and does not finish.
+// With `every`, writes the first frame at or after each multiple of it, counted from the first frame. After an
+// interrupt it stops early and does not finish the export.
 Result<Written> write(recording::Recording& recording, const Range& range, recording::Exporter& exporter,
                       const Interrupt& interrupt) {
     Written written;
@@ -95,7 +96,7 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
     for (; more && *more && !interrupt.asked(); more = recording.next()) {
         const double time = recording.time();
         if (time > range.to + sameTime) break;
-        // Of one snapshot there may be several, where the recording was made while the world was reset or paused.
+        // A recording of a reset or a pause may have several frames of the same time.
         if (newest && time <= *newest) continue;
         if (range.every > 0) {
             const double at = (time - first + sameTime) / range.every;
@@ -114,7 +115,7 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
     }
     if (interrupt.asked()) return written;
     if (!more) {
-        // What came before is sound, and finished; the damage decides the exit code.
+        // The frames before the damage are valid, so the export is finished. The damage decides the exit code.
         if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
         return fail(ErrorKind::Input, "",
                     fmt::format("{}; {} frames before it were exported; --from exports the part after it",
@@ -135,7 +136,7 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
         return fail(ErrorKind::Input, options.file,
                     fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),
                                 recording->end()));
-    std::error_code missing;  // of what is not there yet
+    std::error_code missing;  // set if the output file does not exist yet
     if (std::filesystem::equivalent(options.file, options.out, missing))
         return fail(ErrorKind::Input, options.out, "is the recording itself; choose another name");
     interrupt.finishFirst();

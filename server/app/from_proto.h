@@ -10,7 +10,7 @@
 #include "sim/commands.h"
 #include "spherule/v1/control.pb.h"
 
-// Values for the simulation, made of the messages of clients. A message with a wrong field is Refused. The error's
+// Converts messages of clients to values for the simulation. A message with a wrong field is Refused. The error's
 // `where` begins at the message.
 namespace spherule::app {
 
@@ -21,7 +21,7 @@ Result<sim::Push> pushOf(const v1::Push& message);
 // Reads and builds a scene. May run on any thread.
 using MakeScene = std::function<Result<scene::Scene>(Progress&)>;
 
-// By name only scenes that come with the program may be loaded: a client does not reach the server's files.
+// A name must be one of the scenes that come with the program, so that clients cannot read the server's files.
 Result<MakeScene> makeSceneOf(const v1::LoadScene& message, const std::string& deviceKind,
                               const scene::Overrides& overrides);
 

@@ -21,7 +21,7 @@ struct HealthOptions {
     std::string certificateFile;
 };
 
-// One who listens everywhere is asked here.
+// A server that listens on all addresses is asked on the loopback address.
 std::string reachable(const std::string& host) {
     if (host == "0.0.0.0") return "127.0.0.1";
     return host == "::" ? "::1" : host;

@@ -19,13 +19,13 @@ std::array<struct sigaction, signals.size()> before{};
 std::atomic<bool> finishes = false;
 std::atomic<int> askedBy = 0;
 static_assert(std::atomic<bool>::is_always_lock_free &&
-              std::atomic<int>::is_always_lock_free);  // the handler uses them
+              std::atomic<int>::is_always_lock_free);  // required in a signal handler
 
 void handle(int signal) {
     if (!finishes) _exit(exitBySignal + signal);
     int none = 0;
     if (askedBy.compare_exchange_strong(none, signal)) return;
-    // A terminal that closes may send several of these.
+    // A closing terminal may send SIGHUP several times.
     if (signal != SIGHUP) _exit(exitBySignal + signal);
 }
 

@@ -11,12 +11,12 @@
 
 namespace spherule::app {
 
-// What the simulation thread last said of itself, for health pages and metrics. Any thread.
+// The latest report of the simulation thread, for health pages and metrics.
 struct LiveReport {
-    std::string state = "starting";  // starting, running, paused; draining or failed for good
-    std::string slow;                // why it may take a while to see what was asked for; empty: it does not
+    std::string state = "starting";  // starting, running or paused; draining and failed are final
+    std::string slow;                // why commands or states may be late; empty: they are not
     compute::DeviceInfo device;
-    std::vector<std::string> scenes;  // that can be loaded by name
+    std::vector<std::string> scenes;  // names of scenes that can be loaded
     std::string scene;
     std::uint32_t spheres = 0;
     std::uint64_t steps = 0;
@@ -24,10 +24,10 @@ struct LiveReport {
     std::uint32_t rebuilds = 0;
     std::uint64_t framesProduced = 0;
     v1::Status status;
-    std::optional<v1::Diagnostics> diagnostics;  // once somebody has watched or asked for metrics
-    v1::Recording recording;                     // the present one, or the last
+    std::optional<v1::Diagnostics> diagnostics;  // set while a viewer watches, or soon after a request for metrics
+    v1::Recording recording;                     // the present recording, or the last one
     std::uint64_t recordingFramesLost = 0;
-    std::vector<double> passSeconds;  // since the start, by sim::Pass
+    std::vector<double> passSeconds;  // device time since the start (s), by sim::Pass
 
     [[nodiscard]] bool ends() const { return state == "draining" || state == "failed"; }
     void becomes(const char* next) {
@@ -35,6 +35,7 @@ struct LiveReport {
     }
 };
 
+// Holds the latest report. Any thread.
 class Live {
   public:
     template <class Change>
@@ -47,7 +48,7 @@ class Live {
         return report_;
     }
 
-    // Somebody reads the figures, and will want newer ones before long.
+    // Records that a client reads the figures, and will want newer ones soon.
     void asked() {
         const std::lock_guard lock(mutex_);
         asked_ = std::chrono::steady_clock::now();

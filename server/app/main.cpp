@@ -70,10 +70,10 @@ int runCommand(int argc, char** argv) {
 }  // namespace spherule::app
 
 int main(int argc, char** argv) {
-    // A file that may not grow any more, or a pipe that nobody reads, is an error of the write, not the end.
+    // A write to a file at its size limit, or to a pipe without a reader, fails. It must not end the program.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    // It would write a line to stderr for each bad message, from the thread that serves; they are refused and counted.
+    // Protobuf would log a line to stderr for each malformed message. The server refuses and counts these messages.
     google::protobuf::SetLogHandler(nullptr);
     try {
         return spherule::app::runCommand(argc, argv);
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
                    stderr);
         return spherule::app::exitRefused;
     } catch (const std::exception& error) {
-        // All that is expected to go wrong comes as a result.
+        // Expected errors are returned as a Result.
         std::fprintf(stderr, "spherule: %s\n", error.what());
         return spherule::app::exitFault;
     }

@@ -15,7 +15,7 @@ namespace spherule::app {
 struct Metrics::Families {
     prometheus::Registry registry;
 
-    // A counter is kept elsewhere; here it is brought up to date.
+    // Raises the counter to `value`, a total that is counted elsewhere.
     void counter(const char* name, const char* help, double value, const prometheus::Labels& labels = {}) {
         auto& metric = prometheus::BuildCounter().Name(name).Help(help).Register(registry).Add(labels);
         metric.Increment(std::max(0.0, value - metric.Value()));
@@ -72,7 +72,7 @@ std::string Metrics::text(const LiveReport& live, const net::Counters& net) {
     return prometheus::TextSerializer().Serialize(to.registry.Collect());
 }
 
-// Of the last second; only while somebody watches, or has asked for metrics within some minutes.
+// Figures of the last second. They exist only while a viewer watches, and for 150 s after a request for metrics.
 void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
     Families& to = *families_;
     const v1::Statistics& now = diagnostics.statistics();

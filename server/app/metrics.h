@@ -8,7 +8,7 @@
 
 namespace spherule::app {
 
-// The page /metrics: figures of the simulation and the network in a prometheus-cpp registry. One thread.
+// The page /metrics: figures of the simulation and the network in a prometheus-cpp registry. Used by one thread.
 class Metrics {
   public:
     Metrics();

@@ -9,13 +9,13 @@ namespace spherule::app {
 
 namespace {
 
-constexpr double noticeable = 1.2;  // times the cost that was last told
-// From which time per step can be told.
+constexpr double noticeable = 1.2;  // ratio of two costs that differ enough for a new dial
+// Either is enough for a mean time per step.
 constexpr std::uint64_t enoughSteps = 10;
 constexpr double enoughMs = 300;
 
-// The contacts of `balanced` that an impact has squeezed: the bed expands again. In `accurate` those of crowds that
-// have no lists.
+// Returns true when contacts may store energy that the statistics do not show. In `balanced`: contacts that an impact
+// has squeezed, because the bed expands again. In `accurate`: crowds without pair lists.
 bool storesUnseen(const sim::Simulation& simulation, const sim::Statistics& statistics) {
     constexpr double squeezed = 0.05;  // of the radius
     const scene::Model model = simulation.scene().quality.model;
@@ -42,7 +42,7 @@ void Observer::stepped(double wallMs) {
 }
 
 bool Observer::refresh(const sim::Simulation& simulation, std::uint32_t epoch) {
-    // Choosing substeps looks at every sphere, so it is done only for what has a say in it.
+    // dialFor() looks at every sphere. So it runs only when the epoch or a setting that affects the dial changes.
     v1::ServerMessage settings = settingsMessage(simulation.scene(), 1, false);
     settings.mutable_settings()->clear_model();
     settings.mutable_settings()->clear_substeps();

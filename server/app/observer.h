@@ -11,31 +11,31 @@
 
 namespace spherule::app {
 
-// What those who watch a running world are told of it: its figures, and what the dial's positions cost in it.
+// Measures a running world for viewers: its figures, and the costs in the dial.
 class Observer {
   public:
     explicit Observer(quality::Table table) : table_(std::move(table)) {}
 
     void stepped(double wallMs);
-    // Nobody looks: what was stepped does not count.
+    // Discards the measured steps. Call while nobody watches.
     void rest() {
         steps_ = 0;
         ms_ = 0;
     }
-    // Something besides the steps has changed the world: energies before and after cannot be compared.
+    // Call when anything except a step has changed the world: energies before and after cannot be compared.
     void disturbed() { energy_.disturbed(); }
-    // The spheres or what else substeps depend on may be others; says whether the dial is.
+    // Rebuilds the dial if the spheres or a setting that affects it changed. Returns true if it did.
     bool refresh(const sim::Simulation& simulation, std::uint32_t epoch);
 
     struct Sight {
         v1::Diagnostics diagnostics;
         std::vector<std::string> alarms;
-        bool dialMoved = false;  // it costs something else than it last said
+        bool dialMoved = false;  // the costs in the dial have changed
     };
-    // Measures. Device seconds per pass are those since the last time.
+    // Measures the world. `passSeconds`: device time per pass since the last call.
     Sight look(sim::Simulation& simulation, const std::vector<double>& passSeconds);
 
-    // As it was last said to have changed.
+    // The dial, with the costs of the last look() that reported a change.
     [[nodiscard]] v1::Dial dial() const { return ratio_ > 0 ? quality::calibrated(dial_, ratio_) : dial_; }
 
   private:
@@ -44,14 +44,14 @@ class Observer {
     quality::Table table_;
     quality::EnergyWatch energy_;
     quality::OverlapWatch overlap_;
-    sim::Impacts impacts_;  // that have been told
+    sim::Impacts impacts_;  // reported so far
     v1::Dial dial_;         // not calibrated
-    std::string basis_;     // what it follows from
+    std::string basis_;     // epoch and settings from which dial_ was built
     std::uint32_t epoch_ = 0;
-    double ratio_ = 0;  // of a step's time to the estimate; 0: unknown
+    double ratio_ = 0;  // measured time of a step over its estimate; 0: unknown
     std::uint32_t substeps_ = 0;
-    std::uint64_t steps_ = 0;  // since the last look
-    double ms_ = 0;
+    std::uint64_t steps_ = 0;  // since the last look()
+    double ms_ = 0;            // wall time of these steps (ms)
 };
 
 }  // namespace spherule::app

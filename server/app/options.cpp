@@ -21,7 +21,7 @@ namespace spherule::app {
 
 namespace {
 
-// "16ms" or "0.5%"; nothing for what cannot be a goal.
+// Parses a goal such as "16ms" or "0.5%"; nullopt if it is invalid.
 std::optional<scene::Goal> goalFrom(const std::string& words) {
     const auto given = quantityOf(words);
     if (!given) return std::nullopt;
@@ -93,11 +93,11 @@ void addWatchdog(CLI::App& command, double& seconds) {
 
 void complain(const std::string& what) {
     std::string text = fmt::format("spherule: {}\n", withoutControls(what));
-    text.resize(cutUtf8(text, PIPE_BUF).size());  // so much is taken at once, or not at all
+    text.resize(cutUtf8(text, PIPE_BUF).size());  // a pipe takes up to PIPE_BUF bytes whole, or none
     pollfd place{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (poll(&place, 1, 1000) <= 0) return;
     const auto written = write(STDERR_FILENO, text.data(), text.size());
-    static_cast<void>(written);  // where it cannot be said, there is nobody to tell that
+    static_cast<void>(written);  // a failure cannot be reported anywhere
 }
 
 int report(const Error& error) {

@@ -9,10 +9,11 @@
 #include "core/result.h"
 #include "scene/load.h"
 
-// One function per subcommand: adds it to the command line; when chosen, it runs and sets `exitCode`.
+// Each of the functions `add...(app, exitCode)` adds a subcommand to the command line. When chosen, the subcommand runs
+// and sets `exitCode`.
 namespace spherule::app {
 
-// A scene on the command line and what may be changed of it.
+// Options of the command line that choose a scene and change it.
 struct SceneOptions {
     std::string scene = "box";
     std::string device = "auto";
@@ -31,19 +32,19 @@ void addHealth(CLI::App& app, int& exitCode);
 void addProbe(CLI::App& app, int& exitCode);
 void addMeasure(CLI::App& app, int& exitCode);
 
-// A check for options: a number that is finite and not negative. CLI11's own takes nan for one.
+// Accepts a finite number of 0 or above. CLI11's own check accepts nan.
 extern const CLI::Validator finiteRate;
 
-// --quality and --substeps.
+// Adds --quality and --substeps.
 void addQuality(CLI::App& command, scene::Overrides& overrides);
 
-// --watchdog: s without progress, after which a command ends with exitDeviceLost; 0: never.
+// Adds --watchdog: time without progress (s) after which a command ends with exitDeviceLost; 0: never.
 void addWatchdog(CLI::App& command, double& seconds);
 
-// One line to stderr, if somebody takes it within a second: a pipe that nobody reads must not keep the program from its
-// end.
+// Writes one line to stderr if it is accepted within a second. A pipe without a reader must not keep the program from
+// ending.
 void complain(const std::string& what);
-// Prints the error to stderr and gives its exit code.
+// Prints the error to stderr and returns its exit code.
 int report(const Error& error);
 
 }  // namespace spherule::app

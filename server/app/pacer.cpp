@@ -9,7 +9,7 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-// A late step is made up for up to this much; beyond it, the simulation runs slower than asked.
+// Late steps are made up for, up to this lag. Beyond it, the simulation runs slower than requested.
 constexpr auto mostLag = 50ms;
 constexpr auto window = 2s;
 constexpr std::size_t mostRecent = 4096;

@@ -8,24 +8,24 @@
 
 namespace spherule::app {
 
-// Refuse what cannot be set as a speed, or be stepped at once.
+// Refused if the speed, or the number of steps of one command, is out of range.
 Result<void> checkSpeed(double speed);
 Result<void> checkStepCount(std::uint32_t count);
 
-// Decides when the next step is due, and measures how fast the simulation really goes. When the machine cannot keep up,
-// simulated time slows down: no more than a few late steps are made up for. One thread.
+// Decides when the next step is due, and measures the real speed of the simulation. When the machine cannot keep up,
+// simulated time slows down: only a few late steps are made up for. Used by one thread.
 class Pacer {
   public:
     using Clock = std::chrono::steady_clock;
 
     void setStep(double seconds) { step_ = seconds; }
-    void setSpeed(double speed);  // simulated seconds asked for per wall second
+    void setSpeed(double speed);  // simulated seconds per wall second
     [[nodiscard]] double speed() const { return speed_; }
 
     // Time until the next step; zero when it is due.
     [[nodiscard]] Clock::duration untilDue(Clock::time_point now) const;
     void stepped(Clock::time_point now);
-    void resume(Clock::time_point now);  // after a pause: due at once, and the past does not count
+    void resume(Clock::time_point now);  // after a pause: the next step is due at once, and earlier steps do not count
 
     [[nodiscard]] double realTimeFactor(Clock::time_point now) const;
     [[nodiscard]] double stepsPerSecond(Clock::time_point now) const;
@@ -34,7 +34,7 @@ class Pacer {
     double step_ = 1.0 / 60;
     double speed_ = 1;
     Clock::time_point due_ = Clock::now();
-    std::deque<Clock::time_point> recent_;  // steps of the last few seconds
+    std::deque<Clock::time_point> recent_;  // times of the recent steps
 };
 
 }  // namespace spherule::app

@@ -39,7 +39,7 @@ Result<Player> playerOf(const PlayOptions& options) {
     return player;
 }
 
-// Encoding needs no GPU: the processor decodes the recording, and has the positions.
+// Uses the CPU device: the processor decodes the recording, so the positions are already in its memory.
 Result<std::unique_ptr<Show>> open(const PlayOptions& options, const Stage& stage) {
     auto player = playerOf(options);
     if (!player) return tl::unexpected(player.error());

@@ -14,7 +14,7 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto longestWait = 50ms;  // a viewer who comes while it is paused waits this long for a state
+constexpr auto longestWait = 50ms;  // longest wait of a new viewer for a state while paused
 constexpr auto reportEvery = 1s;
 
 }  // namespace
@@ -36,7 +36,7 @@ Result<void> PlayLoop::run(const std::stop_token& stop) {
     outlets_.retain(codec::share(std::move(timeline)));
     while (!stop.stop_requested()) {
         heartbeat::beat("serving viewers");
-        // All that was asked for, before anything is decoded: of several seeks only the last counts.
+        // Serves all requests before a frame is decoded: of several seeks only the last matters.
         while (auto request = requests_.tryPop()) serve(*request);
         for (const Request& query : requests_.takeQueries()) serve(query);
         const auto now = Chains::Clock::now();
@@ -67,7 +67,7 @@ Result<void> PlayLoop::advance(Chains::Clock::time_point now) {
     return moved.shown ? show() : Result<void>();
 }
 
-// What the recording has now.
+// Uploads the positions of the current frame, and describes the scene if it is another one.
 Result<void> PlayLoop::show() {
     const recording::Recording& recording = player_.recording();
     const auto cells = recording.cells();

@@ -12,13 +12,13 @@
 
 namespace spherule::app {
 
-// Shows a recording: what it holds is decoded, and encoded anew for what viewers ask for. Waits for a command, or for
-// the next frame.
+// Shows a recording: decodes it, and encodes its states in the renditions that viewers request. Waits for a command or
+// for the next frame.
 class PlayLoop : public Show {
   public:
     PlayLoop(std::unique_ptr<compute::Device> device, Player player, const Stage& stage);
 
-    // Until stopped.
+    // Runs until stopped, or until an error.
     Result<void> run(const std::stop_token& stop) override;
 
   private:
@@ -41,15 +41,15 @@ class PlayLoop : public Show {
     Outlets outlets_;
     Chains chains_;
     StateRate states_;
-    sim::State state_;                            // of what is shown: positions, by id
+    sim::State state_;                            // positions of the current frame, by id
     std::unique_ptr<compute::Buffer> positions_;  // the same on the device
-    double time_ = 0;                             // of it, s of the recording
-    std::uint64_t step_ = 0;                      // of it
-    std::uint64_t sceneOffset_ = 0;               // where the recording has its scene
-    std::uint32_t epoch_ = 0;                     // of the viewers
+    double time_ = 0;                             // of the current frame (s)
+    std::uint64_t step_ = 0;                      // of the current frame
+    std::uint64_t sceneOffset_ = 0;               // offset of the scene facts in the recording (bytes)
+    std::uint32_t epoch_ = 0;                     // epoch that was sent to viewers
     std::uint64_t version_ = 0;
-    double smallest_ = 0;   // radius, m
-    std::string settings_;  // as last sent
+    double smallest_ = 0;   // smallest radius (m)
+    std::string settings_;  // serialized, as sent last
     Chains::Clock::time_point nextReport_{};
 };
 

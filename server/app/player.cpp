@@ -15,7 +15,7 @@ namespace spherule::app {
 
 namespace {
 
-// s; a frame may come so much before its time, which waits and sums only meet to within rounding.
+// Timer tolerance (s): a frame may be shown this early.
 constexpr double early = 1e-6;
 
 double secondsOf(Player::Clock::duration time) {
@@ -136,7 +136,7 @@ void Player::goTo(double time, Moved& moved) {
         moved.shown = true;
         findNext();
     } else {
-        // Frames before the damage may have been reached.
+        // Frames before the damage may have been decoded.
         moved.shown = recording_.time() != before && recording_.shows();
         skip(done.error(), time, moved);
     }
@@ -145,7 +145,7 @@ void Player::goTo(double time, Moved& moved) {
     std::ranges::move(skippedEvents, std::back_inserter(moved.skippedEvents));
 }
 
-// Goes on behind what is damaged, or pauses where nothing is.
+// Continues after the damage, or moves to the end if nothing readable follows.
 void Player::skip(const Error& error, double from, Moved& moved) {
     moved.damage.push_back(error.text());
     if (recording_.recover(from)) {
@@ -153,7 +153,7 @@ void Player::skip(const Error& error, double from, Moved& moved) {
         place_ += recording_.time() - from;
         findNext();
     } else {
-        // Nothing is left: it stands at the end. Looking for keyframes may have cost what was reached before.
+        // The search for a keyframe may have discarded the frame that was decoded before.
         moved.shown = moved.shown && recording_.shows();
         next_.reset();
         place_ = recording_.end();
@@ -162,7 +162,7 @@ void Player::skip(const Error& error, double from, Moved& moved) {
 
 void Player::findNext() {
     const auto next = recording_.nextTime();
-    // What cannot be read is met, and told, when it is played.
+    // An unreadable frame is due at once, so that its error is reported when it is played.
     next_ = next ? *next : recording_.time();
 }
 
@@ -170,7 +170,7 @@ std::optional<Player::Clock::time_point> Player::due() const {
     if (wanted_) return since_;
     if (!goesOn()) return std::nullopt;
     const double wait = (next_.value_or(recording_.end()) - place_) / speed_;
-    // A recording may say that its next frame comes in a million years, and a clock holds three hundred.
+    // The next frame of a recording may be a million years away. The clock holds 300 years.
     constexpr double longest = 1e9;
     return since_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(wait, longest)));
 }

@@ -13,25 +13,26 @@
 
 namespace spherule::app {
 
-// Where a recording is, and how it goes on: all that commands change of it. One thread.
+// Plays a recording. Has everything that commands can change: the position, the speed and the pause. Used by one
+// thread.
 class Player {
   public:
     using Clock = std::chrono::steady_clock;
 
-    // `again`: from the end it goes on at the beginning.
+    // `again`: after the end, it continues at the beginning.
     Player(recording::Recording recording, std::string name, bool again, Clock::time_point now);
 
-    // Carries a command out, or refuses it and changes nothing. The next advance() does a seek.
+    // Carries out a command, or refuses it and changes nothing. A seek is done by the next advance().
     Result<sim::Applied> apply(const v1::Command& command, Clock::time_point now);
 
     struct Moved {
-        bool shown = false;                            // another moment is
-        std::vector<v1::ServerMessage> skippedEvents;  // events on the way
-        std::vector<std::string> damage;               // what could not be played, and was skipped
+        bool shown = false;                            // another frame is shown
+        std::vector<v1::ServerMessage> skippedEvents;  // events of the skipped part
+        std::vector<std::string> damage;               // errors of the parts that were skipped
     };
-    // To where it is by now.
+    // Moves to the frame that is due at `now`.
     Moved advance(Clock::time_point now);
-    // When to call that again; nothing while it waits for a command.
+    // When to call advance() again; nullopt while it waits for a command.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
 
     [[nodiscard]] const recording::Recording& recording() const { return recording_; }
@@ -56,13 +57,13 @@ class Player {
     std::string name_;
     bool again_;
     bool paused_ = false;
-    std::uint32_t steps_ = 0;  // frames to go before it pauses; 0: it does not
+    std::uint32_t steps_ = 0;  // frames to play before it pauses; 0: no limit
     double speed_ = 1;
-    std::optional<double> wanted_;  // s of the recording, by a command
-    double place_ = 0;              // s of the recording, at `since_`
+    std::optional<double> wanted_;  // position to move to next (s of the recording)
+    double place_ = 0;              // position at `since_` (s of the recording)
     Clock::time_point since_;
-    v1::Settings settings_;       // recorded, of what is shown
-    std::optional<double> next_;  // time of the frame after the present one; nothing at the end
+    v1::Settings settings_;       // as recorded, of the frame shown
+    std::optional<double> next_;  // time of the next frame (s); nullopt at the end
 };
 
 }  // namespace spherule::app

@@ -9,7 +9,7 @@
 
 namespace spherule::app {
 
-// A line on the terminal that is rewritten a few times a second; silent elsewhere.
+// A progress line on the terminal, rewritten a few times a second. Prints nothing if stderr is not a terminal.
 class ProgressLine {
   public:
     ProgressLine() : shown_(isatty(STDERR_FILENO) != 0) {}
@@ -19,7 +19,7 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    // `words` gives the line, where it is time for one.
+    // Prints the line that `words` returns, but calls it at most every 200 ms.
     template <class Words>
     void show(Words words) {
         const auto now = Clock::now();

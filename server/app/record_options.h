@@ -9,23 +9,23 @@
 
 namespace spherule::app {
 
-// What is recorded of a run, and where.
+// Options of a recording.
 struct RecordOptions {
-    std::string path;  // empty: nothing is recorded from the beginning on
+    std::string path;  // empty: no recording from the beginning on
     v1::Tier tier = v1::FINE;
     double rate = 30;      // frames per second
-    bool replace = false;  // a file that is there; in `run`, that of --dump, too
+    bool replace = false;  // replace an existing file; in `run`, also the file of --dump
 };
 
-// What is recorded while viewers watch.
+// Options of recordings while viewers watch.
 struct TapeOptions : RecordOptions {
-    std::string folder = "recordings";                    // of those that viewers start
-    std::uint64_t folderBytes = std::uint64_t{4} << 30U;  // that all recordings in it may have
+    std::string folder = "recordings";                    // for recordings that controllers start
+    std::uint64_t folderBytes = std::uint64_t{4} << 30U;  // limit for all recordings in that folder
 };
 
-// For `run`: the rate is that of frames per simulated second, at most one a step.
+// For `run`. The rate is in frames per simulated second, at most one frame a step.
 void addRecord(CLI::App& command, RecordOptions& options);
-// For `serve`: frames per second as viewers get them.
+// For `serve`. The rate is in frames per second, as viewers get them.
 void addTape(CLI::App& command, TapeOptions& options);
 
 }  // namespace spherule::app

@@ -14,7 +14,7 @@ namespace spherule::app {
 namespace {
 
 constexpr double keyframesEvery = 2;  // s simulated
-constexpr double roundedBy = 1e-6;    // of a frame: times are sums of steps
+constexpr double roundedBy = 1e-6;    // tolerance (frames): times are sums of steps
 constexpr std::uint32_t epoch = 1, order = 1;
 
 }  // namespace
@@ -28,7 +28,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
     const double quantum = codec::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
     auto tier = sim::Tier::create(**tools, {.quantum = quantum});
     if (!tier) return tl::unexpected(tier.error());
-    // The file comes last: where the device has no room, one that is to be replaced stays.
+    // The file is created last, so that an existing file is kept if the device has no room.
     auto writer = recording::Writer::create(options.path, options.replace);
     if (!writer) return tl::unexpected(writer.error());
     std::unique_ptr<Recorder> recorder(new Recorder(options, device, simulation, std::move(*writer)));
@@ -42,7 +42,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
 Result<void> Recorder::begin() {
     v1::ServerMessage welcome;
     *welcome.mutable_welcome() = welcomeOf(device_.info());
-    // These name the machine and the number of threads, on which a recording does not depend.
+    // These name the machine and the number of threads. A recording does not depend on them.
     welcome.mutable_welcome()->clear_renderer();
     welcome.mutable_welcome()->clear_reason();
     if (auto done = add(recording::Kind::Other, welcome); !done) return done;
@@ -78,7 +78,7 @@ Result<void> Recorder::say(v1::Event::Kind kind, const std::string& text) {
     return add(recording::Kind::Other, message);
 }
 
-// Where they are others than before.
+// Writes the settings if they have changed.
 Result<void> Recorder::writeSettings() {
     const v1::ServerMessage message = settingsMessage(simulation_.scene(), 1, false);
     std::string bytes = message.SerializeAsString();
@@ -97,7 +97,7 @@ Result<void> Recorder::write(recording::Kind kind) {
         tier_->join(true);
     device_.endTimer();
     const std::vector<std::byte> bytes = tier_->download();
-    if (auto alive = device_.status(); !alive) return alive;  // else they may be none
+    if (auto alive = device_.status(); !alive) return alive;  // the bytes are invalid after a device loss
 
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();

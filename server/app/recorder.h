@@ -14,18 +14,18 @@
 
 namespace spherule::app {
 
-// Records a simulation that runs: nothing in the file depends on the clock. Used by the simulation thread.
+// Records a running simulation. The file does not depend on the clock. Used by the simulation thread.
 class Recorder {
   public:
-    // Begins with the present state. `device` is that of the simulation; both must outlive it. Refused where the
-    // device has no room, and for what OutputFile cannot do.
+    // Begins with the present state. `device`: the device of the simulation. Both must outlive the recorder. Refused if
+    // the device has no room. For errors of the file see OutputFile.
     static Result<std::unique_ptr<Recorder>> create(const RecordOptions& options, compute::Device& device,
                                                     sim::Simulation& simulation);
 
-    // After each step; `last`: none follows, and this one is recorded in any case.
+    // Call after each step. `last`: no step follows, so this one is always recorded.
     Result<void> stepped(bool last);
     Result<void> say(v1::Event::Kind kind, const std::string& text);
-    // However the run has ended.
+    // Call at the end, even if the run has failed.
     Result<void> finish() { return writer_.finish(); }
 
     [[nodiscard]] const recording::Writer& writer() const { return writer_; }
@@ -48,9 +48,9 @@ class Recorder {
     std::unique_ptr<sim::Tier> tier_;
     double quantum_ = 0;  // m
     std::uint64_t sequence_ = 0;
-    double due_ = 0;        // frames that should have come by the next one's time
-    double keyframe_ = 0;   // time of the last one, s simulated
-    std::string settings_;  // as last written
+    double due_ = 0;        // number of the next frame, which is due at due_ / rate
+    double keyframe_ = 0;   // time of the last keyframe (s simulated)
+    std::string settings_;  // serialized, as written last
 };
 
 }  // namespace spherule::app

@@ -55,7 +55,7 @@ std::vector<Request> Requests::takeQueries() {
     return std::exchange(queries_, {});
 }
 
-// Of the session after the one whose turn it was.
+// Takes a command of the session after the one that was served last.
 std::optional<Request> Requests::popLocked() {
     if (rows_.empty()) return std::nullopt;
     auto place = rows_.upper_bound(last_);

@@ -43,7 +43,7 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Times a run stretch by stretch. Reports between two stretches do not count, dumps within one do.
+// Measures a run in stretches. The time of reports between two stretches is not counted. The time of dumps is.
 class Watch {
   public:
     Watch(sim::Simulation& simulation, compute::Device& device) : simulation_(simulation), device_(device) { start(); }
@@ -76,9 +76,10 @@ class Watch {
     Clock::time_point began_;
 };
 
-// A step; or, where it takes long and a signal asks for the end, only a part of it: false.
+// Completes a step. Returns false if a signal asks for the end and the step takes longer than `wholeStep`: the step is
+// incomplete then.
 Result<bool> stepUnlessAsked(sim::Simulation& simulation, const Interrupt& interrupt) {
-    constexpr double wholeStep = 0.5;  // s: one that takes no longer is done as a whole
+    constexpr double wholeStep = 0.5;  // s; a shorter step is always completed
     const auto began = Clock::now();
     for (;;) {
         const auto ended = simulation.advance();
@@ -87,8 +88,8 @@ Result<bool> stepUnlessAsked(sim::Simulation& simulation, const Interrupt& inter
     }
 }
 
-// Runs `steps`, or fewer when a signal asks for that, and calls `every` after each `stride` of them and at the end.
-// `recorder`: may be null.
+// Runs `steps`, or fewer after a signal. Calls `every` after each `stride` steps and at the end. `recorder` may be
+// null.
 Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Interrupt& interrupt, std::uint64_t steps,
                       std::uint64_t stride, const std::function<Result<void>()>& every) {
     ProgressLine progress;
@@ -107,7 +108,7 @@ Result<void> runSteps(sim::Simulation& simulation, Recorder* recorder, const Int
             spdlog::warn("{}", notice);
             if (auto done = record(v1::Event::WARNING, notice); !done) return done;
         }
-        const auto told = tuner.stepped(simulation, 0);  // no goal of `run` looks at the clock
+        const auto told = tuner.stepped(simulation, 0);  // `run` accepts no goal for the wall time
         if (!told) return tl::unexpected(told.error());
         if (*told) {
             spdlog::info("at step {}, {}", simulation.steps(), **told);
@@ -141,13 +142,13 @@ void print(const RunOptions& options, const compute::DeviceInfo& info, sim::Simu
     std::fflush(stdout);
 }
 
-// How long, and how often there is something to say, in s simulated.
+// Duration of the run and interval of reports (s simulated).
 struct Times {
     double duration = 0;
-    double every = 0;  // 0: only at the end
+    double every = 0;  // 0: one report at the end
 };
 
-// Where states go, beside the report.
+// Output files for states.
 struct Outputs {
     std::optional<Dump> dump;
     std::unique_ptr<Recorder> recorder;
@@ -198,7 +199,7 @@ Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulati
     return outputs;
 }
 
-// With all files that go with it. What there is of them is finished also when the run failed.
+// Opens the output files and runs the simulation. The recording is finished even if the run has failed.
 Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation, compute::Device& device,
                           Interrupt& interrupt, Times times) {
     interrupt.finishFirst();
@@ -240,7 +241,7 @@ Result<void> run(const RunOptions& options) {
     if (!every) return tl::unexpected(every.error());
     if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
 
-    Watchdog watchdog{Watchdog::Seconds(options.watchdog)};  // ends after the device: that may hang as it goes
+    Watchdog watchdog{Watchdog::Seconds(options.watchdog)};  // outlives the device, whose destructor may hang
     watchdog.start([](const Error& error) { endNow(report(error)); });
     auto device = compute::openDevice(options.scene.device);
     if (!device) return tl::unexpected(device.error());

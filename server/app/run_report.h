@@ -9,23 +9,23 @@
 
 namespace spherule::app {
 
-// What a stretch of a run took.
+// Times and figures of a stretch of a run.
 struct Stretch {
     double simSeconds = 0;
     double wallSeconds = 0;
-    std::vector<double> passSeconds;  // device time by sim::Pass
+    std::vector<double> passSeconds;  // device time (s), by sim::Pass
     std::uint64_t rebuilds = 0;       // of the pair lists
-    sim::Impacts before;              // those observed before it
-    sim::Statistics end{};            // of the state at its end
+    sim::Impacts before;              // impacts observed before the stretch
+    sim::Statistics end{};            // statistics at the end of the stretch
 };
 
-// The line that `run --json` prints: every key, always. The state is that at the end of the stretch.
+// The line that `run --json` prints. It always has every key. Its state is the state at the end of the stretch.
 std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const Stretch& stretch);
 
-// The same for people.
+// The same figures as text for people.
 std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const Stretch& stretch);
 
-// One row for each of many stretches, and what its columns are.
+// A table with one row for each stretch, and its header.
 extern const char* const runRowHeader;
 std::string runRow(sim::Simulation& simulation, const Stretch& stretch);
 

@@ -16,7 +16,7 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto stepPatience = 10s;  // for the step under way and the recording, once the show is to end
+constexpr auto stepPatience = 10s;  // longest wait for the current step and the recording when the show ends
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Runtime::~Runtime() {
     watchdog_.stop();
 }
 
-// The thread that owns the device, for its whole life.
+// Runs on the thread that creates, uses and destroys the device.
 void Runtime::present(const std::stop_token& stop, const OpenShow& open) {
     pthread_setname_np(pthread_self(), "simulation");
     Result<void> done;
@@ -116,13 +116,13 @@ bool Runtime::drain() {
     const bool ended = changed_.wait_for(lock, stepPatience, [this] { return ended_; });
     const bool lost = failure_ && failure_->kind == ErrorKind::DeviceLost;
     lock.unlock();
-    const heartbeat::Pause leaving;  // nothing computes any more, and viewers have their time
+    const heartbeat::Pause leaving;  // the show has ended, so no beats are expected
     refuseWaiting();
     server_->drain();
     return ended && !lost;
 }
 
-// On the watchdog's thread. What the thread that hangs has recorded plays as it is.
+// Called on the watchdog's thread. The recording is not finished, but its file can be played.
 void Runtime::hung(const Error& error) {
     const int exitCode = app::report(error);
     beginToEnd(error);

@@ -16,12 +16,12 @@
 
 namespace spherule::app {
 
-// A show that is served: owns its thread, the server and the watchdog, and joins them. A show whose device is lost is
-// not taken down, as its driver might hang: end the program (endNow) then.
+// Serves a show: owns its thread, the server and the watchdog, and joins them. After a device loss the show is not
+// destroyed, because its driver might hang. End the program with endNow() then.
 class Runtime {
   public:
-    // Listens, and opens the show on a thread of its own: until it is there, /readyz answers 503 and no stream begins.
-    // An address that cannot be listened on is an error.
+    // Listens, and opens the show on its own thread. Until the show is open, /readyz answers 503 and no stream begins.
+    // Fails if the address cannot be listened on.
     static Result<std::unique_ptr<Runtime>> start(const OpenShow& open, const net::Options& listen,
                                                   Watchdog::Seconds patience);
     ~Runtime();
@@ -30,13 +30,15 @@ class Runtime {
 
     [[nodiscard]] std::uint16_t port() const { return server_->port(); }
     [[nodiscard]] LiveReport report() const { return live_.read(); }
-    // Any thread: whether the show has opened; why it did not, or ended by itself.
+    // Any thread. opened() returns true when the show is open. failure() returns why the show did not open or ended by
+    // itself; nullopt if neither happened.
     [[nodiscard]] bool opened() const;
     [[nodiscard]] std::optional<Error> failure() const;
     Result<void> setCredentials(const net::Credentials& credentials) { return server_->setCredentials(credentials); }
 
-    // In this order: is unready, accepts nobody, tells the viewers, lets the step under way and a recording end, lets
-    // the viewers go. False: the show did not end in time, or cannot be taken down; end the program then.
+    // Ends in this order: reports unready, accepts no connections, notifies the viewers, lets the current step and a
+    // recording end, closes the sessions. Returns false when the show did not end in time or cannot be destroyed; end
+    // the program then.
     [[nodiscard]] bool drain();
 
   private:
@@ -51,8 +53,8 @@ class Runtime {
 
     Live live_;
     Requests requests_;
-    std::unique_ptr<Show> show_;  // of its thread
-    mutable std::mutex mutex_;    // of the next three
+    std::unique_ptr<Show> show_;  // used by thread_
+    mutable std::mutex mutex_;    // guards the next three
     bool opened_ = false;
     bool ended_ = false;
     std::optional<Error> failure_;

@@ -6,12 +6,12 @@
 
 namespace spherule::app {
 
-// What the file of an option has in it; empty without a file. One that is empty, too long or cannot be read is an
-// error.
+// Returns the content of the file of an option; empty if `path` is empty. Input if the file is empty, too long or
+// unreadable.
 Result<std::string> contentOf(const std::string& option, const std::string& path);
 
-// A token, of the option's file or of an environment variable; empty where neither is given. Never of the command line,
-// where other users of the machine would see it.
+// Returns the token from the option's file or from an environment variable; empty if neither is given. A token is never
+// an argument, because other users of the machine can see arguments.
 Result<std::string> tokenOf(const std::string& option, const std::string& path, const char* variable);
 
 }  // namespace spherule::app

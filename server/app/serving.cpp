@@ -26,13 +26,13 @@ class Signals {
         sigaddset(&set_, SIGHUP);
         pthread_sigmask(SIG_BLOCK, &set_, nullptr);
     }
-    // Which came within so many ms; -1: none.
+    // Waits up to `patience` (ms). Returns the signal; -1 if none came.
     [[nodiscard]] int wait(long patience) const {
         const timespec timeout{0, patience * 1'000'000};
         return sigtimedwait(&set_, nullptr, &timeout);
     }
-    // From here on they end the program at once, also where it is the first of a container, whom the system would not
-    // end by itself.
+    // From now on, SIGINT and SIGTERM end the program at once. The handler is for the first process of a container,
+    // which the default action would not end.
     void release() const {
         struct sigaction now {};
         std::signal(SIGHUP, SIG_IGN);
@@ -64,7 +64,7 @@ void announce(const Runtime& runtime, const net::Options& options, const std::st
     std::fflush(stdout);
 }
 
-// What was wrong with the new ones is said; the old ones go on.
+// Replaces tokens and certificate. After an error the old ones stay.
 void reload(Runtime& runtime, const ServingOptions& options) {
     const auto credentials = credentialsOf(options);
     const auto done = credentials ? runtime.setCredentials(*credentials) : tl::unexpected(credentials.error());
@@ -83,10 +83,10 @@ int serveUntilStopped(const OpenShow& open, const ServingOptions& serving, const
     logInBackground();
     auto runtime = Runtime::start(open, *options, Watchdog::Seconds(serving.watchdog));
     if (!runtime) return report(runtime.error());
-    // Whether it is to stop. A fault of the show ends the wait, too.
+    // Waits for a signal up to `patience` (ms). Returns true when the program has to stop.
     const auto stopsWithin = [&](long patience) {
         const int signal = signals.wait(patience);
-        // Without anything to read anew, it is the terminal that has gone.
+        // Without credential files, SIGHUP means that the terminal has closed.
         if (signal != SIGHUP || !hasFiles(serving)) return signal > 0;
         reload(**runtime, serving);
         return false;
@@ -99,11 +99,11 @@ int serveUntilStopped(const OpenShow& open, const ServingOptions& serving, const
     signals.release();
     if (stopped && !opened) {
         spdlog::info("stopped before the scene was there");
-        endNow(exitDone);  // nobody watches, and nothing is recorded
+        endNow(exitDone);  // there are no viewers and no recording
     }
     if (stopped) spdlog::info("stopping; a second signal ends it at once");
     const bool clean = (*runtime)->drain();
-    const auto failure = (*runtime)->failure();  // at the end, too
+    const auto failure = (*runtime)->failure();  // may have come during drain()
     int exitCode = exitDone;
     if (failure) exitCode = report(*failure);
     if (clean && logIsWritten()) return exitCode;

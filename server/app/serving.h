@@ -7,8 +7,8 @@
 
 namespace spherule::app {
 
-// Serves a show until it fails or the program is told to stop (SIGINT, SIGTERM), and gives the exit code. SIGHUP reads
-// tokens and certificate anew. `what` is said of the show at the beginning, such as "serves".
+// Serves a show until it fails, or until SIGINT or SIGTERM. Returns the exit code. SIGHUP reads tokens and certificate
+// again. `what` introduces the show at the start, such as "serves".
 int serveUntilStopped(const OpenShow& open, const ServingOptions& options, const std::string& what);
 
 }  // namespace spherule::app

@@ -9,26 +9,26 @@
 
 namespace spherule::app {
 
-// How a show is served, as the command line says: where, to whom, and how much of it.
+// Options of the command line for serving a show: address, access and limits.
 struct ServingOptions {
     std::string listen = "127.0.0.1:8080";
     std::string viewerTokenFile, controllerTokenFile;
     std::string certificateFile, keyFile;
-    double watchdog = 0;  // s, as addWatchdog says
-    net::Options net;     // but for the address and the credentials
+    double watchdog = 0;  // s, see addWatchdog()
+    net::Options net;     // without the address and the credentials
 
     void addTo(CLI::App& command);
 };
 
-// --listen, with its default.
+// Adds --listen, with its default.
 void addListen(CLI::App& command, std::string& listen);
 
-// Whether there are credentials that may change while it runs.
+// Returns true when there are files of credentials, which may change while the server runs.
 bool hasFiles(const ServingOptions& options);
-// With address and credentials.
+// All options, with the address and the credentials.
 Result<net::Options> netOptionsOf(const ServingOptions& options);
-// Of the files, as they are now, or of SPHERULE_VIEWER_TOKEN and SPHERULE_CONTROLLER_TOKEN: on the command line, other
-// users of the machine would see them.
+// Reads the credentials from the files, or from SPHERULE_VIEWER_TOKEN and SPHERULE_CONTROLLER_TOKEN. Tokens are never
+// arguments, because other users of the machine can see arguments.
 Result<net::Credentials> credentialsOf(const ServingOptions& options);
 
 }  // namespace spherule::app

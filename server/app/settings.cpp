@@ -27,7 +27,8 @@ bool isSetting(const CLI::App& command, const CLI::Option& option) {
     return option.get_configurable() && &option != command.get_help_ptr();
 }
 
-// CLI11 looks at the environment only for what the file has not said.
+// CLI11 reads the environment only for options that the file does not set. So this class drops the settings of the file
+// that the environment sets.
 class FileAfterEnvironment final : public CLI::ConfigTOML {
   public:
     std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
@@ -40,7 +41,7 @@ class FileAfterEnvironment final : public CLI::ConfigTOML {
     }
 };
 
-// Quoted, unless it is a number or a truth.
+// Quotes a value that is neither a number nor a boolean.
 std::string valueText(const std::string& value) {
     double number = 0;
     if (value == "true" || value == "false" || CLI::detail::lexical_cast(value, number)) return value;
@@ -48,7 +49,7 @@ std::string valueText(const std::string& value) {
     return quote + value + quote;
 }
 
-// As it was given, or by default; empty where there is neither.
+// The value that was given, or else the default; empty if there is neither.
 std::string valueOf(const CLI::Option& option) {
     std::vector<std::string> values = option.results();
     if (values.empty() && !option.get_default_str().empty()) values = {option.get_default_str()};
@@ -62,13 +63,13 @@ std::string valueOf(const CLI::Option& option) {
 }  // namespace
 
 void addSettings(CLI::App& command) {
-    command.fallthrough();  // --config, --print-config, --log-format and --verbose, which are everywhere
+    command.fallthrough();  // accepts --config, --print-config, --log-format and --verbose too
     for (CLI::Option* option : command.get_options())
         if (isSetting(command, *option)) option->envname(variableFor(option->get_single_name()));
 }
 
 void addConfig(CLI::App& app) {
-    // CLI11 reads the environment too late for this one, so that the variable is its default.
+    // CLI11 reads the environment too late for this option, so the variable becomes its default.
     const char* const given = std::getenv("SPHERULE_CONFIG");
     app.set_config("--config", given == nullptr ? "" : given,
                    "a file with settings in the form of --print-config; or SPHERULE_CONFIG")

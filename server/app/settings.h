@@ -6,16 +6,15 @@
 
 namespace spherule::app {
 
-// Beside the command line, each option of the command may be given as an environment variable, SPHERULE_MAX_SESSIONS
-// for
-// --max-sessions, and in the file of --config, in the command's section. The command line goes before the environment,
-// and that before the file. Call when all options are there.
+// Lets each option of the command also be set by an environment variable, and in the command's section of the file of
+// --config. The variable of --max-sessions is SPHERULE_MAX_SESSIONS. The command line takes precedence over the
+// environment, and the environment over the file. Call after all options have been added.
 void addSettings(CLI::App& command);
 
-// --config, for the whole program. A setting of the file that does not exist is an error.
+// Adds --config for the whole program. An unknown setting in the file is an error.
 void addConfig(CLI::App& app);
 
-// The settings of the chosen command as --config takes them, with what each is for.
+// The settings of the chosen command in the form of --config, each with its description.
 std::string settingsText(const CLI::App& app);
 
 }  // namespace spherule::app

@@ -15,9 +15,9 @@
 
 namespace spherule::app {
 
-// Where results go; called on the show's thread.
+// Destinations of the results. Called on the show's thread.
 struct Outlets {
-    std::function<void(codec::SharedMessage)> retain;     // scene facts, settings, dial, ...: newcomers get them too
+    std::function<void(codec::SharedMessage)> retain;     // scene facts, settings, dial, ...; sent to new sessions too
     std::function<void(codec::SharedMessage)> broadcast;  // events, diagnostics
     std::function<void(codec::SharedMessage)> order;
     std::function<void(const codec::EncodedFrame&)> frame;
@@ -26,14 +26,14 @@ struct Outlets {
     std::function<std::vector<codec::Subscription>()> subscriptions;
 };
 
-// What a show has to do with: what is asked of it, what it says of itself, where its results go.
+// The requests to a show, its report about itself, and the destinations of its results.
 struct Stage {
     Requests& requests;
     Live& live;
     Outlets outlets;
 };
 
-// What a server shows: a simulation, or a recording. Made, used and destroyed by one thread.
+// A simulation or a recording that a server shows. Created, used and destroyed by one thread.
 class Show {
   public:
     Show() = default;
@@ -41,11 +41,12 @@ class Show {
     Show(const Show&) = delete;
     Show& operator=(const Show&) = delete;
 
-    // Until stopped, or an error ends it.
+    // Runs until stopped, or until an error.
     virtual Result<void> run(const std::stop_token& stop) = 0;
 };
 
-// Opens device and scene or file, and fills in what `live` says of them. The outlets are open once it has returned.
+// Opens the device and the scene or file, and fills in their entries in `live`. The outlets may be used once it has
+// returned.
 using OpenShow = std::function<Result<std::unique_ptr<Show>>(const Stage& stage)>;
 
 }  // namespace spherule::app

@@ -18,15 +18,15 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto longestWait = 50ms;  // while paused; a viewer who comes then waits this long for a state
+constexpr auto longestWait = 50ms;  // longest wait of a new viewer for a state while paused
 constexpr int commandsPerTurn = 32;
-constexpr auto oldestAnswer = 100ms;  // to a query, while the world runs by itself
-// A step is done as a whole where that takes no longer; commands come between the substeps of longer ones.
+constexpr auto oldestAnswer = 100ms;  // largest age of the answer to a query, while the world runs
+// A step up to this long is done as a whole. Commands are served between the substeps of a longer step.
 constexpr auto wholeStep = 100ms;
 constexpr auto sliceOfStep = 20ms;
-constexpr auto sliceOfChange = 5ms;  // at least; as much time as stepping takes, where both are to be done
-constexpr auto longestHold = 500ms;  // of a command that waits for a change under way to end
-constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of those commands
+constexpr auto sliceOfChange = 5ms;  // at least; as long as the step of the same turn, if there is one
+constexpr auto longestHold = 500ms;  // longest wait of a command for a change under way
+constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of the commands that wait for it
 constexpr std::size_t mostStepCommands = 64;
 
 constexpr const char* noMemory = "there is not enough memory for this";
@@ -82,7 +82,7 @@ Result<void> SimLoop::simulate(const std::stop_token& stop) {
     return done;
 }
 
-// A part of the step under way and of the change under way; false when there is neither.
+// Does a part of the step under way and of the change under way. Returns false when there is neither.
 bool SimLoop::goOn(Result<void>& done) {
     const auto start = Pacer::Clock::now();
     const bool due = world_.running() && world_.pacer().untilDue(start) == Pacer::Clock::duration{};
@@ -113,7 +113,7 @@ void SimLoop::serveWaiting() {
         refuse(takeHeld(), changeInWords() + ": wait until that is done, or cancel it");
 }
 
-// The first of those that wait for a change.
+// Removes and returns the first command that waits for a change.
 Request SimLoop::takeHeld() {
     Request request = std::move(held_.front().request);
     held_.pop_front();
@@ -142,7 +142,8 @@ void SimLoop::carryOut(Request request) {
         const std::uint32_t count = command.step().count();
         steps_.push_back({.asked = {std::move(request), Pacer::Clock::now()}, .left = count});
     } else {
-        // A change that ends the steps leaves those that wait for it: they came later.
+        // Steps that are held came before this command, so it ends them too. After a long change finish() leaves them:
+        // they came later.
         if (*applied && net::rulesOf(command).ends_steps()) refuseHeldSteps();
         finish(request, *applied);
     }
@@ -154,7 +155,7 @@ void SimLoop::finish(const Request& request, const Result<sim::Applied>& applied
         tellNotices();
         tuner_.forget();
         observer_.disturbed();
-        nextReport_ = {};  // what energy there is at the start is soon gone
+        nextReport_ = {};  // measures the energy at the start, before steps change it
         if (!world_.simulation().midStep()) stepMs_ = 0;
     }
     if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done");
@@ -162,7 +163,7 @@ void SimLoop::finish(const Request& request, const Result<sim::Applied>& applied
     outlets_.reply(request.session, resultOf(request.command, applied));
 }
 
-// nullopt: a change is under way, and its result comes later.
+// Returns nullopt when a change has begun; its result comes later.
 std::optional<Result<sim::Applied>> SimLoop::apply(const v1::Command& command) {
     if (command.has_step() && steps_.size() >= mostStepCommands)
         return fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()));
@@ -192,14 +193,14 @@ void SimLoop::refuse(const Request& request, const std::string& reason) {
     outlets_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason)));
 }
 
-// The change that was under way, and what waited for its end.
+// Refuses the change under way and the commands that wait for its end.
 void SimLoop::refuseChange(const std::string& reason) {
     refuse(change_->request, reason);
     change_.reset();
     while (!held_.empty()) refuse(takeHeld(), reason);
 }
 
-// A command of later ends the steps that have not begun, too.
+// Refuses the step commands that are held: a later command has ended them.
 void SimLoop::refuseHeldSteps() {
     std::deque<Asked> others;
     for (; !held_.empty(); held_.pop_front()) {
@@ -222,7 +223,7 @@ void SimLoop::refuseSteps(std::string_view reason) {
     steps_.clear();
 }
 
-// A part of the change under way.
+// Does a part of the change under way, and answers its command at the end.
 void SimLoop::advanceChange(Pacer::Clock::duration slice) {
     std::optional<Result<sim::Applied>> applied;
     try {
@@ -240,7 +241,7 @@ void SimLoop::advanceChange(Pacer::Clock::duration slice) {
     finish(request, *applied);
 }
 
-// All that wait get the same answer. It shows each command that was applied, and each step that was asked for.
+// Gives all waiting queries the same answer. It includes every applied command and every completed step command.
 void SimLoop::answerQueries() {
     const auto queries = requests_.takeQueries();
     if (queries.empty()) return;
@@ -252,7 +253,7 @@ void SimLoop::answerQueries() {
     for (const Request& query : queries) outlets_.reply(query.session, resultOf(query.command, answer_));
 }
 
-// After anything that a command may have changed.
+// Sends the scene facts, settings and dial that have changed. Call after any change.
 void SimLoop::announce() {
     answered_.reset();
     if (epoch_ != world_.epoch()) {
@@ -269,7 +270,7 @@ void SimLoop::announce() {
     ++version_;
 }
 
-// The step under way, or the next one, as far as it goes before commands must be looked at.
+// Advances the step under way, or the next one, until it ends or commands must be served.
 Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
     const auto slice = world_.simulation().midStep() ? sliceOfStep : wholeStep;
     const auto ended = world_.advance(now + slice);
@@ -289,7 +290,7 @@ Result<void> SimLoop::stepFor(Pacer::Clock::time_point now) {
     return tune(wallMs);
 }
 
-// For whoever asked for it.
+// Counts a step for the oldest step command, and answers the command after its last step.
 void SimLoop::countStep() {
     if (steps_.empty() || --steps_.front().left > 0) return;
     const Request& request = steps_.front().asked.request;
@@ -318,7 +319,8 @@ void SimLoop::stopAtNonFinite() {
     announce();
 }
 
-// Before the frame that shows where a world has stopped: its status is that of this state.
+// Makes a report due when the world has stopped, before the frame of this state is produced. The status of that frame
+// then belongs to this state.
 void SimLoop::lookAtStill() {
     watched_ = !outlets_.subscriptions().empty();
     if (world_.running() || !watched_ || world_.simulation().midStep()) return;

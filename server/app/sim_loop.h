@@ -20,17 +20,17 @@
 
 namespace spherule::app {
 
-// What the simulation thread does: commands, steps, states. It waits for a command, for the next step or for the device
-// to end one, never for the network, for the disk or for the copy of a state.
+// The simulation thread: carries out commands, steps the world and produces states. It waits for a command, for the
+// next step or for the device to end one. It never waits for the network, for the disk or for the copy of a state.
 class SimLoop : public Show, private HostCommands {
   public:
     SimLoop(std::unique_ptr<World> world, const Stage& stage, quality::Table table, TapeOptions recordings);
 
-    // Until stopped, the device is lost, or the recording that was asked for cannot be made.
+    // Runs until stopped, until the device is lost, or until the recording of the options fails.
     Result<void> run(const std::stop_token& stop) override;
 
   private:
-    // Until stopped, or the device is lost.
+    // Runs until stopped, or until the device is lost.
     Result<void> simulate(const std::stop_token& stop);
     void serveWaiting();
     void serve(Request request);
@@ -85,15 +85,15 @@ class SimLoop : public Show, private HostCommands {
     Pacer::Clock::time_point nextReport_{};
     Tuner tuner_;
     Observer observer_;
-    Result<sim::Applied> answer_;                       // to queries; nothing newer is needed before
-    std::optional<Pacer::Clock::time_point> answered_;  // when it was made, the world as it was then
-    std::optional<v1::Diagnostics> seen_;               // of the last report while somebody watched
-    std::uint64_t version_ = 0;                         // of the world, as far as viewers can see
+    Result<sim::Applied> answer_;                       // to queries; reused while nothing newer is needed
+    std::optional<Pacer::Clock::time_point> answered_;  // time of answer_; nullopt: a newer one is needed
+    std::optional<v1::Diagnostics> seen_;               // diagnostics of the last report; nullopt if nobody watched
+    std::uint64_t version_ = 0;                         // version of the world, as viewers see it
     std::uint32_t epoch_ = 0;
-    std::string settings_;  // as last sent
+    std::string settings_;  // serialized, as sent last
     bool watched_ = false;
-    std::vector<double> passSeconds_;  // by sim::Pass, since somebody looked
-    bool missed_ = false;              // a report came due in the middle of a step
+    std::vector<double> passSeconds_;  // device time (s) since the last look(), by sim::Pass
+    bool missed_ = false;              // a report was due in the middle of a step
 
     struct Asked {
         Request request;
@@ -103,11 +103,11 @@ class SimLoop : public Show, private HostCommands {
         Asked asked;
         std::uint32_t left = 0;
     };
-    std::optional<Asked> change_;  // whose change is under way
-    std::deque<Asked> held_;       // commands that wait for it to end
-    std::size_t heldBytes_ = 0;    // of these
-    std::deque<Steps> steps_;      // commands whose steps are not all done, in order
-    double stepMs_ = 0;            // wall time of the step under way
+    std::optional<Asked> change_;  // command whose change is under way
+    std::deque<Asked> held_;       // commands that wait for the change to end
+    std::size_t heldBytes_ = 0;    // memory of these commands
+    std::deque<Steps> steps_;      // step commands with steps left, in order
+    double stepMs_ = 0;            // wall time of the step under way (ms)
     bool toldOfChange_ = false;
     Pacer::Clock::time_point nextTold_{};
 };

@@ -1,4 +1,4 @@
-// What the simulation thread says of itself, beside the states.
+// Reports of the simulation thread, besides the states.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto reportEvery = 1s;
-constexpr auto toldAfter = 250ms;  // of a change that is under way
+constexpr auto toldAfter = 250ms;  // a shorter change is not reported
 constexpr auto toldEvery = 200ms;
 constexpr double slowStepMs = 1000;
-constexpr auto interest = 150s;  // in figures, after somebody asked for metrics
+constexpr auto interest = 150s;  // figures are measured this long after a request for metrics
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void SimLoop::tellNotices() {
     for (const std::string& notice : world_.simulation().takeNotices()) say(v1::Event::WARNING, notice);
 }
 
-// For viewers, and for the recording.
+// Sends to viewers and to the recording.
 void SimLoop::broadcast(v1::ServerMessage message) {
     const auto shared = codec::share(std::move(message));
     tape_.say(shared);
@@ -76,14 +76,14 @@ void SimLoop::tellOfTape() {
     retain(std::move(message));
 }
 
-// "load box-50k is under way (placing spheres, 34 %)".
+// Such as "load box-50k is under way (placing spheres, 34 %)".
 std::string SimLoop::changeInWords() const {
     const Progress::Seen seen = world_.changeProgress();
     return fmt::format("{} is under way ({}, {:.0f} %)", wordsFor(change_->request.command), seen.doing,
                        100 * seen.share);
 }
 
-// Of what is over soon nobody is told.
+// Reports the change or the step command under way to viewers, once it has taken `toldAfter`.
 void SimLoop::tellOfChange() {
     const auto now = Pacer::Clock::now();
     const Asked* const asked = change_ ? &*change_ : !steps_.empty() ? &steps_.front().asked : nullptr;
@@ -110,7 +110,7 @@ void SimLoop::tellOfChange() {
     outlets_.retain(codec::share(std::move(message)));
 }
 
-// Why commands or states may be late, for who asks after the server's health; empty: they are not.
+// Why commands or states may be late, for /healthz; empty if they are not.
 std::string SimLoop::slowness() const {
     if (change_) return changeInWords();
     if (stepMs_ < slowStepMs || !world_.running()) return "";
@@ -124,7 +124,7 @@ void SimLoop::sendDial() {
     retain(std::move(message));
 }
 
-// At the end nobody else tells of it.
+// Finishes the recording, and logs its end: no viewer is notified any more.
 Result<void> SimLoop::finishTape() {
     const auto last = tape_.finish();
     if (!last) return {};
@@ -161,7 +161,7 @@ void SimLoop::look(const std::vector<double>& passSeconds) {
     broadcast(std::move(message));
 }
 
-// Also while it is paused, and no step tells, the device may be lost.
+// Also checks the device: while paused, no step would show that it is lost.
 Result<void> SimLoop::report() {
     const auto now = Pacer::Clock::now();
     if (now < nextReport_) return {};
@@ -170,7 +170,7 @@ Result<void> SimLoop::report() {
     const auto times = world_.simulation().passSeconds();
     passSeconds_.resize(std::max(passSeconds_.size(), times.size()));
     for (std::size_t pass = 0; pass < times.size(); ++pass) passSeconds_[pass] += times[pass];
-    // Figures are those of whole steps.
+    // Figures are measured only between two steps.
     missed_ = world_.simulation().midStep();
     if (!missed_ && (watched_ || live_.askedWithin(interest))) {
         look(std::exchange(passSeconds_, {}));

@@ -34,8 +34,8 @@ net::HttpAnswer file(std::string_view path) {
     return {404, "text/plain; charset=utf-8", "There is nothing here. The page is at /.\n"};
 }
 
-// Half of what the watchdog waits for, so that it can be seen before it is over.
-// What is slow progresses, and is alive.
+// Answers 503 when half of the watchdog's limit has passed without progress, so that users see it before the watchdog
+// ends the program. A slow server makes progress, so the answer is 200.
 net::HttpAnswer health(const Watchdog& watchdog, const std::string& slow) {
     const auto silence = watchdog.silence();
     if (2 * silence <= watchdog.limit())

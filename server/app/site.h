@@ -9,11 +9,11 @@
 
 namespace spherule::app {
 
-// What GET answers: the page and its files, /healthz, /readyz and /metrics. Used by the io thread.
+// Answers GET: the page and its files, /healthz, /readyz and /metrics. Used by the io thread.
 class Site {
   public:
     Site(Live& live, const Watchdog& watchdog) : live_(live), watchdog_(watchdog) {}
-    // `counters` are those of the server that asks.
+    // `counters`: of the server that calls.
     net::HttpAnswer get(const std::string& path, const net::Counters& counters);
 
   private:

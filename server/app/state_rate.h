@@ -7,12 +7,12 @@
 
 namespace spherule::app {
 
-// How many states per second are shown, over the last two. One thread.
+// Measures how many states per second are shown, over the last two seconds. Used by one thread.
 class StateRate {
   public:
     using Clock = std::chrono::steady_clock;
 
-    // Several chains may show one version of the world: it counts once.
+    // Several chains may show the same version of the world, which counts once.
     void shown(std::uint64_t version, Clock::time_point now) {
         if (std::exchange(version_, version) != version) times_.push_back(now);
     }

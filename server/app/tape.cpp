@@ -27,7 +27,7 @@ constexpr std::size_t mostFiles = 1000;
 constexpr std::size_t longestName = 40;
 constexpr const char* suffix = ".sph";
 
-// A scene's name may be anything; that of a file may not.
+// A scene's name may have any characters. A file name gets only letters, digits, - and _.
 std::string fileNameOf(std::string name) {
     std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; });
     return name.empty() ? "scene" : name.substr(0, longestName);
@@ -68,7 +68,7 @@ Result<std::uint64_t> Tape::roomInFolder() const {
     std::uint64_t taken = 0;
     std::size_t files = 0;
     for (fs::directory_iterator file(options_.folder, error), end; !error && file != end; file.increment(error)) {
-        std::error_code ignored;  // it may be gone by now
+        std::error_code ignored;  // the file may have been deleted
         if (file->path().extension() != suffix) continue;
         const auto bytes = file->file_size(ignored);
         if (!ignored) taken += bytes;
@@ -85,7 +85,7 @@ Result<std::uint64_t> Tape::roomInFolder() const {
                             options_.folder, taken / 1'000'000));
 }
 
-// Named by scene and time; the second of a second gets a number.
+// Returns a path with the scene and the time. It has a number if that file exists already.
 Result<std::string> Tape::newPath() const {
     const std::string scene = scene_ ? scene_->content().scene().name() : "";
     const std::string name = fmt::format("{}-{:%Y%m%d-%H%M%S}", fileNameOf(scene), fmt::gmtime(std::time(nullptr)));
@@ -153,13 +153,13 @@ void Tape::frame(const codec::EncodedFrame& encoded) {
         if (refused_) ++framesLost_;
         return;
     }
-    // Joins of which others have need are of none here.
+    // Skip resync keyframes meant for other viewers, unless the newest keyframe is older than keyframesEvery.
     if (again && (!moved_ || Clock::now() - keyframe_ < keyframesEvery)) return;
     refused_ = false;
     const bool first = !timed_;
     timeOf(encoded.message->content().frame());
     if (first) {
-        // Whatever has been so far, in the order in which it is needed.
+        // Add the messages so far, in the order in which a reader needs them.
         add(recording::Kind::Other, source_);
         for (const auto& [kind, message] : {std::pair(recording::Kind::Scene, scene_),
                                             {recording::Kind::Order, order_},
@@ -169,19 +169,20 @@ void Tape::frame(const codec::EncodedFrame& encoded) {
     moved_ = encoded.kind == Delta;
     if (!moved_) keyframe_ = Clock::now();
     number_ = encoded.number;
-    // A chain that was lost begins anew.
+    // A lost chain begins again with a keyframe.
     add(again                   ? recording::Kind::Resync
         : encoded.kind == Delta ? recording::Kind::Delta
                                 : recording::Kind::Keyframe,
         encoded.message);
 }
 
-// Whether the world has not gone on since the newest frame. A paused one that was reset has not either.
+// Returns true when the world has not advanced since the newest frame. A paused world that was reset has not advanced
+// either.
 bool Tape::standsStill(const v1::Frame& frame) const {
     return frame.sim_time() == simTime_ || (frame.status().paused() && frame.sim_time() + offset_ <= time_);
 }
 
-// The chain is lost by that, and begins anew once the world goes on.
+// Skips a frame. The chain is lost then, and begins again when the world advances.
 void Tape::leaveOut(const v1::Frame& frame) {
     number_.reset();
     timeOf(frame);
@@ -192,7 +193,7 @@ void Tape::timeOf(const v1::Frame& frame) {
     timed_ = true;
     simTime_ = frame.sim_time();
     if (frame.sim_time() + offset_ < time_) offset_ = time_ - frame.sim_time();
-    // Not less for being rounded.
+    // Rounding must not make the time go back.
     time_ = std::max(time_, frame.sim_time() + offset_);
 }
 

@@ -14,32 +14,33 @@
 
 namespace spherule::app {
 
-// Records what a viewer is sent: it subscribes to a rendition as viewers do, and what it is told of, it writes. Used by
+// Records the stream of a viewer: subscribes to a rendition as viewers do, and writes the messages for viewers. Used by
 // the simulation thread, which never waits for the disk.
 class Tape {
   public:
     using Clock = std::chrono::steady_clock;
 
-    // `source`: what made the recording, its first record.
+    // `source`: the program and device that made the recording, its first record.
     Tape(TapeOptions options, v1::Welcome source);
 
-    // In the file of the options, where they name one.
+    // Starts a recording in the file of the options, if they name one.
     Result<void> startFromOptions();
-    // In a new file of the options' folder. Refused while it records, without a folder, and where that is full.
+    // Starts a recording in a new file of the options' folder. Refused while it records, without a folder, and if the
+    // folder is full.
     Result<void> start();
     Result<void> stop();
 
-    // What viewers are told, at the same time as they are: of what is said, events are recorded.
+    // The messages for viewers, when they are sent. say() records only events.
     void retain(codec::SharedMessage message);
     void say(const codec::SharedMessage& message);
     void order(codec::SharedMessage message);
     void frame(const codec::EncodedFrame& encoded);
 
-    // Adds its own, while it records.
+    // Adds the subscription of the recording, if there is one.
     void subscribe(std::vector<codec::Subscription>& subscriptions, Clock::time_point now) const;
-    // How it goes, where that is not what it last said; while it records, once a second.
+    // Returns the state of the recording when it has changed, and once a second while it records; else nullopt.
     std::optional<v1::Recording> news(Clock::time_point now);
-    // Ends the recording, if there is one, waits for the disk, and tells how it is.
+    // Ends the recording and waits for the disk. Returns its last state; nullopt if there is no recording.
     std::optional<v1::Recording> finish();
     [[nodiscard]] const codec::Rendition& rendition() const { return rendition_; }
     [[nodiscard]] bool beginsByItself() const { return !options_.path.empty(); }
@@ -58,19 +59,19 @@ class Tape {
     TapeOptions options_;
     codec::Rendition rendition_;
     codec::SharedMessage source_;
-    codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that begins
+    codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that starts
     std::unique_ptr<recording::BackgroundWriter> writer_;
     v1::Recording state_;
-    std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nothing: a keyframe is wanted
+    std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nullopt: a keyframe is needed
     Clock::time_point keyframe_{};
-    bool moved_ = false;    // since that
+    bool moved_ = false;    // since the last keyframe
     bool refused_ = false;  // the chain is lost because the disk is too slow
-    // Time in the recording: never goes back, though that of the simulation does when it is reset.
+    // Time in the recording. It never goes back, unlike the time of a simulation that is reset.
     double begin_ = 0, time_ = 0, offset_ = 0;  // s
-    double simTime_ = 0;                        // s, of the simulation in the newest frame
+    double simTime_ = 0;                        // s, simulated time of the newest frame
     bool timed_ = false;
-    bool waits_ = false;  // for the world to go on
-    bool told_ = false;   // of the state
+    bool waits_ = false;  // for the world to advance
+    bool told_ = false;   // the present state has been returned by news()
     Clock::time_point toldAt_{};
     std::uint64_t framesLost_ = 0;
 };

@@ -9,11 +9,11 @@
 #include "sim/simulation.h"
 #include "spherule/v1/control.pb.h"
 
-// Messages to clients, made of the values of the simulation.
+// Converts values of the simulation to messages for clients.
 namespace spherule::app {
 
 v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch);
-// The program and its device; without the scenes.
+// Names the program and its device. Has no scenes.
 v1::Welcome welcomeOf(const compute::DeviceInfo& device);
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused);
 v1::Statistics statisticsMessage(const sim::Statistics& statistics);

@@ -8,8 +8,8 @@ namespace spherule::app {
 
 namespace {
 
-constexpr double readEvery = 0.25;  // s simulated: the same on every run, which a goal for the overlap relies on
-constexpr double slowMs = 500;      // of steps that are slow, a few are enough
+constexpr double readEvery = 0.25;  // s simulated, so that runs with a goal for the overlap are reproducible
+constexpr double slowMs = 500;      // fewSteps are enough if they take this long
 constexpr int fewSteps = 3;
 
 }  // namespace
@@ -28,7 +28,7 @@ Result<std::optional<std::string>> Tuner::stepped(sim::Simulation& simulation, d
     raised_ = raised_ || simulation.substeps() != substeps;
     if (!full(scene)) return std::nullopt;
     quality::Reading reading{.stepMs = ms_ / steps_};
-    // What is measured while fast motion asks for more substeps says nothing about those of the scene.
+    // A measurement of raised substeps does not apply to the scene's own substeps.
     const bool raised = std::exchange(raised_, false);
     steps_ = 0;
     ms_ = 0;

@@ -8,21 +8,21 @@
 
 namespace spherule::app {
 
-// Holds the goal of a running scene, if it has one, by its substeps.
+// Moves the substeps of a running scene to hold its goal, if it has one.
 class Tuner {
   public:
-    // After each step; what has changed, or cannot be held.
+    // Call after each step. Returns a message when the substeps have changed or cannot hold the goal.
     Result<std::optional<std::string>> stepped(sim::Simulation& simulation, double wallMs);
-    // The scene, its goal or what else its substeps depend on is another now.
+    // Call when the scene, its goal or anything else that affects its substeps has changed.
     void forget() { *this = {}; }
 
   private:
     [[nodiscard]] bool full(const scene::Scene& scene) const;
 
     std::optional<quality::AutoQuality> quality_;
-    int steps_ = 0;  // since the last reading
-    double ms_ = 0;
-    bool raised_ = false;  // substeps, by fast motion in one of them
+    int steps_ = 0;        // since the last reading
+    double ms_ = 0;        // wall time of these steps (ms)
+    bool raised_ = false;  // fast motion raised the substeps in one of these steps
 };
 
 }  // namespace spherule::app

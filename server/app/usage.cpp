@@ -17,7 +17,7 @@ namespace {
 
 struct Usage {
     std::string help = "spherule --help";
-    std::map<std::string, std::string> variables{};  // by the option that they gave
+    std::map<std::string, std::string> variables{};  // by the option that they set
 };
 
 Usage& usage() {
@@ -25,7 +25,7 @@ Usage& usage() {
     return own;
 }
 
-// Characters to insert, remove or replace to make one of the other.
+// Edit distance: number of characters to insert, remove or replace.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), 0U);
@@ -57,7 +57,7 @@ std::string helpOf(const CLI::App& app) {
     return command == nullptr ? "spherule --help" : fmt::format("spherule {} --help", command->get_name());
 }
 
-// The variable that gave the option its value; empty: it came from elsewhere.
+// The variable that set the option; empty if its value came from elsewhere.
 std::string variableOf(const CLI::Option& option) {
     const char* const value = option.get_envname().empty() ? nullptr : std::getenv(option.get_envname().c_str());
     if (value == nullptr || *value == 0) return "";
@@ -89,7 +89,7 @@ std::string wantedText(const CLI::Option& option) {
     return type;
 }
 
-// What is wrong with a value, without the name of its option.
+// The reason why a value is wrong, without the name of its option.
 std::string reasonOf(const CLI::Option& option, const CLI::ParseError& error, const std::string& value) {
     std::string_view reason = error.what();
     for (const std::string own = option.get_name() + ": "; reason.starts_with(own);) reason.remove_prefix(own.size());
@@ -97,7 +97,7 @@ std::string reasonOf(const CLI::Option& option, const CLI::ParseError& error, co
     return fmt::format("is \"{}\": {}", value, reason);
 }
 
-// Of the first option whose value cannot be read.
+// Describes the first option whose value cannot be read; nullopt if there is none.
 std::optional<std::string> valueText(CLI::App& part) {
     for (CLI::Option* option : part.get_options()) {
         if (option->count() == 0) continue;

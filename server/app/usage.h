@@ -6,16 +6,16 @@
 
 #include "core/result.h"
 
-// Errors of the command line, and of the environment variables that stand for options. All have one form:
+// Messages for errors of the command line and of the environment variables that set options. All have one form:
 // "spherule: WHERE: WHAT; see `spherule COMMAND --help`", where WHERE is the option or the variable.
 namespace spherule::app {
 
-// Of a command line that could not be parsed.
+// For a command line that could not be parsed.
 std::string usageText(CLI::App& app, const CLI::ParseError& error);
 
-// Once the command line has been parsed: which command it is, and which options were given by the environment.
+// Stores the command, and the options that the environment set. Call after the command line has been parsed.
 void rememberUsage(const CLI::App& app);
-// Of an error that a command found later. Only one whose place is an option is an error of usage.
+// For an error that a command found later. It is an error of usage only if its place is an option.
 std::string usageText(const Error& error);
 
 }  // namespace spherule::app

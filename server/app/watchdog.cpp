@@ -16,7 +16,7 @@ namespace spherule::app {
 
 namespace {
 
-constexpr double looks = 20;  // within the limit
+constexpr double looks = 20;  // checks within the limit
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void Watchdog::watch(const std::stop_token& stop, const Hung& hung) {
     while (!ended.wait_for(lock, stop, between, [] { return false; }) && !stop.stop_requested()) {
         const auto now = Clock::now();
         const heartbeat::Status sign = heartbeat::status();
-        // A program that was stopped, or a machine that slept, wakes this thread late, and the others with it.
+        // After a stop of the program or a sleep of the machine, this thread wakes late. That time does not count.
         const double more = std::min(Seconds(now - then), 2 * between).count();
         silence_ = sign.beats == beats && sign.expected ? silence_ + more : 0;
         beats = sign.beats;

@@ -11,22 +11,21 @@
 
 namespace spherule::app {
 
-// Watches over the thread that computes, from a thread of its own: where that shows no sign of life (core/heartbeat.h)
-// for `limit`, a kernel or the driver hangs, and nothing that waits for it would ever end.
+// Watches the simulation thread from a thread of its own. If there is no heartbeat (core/heartbeat.h) for `limit`, a
+// kernel or the driver hangs. Nothing that waits for it would ever end.
 class Watchdog {
   public:
     using Seconds = std::chrono::duration<double>;
     using Hung = std::function<void(const Error&)>;
 
-    // A limit of 0 is never reached.
+    // A limit of 0 switches the watchdog off.
     explicit Watchdog(Seconds limit) : limit_(limit) {}
 
-    // `hung` is called once, on the watchdog's thread, with a DeviceLost that says what hangs.
+    // Calls `hung` once, on the watchdog's thread, with a DeviceLost that names the work that hangs.
     void start(Hung hung);
     void stop() { thread_ = {}; }  // waits for its thread
 
-    // How long nothing has shown a sign of life. Time in which this program as a whole stood still does not count. Any
-    // thread.
+    // Time since the last heartbeat. Time in which the whole program stood still does not count. Any thread.
     [[nodiscard]] Seconds silence() const { return Seconds(silence_.load()); }
     [[nodiscard]] Seconds limit() const { return limit_; }
 
@@ -38,8 +37,8 @@ class Watchdog {
     std::jthread thread_;
 };
 
-// Ends the program at once, with what has been printed and logged, but without taking anything down: a driver that
-// hangs would hang that too.
+// Ends the program, after it has waited up to 1 s for the log. Destroys nothing, because destructors would hang in a
+// driver that hangs.
 [[noreturn]] void endNow(int exitCode);
 
 }  // namespace spherule::app

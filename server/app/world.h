@@ -27,15 +27,15 @@ class World {
                                                const scene::Overrides& overrides);
 
     // Commands. Each returns a result, or refuses and changes nothing. nullopt: a change is under way now, and
-    // advanceChange() gives the result. change() and step() need that no change is under way; load() and a reset take
-    // the place of one.
+    // advanceChange() gives the result. change() and step() require that no change is under way. load() and a reset
+    // replace a change under way.
     std::optional<Result<sim::Applied>> change(const sim::Command& command, std::optional<double> speed = {});
     std::optional<Result<sim::Applied>> load(MakeScene make);
-    Result<void> step(std::uint32_t count);  // adds to the steps that are still to do
+    Result<void> step(std::uint32_t count);  // adds to the steps that are left
     void pause() { paused_ = true, pendingSteps_ = 0; }
     void resume();
     sim::Applied query();
-    // The result of a command that is done now.
+    // The result of a command that takes effect now.
     [[nodiscard]] sim::Applied applied() const { return {.step = simulation_->steps()}; }
 
     [[nodiscard]] bool changing() const { return change_.has_value(); }
@@ -45,13 +45,14 @@ class World {
     std::optional<Result<sim::Applied>> advanceChange(Clock::duration slice);
     void cancelChange() { change_.reset(); }
 
-    // Whether steps are to be done, as soon as they are due. None are while a change begins from the present state.
+    // Returns true when steps are to be done as soon as they are due. Returns false while a change starts from the
+    // present state.
     [[nodiscard]] bool running() const { return (!paused_ || pendingSteps_ > 0) && !heldStill(); }
     [[nodiscard]] bool paused() const { return paused_; }
-    // Substeps, at least one, until `until` or the end of the step: true then.
+    // Does substeps until `until` or the end of the step, at least one. Returns true at the end of the step.
     Result<bool> advance(Clock::time_point until);
 
-    // Changes whenever the static facts do.
+    // Changes when the static facts change.
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
     [[nodiscard]] v1::ServerMessage facts() const;
     [[nodiscard]] v1::ServerMessage settings() const;
@@ -70,7 +71,7 @@ class World {
         enum class Kind : std::uint8_t { Load, Reset, Other };
         Kind kind = Kind::Other;
         std::unique_ptr<sim::Preparation> preparation;
-        std::optional<double> speed{};  // that is set with it
+        std::optional<double> speed{};  // set together with the change
     };
     sim::Applied finishChange();
     void adopt(std::unique_ptr<sim::Preparation> preparation);

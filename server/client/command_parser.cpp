@@ -72,8 +72,8 @@ std::string upper(std::string text) {
     return text;
 }
 
-// Sets a field to the value that the word is, or adds it to a list. Fields of commands with help, and those of Set but
-// for `auto`, are of the types here.
+// Sets a field to the value of the word, or adds the value to a list. Every field of a command with help, and every
+// field of Set except `auto`, has one of these types.
 Result<void> readField(const std::string& word, pb::Message& message, const pb::FieldDescriptor& field) {
     const pb::Reflection& fields = *message.GetReflection();
     if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_DOUBLE) {

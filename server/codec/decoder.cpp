@@ -34,7 +34,7 @@ Result<FrameHead> headOf(std::span<const std::byte> frame) {
     std::array<std::uint32_t, headWords> words{};
     if (frame.size() < sizeof words) return bad("head", "has " + std::to_string(frame.size()) + " bytes of 16");
     std::memcpy(words.data(), frame.data(), sizeof words);
-    if ((words[0] & ~(keyframeFlag | hashedFlag)) != magic) return bad("head", "is not that of codec SPB, version 1");
+    if ((words[0] & ~(keyframeFlag | hashedFlag)) != magic) return bad("head", "is not a head of codec SPB, version 1");
     if (words[1] == 0) return bad("head", "has no spheres");
     FrameHead head{.spheres = words[1], .number = words[2], .keyframe = (words[0] & keyframeFlag) != 0, .hash = {}};
     if ((words[0] & hashedFlag) != 0) head.hash = words[3];
@@ -111,7 +111,7 @@ Result<void> Decoder::decode(const FrameHead& head, std::size_t words) {
         if (auto done = decodeChunk(head, chunk, begin, end); !done) return done;
         begin = end;
     }
-    if (begin != words) return bad("end", "is not that of the last chunk");
+    if (begin != words) return bad("end", "differs from the end of the last chunk");
     return {};
 }
 

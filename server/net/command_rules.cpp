@@ -11,7 +11,7 @@ struct Entry {
     std::string name;
 };
 
-// By the number of the field.
+// Returns the entries, by field number.
 std::vector<Entry> readTable() {
     std::vector<Entry> table(1);
     for (const auto* const field : commandFields()) {

@@ -5,7 +5,7 @@
 
 #include "spherule/v1/control.pb.h"
 
-// What control.proto says of each command: its rules, and its name.
+// The rules and the name of each command, as defined in control.proto.
 namespace spherule::net {
 
 // The rules of a command; the defaults for a command that is not known.

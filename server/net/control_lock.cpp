@@ -55,7 +55,7 @@ void ControlLock::release(SessionId session, SessionId to) {
     passOn();
 }
 
-// To the oldest request; frees the lock if there is none.
+// Passes the lock to the oldest request; frees it if there is none.
 void ControlLock::passOn() {
     if (state_.asking_size() > 0) return grant(state_.asking(0).session(), std::string(state_.asking(0).client()));
     state_.clear_holder();

@@ -10,8 +10,9 @@
 
 namespace spherule::net {
 
-// Gives one session at a time the right to send commands that change the world. A session acquires the free lock, its
-// holder hands it over, and it is free when the holder's session ends. Does not check roles. Used on the io thread.
+// Gives one session at a time the right to send commands that change the world. A session acquires the free lock, and
+// its holder hands it over. When the holder's session ends, the lock passes to the oldest request, or is free. Does not
+// check roles. Used on the io thread.
 class ControlLock {
   public:
     // `notify` is called after each change, with the new state.

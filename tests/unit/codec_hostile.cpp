@@ -56,8 +56,8 @@ TEST(CodecHostile, DecodesAHandWrittenMask) {
 TEST(CodecHostile, ReportsDefectAndPlace) {
     Decoder decoder(64);
     EXPECT_EQ(decoder.apply(Bytes(15)).error().text(), "frame, head: has 15 bytes of 16");
-    EXPECT_EQ(refusal(decoder, {0x00025053, 64, 1, 0}), "frame, head: is not that of codec SPB, version 1");
-    EXPECT_EQ(refusal(decoder, {0x04015053, 64, 1, 0}), "frame, head: is not that of codec SPB, version 1");
+    EXPECT_EQ(refusal(decoder, {0x00025053, 64, 1, 0}), "frame, head: is not a head of codec SPB, version 1");
+    EXPECT_EQ(refusal(decoder, {0x04015053, 64, 1, 0}), "frame, head: is not a head of codec SPB, version 1");
     EXPECT_EQ(refusal(decoder, {key, 0, 1, 0}), "frame, head: has no spheres");
     EXPECT_EQ(refusal(decoder, {key, 64, 1, 0}), "frame, table: goes beyond the end");
     EXPECT_EQ(refusal(decoder, {key, 64, 1, 0, 0xffffffff}), "frame, chunk 0: ends outside of the frame");
@@ -72,7 +72,7 @@ TEST(CodecHostile, ReportsDefectAndPlace) {
     EXPECT_EQ(refusalOf({1, 0x0004}), "frame, block 0: is predicted from a velocity right after a keyframe");
     EXPECT_EQ(refusalOf({1, 0, 0}), "frame, chunk 0: does not end where its groups do");
     EXPECT_EQ(refusal(decoder, {key, 64, 1, 0, 6, 1, 0x000f, 0, 5, 6, 7, 8}),
-              "frame, end: is not that of the last chunk");
+              "frame, end: differs from the end of the last chunk");
     Bytes ragged = frameOf(still);
     ragged.push_back({});
     EXPECT_EQ(decoder.apply(ragged).error().text(), "frame, end: is no whole word");

@@ -86,7 +86,7 @@ test("errors say what is wrong, and where", () => {
     assert.throws(() => new Decoder(64).apply(new Uint8Array(Uint32Array.from(words).buffer)), reason);
   const key = 0x01015053;
   refused([key, 64, 1], /head: has 12 bytes of 16/);
-  refused([0x00025053, 64, 1, 0], /head: is not that of codec SPB, version 1/);
+  refused([0x00025053, 64, 1, 0], /head: is not a head of codec SPB, version 1/);
   refused([key, 0, 1, 0], /head: has no spheres/);
   refused([key, 65, 1, 0], /head: has 65 spheres where there are 64/);
   refused([key, 64, 1, 0], /table: goes beyond the end/);
@@ -97,7 +97,7 @@ test("errors say what is wrong, and where", () => {
   refused([key, 64, 1, 0, 1, 1], /block 0: goes beyond its chunk/);
   refused([key, 64, 1, 0, 2, 1, 0], /block 0: is predicted in a keyframe/);
   refused([key, 64, 1, 0, 2, 1, 0x000c], /block 0: has no base/);
-  refused([...still, 8], /end: is not that of the last chunk/);
+  refused([...still, 8], /end: differs from the end of the last chunk/);
   assert.throws(() => after([1, 0xfff0]), /block 0: goes beyond its chunk/);
   assert.throws(() => after([1, 0x000f, 0, 0, 0, 0]), /block 0: is not predicted in a delta frame/);
   assert.throws(() => after([1, 0, 0]), /chunk 0: does not end where its groups do/);

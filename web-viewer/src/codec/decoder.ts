@@ -89,7 +89,7 @@ export class Decoder {
       this.decodeChunk(head.keyframe, history === 2, chunk, begin, end);
       begin = end;
     }
-    if (begin !== length) throw new Error("frame, end: is not that of the last chunk");
+    if (begin !== length) throw new Error("frame, end: differs from the end of the last chunk");
   }
 
   private decodeChunk(keyframe: boolean, velocities: boolean, chunk: number, begin: number, end: number): void {

@@ -12,7 +12,7 @@ export function headOf(words: Uint32Array, bytes: number): FrameHead {
   if (bytes < 4 * headWords) throw new Error(`frame, head: has ${bytes} bytes of 16`);
   const [kind = 0, spheres = 0, number = 0, hash = 0] = words;
   const flags = keyframeFlag | hashedFlag;
-  if ((kind & ~flags) >>> 0 !== magic) throw new Error("frame, head: is not that of codec SPB, version 1");
+  if ((kind & ~flags) >>> 0 !== magic) throw new Error("frame, head: is not a head of codec SPB, version 1");
   if (spheres === 0) throw new Error("frame, head: has no spheres");
   return {
     spheres,
