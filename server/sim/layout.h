@@ -23,7 +23,7 @@ static_assert(sizeof(Parameters) % 16 == 0, "std140");
 
 // Returns the types of the 32-bit words of a struct in shaders/shared/`file`, for compute::Device::createBuffer: 'r' a
 // real number, 'u' an unsigned integer. Reads them from the text of the file. Throws std::logic_error if there is no
-// such struct, or if a vector in it does not begin at a multiple of 16 bytes: its layout in a uniform block (std140)
+// such struct, or if a vector in it does not begin at a multiple of 16 bytes. The layout in a uniform block (std140)
 // would then differ from C++.
 std::string wordsOf(std::string_view structName, std::string_view file = "layout.h");
 

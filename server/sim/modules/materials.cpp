@@ -13,7 +13,7 @@ bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::PairLaw&))
 
 }  // namespace
 
-// Some material bounces.
+// Some contact in the scene has restitution.
 const Module moduleRestitution{
     .feature = Feature::Restitution,
     .required =
@@ -43,7 +43,7 @@ const Module moduleHertz{
         },
 };
 
-// Some material has friction, so that spheres turn.
+// Some contact in the scene has friction, so that spheres turn.
 const Module moduleFriction{
     .feature = Feature::Friction,
     .required =
@@ -65,7 +65,7 @@ const Module moduleFriction{
         },
 };
 
-// Some material resists rolling or spinning.
+// Some contact in the scene resists rolling or spinning.
 const Module moduleRolling{
     .feature = Feature::Rolling,
     .required =
