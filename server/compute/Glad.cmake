@@ -1,5 +1,5 @@
-# Loaders for EGL and OpenGL, generated at build time. They open the libraries at run time, so that a host without them
-# still starts the program and can be told what is missing.
+# Loaders for EGL and OpenGL, generated at build time. They open the libraries at run time, so that the
+# program starts on a host without them and reports the missing library.
 set(glad_out ${CMAKE_CURRENT_BINARY_DIR}/glad)
 set(glad_extensions
   EGL_EXT_client_extensions EGL_EXT_create_context_robustness EGL_EXT_device_base EGL_EXT_device_drm

@@ -7,10 +7,11 @@
 
 namespace spherule::compute {
 
-// A mistake of ours that would compute wrong results: logged, then the program ends.
+// Reports a program error that would compute wrong results: logs `message`, then aborts the program.
 [[noreturn]] void programError(const std::string& message);
 
-// Ends the program so when `bytes` from `offset` on are not within the buffer; `what` is what was to be done with them.
+// Calls programError() if `bytes` bytes from `offset` on are not within the buffer. `what`: name of the operation, for
+// the message.
 void checkRange(const char* what, const Buffer& buffer, std::size_t offset, std::size_t bytes);
 
 }  // namespace spherule::compute

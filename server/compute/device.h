@@ -11,7 +11,8 @@
 
 #include "core/result.h"
 
-// A place where kernels run. Knows nothing of spheres. All calls come from the thread that created the device.
+// Devices that run kernels. They are independent of the simulation. All calls must come from the thread that created
+// the device.
 namespace spherule::compute {
 
 struct DeviceInfo {
@@ -44,7 +45,7 @@ class Kernel {
   public:
     virtual ~Kernel() = default;
     [[nodiscard]] virtual const std::string& name() const = 0;
-    // In the order of the text; the first is bound at slot 0. Valid as long as the kernel.
+    // Returns the buffers in the order of the source; the first is bound at slot 0. Valid as long as the kernel.
     [[nodiscard]] virtual std::span<const BufferDeclaration> buffers() const = 0;
 };
 
@@ -60,8 +61,8 @@ class SourceSet {
     [[nodiscard]] virtual std::optional<std::string_view> find(std::string_view name) const = 0;
 };
 
-// One launch: `count` invocations (none: nothing happens), or as many as the uvec4 at `argumentsOffset` (bytes) of
-// `arguments` says (groups x, y, z, then the invocation count).
+// One launch of `count` invocations; 0 launches nothing. With `arguments`, the uvec4 at `argumentsOffset` (bytes) holds
+// the groups x, y, z and the invocation count instead.
 struct Launch {
     const Kernel* kernel = nullptr;
     std::span<Buffer* const> buffers;  // in the order of Kernel::buffers()
@@ -72,11 +73,11 @@ struct Launch {
     std::size_t argumentsOffset = 0;
 };
 
-// Copy of device memory on its way to the host; the device goes on meanwhile.
+// A copy of device memory to the host that is under way. The device continues meanwhile.
 class ReadBack {
   public:
     virtual ~ReadBack() = default;
-    // The bytes once they have arrived, without waiting; empty before.
+    // Returns the bytes once they have arrived; nullopt before. Does not wait.
     [[nodiscard]] virtual std::optional<std::span<const std::byte>> poll() = 0;
 };
 
@@ -85,50 +86,54 @@ class Device {
     virtual ~Device() = default;
     [[nodiscard]] virtual const DeviceInfo& info() const = 0;
 
-    // Refused, with both figures, when the device has no room for it or a kernel could not see all of it. The label is
-    // for errors and debuggers. `words` says what its 32-bit words are, in turn and again and again: 'r' a real number
-    // (float32 to the host), 'u' an unsigned integer; only a device that computes in double precision asks.
+    // Refused, with the size and the limit, if the device has no room for the buffer or a kernel cannot access all of
+    // it. `label`: name for errors and debuggers. `words`: types of the buffer's 32-bit words, repeated to its end. 'r'
+    // is a real number (float32 on the host), 'u' an unsigned integer. Only a device with double precision uses
+    // `words`.
     virtual Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes,
                                                          std::string_view words = "u") = 0;
 
-    // What such a buffer takes of the machine's memory: nothing on a device that has its own.
+    // Returns the host memory (bytes) that such a buffer uses: 0 on a device with its own memory.
     [[nodiscard]] virtual std::uint64_t hostBytes(std::uint64_t bytes, std::string_view words = "u") const = 0;
 
-    // Compiles `file` with the defines; an error carries the compiler's text with file and line. A kernel has a local
-    // size of 64 (or of 1, to measure what that costs), at most maxKernelBuffers storage buffers, at most one uniform
-    // block (binding 0), and may have the uniforms `phase` and `invocations` (its count; 0xffffffff when launched
-    // indirectly: then it reads the count itself). Its index is
-    // gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU device has the
-    // kernels of shaders/ compiled in and takes no others.
+    // Compiles `file` with the defines. An error contains the compiler's messages with file and line. A kernel has a
+    // local size of 64 (or of 1, to measure the cost of small groups). It has at most maxKernelBuffers storage buffers
+    // and at most one uniform block (binding 0). It may have the uniforms `phase` and `invocations`. `invocations` is
+    // the invocation count, or 0xffffffff in an indirect launch, in which the kernel reads the count itself. The index
+    // of an invocation is gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * local size. The CPU
+    // device contains the kernels of shaders/ and accepts no others.
     virtual Result<std::unique_ptr<Kernel>> createKernel(const SourceSet& sources, std::string_view file,
                                                          std::span<const Define> defines) = 0;
 
     virtual void upload(Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) = 0;
-    // Waits for all launches before.
+    // Waits for all earlier launches.
     virtual void download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) = 0;
     virtual void fill(Buffer& buffer, std::uint32_t value) = 0;
 
-    // Every launch sees what the launches before it wrote. A buffer that the kernel declares and the launch lacks, used
-    // or not, ends the program: it would compute wrong results.
+    // Every launch sees the writes of all earlier launches. The program ends if the launch lacks a buffer that the
+    // kernel declares, even an unused one, because the launch could compute wrong results.
     virtual void launch(const Launch& launch) = 0;
 
-    // At most two copies are under way at once: nothing when both places are taken.
+    // Starts a copy to the host. Returns nullptr if two copies are already under way.
     virtual std::unique_ptr<ReadBack> startReadBack(const Buffer& buffer, std::size_t bytes) = 0;
 
-    // Device time between begin and end is added to `slot`; takeTimes returns seconds per slot and starts anew. The
-    // first waits for nothing, the last for all launches before. Timers do not nest.
+    // Add the device time between beginTimer() and endTimer() to `slot`. takeTimes() returns the time (s) per slot and
+    // resets all slots. Only takeTimes() waits for the device. Timers do not nest.
     virtual void beginTimer(unsigned slot) = 0;
     virtual void endTimer() = 0;
     virtual std::vector<double> takeTimes() = 0;
 
     virtual void finish() = 0;                        // waits until the device is idle
-    [[nodiscard]] virtual Result<void> status() = 0;  // DeviceLost when the context is gone
+    [[nodiscard]] virtual Result<void> status() = 0;  // DeviceLost if the context is lost
 };
 
-// "auto" (a hardware GPU, else "cpu", and the info's reason says why), "gpu", "gpu:N" (N counts the hardware devices as
-// `spherule probe` lists them), "cpu", "cpu:N" (with N threads), "cpu-double" (the same in double precision, to tell
-// rounding from method; what the host hands over, such as the substep, stays float) or "software" (Mesa's renderer).
-// Input for anything else, NoDevice when there is none.
+// Opens a device. Input if `choice` is not one of the following, NoDevice if there is no such device.
+// - "auto": a hardware GPU, else the CPU. DeviceInfo::reason gives the reason.
+// - "gpu": a hardware GPU. "gpu:N": the hardware device with number N in the list of `spherule probe`.
+// - "cpu": the CPU. "cpu:N": the CPU with N threads.
+// - "cpu-double", "cpu-double:N": the CPU in double precision, to separate rounding errors from errors of the method.
+//   Values from the host, such as the substep, stay float.
+// - "software": Mesa's software renderer.
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice);
 
 }  // namespace spherule::compute

@@ -31,7 +31,7 @@ ProbeDevice probeDevice(const gl::EglDevice& device, const std::string& choice) 
     return result;
 }
 
-// The limits are those of the context that was opened last, so they are asked for at once.
+// queryLimits() reads the current context, which openDevice() has just made current.
 Result<void> choose(Probe& result) {
     const auto opened = openDevice(result.choice);
     if (opened) {

@@ -8,28 +8,28 @@
 
 #include "compute/device.h"
 
-// What this host offers to compute on, and what to do about what is missing.
+// Lists the compute devices of this host, and gives advice if one is missing or cannot be used.
 namespace spherule::compute {
 
-// A file that tells EGL of a vendor's library (glvnd).
+// A vendor file (glvnd), by which EGL finds a vendor's library.
 struct ProbeVendor {
     std::string file;
     std::string library;
-    std::string problem;  // why the library does not open; empty when it does
+    std::string problem;  // why the library cannot be opened; empty if it can
 };
 
 struct ProbeDevice {
     unsigned index = 0;      // in EGL's order
     std::string choice;      // what to pass as --device: "gpu:0", "software"
-    std::string name;        // as EGL has it; may be empty
+    std::string name;        // by EGL; may be empty
     std::string extensions;  // of the EGL device
     std::string drmFile;     // may be empty
     std::string vendor;      // of its EGL display
-    std::string renderer;    // GL_RENDERER; empty when it cannot be used
-    std::string problem;     // why it cannot be used; empty when it can
+    std::string renderer;    // GL_RENDERER; empty if the device cannot be used
+    std::string problem;     // why it cannot be used; empty if it can
 };
 
-// OpenGL's limits that bound a scene.
+// OpenGL limits that limit the size of a scene.
 struct Limits {
     std::int64_t maxBufferBytes = 0;  // one storage buffer
     std::int64_t storageBuffersPerKernel = 0;
@@ -42,19 +42,19 @@ struct Limits {
 };
 
 struct Probe {
-    std::string eglProblem;  // why there is no EGL at all; empty where there is
+    std::string eglProblem;  // why there is no EGL; empty if there is
     std::string clientExtensions;
     std::vector<ProbeVendor> vendors;
     std::vector<ProbeDevice> devices;  // preferred first
-    std::string choice;                // what was asked for
-    std::optional<DeviceInfo> chosen;  // what it gives
+    std::string choice;                // as requested
+    std::optional<DeviceInfo> chosen;  // the device that openDevice() returned
     std::optional<Limits> limits;      // of the chosen device
-    std::string problem;               // why nothing could be chosen
+    std::string problem;               // why no device could be opened
     std::vector<std::string> hints;
 };
 
-// Opens every device in turn, so it takes a moment. `choice` as for openDevice. Input for an unknown choice; all else
-// that is wrong is in the result.
+// Opens every device in turn, which takes a moment. `choice` as for openDevice. Input if `choice` is unknown; all other
+// problems are part of the result.
 Result<Probe> probe(const std::string& choice);
 
 std::string probeText(const Probe& probe);  // several lines
@@ -66,22 +66,22 @@ namespace detail {
 struct HostFacts {
     enum class Place { Host, Container, Pod };
     Place place = Place::Host;
-    bool nvidiaDriver = false;                // its kernel module, by /proc/driver/nvidia or /dev/nvidiactl
-    bool nvidiaLibrary = false;               // libEGL_nvidia.so.0 can be opened, whether or not a vendor file names it
-    bool migSlice = false;                    // a part of a GPU
-    std::string nvidiaCapabilities;           // NVIDIA_DRIVER_CAPABILITIES, empty when unset
-    std::string vendorVariable;               // __EGL_VENDOR_LIBRARY_..., which is set and replaces glvnd's own search
-    std::vector<std::string> unsearched;      // NVIDIA's vendor files where EGL does not look
-    std::vector<std::string> closedDrmFiles;  // below /dev/dri, not ours to open
-    std::vector<std::string> closedNvidiaFiles;  // /dev/nvidia*, the same
+    bool nvidiaDriver = false;       // its kernel module, by /proc/driver/nvidia or /dev/nvidiactl
+    bool nvidiaLibrary = false;      // libEGL_nvidia.so.0 can be opened, whether or not a vendor file names it
+    bool migSlice = false;           // a part of a GPU
+    std::string nvidiaCapabilities;  // NVIDIA_DRIVER_CAPABILITIES, empty if unset
+    std::string vendorVariable;      // name of the set __EGL_VENDOR_LIBRARY_... variable, which replaces glvnd's search
+    std::vector<std::string> unsearched;         // NVIDIA's vendor files in folders that EGL does not search
+    std::vector<std::string> closedDrmFiles;     // files below /dev/dri without read and write permission
+    std::vector<std::string> closedNvidiaFiles;  // the same for /dev/nvidia*
 };
 
-// Below `root` lie dev, proc, usr, ...; the environment is that of this process.
+// Collects the facts. `root` contains dev, proc, usr, ...; environment variables are read from this process.
 HostFacts hostFacts(const std::filesystem::path& root = "/");
-// What to do about what is missing, most useful first: each a sentence that says what, where and what to do.
-// docs/troubleshooting.md has them all.
+// Returns advice for missing or unusable devices, most useful first. Each hint is a sentence with the problem, its
+// place and a remedy. docs/troubleshooting.md lists all hints.
 std::vector<std::string> hintsFor(const Probe& probe, const HostFacts& host);
-// Why an NVIDIA driver that is here, or was here, gives no OpenGL; empty where nothing points to one.
+// Returns why an NVIDIA driver offers no OpenGL; empty if nothing indicates an NVIDIA driver.
 std::string nvidiaHint(const Probe& probe, const HostFacts& host);
 std::vector<ProbeVendor> eglVendors();
 

@@ -1,4 +1,4 @@
-// What of this host decides whether OpenGL finds a GPU.
+// Collects the facts of this host on which it depends whether OpenGL finds a GPU.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ std::string variable(const char* name) {
     return value == nullptr ? "" : value;
 }
 
-// The files of a folder that `wanted` is part of the names of, in order, without `root`.
+// Returns the files of a folder whose names contain `wanted`, sorted.
 std::vector<fs::path> filesIn(const fs::path& folder, const char* wanted) {
     std::error_code none;
     std::vector<fs::path> files;
@@ -55,7 +55,7 @@ bool opens(const char* library) {
     return handle != nullptr;
 }
 
-// A slice is named to a container in the variable, and has its access rights below proc.
+// The variable names the slice to a container. The access rights of slices are below proc/driver/nvidia/capabilities.
 bool hasMigSlice(const fs::path& root) {
     if (variable("NVIDIA_VISIBLE_DEVICES").starts_with("MIG-")) return true;
     for (const auto& gpu : filesIn(root / "proc/driver/nvidia/capabilities", "gpu"))
@@ -63,8 +63,8 @@ bool hasMigSlice(const fs::path& root) {
     return false;
 }
 
-// Where distributions and container runtimes put vendor files; glvnd looks in the first two unless a variable says
-// otherwise. The others are of NixOS and Talos.
+// Returns NVIDIA's vendor files in the folders of distributions and container runtimes that glvnd does not search.
+// glvnd searches the first two, unless a variable replaces its search. NixOS and Talos use the others.
 std::vector<std::string> unsearchedIn(const fs::path& root, bool replaced) {
     constexpr std::array folders{"etc/glvnd/egl_vendor.d", "usr/share/glvnd/egl_vendor.d",
                                  "run/opengl-driver/share/glvnd/egl_vendor.d", "usr/local/share/glvnd/egl_vendor.d"};
@@ -88,7 +88,7 @@ HostFacts hostFacts(const fs::path& root) {
     facts.nvidiaLibrary = opens("libEGL_nvidia.so.0");
     facts.migSlice = hasMigSlice(root);
     facts.nvidiaCapabilities = variable("NVIDIA_DRIVER_CAPABILITIES");
-    // Where both are set, glvnd goes by the second.
+    // If both are set, glvnd uses the second.
     for (const char* const name : {"__EGL_VENDOR_LIBRARY_DIRS", "__EGL_VENDOR_LIBRARY_FILENAMES"})
         if (std::getenv(name) != nullptr) facts.vendorVariable = name;
     facts.unsearched = unsearchedIn(root, !facts.vendorVariable.empty());

@@ -11,7 +11,7 @@ bool usable(const ProbeDevice& device) {
     return device.problem.empty();
 }
 
-// Nothing here points to a GPU.
+// Returns the hint for a host on which nothing indicates a GPU.
 std::string noGpu(const HostFacts& host) {
     constexpr const char* meanwhile = "until then scenes run on the CPU";
     switch (host.place) {

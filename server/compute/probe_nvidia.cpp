@@ -15,7 +15,8 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// The file that the loader missed: the library itself, or something that it needs; empty where it failed otherwise.
+// Returns the file that the loader did not find: the library itself, or a library that it needs. Empty if the loader
+// failed for another reason.
 std::string missingFile(const std::string& problem) {
     const auto end = problem.find(": cannot open shared object file");
     return end == std::string::npos ? "" : problem.substr(0, end);

@@ -23,7 +23,7 @@ std::vector<fs::path> splitPaths(const char* text) {
     return paths;
 }
 
-// The vendor files in the order of glvnd's own search (see src/EGL/icd_enumeration.md of libglvnd).
+// Returns the vendor files in the order of glvnd's own search (see src/EGL/icd_enumeration.md of libglvnd).
 std::vector<fs::path> vendorFiles() {
     if (const char* const files = std::getenv("__EGL_VENDOR_LIBRARY_FILENAMES")) return splitPaths(files);
     std::vector<fs::path> folders{"/etc/glvnd/egl_vendor.d", "/usr/share/glvnd/egl_vendor.d"};

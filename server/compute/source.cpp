@@ -15,7 +15,7 @@ constexpr std::size_t linesPerFile = 100000;
 
 constexpr std::string_view bufferKeyword = "BUFFER(";
 
-// `access, type, name` and the rest of the line in `BUFFER(access, type, name) rest`; nullopt when it is not of this
+// The parts of a line `BUFFER(access, type, name) rest`; parseBuffer() returns nullopt if the line does not have this
 // form.
 struct BufferLine {
     std::string access, type, name, rest;
@@ -40,7 +40,7 @@ std::optional<BufferLine> parseBuffer(std::string_view line) {
                       std::string(line.substr(end + 1))};
 }
 
-// The name in `#include "name"`, or nothing when the line is something else.
+// Returns the name in `#include "name"`; nullopt if the line is not such a directive.
 std::optional<std::string_view> includedName(std::string_view line) {
     constexpr std::string_view blank = " \t";
     const auto skipBlank = [&] { line.remove_prefix(std::min(line.find_first_not_of(blank), line.size())); };
@@ -66,8 +66,8 @@ std::optional<std::size_t> takeNumber(std::string_view& text) {
     return number;
 }
 
-// The N of "1:N", "1(N)" or "ERROR: 1:N", with `message` left at what follows; nothing, and `message` untouched, when
-// it begins otherwise.
+// Returns the N of "1:N", "1(N)" or "ERROR: 1:N", and sets `message` to the text behind it. Returns nullopt and leaves
+// `message` unchanged if it begins differently.
 std::optional<std::size_t> takeLineNumber(std::string_view& message) {
     auto rest = message;
     for (const std::string_view kind : {"ERROR: ", "WARNING: "}) {
@@ -87,7 +87,7 @@ class Expander {
   public:
     explicit Expander(const SourceSet& sources) : sources_(sources) {}
 
-    // `from` says who asked, for the error.
+    // `from`: file and line of the directive, for errors.
     Result<void> append(std::string_view file, const std::string& from) {
         if (std::find(open_.begin(), open_.end(), file) != open_.end()) {
             return fail(ErrorKind::Input, from,

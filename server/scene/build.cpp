@@ -25,7 +25,8 @@ double smallestRadiusOf(const std::vector<Sphere>& spheres) {
     return static_cast<double>(std::min_element(spheres.begin(), spheres.end(), byRadius)->radius);
 }
 
-// That it draws, where it does so; what is wrong with it is said later.
+// Returns the largest radius that the group draws; smallestRadius if it has no law of radii. Ignores errors:
+// readGroup() reports them.
 double largestRadiusOf(const v1::Group& group) {
     Check check;
     return group.has_radius() ? std::max(smallestRadius, readRadii(check, group.radius(), "").max) : smallestRadius;
@@ -111,9 +112,9 @@ Result<Scene> build(const v1::Scene& message, const Overrides& overrides, Progre
 
 namespace {
 
-// Refuses the first of `added` that overlaps one of `taken`.
+// Refuses the first sphere of `added` that overlaps a sphere of `taken`.
 void checkFree(Check& check, const std::vector<Sphere>& added, const std::vector<Sphere>& taken, Occupancy& occupied) {
-    constexpr std::uint64_t mostWork = 4'000'000'000;  // some ten seconds
+    constexpr std::uint64_t mostWork = 4'000'000'000;  // about ten seconds
     if (!addTaken(check, taken, occupied)) return;
     for (std::size_t k = 0; k < added.size() && check.goesOn("comparing places", k, added.size()); ++k) {
         const glm::dvec3& p = added[k].position;

@@ -8,7 +8,7 @@
 
 namespace spherule::scene {
 
-// build() of load.h for a scene that may name files, relative to `directory`; none: it may not.
+// Like build() of load.h, but the scene may name files relative to `directory`. nullopt: it may not name files.
 Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, const v1::Scene& message,
                       const Overrides& overrides, Progress* progress = nullptr);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view suffix = ".json";
 
-// As many spheres as each kind of device steps in real time, or nearly.
+// Returns the scene with as many spheres as the kind of device simulates in about real time.
 std::string_view boxFor(std::string_view deviceKind) {
     if (deviceKind == "gpu") return "box-50k";
     if (deviceKind == "cpu") return "box-10k";

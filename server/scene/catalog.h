@@ -5,10 +5,10 @@
 
 namespace spherule::scene {
 
-// The scene that is run when none is named; which one it stands for depends on the device.
+// The scene that is run by default. It stands for a scene that depends on the device.
 constexpr std::string_view defaultScene = "box";
 
-// The JSON text of a scene that comes with the program.
+// Returns the JSON text of a scene that is part of the program; nullopt if there is none of that name.
 std::optional<std::string_view> embeddedScene(std::string_view name, std::string_view deviceKind);
 
 }  // namespace spherule::scene

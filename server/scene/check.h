@@ -16,11 +16,11 @@ namespace spherule::scene {
 
 using Numbers = google::protobuf::RepeatedField<double>;
 
-// No coordinate, in m, and no other component of a vector may be larger; far inside what float32 holds.
+// The largest coordinate (m) or other vector component allowed, far below the limit of float32.
 constexpr double largestComponent = 1e9;
 
-// Reads values of a message and keeps the first that cannot be accepted; what is refused after it is not reported.
-// A refused value comes back as a harmless one, so that reading may go on to the next ok().
+// Reads values of a message and keeps the first error; later errors are not reported. Returns a harmless value in place
+// of a refused one, so that the caller may check ok() later.
 class Check {
   public:
     // `progress` may be null; otherwise it must outlive the check.
@@ -29,22 +29,22 @@ class Check {
     void refuse(std::string field, std::string reason);
     void refuse(Error error);
 
-    // Says how far long work has come: `done` of `of` parts. False once something was refused, or the work is to end:
-    // Cancelled.
+    // Reports the progress of long work: `done` of `of` parts. Returns false if a value was refused, or if the work was
+    // cancelled (error Cancelled).
     bool goesOn(const char* doing, std::size_t done, std::size_t of);
 
     double finite(double value, std::string_view field);
     double positive(double value, std::string_view field);
-    // low <= value <= high; `unit` follows the limits in the message.
+    // Requires low <= value <= high. `unit` follows the limits in the message.
     double within(double value, double low, double high, std::string_view field, std::string_view unit = "");
-    // Above zero, at most `high`.
+    // Requires a value above zero and at most `high`.
     double upTo(double value, double high, std::string_view field, std::string_view unit);
-    // Exactly three finite numbers, none beyond largestComponent.
+    // Requires exactly three finite numbers, none beyond largestComponent.
     glm::dvec3 vector(const Numbers& values, std::string_view field);
     glm::dvec3 vectorOr(const Numbers& values, glm::dvec3 absent, std::string_view field);
-    // `field`.min and `field`.max, min below max on every axis.
+    // Reads `field`.min and `field`.max. Requires min below max on every axis.
     Box box(const Numbers& min, const Numbers& max, std::string_view field);
-    // "#rrggbb" or empty.
+    // Requires "#rrggbb" or an empty text.
     std::string colour(const std::string& value, std::string_view field);
 
     [[nodiscard]] bool ok() const { return error_.message.empty(); }
@@ -55,13 +55,13 @@ class Check {
     Error error_;
 };
 
-// "groups" and 2: "groups[2]".
+// Returns "groups[2]" for "groups" and 2.
 std::string at(std::string_view field, std::size_t index);
 
-// "groups[2]" and "fill": "groups[2].fill"; just "fill" when `field` is empty.
+// Returns "groups[2].fill" for "groups[2]" and "fill", or "fill" if `field` is empty.
 std::string at(std::string_view field, std::string_view member);
 
-// Text from outside, quoted and cut to a length fit for a message.
+// Returns external text, quoted and cut to a length fit for a message.
 std::string shown(std::string_view text);
 
 std::string shown(const glm::dvec3& v);

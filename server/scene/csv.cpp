@@ -40,7 +40,7 @@ std::optional<Columns> columnsOf(std::string_view header) {
     return std::nullopt;
 }
 
-// Refuses with the place in the file, kept at the line that is being read.
+// Reads the lines of a file. Its errors contain the path, the line and the column.
 class CsvReader {
   public:
     CsvReader(Check& check, std::string field, std::filesystem::path path)
@@ -55,7 +55,7 @@ class CsvReader {
         return file.has_value();
     }
 
-    // False at the end of the file, and, refused, for a line that cannot be read.
+    // Returns false at the end of the file. Also returns false, and refuses, if the line cannot be read.
     bool nextLine() {
         const auto more = lines_->next(longestLine);
         if (!more) check_.refuse(field_, fmt::format("{}:{}: {}", path_.string(), line(), more.error().message));
@@ -68,7 +68,7 @@ class CsvReader {
         check_.refuse(field_, fmt::format("{}:{}:{}: {}", path_.string(), line(), column, reason));
     }
 
-    // The numbers of the line, one for each name.
+    // Returns the numbers of the line, one for each name; nullopt if the line is refused.
     std::optional<Row> row(const std::vector<std::string_view>& names) {
         Row result{};
         const std::string& text = lines_->line();
@@ -115,7 +115,7 @@ class CsvReader {
 
 namespace {
 
-// For one more. Only what has been read says how many there are.
+// Makes room for one more sphere. The number of spheres is not known before the end of the file.
 bool makeRoom(Check& check, const SourceInput& input, std::vector<Sphere>& spheres, const std::string& field) {
     constexpr std::size_t first = 1024;
     if (spheres.size() < spheres.capacity()) return true;
@@ -133,7 +133,7 @@ std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesys
     CsvReader reader(check, field, directory / csv.file());
     if (!reader.open()) return {};
     const auto columns = reader.nextLine() ? columnsOf(reader.text()) : std::nullopt;
-    if (!columns) {  // nothing more is said of a line that could not be read
+    if (!columns) {  // if the line could not be read, check keeps that earlier error
         reader.refuse(1, fmt::format("the header is {}, must be x,y,z[,vx,vy,vz][,radius]", shown(reader.text())));
         return {};
     }

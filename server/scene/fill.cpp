@@ -13,15 +13,15 @@ namespace spherule::scene {
 
 namespace {
 
-// A place is drawn anew until it is free. Equal spheres placed this way jam at 0.38 of the volume; a budget far above
-// what 0.3 needs keeps an impossible wish from taking forever.
+// Places are drawn until one is free. Equal spheres placed this way jam at 0.38 of the volume. The budget is far above
+// the work for 0.3, and ends an impossible request.
 constexpr std::uint64_t workPerSphere = 2'000;
 constexpr std::uint64_t workAtLeast = 10'000'000;
-constexpr std::uint64_t workAtMost = 4'000'000'000;  // some tens of seconds, for all groups of a scene
+constexpr std::uint64_t workAtMost = 4'000'000'000;  // tens of seconds, for all groups of a scene
 constexpr double jammed = 0.38;
 constexpr std::size_t betweenMarks = 1024;  // spheres
 
-// Large ones first: they find no place later. Equal radii keep their order.
+// Returns the spheres by falling radius, because large ones find no place later. Equal radii keep their order.
 std::vector<std::uint32_t> byFallingRadius(const std::vector<Sphere>& spheres) {
     std::vector<std::uint32_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0U);

@@ -10,7 +10,7 @@
 // The goal of `auto` quality.
 namespace spherule::scene {
 
-// The goal of a message, none where it names none; Input for one that makes no sense, with the field below `where`.
+// Returns the goal of a message; nullopt if it has none. Input if the goal is invalid, with its field below `where`.
 Result<std::optional<Goal>> goalOf(const v1::Auto& message, std::string_view where);
 v1::Auto messageOf(const Goal& goal);
 

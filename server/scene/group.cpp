@@ -11,7 +11,7 @@ namespace spherule::scene {
 
 namespace {
 
-// The name of the source as it stands in the scene file; empty when there is none.
+// Returns the source's name in the scene file; empty if there is none.
 std::string sourceName(const v1::Group& message) {
     switch (message.source_case()) {
         case v1::Group::kList:
@@ -58,7 +58,7 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
     return {};
 }
 
-// Where the maker of the scene finds sphere `index`: its field, and what to say before the reason.
+// Refuses sphere `index`, with its place in the scene or its file.
 void refuseSphere(Check& check, const v1::Group& message, const std::string& source, std::size_t index,
                   const Sphere& sphere, const std::string& reason) {
     const std::string what = fmt::format("at {} with radius {}", shown(sphere.position), sphere.radius);
@@ -73,7 +73,7 @@ void refuseSphere(Check& check, const v1::Group& message, const std::string& sou
     }
 }
 
-// Each sphere meets each obstacle, here once and then in every substep.
+// Refuses too many pairs of a sphere and an obstacle: each pair is tested here once, and then in every substep.
 void checkWork(Check& check, const Scene& scene, const std::string& source, std::size_t spheres) {
     const std::size_t pairs = spheres * scene.obstacles.size();
     if (pairs <= maxObstaclePairs) return;

@@ -12,8 +12,8 @@ namespace spherule::scene {
 
 namespace {
 
-// Bytes at most, beside the text: the message on its way, twice while it grows; then objects, and numbers in arrays
-// that grow.
+// Returns the most memory (bytes) for parsing, in addition to the text: the binary message, twice while it grows, then
+// objects, and numbers in growing arrays.
 std::uint64_t costOf(std::string_view text) {
     constexpr std::uint64_t object = 200;
     constexpr std::uint64_t value = 24;

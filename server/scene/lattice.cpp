@@ -8,7 +8,7 @@ namespace spherule::scene {
 
 namespace {
 
-// Places per axis such that a sphere of the largest radius stays within the region wherever jitter moves it.
+// Places per axis. A sphere of the largest radius stays within the region at any jitter.
 struct Places {
     glm::dvec3 count{};  // whole numbers, perhaps larger than an integer holds
     glm::dvec3 first{};
@@ -17,7 +17,7 @@ struct Places {
 };
 
 Places placesIn(const Box& region, double spacing, double reach) {
-    // Keeps a place that only rounding would push out.
+    // Keeps a place that only rounding would exclude.
     constexpr double slack = 1e-9;
     Places places;
     for (int axis = 0; axis < 3; ++axis) {
@@ -42,7 +42,7 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
     const Places places = placesIn(region, spacing, radii.max + jitter);
     const double wanted = lattice.has_count() ? lattice.count() : places.total();
     const std::string field = lattice.has_count() ? at(input.field, "count") : input.field;
-    // Not "wanted > total": where one axis has no place and another endless ones, the total is no number.
+    // Not "wanted > total": if one axis has no place and another infinitely many, the total is NaN.
     if (!(wanted <= places.total()) || (wanted == 0 && !lattice.has_count())) {
         check.refuse(field,
                      fmt::format("asks for {:.0f} spheres, but {:.0f} x {:.0f} x {:.0f} fit between min and max "

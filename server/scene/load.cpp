@@ -22,7 +22,7 @@ bool isPath(std::string_view source) {
 }
 
 constexpr std::uint64_t longestFile = 32U << 20U;  // bytes of JSON
-constexpr std::ptrdiff_t mostObjects = 2'000'000;  // each takes some 130 bytes when parsed, be it empty
+constexpr std::ptrdiff_t mostObjects = 2'000'000;  // each takes about 130 bytes when parsed, even if empty
 
 Result<Scene> buildText(const std::string& text, const std::string& source, const std::string& name,
                         const std::optional<std::filesystem::path>& directory, const Overrides& overrides,

@@ -42,13 +42,13 @@ Result<Scene> build(const v1::Scene& message, const Overrides& overrides = {}, P
 // their present places; a fill finds places between them. Error paths start with "group".
 Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scene, Progress* progress = nullptr);
 
-// Three finite numbers, or the error for `field`.
+// Returns a vector of three finite numbers, or an error with `field`.
 Result<glm::dvec3> vectorOf(const google::protobuf::RepeatedField<double>& values, std::string_view field);
 
-// Substeps per step that suit the scene and its model; may exceed maxSubsteps.
+// Returns the substeps per step that suit the scene and its model; may exceed maxSubsteps.
 double defaultSubsteps(const Scene& scene);
 
-// Names of the scenes that come with the program, sorted.
+// Returns the names of the scenes that are part of the program, sorted.
 std::vector<std::string> names();
 
 }  // namespace spherule::scene

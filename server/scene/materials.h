@@ -8,15 +8,15 @@
 namespace spherule::scene {
 
 constexpr std::size_t maxMaterials = 64;
-constexpr double largestFriction = 100;  // and resistance
+constexpr double largestFriction = 100;  // also for rolling and spinning resistance
 
-// The scene's materials; one with the defaults where it names none.
+// Returns the scene's materials; one with the defaults if there are none.
 std::vector<Material> readMaterials(Check& check, const google::protobuf::RepeatedPtrField<v1::Material>& messages);
 
 std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::RepeatedPtrField<v1::MaterialPair>& messages,
                                     const std::vector<Material>& materials);
 
-// The index of the material with this name; of the first where `name` is empty.
+// Returns the index of the material with this name, or of the first if `name` is empty.
 std::uint8_t materialNamed(Check& check, const std::string& name, const std::vector<Material>& materials,
                            std::string_view field);
 
@@ -31,7 +31,7 @@ struct PairLaw {
 
 bool hasWalls(const Scene& scene);  // some face of the bounds is closed
 
-// The laws that can act: between materials of spheres, and between them and materials of walls and obstacles.
+// Returns the laws that can act: between materials of spheres, and between these and materials of walls and obstacles.
 std::vector<PairLaw> actingLaws(const Scene& scene);
 
 PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);

@@ -22,9 +22,9 @@ bool overlap(const glm::dvec3& a, double radiusA, const glm::dvec3& b, double ra
 
 }  // namespace
 
-// Cells that follow each other in x have slots that do so too: a row of them is one place in memory.
+// Successive cells in x have successive slots, so a row of cells is contiguous in memory.
 std::size_t Occupancy::slotOf(const Level& level, const glm::dvec3& cell) {
-    // A sphere that has left the world may be anywhere.
+    // A sphere that has left the bounds may have any coordinates.
     const auto integer = [](double value) {
         return static_cast<std::uint64_t>(std::abs(value) < 0x1p62 ? static_cast<std::int64_t>(value) : 0);
     };
@@ -46,7 +46,7 @@ void Occupancy::add(const glm::dvec3& centre, double radius) {
     for (std::size_t k = 0; k < level.items.size(); ++k) link(level, k);
 }
 
-// Items twice, and chains of the old size and the next.
+// Items twice, and chains of the old and the new size.
 std::size_t Occupancy::mostBytesPerSphere() {
     return 2 * sizeof(Item) + 3 * sizeof(std::uint32_t);
 }

@@ -8,19 +8,19 @@
 
 namespace spherule::scene {
 
-// Spheres by place, to ask whether another fits between them. One hash grid for each size class (powers of two), so
-// that large among many small ones costs no more than equal ones.
+// Finds whether a sphere fits between others. Has one hash grid for each size class (powers of two), so that a large
+// sphere among many small ones costs no more than equal spheres.
 class Occupancy {
   public:
-    // Quickest where the largest radius is `typical` (m).
+    // Fastest if the largest radius is `typical` (m).
     explicit Occupancy(double typical) : typical_(typical) {}
 
     void add(const glm::dvec3& centre, double radius);
     [[nodiscard]] std::size_t size() const { return size_; }
-    // That it takes while it grows.
+    // Returns the largest memory per sphere (bytes), which is reached while the grid grows.
     [[nodiscard]] static std::size_t mostBytesPerSphere();
 
-    // No sphere overlaps this one. Touching is free.
+    // Returns true if no sphere overlaps this one. Touching is no overlap.
     [[nodiscard]] bool isFree(const glm::dvec3& centre, double radius);
 
     // Cells and spheres visited so far, as a measure of the work. A caller may add its own work.

@@ -16,9 +16,9 @@ namespace spherule::scene {
 
 namespace {
 
-// The limits of `accurate`. Springs with a stiffness from the materials need at least so many substeps per contact.
-// Springs with a stiffness from the substeps have at most this overlap at the fastest impact: with more, spheres pass
-// through each other and through walls.
+// The limits of `accurate`. Springs with a stiffness from the materials need at least `fewestPerContact` substeps per
+// contact. Springs with a stiffness from the substeps have at most this overlap at the fastest impact: with more,
+// spheres pass through each other and through walls.
 constexpr double fewestPerContact = 10;
 constexpr double softest = 0.5;  // of the radius
 
@@ -40,12 +40,12 @@ double balancedSubstep(const Scene& scene) {
     return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
 }
 
-// Whether spheres fall through what should hold them.
+// Refuses materials so soft that spheres fall through bodies that should support them.
 Result<void> checkYoung(const Scene& scene) {
     if (scene.quality.model != Model::Accurate || !followsHertz(scene)) return {};
     const auto soft = tooSoft(scene);
     if (!soft) return {};
-    // Rounded up, so that it is enough.
+    // Rounded up, so that the value in the message is accepted.
     const double digit = std::pow(10.0, std::floor(std::log10(soft->smallestYoung)) - 2);
     return fail(
         ErrorKind::Input, at(at("materials", soft->material), "young"),
@@ -54,7 +54,7 @@ Result<void> checkYoung(const Scene& scene) {
                     scene.materials[soft->material].young, std::ceil(soft->smallestYoung / digit) * digit));
 }
 
-// As if nobody had asked for substeps.
+// Returns the scene with the model, and without pinned substeps.
 Scene unpinned(const Scene& scene, Model model) {
     Scene free = scene;
     free.quality.model = model;
@@ -85,7 +85,7 @@ v1::Model messageOf(Model model) {
 double defaultSubsteps(const Scene& scene) {
     // The rule's constant has two figures, so a substep may exceed it by a hundredth: 1/480 s at r = 0.05 m on earth.
     constexpr double slack = 0.01;
-    constexpr double coarser = 4;  // what `fast` saves
+    constexpr double coarser = 4;  // `fast` needs fewer substeps by this factor
     if (scene.quality.model == Model::Accurate)
         return std::max(1.0, std::ceil(scene.step / contactTimeOf(scene).substep));
     double substep = balancedSubstep(scene);
@@ -123,7 +123,7 @@ Result<void> fitSubsteps(Scene& scene) {
     const std::uint32_t fewest = fewestSubsteps(scene, quality.model);
     if (quality.substeps >= fewest) return {};
     if (quality.goal) {
-        quality.substeps = fewest;  // nobody asked for the others
+        quality.substeps = fewest;  // with a goal, the number of substeps may change
         return {};
     }
     const std::string reason =
@@ -134,11 +134,11 @@ Result<void> fitSubsteps(Scene& scene) {
 }
 
 std::uint32_t mostSubsteps(const Scene& scene) {
-    // In one step: about ten seconds on one processor.
+    // Per step: about ten seconds on one processor.
     constexpr double mostSphereSubsteps = 2e8;
-    // The launches of a substep take as long as so many spheres.
+    // The launches of a substep take as long as this number of spheres.
     constexpr double launches = 1e4;
-    constexpr double timesOwn = 8;  // what the dial offers
+    constexpr double timesOwn = 8;  // the largest factor that the dial offers
     // Only the springs of `accurate` depend on whether substeps are pinned; others need no copy of the scene.
     const bool copied = scene.quality.model == Model::Accurate && scene.quality.pinned;
     const double own = copied ? defaultSubsteps(unpinned(scene, Model::Accurate)) : defaultSubsteps(scene);
@@ -194,7 +194,7 @@ Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {
 }
 
 SubstepRange substepRange(const Scene& scene, Model model) {
-    constexpr double fewer = 2;  // times: with less, piles are squeezed
+    constexpr double fewer = 2;  // factor; with fewer substeps, piles are squeezed
     constexpr double more = 8;
     const double own = defaultSubsteps(unpinned(scene, model));
     const double least = fewestSubsteps(scene, model);

@@ -12,44 +12,47 @@ namespace spherule::scene {
 
 std::string_view nameOf(Model model);  // "fast", "balanced" or "accurate"
 std::optional<Model> modelNamed(std::string_view name);
-Model modelOf(v1::Model message);  // of one that is specified
+Model modelOf(v1::Model message);  // `message` must not be MODEL_UNSPECIFIED
 v1::Model messageOf(Model model);
 
-// Whether the materials have what the model needs.
+// Returns an error if the materials lack a value that the model needs.
 Result<void> checkModel(const Scene& scene);
 
 // Chooses the substeps, unless they are pinned. Returns an error if the model cannot work with them.
 Result<void> fitSubsteps(Scene& scene);
 
-// The substeps that the model would choose itself for the scene, or why it cannot have it.
+// Returns the substeps that the model would choose for the scene, or why the scene cannot use the model.
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model);
 
-// That the model can do with at all.
+// Returns the fewest substeps with which the model works.
 std::uint32_t fewestSubsteps(const Scene& scene, Model model);
 
-// The most that a step of the scene can have, with its model: more would keep everything else waiting for too long.
+// Returns the most substeps allowed for the scene with its model. With more, a step would delay everything else for too
+// long.
 std::uint32_t mostSubsteps(const Scene& scene);
 
-// The most that it is given while something is very fast.
+// Returns the most substeps that the simulation uses while a sphere is very fast.
 std::uint32_t mostRaised(const Scene& scene);
 
-// In a substep a sphere should move less than this share of its radius, or it may pass through what it should hit.
+// In a substep a sphere should move less than this share of its radius. If it moves farther, it may pass through an
+// object that it should hit.
 constexpr double farMotion = 0.5;
 
-// The fastest that a sphere of this radius (m) can be in the scene (m/s), with more substeps while it is so fast.
+// Returns the largest speed (m/s) of a sphere of this radius (m) that the scene can compute, with mostRaised()
+// substeps.
 double mostSpeed(const Scene& scene, double radius);
 
-// Refuses spheres, from id `first` on, that begin faster than that.
+// Refuses spheres from id `first` on whose initial speed exceeds mostSpeed().
 Result<void> checkSpeeds(const Scene& scene, std::size_t first = 0);
 
-// Within which the model is of use for the scene, as far as was measured.
+// The range of substeps in which the model is useful for the scene, by measurement.
 struct SubstepRange {
     std::uint32_t fewest = 1;
     std::uint32_t most = 1;
 };
 SubstepRange substepRange(const Scene& scene, Model model);
 
-// Sets the scene's quality, which depends on all the rest of it.
+// Sets the scene's quality. Call it last, because quality depends on all other parts of the scene.
 void readQuality(Check& check, const v1::Quality& message, const Overrides& overrides, Scene& scene);
 
 }  // namespace spherule::scene

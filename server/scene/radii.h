@@ -23,11 +23,11 @@ struct Radii {
     double max = 0;  // m
     std::optional<Bell> bell;
 
-    // A constant draws no random number.
+    // A constant law draws no random number.
     [[nodiscard]] float draw(Random& random) const;
 };
 
-// A single radius in m.
+// Reads a single radius (m).
 double readRadius(Check& check, double value, std::string_view field);
 
 Radii readRadii(Check& check, const v1::Radius& message, std::string_view field);

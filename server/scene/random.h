@@ -12,16 +12,16 @@ class Random {
     // Streams of one seed are independent of each other.
     explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-    // In [0, 1), a multiple of 2^-53.
+    // Returns a number in [0, 1), a multiple of 2^-53.
     double uniform();
     double uniform(double low, double high);
 
-    // Mean 0, variance 1. Algorithm N of C. Karney, "Sampling exactly from the normal distribution", ACM Trans. Math.
-    // Softw. 42 (2016): comparisons of uniform numbers alone.
+    // Returns a normal number with mean 0 and variance 1. Algorithm N of C. Karney, "Sampling exactly from the normal
+    // distribution", ACM Trans. Math. Softw. 42 (2016): comparisons of uniform numbers alone.
     double normal();
 
   private:
-    // True with probability exp(-t), 0 <= t <= 1, by von Neumann's runs.
+    // Returns true with probability exp(-t), 0 <= t <= 1, by von Neumann's runs.
     bool withProbabilityOfExpMinus(double t);
 
     std::mt19937_64 engine_;

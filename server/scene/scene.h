@@ -28,11 +28,11 @@ struct Material {
     double friction = 0;
     double rollingResistance = 0;
     double spinningResistance = 0;
-    double young = 0;  // Pa; 0: to be chosen
+    double young = 0;  // Pa; 0: chosen by the model
     double poisson = 0.25;
 };
 
-// Values between materials `a` and `b`, in place of the values that follow from each.
+// Values between materials `a` and `b`. They replace the values computed from each material.
 struct MaterialPair {
     std::uint8_t a = 0;
     std::uint8_t b = 0;
@@ -55,9 +55,9 @@ struct Goal {
 struct Quality {
     Model model = Model::Balanced;
     std::uint32_t substeps = 1;  // per step
-    bool pinned = true;          // substeps were asked for, not chosen
-    double overlap = 0.1;        // of the radius: what `accurate` aims at where it chooses stiffness and substeps
-    std::optional<Goal> goal{};  // none: substeps stay as they are
+    bool pinned = true;          // substeps are requested, not chosen
+    double overlap = 0.1;        // of the radius: target of `accurate` when it chooses stiffness and substeps
+    std::optional<Goal> goal{};  // nullopt: substeps stay the same
 };
 
 struct Group {
@@ -80,7 +80,7 @@ struct Bounds {
 
 struct Plane {
     glm::dvec3 point{};
-    glm::dvec3 normal{};  // unit length, to the free side
+    glm::dvec3 normal{};  // unit length, towards the free side
 };
 
 struct Box {

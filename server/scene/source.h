@@ -15,10 +15,10 @@
 
 namespace spherule::scene {
 
-// The input of a group's sources. The spheres they return have position, velocity, spin and radius;
-// the material, and the check that each sphere has a place in the scene, are the group's.
+// The input of a group's source. A source returns spheres with position, velocity, spin and radius. readGroup() sets
+// the material, and checks that each sphere has a place in the scene.
 struct SourceInput {
-    std::string field;             // of the source: "groups[2].lattice"
+    std::string field;             // field of the source: "groups[2].lattice"
     std::optional<Radii> radii{};  // of the group
     glm::vec3 velocity{};          // m/s, of the group
     glm::vec3 spin{};              // rad/s, of the group
@@ -26,23 +26,23 @@ struct SourceInput {
     Random random;
 };
 
-// For `count` spheres that a source makes, and `besides` (bytes) for each of them, until they are there. Nothing, and
-// refused, when they are more than the scene has room for, or than memory has.
+// Claims memory for `count` spheres of a source, plus `besides` bytes per sphere. Hold the claim until the spheres are
+// allocated. Refuses and returns nullopt if the scene or the memory has no room for them.
 std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, double count, std::string_view field,
                                        std::size_t besides = 0);
 
-// The group's radii; refused when it has none.
+// Returns the group's radii. Refuses if it has none.
 Radii requiredRadii(Check& check, const SourceInput& input);
 
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
 
 std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, SourceInput input);
 
-// Reads `directory`/list.file(). Places in the file are reported as file:line:column.
+// Reads `directory`/csv.file(). Errors give places in the file as file:line:column.
 std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
                             SourceInput input);
 
-// Clear of `obstacles` and of `taken`, to which they are added. Gives up, and refuses, when free places become too hard
+// Places spheres clear of `obstacles` and of `taken`, and adds them to `taken`. Refuses if free places become too hard
 // to find.
 std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
                              Occupancy& taken, SourceInput input);

@@ -16,14 +16,14 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double mostDamping = 15.8;  // parts with a thousandth of the speed; more would need shorter substeps
-// Substeps in a contact. The dashpots' error, which bears a share of the static force, falls with it: 1.3 % at 50,
-// below a hundredth here.
+// Substeps per contact. More substeps reduce the error of the dashpots, which carry a share of the static force: 1.3 %
+// at 50, below 1 % at this value.
 constexpr double contactShare = 70;
 constexpr double dampedEnough =
     2;  // stronger dashpots need shorter substeps, because the dashpots of all contacts add up
 constexpr double rayleighShare = 10;
 
-// Speed over approach speed after a contact with this damping ratio.
+// Returns the restitution of a contact with this damping ratio: speed of parting over speed of approach.
 double restitutionOf(double ratio) {
     if (ratio >= 1) {
         const double w = std::sqrt(ratio * ratio - 1);
@@ -87,7 +87,7 @@ bool obstructed(const Scene& scene) {
     return hasWalls(scene) || !scene.obstacles.empty();
 }
 
-// Whether something that does not move can drag spheres along its surface.
+// Returns true if a wall or an obstacle has friction with any sphere.
 bool surfacesRub(const Scene& scene) {
     const std::set<std::uint8_t> used = materialsOfSpheres(scene);
     return std::ranges::any_of(materialsOfSurfaces(scene), [&](std::uint8_t b) {
@@ -95,7 +95,8 @@ bool surfacesRub(const Scene& scene) {
     });
 }
 
-// The part of `motion` along every face and plane. It changes nothing in the scene.
+// Returns the part of `motion` that is parallel to all closed faces and planes. Returns 0 if there are other obstacles.
+// A common motion of this kind has no effect on contacts.
 glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
     std::vector<glm::dvec3> across;  // orthonormal
     const auto block = [&across](glm::dvec3 n) {
@@ -118,14 +119,14 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
 }
 
 struct Meetings {
-    double spheres = 0;   // m/s, of two spheres head-on
-    double surfaces = 0;  // m/s, of a sphere relative to bodies at rest
+    double spheres = 0;   // m/s: two spheres head-on
+    double surfaces = 0;  // m/s: a sphere relative to bodies at rest
 };
 
-// Relative to the common motion of all spheres, as far as the surfaces of the scene allow it. With surfaces, spheres
-// that bounce back may meet at twice the fastest speed. Without surfaces, gravity and a common motion do not count. The
-// speed is then twice the largest difference of two velocities, because a light sphere leaves a heavy one twice as fast
-// as they met.
+// Returns the fastest meetings. Speeds are relative to the common motion of all spheres, as far as the surfaces of the
+// scene allow such a motion. With surfaces, spheres that bounce back may meet at twice the fastest speed. Without
+// surfaces, gravity and a common motion do not count. The speed is then twice the largest difference of two velocities,
+// because a light sphere leaves a heavy one twice as fast as they met.
 Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
@@ -140,7 +141,7 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     if (scene.sphereContacts && scene.spheres.size() > 1)
         fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall);
     if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall);
-    // Where nothing moves or falls, the step says what is slow.
+    // If nothing moves or falls, a slow speed is derived from the step.
     if (!(std::max(fastest.spheres, fastest.surfaces) > 0)) fastest.spheres = grain * extremes.smallest / scene.step;
     return fastest;
 }
@@ -150,9 +151,9 @@ double fastestImpact(const Scene& scene, const Extremes& extremes) {
     return std::max(fastest.spheres, fastest.surfaces);
 }
 
-constexpr double solid = 0.6;  // of a pile
+constexpr double solid = 0.6;  // share of a pile's volume
 
-// Pa: of all spheres together, spread over the ground; 0 where there is no ground.
+// Returns the pressure (Pa) of all spheres, spread over the ground; 0 if there is no ground.
 double pressureOfPile(const Scene& scene, const Extremes& extremes) {
     const double g = glm::length(scene.gravity);
     if (!(g > 0) || !obstructed(scene)) return 0;
@@ -163,7 +164,7 @@ double pressureOfPile(const Scene& scene, const Extremes& extremes) {
     return solid * extremes.densest * g * height;
 }
 
-// The impact of two equal spheres, or of one on a wall.
+// Returns the modulus (Pa) for the scene's wanted overlap, for two equal spheres or for a sphere and a wall.
 double modulusForOverlap(const Scene& scene) {
     constexpr double atRest = 0.2;
     const Extremes extremes = extremesOf(scene);
@@ -179,7 +180,9 @@ double substepsPerContact(const Scene& scene) {
     return contactShare * strongest / dampedEnough;
 }
 
-// For equal spheres of this radius and density: half their mass over the square of the contact's frequency.
+// Returns the modulus (Pa) that the substeps allow, for the smallest radius and the lowest density. The spring constant
+// is half a sphere's mass times the square of the contact's angular frequency. The modulus is the spring constant over
+// the radius.
 double modulusForSubstep(const Scene& scene) {
     const Extremes extremes = extremesOf(scene);
     const double contact = substepsPerContact(scene) * scene.step / scene.quality.substeps;
@@ -189,15 +192,16 @@ double modulusForSubstep(const Scene& scene) {
            std::pow(pi / contact, 2);
 }
 
-// Tangential stiffness of linear springs, of the normal one: the tangential frequency is then the normal one.
+// Tangential over normal stiffness of linear springs. With this ratio the tangential frequency equals the normal one.
 constexpr double tangentialShare = 2.0 / 7;
 
 double compliance(const Material& material) {
     return (1 - material.poisson * material.poisson) / material.young;
 }
 
-// The effective modulus (Pa) at which the overlap is `share` of the radius, for a sphere of this density against an
-// equal one or a wall. It holds for an impact at `speed`, and at rest under `pressure` or the sphere's own weight.
+// Returns the effective modulus (Pa) at which the overlap is `share` of the radius, for a sphere of this density
+// against an equal one or a wall. It holds for an impact at `speed`, and at rest under `pressure` or the sphere's own
+// weight.
 double modulusThatBears(double share, double density, double speed, double pressure, double ownWeight, bool wall) {
     const double impact =
         15.0 / 16 * 4.0 / 3 * pi * density * speed * speed / (wall ? 1 : std::sqrt(2)) / std::pow(share, 2.5);
@@ -260,7 +264,7 @@ std::optional<TooSoft> tooSoft(const Scene& scene) {
         if (!(needed > modulus) || (worst && worst->share >= needed / modulus)) return;
         const std::uint8_t softer = scene.materials[a].young <= scene.materials[b].young ? a : b;
         const Material& material = scene.materials[softer];
-        // The other stays as it is, where that is enough.
+        // The modulus of the other material stays the same, if that is enough.
         const double left = 1 / needed - (a == b ? 0 : compliance(scene.materials[softer == a ? b : a]));
         double young = material.young * needed / modulus;
         if (a != b && left > 0) young = (1 - material.poisson * material.poisson) / left;

@@ -22,11 +22,11 @@ void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, 
 // decimal figures and of the radius to float32.
 constexpr double touchTolerance = 1e-6;
 
-// Why a sphere cannot be there ("reaches x = -0.1, outside the bounds, which are 0 to 5"), or nothing. Open faces count
-// like closed ones: spheres may leave through them later, but start inside.
+// Returns why a sphere cannot be at `centre` ("reaches x = -0.1, outside the bounds, which are 0 to 5"); nullopt if it
+// can. Open faces count like closed ones: spheres may leave through them later, but start inside.
 std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& centre, double radius);
 
-// The first obstacle that a sphere reaches into.
+// Returns the first obstacle that a sphere reaches into; nullopt if there is none.
 std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, const glm::dvec3& centre, double radius);
 
 }  // namespace spherule::scene

@@ -5,11 +5,11 @@
 
 namespace spherule::scene {
 
-// The camera from which all of the bounds is seen, from the front, a little from the right and from above, in a picture
-// at least 3:2 wide.
+// Returns a camera that sees all of the bounds, from the front, a little from the right and from above. It assumes a
+// picture that is at least 3:2 wide.
 Camera framing(const Bounds& bounds, double fieldOfView);
 
-// Absent eye and target: framing().
+// Reads the camera. If eye and target are absent, it is framing().
 Camera readCamera(Check& check, const v1::Camera& message, const Bounds& bounds);
 
 }  // namespace spherule::scene

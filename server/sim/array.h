@@ -14,19 +14,19 @@ enum class Array : std::uint8_t {
 #define ARRAY(Name, type, extent, flags) Name,
 #include "sim/arrays.def"
 #undef ARRAY
-    Count,  // of arrays; none itself
+    Count,  // number of arrays, not an array
 };
 
 constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 
-// What an array has one element for. "End": and one more.
+// An array has one element for each of these. "End": one element more.
 enum class Extent : std::uint8_t {
     Sphere,
     SphereEnd,
-    WallContact,  // that a sphere remembers
+    WallContact,  // each wall contact that a sphere remembers
     CellEnd,
     Group,  // of 2 x 2 x 2 cells
-    Pair,   // listed; grows, with its content, when the lists need room
+    Pair,   // each listed pair; the array grows and keeps its content when the lists need room
     ScanBlock,
     ScanSuperBlock,
     LaunchRow,
@@ -42,13 +42,13 @@ struct ArrayType {
     std::size_t elementBytes = 0;
     std::string words;  // of an element, as compute::Device::createBuffer wants them
     Extent extent{};
-    bool sorted = false;   // a column: goes to cell order with the others at a rebuild
+    bool sorted = false;   // a column: a rebuild sorts it into cell order with the other columns
     bool cleared = false;  // zeroed when spheres are uploaded
 };
 
 const ArrayType& typeOf(Array array);
 std::string_view nameOf(Array array);
-// The array of that name; nullopt where there is none.
+// Returns the array of that name; nullopt if there is none.
 std::optional<Array> arrayNamed(std::string_view name);
 
 }  // namespace spherule::sim

@@ -36,7 +36,7 @@ Result<void> setGravity(scene::Scene& scene, const Set& set) {
     return {};
 }
 
-// Sets a property of all materials, and removes the values that pairs have of their own.
+// Sets a property of all materials, and removes the property's values from all pairs.
 Result<void> setMaterials(scene::Scene& scene, double value, double most, const char* name,
                           double scene::Material::*ofMaterial, std::optional<double> scene::MaterialPair::*ofPair) {
     if (!(value >= 0 && value <= most))
@@ -58,7 +58,8 @@ Result<void> setFriction(scene::Scene& scene, const Set& set) {
                         &scene::MaterialPair::friction);
 }
 
-// The substeps become those that suit the new model, unless the command has its own.
+// Unpins the substeps, so that fitSubsteps() chooses them for the new model. setSubsteps() runs later: substeps in the
+// same command take precedence.
 Result<void> setModel(scene::Scene& scene, const Set& set) {
     if (!set.model) return {};
     scene.quality.model = *set.model;
@@ -81,12 +82,13 @@ Result<void> setGoal(scene::Scene& scene, const Set& set) {
     return {};
 }
 
-// The scene with the spheres of the group added, and the states of all spheres. `state` has those of the present ones.
+// Returns the scene with the spheres of the group added, and the states of all spheres. `state`: the states of the
+// present spheres.
 Result<Built> withGroup(const Spawn& spawn, scene::Scene scene, State state, Progress& progress) {
     const glm::dvec3 centre = scene.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 now = glm::dvec3(state.position[id]);
-        // A sphere without a finite position, or very far away, counts where it began.
+        // A sphere without a finite position, or very far away, keeps its initial position.
         if (glm::dot(now, now) < farthest * farthest) scene.spheres[id].position = now + centre;
     }
     auto added = spawn.place(scene, progress);
@@ -146,7 +148,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& se
     return simulation_.change(std::move(changed), disturbs);
 }
 
-// The features stay the same at any number of substeps, so nothing has to be prepared.
+// Features do not depend on the number of substeps, so the command needs no preparation.
 Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
     scene::Scene changed = scene_;
     changed.quality.pinned = true;
@@ -157,10 +159,10 @@ Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
 }
 
 Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
-    // How short a substep must be depends on gravity and on the model.
+    // The longest usable substep depends on gravity and on the model.
     if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     Features features = featuresOf(changed);
-    features.set(Feature::Levels, plan().features.has(Feature::Levels));  // they depend on the spheres alone
+    features.set(Feature::Levels, plan().features.has(Feature::Levels));  // levels depend on the spheres alone
     if (features == plan().features) {
         scene_ = std::move(changed);
         mostSubsteps_ = scene::mostRaised(scene_);
@@ -210,7 +212,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& p
     return Outcome{.applied = {.sphere = *id}};
 }
 
-// The id of the sphere to push.
+// Returns the id of the sphere to push.
 Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
     const std::uint32_t count = simulation_.count();
     if (const auto* const ray = std::get_if<Ray>(&push.target)) {
@@ -234,11 +236,11 @@ Result<void> Simulation::CommandHandler::checkPush(std::uint32_t id, const glm::
     const glm::dvec3 velocity(now);
     const glm::dvec3 change = impulse * std::abs(now.w);
     const double radius = static_cast<double>(scene.spheres[id].radius);
-    // A sphere that is faster already may still be slowed down.
+    // A sphere that is already faster may still be slowed down.
     const double most =
         std::max(scene::farMotion * radius * simulation_.mostSubsteps_ / scene.step, glm::length(velocity));
     if (glm::length(velocity + change) <= most) return {};
-    // The share of the impulse that makes it as fast as it can be.
+    // The share of the impulse that gives the sphere the largest speed allowed.
     const double b = glm::dot(velocity, change);
     const double square = glm::dot(change, change);
     const double room = std::max(most * most - glm::dot(velocity, velocity), 0.0);

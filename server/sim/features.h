@@ -10,8 +10,8 @@
 
 namespace spherule::sim {
 
-// What a scene may require: the rows of shaders/features.def. What it does not require is neither compiled, allocated
-// nor launched.
+// The features that a scene may require: the rows of shaders/features.def. A feature that the scene does not require is
+// neither compiled, allocated nor launched.
 enum class Feature : std::uint8_t {
 #define FEATURE(flag, Name, text) Name,
 #include "features.def"
@@ -33,7 +33,7 @@ class Features {
     [[nodiscard]] bool has(Feature feature) const { return (bits_ & bitOf(feature)) != 0; }
     void set(Feature feature, bool on = true) { bits_ = on ? bits_ | bitOf(feature) : bits_ & ~bitOf(feature); }
 
-    // Whether there is any surface that a sphere may hit.
+    // Returns true if the scene has any surface that a sphere may hit.
     [[nodiscard]] bool obstructed() const { return has(Feature::Walls) || has(Feature::Planes) || has(Feature::Boxes); }
 
     bool operator==(const Features&) const = default;
@@ -44,10 +44,10 @@ class Features {
     std::uint64_t bits_ = 0;
 };
 
-// Of a scene with its spheres. Levels is a matter of the grid: planFor() sets it.
+// Returns the features that a scene with its spheres requires, except Levels: planFor() sets it with the grid.
 Features featuresOf(const scene::Scene& scene);
 
-// Of all features, for the kernels.
+// Returns one define per feature for the kernels, with the value "true" or "false".
 std::vector<compute::Define> definesFor(const Features& features);
 
 }  // namespace spherule::sim

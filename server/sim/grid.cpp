@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t cellsPerSphere = 2;
 constexpr std::uint64_t fewestCells = 4096;
 constexpr std::uint32_t mostPerAxis = 1U << 16U;
-// Many times what fits without overlap: a heap under load must never look like a crowd.
+// A crowd has many times more spheres in a cell than fit without overlap: a heap under load must never count as one.
 constexpr double crowdInFull = 4;
 constexpr double smallestCrowd = 64;
 
@@ -36,7 +36,7 @@ Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint
     return level;
 }
 
-// Of the smallest spheres of a class in one of its cells, packed as densely as spheres can be.
+// Returns the number of the class's smallest spheres that fit in one cell at the densest packing.
 double fullCell(const SizeClass& one, double cellSize) {
     constexpr double densest = 0.74;
     constexpr double ball = 4.18879;

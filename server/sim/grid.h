@@ -9,14 +9,14 @@
 
 namespace spherule::sim {
 
-// Cells for spheres of like size: a torus of cubes, so that memory is bounded wherever spheres go.
+// Cells for spheres of similar size. They form a torus of cubes, so that memory is bounded wherever spheres go.
 struct Level {
     float cellSize = 0;       // m
     float largest = 0;        // radius, m
     glm::uvec3 cells{0};      // per axis, multiples of 4
-    std::uint32_t first = 0;  // of its cells among those of all levels
+    std::uint32_t first = 0;  // index of its first cell among the cells of all levels
     std::uint32_t spheres = 0;
-    float crowd = 0;  // more spheres than this in a cell can only be in each other
+    float crowd = 0;  // a cell with more spheres than this has spheres that overlap deeply
 
     [[nodiscard]] std::uint32_t all() const { return cells.x * cells.y * cells.z; }
 };
@@ -24,14 +24,14 @@ struct Level {
 // The broad phase's cells.
 struct Grid {
     float margin = 0;                                   // m; pairs are listed up to this gap
-    std::vector<Level> levels = std::vector<Level>(1);  // from the finest to the coarsest; one where radii are alike
+    std::vector<Level> levels = std::vector<Level>(1);  // from the finest to the coarsest; one if radii are similar
 
     [[nodiscard]] std::uint32_t all() const { return levels.back().first + levels.back().all(); }
     [[nodiscard]] const Level& coarsest() const { return levels.back(); }
 };
 
-// Cells as wide as the largest sphere and the margin; as many as the domain needs, but at most about two per sphere.
-// Beyond that, far places share cells: more tests, the same contacts.
+// Returns cells as wide as the largest sphere plus the margin. They cover the domain, but there are at most about two
+// per sphere. In larger domains distant places share cells, which costs more tests and finds the same contacts.
 Grid gridFor(glm::dvec3 extent, const Radii& radii);
 
 }  // namespace spherule::sim

@@ -9,7 +9,8 @@ namespace spherule::sim::layout {
 
 namespace {
 
-// A literal, or the name of a constant of the same file: `#define NAME 8u`.
+// Returns the value of a literal, or of a constant that the same file defines: `#define NAME 8u`. Returns 1 for an
+// empty name.
 std::size_t numberIn(const std::string& text, const std::string& name) {
     if (name.empty()) return 1;
     if (name.find_first_not_of("0123456789") == std::string::npos) return std::stoul(name);

@@ -21,10 +21,10 @@ using uint = std::uint32_t;
 static_assert(sizeof(vec4) == 16 && sizeof(uvec4) == 16);
 static_assert(sizeof(Parameters) % 16 == 0, "std140");
 
-// The 32-bit words of a struct of shaders/shared/`file`, in turn, as compute::Device::createBuffer wants them: 'r' a
-// real number, 'u' an unsigned integer. Read from the text of the file. Throws std::logic_error for a struct that is
-// not there and for a member that would not lie in a uniform block (std140) as it lies in C++: a vector must begin at a
-// multiple of 16 bytes.
+// Returns the types of the 32-bit words of a struct in shaders/shared/`file`, for compute::Device::createBuffer: 'r' a
+// real number, 'u' an unsigned integer. Reads them from the text of the file. Throws std::logic_error if there is no
+// such struct, or if a vector in it does not begin at a multiple of 16 bytes. The layout in a uniform block (std140)
+// would then differ from C++.
 std::string wordsOf(std::string_view structName, std::string_view file = "layout.h");
 
 }  // namespace spherule::sim::layout

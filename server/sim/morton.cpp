@@ -11,7 +11,7 @@ namespace {
 
 constexpr float lastCell = 65535;
 
-// Bit b to bit 3 b.
+// Moves bit b to bit 3 b.
 std::uint64_t apart(std::uint64_t x) {
     x = (x | x << 32U) & 0x00ff00000000ffffU;
     x = (x | x << 16U) & 0x00ff0000ff0000ffU;

@@ -8,8 +8,9 @@
 
 namespace spherule::sim {
 
-// Indices of `positions` (m; w does not count) along a Morton curve of 2^16 cells per axis over the cube around the
-// finite ones: neighbours in the result are neighbours in space. Others come as if they were at its corner. Any thread.
+// Returns the indices of `positions` (m; w is ignored) in the order of a Morton curve: neighbours in the result are
+// near each other in space. The curve has 2^16 cells per axis over the cube around the finite positions. A non-finite
+// coordinate counts as an edge of the cube. Any thread.
 std::vector<std::uint32_t> mortonOrder(std::span<const glm::vec4> positions);
 
 }  // namespace spherule::sim

@@ -14,14 +14,14 @@ namespace spherule::sim {
 
 namespace {
 
-// Per sphere. A State, and a SlotState: with friction it has angular velocities.
+// Per sphere: a State and a SlotState. With friction, a SlotState has angular velocities.
 constexpr std::uint64_t stateBytes = 3 * sizeof(glm::vec4);
 constexpr std::uint64_t slotBytes(bool friction) {
     return (friction ? 3 : 2) * sizeof(glm::vec4) + sizeof(std::uint32_t);
 }
-// Ids and materials, as they are uploaded.
+// Ids and materials during an upload.
 constexpr std::uint64_t uploadBytes = sizeof(std::uint32_t) + sizeof(std::uint8_t);
-// The radii that viewers are told: in a message, and that as it travels.
+// The radii that are sent to viewers: in a message, and in its encoded copy.
 constexpr std::uint64_t radiiBytes = 2 * sizeof(float);
 
 std::uint64_t snapshotBytes(const Plan& plan) {

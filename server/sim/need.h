@@ -9,7 +9,8 @@
 #include "core/memory.h"
 #include "sim/plan.h"
 
-// The memory that simulations take: all that grows with the number of spheres, counted before any of it is taken.
+// The memory of simulations, as far as it grows with the number of spheres. It is computed before any of it is
+// allocated.
 namespace spherule::sim {
 
 struct Need {
@@ -17,30 +18,32 @@ struct Need {
         std::string_view name;
         std::uint64_t bytes = 0;
     };
-    std::uint64_t arrays = 0;  // of the plan, on the device; where that has no memory of its own, of the machine's
-    std::vector<Part> host;    // of the machine's memory, as long as the simulation is there
-    std::uint64_t work = 0;    // on top of that for a time: while it is made, and for the command that copies most
-    // With the first viewer, or a recording; for each tier that is watched or recorded. On the device, on the host.
+    std::uint64_t arrays = 0;  // the plan's arrays on the device; host memory if the device has none of its own
+    std::vector<Part> host;    // host memory, as long as the simulation exists
+    std::uint64_t work = 0;    // host memory in addition, while it is made or executes the command that copies most
+    // The order: allocated with the first viewer or recording. Tiers: each tier that is watched or recorded.
+    // `...Arrays` on the device, the others on the host.
     std::uint64_t orderArrays = 0, order = 0;
     std::uint64_t tierArrays = 0, tier = 0;
 
     [[nodiscard]] std::uint64_t onHost() const;     // the sum of `host`
-    [[nodiscard]] std::vector<Part> parts() const;  // all of it, in words for users
+    [[nodiscard]] std::vector<Part> parts() const;  // all of it, with names for users
 };
 
 Need needOf(const Plan& plan);
 
-// What `plan` takes of the machine's memory when it is made on `device`.
+// Returns the host memory (bytes) of the plan's arrays on `device`.
 std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan);
 
-// For the states of so many spheres, until they are there.
+// Claims memory for the states of `spheres` spheres. Hold the claim until they are allocated.
 Result<memory::Claim> claimForState(std::size_t spheres);
-// For the simulation of a scene that is in memory already.
+// Claims memory for the simulation of a scene that is in memory already.
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan);
-// Once all of it has been made: what is held, and the promise of what its commands need.
+// Updates the claim once the simulation is made: its memory is held, and the memory for its commands is promised.
 void settle(memory::Claim& claim, const compute::Device& device, const Plan& plan);
 
-// Copies that are made, beside what `plan` holds, to give its spheres other arrays; and to add spheres between them.
+// Return the memory (bytes) for copies in addition to the memory of `plan`: to give its spheres other arrays, and to
+// add spheres.
 std::uint64_t copiesToChange(const Plan& plan);
 std::uint64_t copiesToSpawn(const Plan& plan);
 

@@ -9,16 +9,16 @@
 
 namespace spherule::sim {
 
-// The uniform block for a scene and its plan, with substeps of `substep` seconds.
+// Returns the uniform block for a scene and its plan, with substeps of `substep` seconds.
 layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii, double substep);
 
-// Between all materials, row by row.
+// Returns the contact parameters for all pairs of materials, row by row.
 std::vector<layout::ContactParams> lawsFor(const scene::Scene& scene);
 
-// Planes first, then boxes, relative to the bounds' centre.
+// Returns the obstacles: planes first, then boxes. Positions are relative to the bounds' centre.
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);
 
-// All that the kernels read of the scene besides the spheres and the parameters.
+// Writes the scene data that kernels read in addition to the spheres and the parameters.
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene);
 
 }  // namespace spherule::sim

@@ -5,7 +5,8 @@
 
 namespace spherule::sim {
 
-// The passes of a substep in their order, then those that run on demand. Names timers, metrics and rows of the plan.
+// The passes of a substep in their order, then the passes that run on demand. Their names label timers, metrics and
+// rows of the plan.
 enum class Pass : std::uint8_t {
     Integrate,
     Grid,

@@ -9,7 +9,8 @@
 
 namespace spherule::sim {
 
-// The first sphere that a ray meets; origin relative to the bounds' centre, direction of unit length.
+// Returns the id of the first sphere that a ray hits; nullopt if there is none. `origin` is relative to the bounds'
+// centre, `direction` has unit length.
 std::optional<std::uint32_t> firstHit(const State& state, glm::dvec3 origin, glm::dvec3 direction);
 
 }  // namespace spherule::sim

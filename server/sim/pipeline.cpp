@@ -18,19 +18,19 @@ namespace {
 
 constexpr std::uint32_t workgroup = 64;
 constexpr std::uint32_t mostGroupsPerAxis = 32768;
-constexpr std::uint32_t idBits = 24;  // of a label
+constexpr std::uint32_t idBits = 24;  // of a word of idAndMaterial
 constexpr std::uint32_t idMask = (1U << idBits) - 1;
 static_assert(scene::maxSpheres <= idMask);
 static_assert(scene::maxMaterials <= 1U << (32 - idBits));
 
-// Groups x, y, z for `invocations`, as the kernels index them.
+// Returns groups x, y, z for `invocations`, as the kernels index them, and `invocations`.
 glm::uvec4 groupsFor(std::uint32_t invocations) {
     const std::uint32_t groups = (invocations + workgroup - 1) / workgroup;
     const std::uint32_t x = std::min(groups, mostGroupsPerAxis);
     return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, invocations};
 }
 
-// What was refused is one array: whoever has to make room needs to know of them all.
+// Adds the memory of the whole scene to a refusal, because the device refuses a single array.
 Error withNeed(Error error, const Plan& plan) {
     if (error.kind == ErrorKind::Refused)
         error.message +=
@@ -143,7 +143,7 @@ void Pipeline::fillLaunches() {
 
 Result<void> Pipeline::makeKernel(std::string_view file) {
     auto kernel = device_.createKernel(shaders(), file, definesFor(plan_.features));
-    // Not the user's scene but the device is at fault.
+    // The device is at fault, not the user's scene.
     if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
     kernels_.push_back(std::move(*kernel));
     return {};
@@ -166,7 +166,7 @@ void Pipeline::setParameters(const layout::Parameters& parameters) {
 }
 
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
-    // Whatever else there is of the spheres that were in these slots goes.
+    // Clears all other data of the spheres that were in these slots.
     for (const ArraySpec& spec : plan_.arrays)
         if (typeOf(spec.array).cleared) device_.fill(buffer(spec.array), 0);
     write<glm::vec4>(Array::Position, state.position);
@@ -217,7 +217,7 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
     velocity += glm::vec4(impulse * velocity.w, 0);
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
     if (!plan_.features.has(Feature::Sleep)) return;
-    // A slow push must reach the sleepers that it touches, too.
+    // A slow push must also wake the sleepers that the sphere touches.
     constexpr glm::vec4 crept(0, 0, 0, MOVED_AWAY);
     write<glm::vec4>(Array::VelocityBefore, std::span<const glm::vec4>(&crept, 1), slot);
 }
@@ -229,7 +229,7 @@ void Pipeline::wakeAll() {
     write<glm::vec4>(Array::Velocity, velocity);
 }
 
-// By parts: a copy of the whole would take as much memory again.
+// Copies in parts: a copy of the whole would need as much host memory again.
 void Pipeline::copy(compute::Buffer& from, compute::Buffer& to) {
     constexpr std::size_t most = 16U << 20U;
     std::vector<std::byte> part;
@@ -252,7 +252,7 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
         if (!growsWithPairs(spec.array)) continue;
         auto made = device_.createBuffer(nameOf(spec.array), grownBytes(spec), typeOf(spec.array).words);
         if (!made) return tl::unexpected(made.error());
-        // The old lists are read once more as the new ones are made.
+        // The rebuild reads the old lists once more.
         copy(buffer(spec.array), **made);
         grown.push_back(std::move(*made));
     }
@@ -285,7 +285,7 @@ std::vector<glm::vec4> Pipeline::takeImpacts() {
 
 void Pipeline::runStatistics() {
     if (listsPending_) {
-        // A reader must not use up a turn: the next lists of a crowd depend on how many there have been.
+        // Reading statistics must not change the simulation: the next lists of a crowd depend on these two counters.
         const auto before = read<std::uint32_t>(Array::Counters);
         run(substep_, Which::Rebuild);
         for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})

@@ -14,7 +14,7 @@
 
 namespace spherule::sim {
 
-// What the device holds of the spheres, as it lies there.
+// The state of the spheres in slot order, as the device stores it.
 struct SlotState {
     std::vector<glm::vec4> position;
     std::vector<glm::vec4> velocity;
@@ -24,34 +24,34 @@ struct SlotState {
 
 State inIdOrder(const SlotState& slots);
 
-// The arrays to bind for a launch, in the order of the buffers that its kernel declares. NoDevice for a buffer without
-// an array, of another type than its array, and for an alias that the kernel does not declare.
+// Returns the arrays to bind for a launch, in the order of the buffers that its kernel declares. NoDevice for a buffer
+// without an array, for a buffer whose type differs from its array, and for an alias that the kernel does not declare.
 Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Kernel& kernel);
 
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
-    // Without arrays and kernels: makeNext() makes them.
+    // Makes neither arrays nor kernels: makeNext() does.
     Pipeline(compute::Device& device, Plan plan);
 
-    // Makes one more array or kernel. False once all are there.
+    // Makes one more array or kernel. Returns false once all exist.
     Result<bool> makeNext();
     [[nodiscard]] double shareMade() const;  // of arrays and kernels, 0 to 1
 
     void setParameters(const layout::Parameters& parameters);
-    // In id order, as are the materials of the spheres; the lists are rebuilt in the next substep.
+    // Uploads the spheres. `state` and `materials` are in id order. The lists are rebuilt in the next substep.
     void upload(const State& state, std::span<const std::uint8_t> materials);
     [[nodiscard]] SlotState download();  // waits for the device
-    void download(SlotState& slots);     // the same, in the memory that there is
+    void download(SlotState& slots);     // the same, reusing the memory of `slots`
 
     void substep(bool observed = false);
-    // Of each cell group what the observed steps since the last call have seen, as statistics_impacts.comp adds it up;
-    // empty when there were none. Waits for the device.
+    // Returns the impacts in the observed steps since the last call: one sum per cell group, as statistics_impacts.comp
+    // adds them up. Empty if no step was observed. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
-    void runStatistics();  // of the state as it is: builds the lists first where they are not those of this state
+    void runStatistics();  // of the current state; builds its lists first if they are out of date
 
-    // Whole array as elements of T, or the first `most` of them; waits for the device. Empty where the plan has no such
-    // array.
+    // Returns an array as elements of T, at most the first `most`. Empty if the plan has no such array. Waits for the
+    // device.
     template <class T>
     std::vector<T> read(Array array, std::size_t most = SIZE_MAX) {
         std::vector<T> values;
@@ -68,14 +68,14 @@ class Pipeline {
         device_.upload(buffer(array), first * sizeof(T), std::as_bytes(values));
     }
 
-    // Wakes a sphere and gives it an impulse, in N s. Waits for the device.
+    // Wakes a sphere and gives it an impulse (N s). Waits for the device.
     void kick(std::uint32_t id, glm::vec3 impulse);
     [[nodiscard]] glm::vec4 velocityOf(std::uint32_t id);  // waits for the device
 
-    // Ends all sleep. Waits for the device.
+    // Wakes all spheres. Waits for the device.
     void wakeAll();
 
-    // Room for more pairs; the lists are rebuilt.
+    // Makes room for more pairs. The lists are rebuilt in the next substep.
     Result<void> growPairs(std::uint32_t capacity);
 
     [[nodiscard]] const Plan& plan() const { return plan_; }
@@ -89,7 +89,7 @@ class Pipeline {
     void copy(compute::Buffer& from, compute::Buffer& to);
     std::uint32_t slotOf(std::uint32_t id);
     void adopt(Array array, std::unique_ptr<compute::Buffer> made);
-    // A launch of the plan, with its kernel and the arrays to bind, by slot.
+    // A launch of the plan, its kernel, and the arrays to bind by slot.
     struct BoundLaunch {
         const LaunchSpec* spec = nullptr;
         const compute::Kernel* kernel = nullptr;
@@ -101,12 +101,13 @@ class Pipeline {
 
     compute::Device& device_;
     Plan plan_;
-    std::vector<std::string_view> kernelFiles_;  // that the plan launches
+    std::vector<std::string_view> kernelFiles_;  // launched by the plan
     std::size_t arraysMade_ = 0;                 // of plan_.arrays
     bool listsPending_ = false;
     bool impactsPending_ = false;
     std::array<std::unique_ptr<compute::Buffer>, arrayCount> owned_;
-    std::array<compute::Buffer*, arrayCount> buffers_{};  // where the plan has none: a small one that nothing touches
+    // For an array that the plan lacks: absent_, which no kernel accesses.
+    std::array<compute::Buffer*, arrayCount> buffers_{};
     std::unique_ptr<compute::Buffer> absent_;
     std::unique_ptr<compute::Buffer> parameters_;
     std::vector<std::unique_ptr<compute::Kernel>> kernels_;

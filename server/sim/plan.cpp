@@ -49,7 +49,7 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
     return 0;
 }
 
-// Invocations per row of the launch table.
+// Returns the invocations per row of the launch table.
 std::vector<std::uint32_t> launchTable(const Plan& plan) {
     const std::uint32_t cells = plan.grid.all() + 1;
     const std::uint32_t cellBlocks = blocksOf(cells, SCAN_BLOCK);

@@ -16,8 +16,8 @@
 
 namespace spherule::sim {
 
-// Every so many steps, one is observed: what only looks at how the solver works is launched too. By the number of the
-// step, so that it is the same in every run.
+// One step in `observedEvery` is observed: it also launches the kernels that only measure how the solver works. The
+// number of the step decides, so that every run observes the same steps.
 constexpr std::uint64_t observedEvery = 16;
 
 struct ArraySpec {
@@ -25,7 +25,7 @@ struct ArraySpec {
     std::uint64_t bytes = 0;
 };
 
-// A buffer that a kernel names otherwise than the array to bind: kernels that serve several arrays have some.
+// A buffer whose name in the kernel differs from the array to bind, for kernels that work on several arrays.
 struct Alias {
     std::string_view buffer;
     Array array{};
@@ -36,20 +36,21 @@ struct LaunchSpec {
     std::string_view kernel;  // file
     std::uint32_t count = 0;  // invocations
     std::optional<std::uint32_t> launchRow =
-        std::nullopt;  // of the launch table, for launches that only a rebuild needs
+        std::nullopt;  // row of the launch table, for launches that only a rebuild needs
     std::uint32_t phase = 0;
     bool observing = false;  // only in observed steps
     std::vector<Alias> aliases = {};
 };
 
-// What a scene requires: made before anything is allocated, and all that is allocated and launched.
+// All arrays and launches that a scene requires. Made before anything is allocated; nothing else is allocated or
+// launched.
 struct Plan {
     Features features;
     scene::Model model{};
     std::uint32_t spheres = 0;
     Grid grid;
     std::uint32_t pairCapacity = 0;
-    std::uint32_t wallContacts = 0;           // that each sphere remembers
+    std::uint32_t wallContacts = 0;           // remembered by each sphere
     std::vector<ArraySpec> arrays;            // in the order of sim/arrays.def
     std::vector<LaunchSpec> substep;          // in order
     std::vector<LaunchSpec> statistics;       // on demand
@@ -58,21 +59,22 @@ struct Plan {
     [[nodiscard]] bool has(Array array) const;
     [[nodiscard]] std::uint64_t bytesOf(Array array) const;
     [[nodiscard]] std::uint64_t bytes() const;
-    // What an array takes, whether the plan has it or not. At least one element.
+    // Returns the size of an array (bytes), whether the plan has it or not: at least one element.
     [[nodiscard]] std::uint64_t bytesFor(Array array, const scene::Scene& scene) const;
     [[nodiscard]] std::uint32_t groups() const { return grid.all() / 8; }  // cell groups of all colours
 };
 
-// How many blocks of `block` hold so many values.
+// Returns the number of blocks of `block` values that hold `values` values.
 constexpr std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
     return (values + block - 1) / block;
 }
 
-// `scene` without its spheres is enough; radii are those of the spheres to simulate. pairCapacity 0: the default.
+// `scene` may lack its spheres. `spheres`, `radii`: number and radii of the spheres to simulate. `pairCapacity` 0: the
+// default.
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const Radii& radii,
              std::uint32_t pairCapacity = 0);
 
-// With the memory that it needs.
+// Describe the plan and the memory that it needs.
 std::string planText(const scene::Scene& scene, const Plan& plan);
 std::string planJson(const scene::Scene& scene, const Plan& plan);
 

@@ -19,7 +19,7 @@ struct Row {
     bool observing = false;
 };
 
-// Launches of one kernel in a row are one row of the plan.
+// Successive launches of one kernel become one row of the plan.
 std::vector<Row> rowsOf(const Plan& plan) {
     std::vector<Row> rows;
     for (const auto* launches : {&plan.substep, &plan.statistics}) {
@@ -45,7 +45,7 @@ std::string gridText(const Grid& grid) {
                               grid.levels.size() > 1 ? std::string(11, ' ') : ", ", grid.margin);
 }
 
-// The springs of `accurate` and how finely their contacts are resolved.
+// Describes the springs of `accurate` and how finely the substeps resolve their contacts.
 std::string contactText(const scene::Scene& scene) {
     const scene::ContactTime time = scene::contactTimeOf(scene);
     const double substep = scene.step / scene.quality.substeps;

@@ -79,7 +79,7 @@ Result<void> Preparation::doStage(std::chrono::milliseconds patience) {
     return {};
 }
 
-// The thread that waits shows signs of life for the one that works, as long as that progresses.
+// The waiting thread sends a heartbeat whenever the building thread has made progress.
 Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
     if (building_.wait_for(patience) != std::future_status::ready) {
         const Progress::Seen seen = progress_.seen();
@@ -93,7 +93,7 @@ Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
     return {};
 }
 
-// Claims all memory before any of it is taken.
+// Claims all memory before any of it is allocated.
 Result<void> Preparation::makePlan() {
     progress_.at("planning", 0);
     radii_ = radiiOf(built_.scene);
@@ -111,7 +111,7 @@ Result<void> Preparation::makeNext() {
     const auto more = pipeline_->makeNext();
     if (!more) return tl::unexpected(more.error());
     if (*more) return {};
-    // The arrays are no longer a promise.
+    // The arrays are allocated now, no longer promised.
     const Plan& plan = pipeline_->plan();
     const Need need = needOf(plan);
     const std::uint64_t there = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
@@ -131,7 +131,7 @@ void Preparation::upload() {
     stage_ = std::isfinite(tolerated_) ? Stage::Looking : Stage::Done;
 }
 
-// Spheres that begin deep in each other would fly apart.
+// Measures the deepest overlap: spheres that begin deep in each other would fly apart.
 Result<void> Preparation::look() {
     progress_.at("looking for overlaps", 0);
     const double deepest = measure(*pipeline_, built_.scene).deepest();

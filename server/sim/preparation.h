@@ -20,41 +20,42 @@
 
 namespace spherule::sim {
 
-// A scene and its spheres as they are to begin, in id order.
+// A scene and the initial state of its spheres, in id order.
 struct Built {
     scene::Scene scene;
     State state;
 };
 
-// As the scene says. Refused where there is no memory for the states.
+// Returns the scene and its initial state. Refused if there is no memory for the state.
 Result<Built> builtOf(scene::Scene scene);
 
-// Everything a simulation needs to step: arrays, kernels, the spheres on the device. Made in pieces, beside a world
-// that may go on stepping on the same device meanwhile. Used by the thread that owns the device.
+// Prepares all that a simulation needs: arrays, kernels, the spheres on the device. Works in pieces, so that another
+// simulation can go on stepping on the same device. Used by the thread that owns the device.
 class Preparation {
   public:
     using Build = std::function<Result<Built>(Progress&)>;
 
-    // `copies`: memory that its maker has claimed for `built` or `build`, released with it.
+    // `copies`: the caller's memory claim for `built` or `build`, released with the preparation.
     Preparation(compute::Device& device, Built built, memory::Claim copies = {});
-    // `build` runs on a thread of its own, without the device; bad_alloc in it is an error as any other.
+    // `build` runs on a thread of its own and may not use the device. An exception in it, such as bad_alloc, becomes an
+    // error.
     Preparation(compute::Device& device, Build build, memory::Claim copies = {});
     // Cancels `build` and waits for its thread.
     ~Preparation();
     Preparation(const Preparation&) = delete;
     Preparation& operator=(const Preparation&) = delete;
 
-    // Does one piece, about as long as a substep, or waits up to `patience` for the thread that builds. True once all
-    // is done, and Simulation may take it; call it no more then, nor after an error.
+    // Does one piece of about the length of a substep, or waits up to `patience` for the thread that builds. Returns
+    // true once all is done and Simulation may take the preparation. Do not call it again after that or after an error.
     Result<bool> advance(std::chrono::milliseconds patience = std::chrono::milliseconds(0));
-    // All pieces that are left.
+    // Does all remaining pieces.
     Result<void> finish();
 
     [[nodiscard]] Progress::Seen progress() const { return progress_.seen(); }
 
-    // Spheres that began deep in each other were moved apart.
+    // Result of moving spheres apart that began deep in each other.
     struct Parted {
-        double before = 0;  // largest overlap, in smaller radii
+        double before = 0;  // largest overlap, as a fraction of the smaller radius
         double after = 0;
         std::uint32_t sweeps = 0;
     };
@@ -73,18 +74,18 @@ class Preparation {
 
     compute::Device& device_;
     memory::Claim copies_;
-    memory::Claim claim_;  // of the simulation that it makes
+    memory::Claim claim_;  // for the simulation that it makes
     Progress progress_;
-    std::uint64_t marks_ = 0;  // of the thread that builds, as last seen
+    std::uint64_t marks_ = 0;  // progress marks of the thread that builds, as last seen
     std::future<Result<Built>> building_;
     Stage stage_ = Stage::Building;
     Built built_;
     Radii radii_;
     std::unique_ptr<Pipeline> pipeline_;
-    double tolerated_ = 0;  // overlap, in smaller radii
+    double tolerated_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
     std::unique_ptr<Relaxation> relaxation_;
     std::optional<Parted> parted_;
-    std::jthread builder_;  // ends before what it uses
+    std::jthread builder_;  // last member: joined before the members that it uses are destroyed
 };
 
 }  // namespace spherule::sim

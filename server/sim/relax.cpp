@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t mostSweeps = 1024;
 constexpr std::uint32_t sweepsPerLook = 16;
 
-// In `fast`, where pushing makes no speed.
+// Uses the model `fast`, because its pushes add no velocity.
 scene::Scene withoutForces(const scene::Scene& scene) {
     scene::Scene still = scene;
     still.gravity = {};
@@ -37,7 +37,7 @@ State atRest(State state) {
 }  // namespace
 
 double deepestBearable(const scene::Scene& scene) {
-    constexpr double shallow = 0.25;  // in beds that are squeezed, but not in spheres put in each other
+    constexpr double shallow = 0.25;  // reached in squeezed beds, exceeded by spheres placed in each other
     if (scene.quality.model == scene::Model::Fast) return std::numeric_limits<double>::infinity();
     if (scene.quality.model == scene::Model::Balanced) return shallow;
     return scene::contactTimeOf(scene).overlap;

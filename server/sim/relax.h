@@ -16,13 +16,13 @@ namespace spherule::sim {
 class Preparation;
 class Simulation;
 
-// The deepest overlap, in radii, up to which the scene's model makes no speed of pushing spheres apart. For the springs
-// of `accurate` it is that of the fastest impact to expect: deeper ones hold more energy than anything in the scene.
+// Returns the largest overlap, in radii, that the scene's model resolves without adding kinetic energy. For `accurate`
+// it is the overlap of the fastest impact to expect: a deeper spring holds more energy than any impact in the scene.
 double deepestBearable(const scene::Scene& scene);
 
-// Pushes spheres apart by position alone, without gravity or friction and within the walls, until no overlap is larger
-// than `most` (in smaller radii) or many sweeps have passed. No time passes. Needs memory for a simulation of its own.
-// Used by the thread that owns the device.
+// Pushes spheres apart by moving them, within the walls and without gravity or friction. Ends when no overlap is larger
+// than `most` (a fraction of the smaller radius), or after many sweeps. No simulated time passes. Needs memory for a
+// simulation of its own. Used by the thread that owns the device.
 class Relaxation {
   public:
     Relaxation(compute::Device& device, const scene::Scene& scene, const State& state, double most);
@@ -30,21 +30,22 @@ class Relaxation {
     Relaxation(const Relaxation&) = delete;
     Relaxation& operator=(const Relaxation&) = delete;
 
-    // One sweep, or one piece of the preparation for them. True once it is over: call it no more then, nor after an
-    // error.
+    // Does one sweep, or one piece of the preparation. Returns true once the relaxation has ended. Do not call it again
+    // after that or after an error.
     Result<bool> advance();
 
-    [[nodiscard]] double share() const;  // of the sweeps that are allowed
+    [[nodiscard]] double share() const;  // sweeps done, as a share of the sweeps allowed
     [[nodiscard]] std::uint32_t sweeps() const { return sweeps_; }
-    [[nodiscard]] double overlap() const { return overlap_; }  // the largest when it last looked, in smaller radii
-    [[nodiscard]] std::vector<glm::vec4> takePositions();      // m, relative to the bounds' centre; w = radius
+    // Returns the largest overlap at the last check, as a fraction of the smaller radius.
+    [[nodiscard]] double overlap() const { return overlap_; }
+    [[nodiscard]] std::vector<glm::vec4> takePositions();  // m, relative to the bounds' centre; w = radius
 
   private:
     double most_;
-    std::unique_ptr<Preparation> preparation_;  // of the world, until that is there
+    std::unique_ptr<Preparation> preparation_;  // of world_, until world_ exists
     std::unique_ptr<Simulation> world_;
     std::uint32_t sweeps_ = 0;
-    bool looked_ = false;  // since the last sweep
+    bool looked_ = false;  // overlaps checked since the last sweep
     double overlap_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace spherule::sim {
 
-// The kernels that come with the program.
+// Returns the sources of the kernels that are part of the program.
 const compute::SourceSet& shaders();
 
 }  // namespace spherule::sim

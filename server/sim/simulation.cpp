@@ -19,14 +19,14 @@ namespace spherule::sim {
 
 namespace {
 
-// Room for pairs ends here: as many as spheres in a heap can have only if they are deep in each other.
+// Limit of the room for pairs. Spheres in a heap exceed it only if they are deep in each other.
 constexpr std::uint64_t mostPairsPerSphere = 128;
 
 static_assert(scene::farMotion == static_cast<double>(FAR_MOTION));
 
 constexpr double keepEvery = 1;  // s simulated
 
-// How far the place, relative to the bounds' centre, is outside an open face, m.
+// Returns how far `place` is outside an open face (m); 0 if it is inside. `place` is relative to the bounds' centre.
 double beyond(const scene::Bounds& bounds, glm::dvec3 place) {
     const glm::dvec3 half = 0.5 * (bounds.max - bounds.min);
     double farthest = 0;
@@ -37,7 +37,8 @@ double beyond(const scene::Bounds& bounds, glm::dvec3 place) {
     return farthest;
 }
 
-// In radii, in h seconds. Spheres outside count when they may be back within two steps; the device sees the others.
+// Returns the largest motion of a sphere in `h` seconds, in radii. A sphere outside the bounds counts only if it may be
+// back within two steps; the device detects the others.
 double farthestMotion(const scene::Scene& scene, const State& state, double h) {
     double farthest = 0;
     for (std::uint32_t id = 0; id < state.count(); ++id) {
@@ -66,7 +67,7 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
     return simulation;
 }
 
-// Of a preparation that is done: nothing can fail any more.
+// Takes the results of a preparation that is done. Cannot fail.
 void Simulation::take(Preparation& preparation) {
     scene_ = std::move(preparation.built_.scene);
     radii_ = preparation.radii_;
@@ -121,13 +122,13 @@ void Simulation::put(const State& state) {
     pipeline_->upload(state, materialsOf(scene_));
 }
 
-// Of the substeps that are left of the step under way, or else of those to come.
+// Uses the length of the substeps that are left in the step under way, or else of the next step's substeps.
 void Simulation::uploadParameters() {
     const double substep = left_ > 0 ? (1 - begun_) * scene_.step / chosen_ : scene_.step / substeps_;
     pipeline_->setParameters(parametersFor(scene_, plan(), radii_, substep));
 }
 
-// In a step that is under way, as many as are as long, or a little shorter, for the rest of it.
+// A step under way is completed with substeps of the new length, or a little shorter.
 void Simulation::useSubsteps(std::uint32_t substeps) {
     constexpr double rounding = 1e-9;
     begun_ = shareOfStep();
@@ -168,7 +169,7 @@ Result<bool> Simulation::advance() {
     pipeline_->substep(observed_);
     if (--left_ > 0) return false;
     ++steps_;
-    // The next step is a whole one again.
+    // The next step has its full length again.
     if (std::exchange(begun_, 0) > 0) uploadParameters();
     if (auto done = guard(); !done) return tl::unexpected(done.error());
     return true;
@@ -184,9 +185,9 @@ Statistics Simulation::statistics() {
     return now;
 }
 
-// Once a step: the device is still there, and every cell group has found room for its pairs.
+// Runs once per step. Checks that the device is not lost, and that all cell groups found room for their pairs.
 Result<void> Simulation::guard() {
-    readCounters();  // waits for the step: a device that was lost in it is lost by now, and the counters are none
+    readCounters();  // waits for the step; if the device was lost in it, status() fails and the counters are invalid
     if (auto alive = device_.status(); !alive) return alive;
     if (counters_.sampled > 0 && !sampled_) {
         sampled_ = true;
@@ -200,7 +201,7 @@ Result<void> Simulation::guard() {
             "at step {}, a sphere touches more than {} walls at once: further ones do not hold it by friction", steps_,
             plan().wallContacts));
     }
-    // In time: once there is too little, contacts forget what they remember, and go without friction for a step.
+    // Makes room in time: without room, contacts lose their history, and have no friction for a step.
     const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
     if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !full_) makeRoom();
     fitToMotion(counters_.farthest);
@@ -233,8 +234,8 @@ void Simulation::restore() {
     counters_ = {};
 }
 
-// Raises the substeps at once when the fastest sphere has moved too far in one, and lowers them by and by when nothing
-// does any more: with more patience each time that this was too early.
+// Raises the number of substeps at once when the fastest sphere has moved too far in a substep. Lowers it gradually
+// when no sphere does. After each reduction that was too early, waits longer before the next.
 void Simulation::fitToMotion(double radiiPerSubstep) {
     constexpr double easier = 0.8;
     constexpr std::uint32_t mostPatience = 256;  // steps
@@ -266,7 +267,7 @@ void Simulation::fitToMotion(double radiiPerSubstep) {
     useSubsteps(wanted);
 }
 
-// On failure the simulation goes on without lists where it must, and nothing is tried again for this scene.
+// On failure, cell groups without room go on without lists, and no further attempt is made for this scene.
 void Simulation::makeRoom() {
     const std::uint64_t most = std::min<std::uint64_t>(mostPairsPerSphere * count(), UNLISTED - 1);
     const std::uint64_t wanted = 2 * std::uint64_t{std::max(counters_.pairs, plan().pairCapacity)};

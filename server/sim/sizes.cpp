@@ -15,7 +15,7 @@ constexpr int mostBins = 12;
 constexpr double narrowestBin = std::numbers::sqrt2;
 constexpr double ball = 4.0 / 3 * std::numbers::pi;
 
-// Spheres of like size, from the smallest to the largest: what classes are made of.
+// Returns bins of spheres of similar size, from the smallest to the largest. Classes are made of bins.
 std::vector<SizeClass> binsOf(const scene::Scene& scene, const Radii& radii) {
     const double range = std::log(radii.largest / radii.smallest);
     const double wide = std::max(std::log(narrowestBin), range / mostBins);
@@ -32,7 +32,7 @@ std::vector<SizeClass> binsOf(const scene::Scene& scene, const Radii& radii) {
     return bins;
 }
 
-// One class per run of bins: bit k of `cuts` says whether bin k + 1 begins another.
+// Joins successive bins to classes. Bit k of `cuts` is set if bin k + 1 begins a new class.
 std::vector<SizeClass> joined(const std::vector<SizeClass>& bins, std::uint32_t cuts) {
     std::vector<SizeClass> classes{bins.front()};
     for (std::size_t k = 1; k < bins.size(); ++k) {
@@ -46,12 +46,12 @@ std::vector<SizeClass> joined(const std::vector<SizeClass>& bins, std::uint32_t 
     return classes;
 }
 
-// What building the lists of a dense bed costs, in tests of pairs: those of spheres with their own class, and of larger
-// ones with the cells of finer classes, row by row. The weights were fitted to timings of beds on the CPU device.
+// Returns the cost of building the lists of a dense bed, in tests of pairs. Spheres are tested against their own class,
+// and against the cells of finer classes row by row. The weights were fitted to timings of beds on the CPU device.
 double costOf(const std::vector<SizeClass>& classes, double volume, double margin) {
     constexpr double rowCost = 25;
     constexpr double reachCost = 25;
-    constexpr double levelCost = 4000;  // launches of its own
+    constexpr double levelCost = 4000;  // its own launches
     constexpr double neighbours = 14;
     double cost = 0;
     for (std::size_t coarse = 0; coarse < classes.size(); ++coarse) {
@@ -72,7 +72,7 @@ double costOf(const std::vector<SizeClass>& classes, double volume, double margi
     return cost;
 }
 
-// Of all ways to put the bins into classes, the one that costs least.
+// Returns the division of the bins into classes that costs least.
 std::vector<SizeClass> classesOf(const scene::Scene& scene, const Radii& radii, double volume) {
     const std::vector<SizeClass> bins = binsOf(scene, radii);
     std::vector<SizeClass> best = joined(bins, 0);

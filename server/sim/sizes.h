@@ -7,24 +7,24 @@
 
 namespace spherule::sim {
 
-// Spheres of like size.
+// A class of spheres of similar size.
 struct SizeClass {
     double smallest = 0;  // m
     double largest = 0;
     std::uint32_t spheres = 0;
 };
 
-// Gap up to which pairs are listed, in radii: a wider one lists more pairs, a narrower one rebuilds more often.
+// The gap up to which pairs are listed, in radii. A wider gap lists more pairs, a narrower gap causes more rebuilds.
 constexpr double marginInRadii = 0.3;
 
 struct Radii {
     double smallest = 0;  // m
     double largest = 0;
     double mean = 0;
-    // What stands for all in the number of pairs to list: pairs within a gap g of a sphere of radius r are some
-    // (1 + g / 2r)^3, so that small ones count most.
+    // The radius that represents all spheres in the number of listed pairs: the power mean with exponent -3. A sphere
+    // of radius r has about (1 + g / 2r)^3 neighbours within a gap g, so small spheres count most.
     double listing = 0;
-    std::vector<SizeClass> classes;  // from the smallest to the largest; each has cells of its own
+    std::vector<SizeClass> classes;  // from the smallest to the largest; each has its own cells
 };
 
 Radii radiiOf(const scene::Scene& scene);

@@ -11,7 +11,7 @@
 
 namespace spherule::sim {
 
-// What the device holds of the spheres, in id order.
+// The state of the spheres, in id order.
 struct State {
     std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
     std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass, negative while asleep
@@ -21,12 +21,12 @@ struct State {
 };
 
 State stateOf(const scene::Scene& scene);
-// Of these spheres, of the scene's materials, in its bounds.
+// Returns the state of `spheres`, which use the scene's materials and bounds.
 State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres);
-// By id.
+// Returns the materials by id of the sphere.
 std::vector<std::uint8_t> materialsOf(const scene::Scene& scene);
 
-// Figures of a state, in double and SI units; places relative to the bounds' centre.
+// Values of a state as double, in SI units. Positions are relative to the bounds' centre.
 glm::dvec3 positionOf(const State& state, std::uint32_t id);
 glm::dvec3 velocityOf(const State& state, std::uint32_t id);
 glm::dvec3 spinOf(const State& state, std::uint32_t id);
@@ -36,7 +36,7 @@ glm::dvec3 momentumOf(const State& state);
 double momentumScale(const State& state);    // sum of m |v|
 double kineticEnergyOf(const State& state);  // of translation and rotation
 
-// Of ids, positions, velocities and spins, bit by bit (XXH3).
+// Returns a hash (XXH3) over the bits of ids, positions, velocities and spins.
 std::uint64_t hashOf(const State& state);
 
 }  // namespace spherule::sim

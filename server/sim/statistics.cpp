@@ -9,7 +9,8 @@ namespace spherule::sim {
 
 namespace {
 
-// Of mass `weighted.w` at the mass-weighted place `weighted`, relative to the bounds' centre.
+// Returns the potential energy (J). `weighted`: sum of mass times position (kg m, relative to the bounds' centre); w:
+// total mass (kg).
 double potentialEnergy(const scene::Scene& scene, const glm::dvec4& weighted) {
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
     const glm::dvec3& g = scene.gravity;
@@ -31,14 +32,14 @@ void addOverlaps(Statistics& sum, const std::vector<glm::vec4>& groups) {
 }  // namespace
 
 Impacts Impacts::since(const Impacts& before) const {
-    if (count < before.count) return *this;  // of another world
+    if (count < before.count) return *this;  // `before` is of another world
     return {count - before.count, approach - before.approach, parting - before.parting, asked - before.asked};
 }
 
 void addImpacts(Impacts& sum, Pipeline& pipeline) {
     glm::dvec4 added{};
     for (const glm::vec4& group : pipeline.takeImpacts()) added += glm::dvec4(group);
-    // A state on its way out of the numbers tells nothing.
+    // Ignores the impacts of a state that is becoming non-finite.
     if (!std::isfinite(added.y + added.z + added.w)) return;
     sum.count += added.x;
     sum.approach += added.y;

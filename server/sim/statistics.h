@@ -10,31 +10,31 @@
 
 namespace spherule::sim {
 
-// What was observed, in some of the steps, of spheres that met spheres. In the models `fast` and `balanced`: in
-// `accurate` an impact takes many substeps, which nobody adds up.
+// Sums over the impacts between spheres in the observed steps. Only in the models `fast` and `balanced`: in `accurate`
+// an impact takes many substeps, and is not measured.
 struct Impacts {
     double count = 0;
-    double approach = 0;  // sum of their speeds along the normal, m/s
-    double parting = 0;
-    double asked = 0;  // sum of the partings that the scene's restitution asks for
+    double approach = 0;  // sum of the speeds of approach along the normal (m/s)
+    double parting = 0;   // sum of the speeds of parting (m/s)
+    double asked = 0;     // sum of the speeds of parting that the scene's restitution requires (m/s)
 
-    // Weighted by the speed of approach. Only where there are impacts.
+    // Restitution weighted by the speed of approach. Call only if `count` is not 0.
     [[nodiscard]] double restitution() const { return parting / approach; }
     [[nodiscard]] double restitutionAsked() const { return asked / approach; }
-    // Without those of before.
+    // Returns these impacts without the impacts in `before`.
     [[nodiscard]] Impacts since(const Impacts& before) const;
 };
 
-// SI units; overlaps as fractions of the (smaller) radius.
+// Statistics in SI units. Overlaps are fractions of the (smaller) radius.
 struct Statistics {
     std::uint64_t step = 0;
     double time = 0;  // s simulated
     std::uint32_t spheres = 0;
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
-    double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models, whose spheres are hard
+    double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models
     double potentialEnergy = 0;  // zero at the lowest corner of the bounds
-    double pushWork = 0;  // of `fast`'s pushes out of walls against gravity, since the spheres were last put there
+    double pushWork = 0;         // work of the pushes of `fast` out of walls against gravity, since the last upload
     glm::dvec3 momentum{};
     glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre
     std::uint64_t contacts = 0;
@@ -49,14 +49,14 @@ struct Statistics {
     std::uint32_t nonFinite = 0;
     Impacts impacts;  // since the spheres were last placed or added to
 
-    // The largest overlap with anything.
+    // Returns the largest overlap with a sphere or a wall.
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }
 };
 
-// Summed on the device in blocks, the blocks in double here. Waits for the device.
+// Computes statistics. The device sums in blocks, the host adds the blocks in double. Waits for the device.
 Statistics measure(Pipeline& pipeline, const scene::Scene& scene);
 
-// Adds what has been observed since the last time. Waits for the device.
+// Adds the impacts observed since the last call. Waits for the device.
 void addImpacts(Impacts& sum, Pipeline& pipeline);
 
 }  // namespace spherule::sim

@@ -47,9 +47,9 @@ TierSizes tierSizes(std::uint32_t spheres) {
     const std::uint64_t n = spheres;
     const std::uint64_t blocks = counts.blocks;
     constexpr std::uint64_t idBytes = 3;      // of an order
-    constexpr std::uint64_t jsonBytes = 8;    // of an order for who reads JSON, and on its way there
-    constexpr std::uint64_t frameBytes = 6;   // per sphere of a keyframe, about
-    constexpr std::uint64_t frameCopies = 6;  // read back, as bytes, in a message and as it travels; of two frames
+    constexpr std::uint64_t jsonBytes = 8;    // of an order for viewers that read JSON, and of its encoded copy
+    constexpr std::uint64_t frameBytes = 6;   // about, per sphere of a keyframe
+    constexpr std::uint64_t frameCopies = 6;  // read-back, bytes, message, encoded message; of two frames
     return {.toolArrays = word * (n + blocks * (CODEC_PACKED + CODEC_SCRATCH) + counts.groups),
             .order = n * (word + 2 * idBytes + jsonBytes),
             .tierArrays = word * (2 * blocks * CODEC_VALUES + counts.frameWords()),
@@ -213,7 +213,7 @@ std::size_t Tier::bytesOf(std::span<const std::byte> head) const {
     return headBytes() + word * wordAt(head, CODEC_FRAME_HEAD + tools_.chunks_ - 1);
 }
 
-// First the head, which says how long the frame is.
+// Copies the head first, because it contains the length of the frame.
 std::optional<std::vector<std::byte>> Tier::poll() {
     for (;;) {
         if (!copy_) {

@@ -18,23 +18,23 @@
 // The encoder of docs/codec.md on a device. Used by the thread that owns the device.
 namespace spherule::sim {
 
-// What encoding takes, in bytes.
+// The memory of the frame encoder (bytes).
 struct TierSizes {
-    std::uint64_t toolArrays = 0;  // on the device, for all tiers of a scene;
-    std::uint64_t order = 0;       // on the host: ids, and the message that tells viewers of them
-    std::uint64_t tierArrays = 0;  // on the device, for each tier;
-    std::uint64_t frames = 0;      // on the host: frames on their way to viewers, as far as they have the size of most
+    std::uint64_t toolArrays = 0;  // on the device, shared by all tiers of a scene
+    std::uint64_t order = 0;       // on the host: ids, and the message that sends them to viewers
+    std::uint64_t tierArrays = 0;  // on the device, for each tier
+    std::uint64_t frames = 0;      // on the host, for each tier: frames in transit to viewers, each of a usual size
 };
 TierSizes tierSizes(std::uint32_t spheres);
 
-// What all tiers of a scene share: the kernels, the order, and what a frame in the making needs.
+// The data that all tiers of a scene share: kernels, the order, and scratch arrays for the frame being encoded.
 class TierTools {
   public:
-    // For `spheres` (at least 1) in id order. `slots`: positions lie by slot, and slotOf says where. Refused where
-    // there is no room.
+    // `spheres`: at least 1; the order is by id at first. `slots`: positions are stored by slot, and slotOf maps id to
+    // slot. Refused if there is no room.
     static Result<std::unique_ptr<TierTools>> create(compute::Device& device, std::uint32_t spheres, bool slots);
 
-    // Ids in the order of the codec, a permutation of 0 .. spheres - 1. Every tier must begin() anew after it.
+    // Sets the ids in codec order, a permutation of 0 .. spheres - 1. Every tier must begin() again afterwards.
     void setOrder(std::span<const std::uint32_t> order);
 
     [[nodiscard]] std::uint32_t spheres() const { return spheres_; }
@@ -57,13 +57,13 @@ class TierTools {
     std::unique_ptr<compute::Buffer> order_, blockWords_, scratch_, groupWords_, sums_, parameters_;
 };
 
-// Where the positions are: vec4, xyz in m; slotOf by id (anything where the tools are without slots).
+// The buffers with the positions: vec4, xyz in m. slotOf: slot by id; ignored if the tools were created without slots.
 struct TierSource {
     compute::Buffer* position = nullptr;
     compute::Buffer* slotOf = nullptr;
 };
 
-// One chain of frames with a quantum of its own. A frame stays in the tier until the next one is made.
+// One chain of frames with its own quantum. A frame stays in the tier until the next one is encoded.
 class Tier {
   public:
     struct Grid {
@@ -71,21 +71,21 @@ class Tier {
         double quantum = 0;  // m
     };
 
-    // `tools` must outlive it. Refused where there is no room.
+    // `tools` must outlive the tier. Refused if there is no room.
     static Result<std::unique_ptr<Tier>> create(TierTools& tools, const Grid& grid);
 
-    // With `hash`, the frame carries that of its state.
+    // With `hash`, the frame carries the hash of its state.
     void begin(const TierSource& source, bool hash = false);  // a keyframe of the positions: a chain begins
     void next(const TierSource& source, bool hash = false);   // the delta frame of the positions; after begin()
-    void join(bool hash = false);  // a keyframe of the state as it is: of the same number as the frame before
+    void join(bool hash = false);  // a keyframe of the same state, with the number of the frame before
 
-    // The frame, as soon as it has come to the host; nothing while it is on its way, or waits for the device to copy
-    // something else. To be called until it gives the frame, before the next one is made. Only the bytes of the frame
-    // are copied.
+    // Returns the frame once it has arrived on the host. Returns nullopt while it is being copied, or while the device
+    // has no free place for a copy. Call it until it returns the frame, before the next one is encoded. Copies only the
+    // bytes of the frame.
     std::optional<std::vector<std::byte>> poll();
     std::vector<std::byte> download();  // the frame; waits for the device
 
-    [[nodiscard]] std::uint32_t number() const { return number_; }  // of the frame
+    [[nodiscard]] std::uint32_t number() const { return number_; }  // number of the frame
 
   private:
     Tier(TierTools& tools, const Grid& grid) : tools_(tools), grid_(grid) {}
@@ -99,7 +99,7 @@ class Tier {
     Grid grid_;
     std::unique_ptr<compute::Buffer> newest_, before_, frame_;
     std::uint32_t number_ = 0;
-    bool keyframe_ = false;                    // the frame is one
+    bool keyframe_ = false;                    // the frame is a keyframe
     bool still_ = false;                       // a keyframe was made since the last delta frame
     std::unique_ptr<compute::ReadBack> copy_;  // under way
     std::size_t copied_ = 0;                   // bytes of it

@@ -17,8 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int maxReadBacks = 2;
-// Ranges that a thread takes at a time: few enough that taking them costs little, many enough that the threads end
-// together.
+// Each thread takes ranges one at a time. There are few enough that taking them costs little, and enough that the
+// threads end together.
 constexpr std::uint32_t rangesPerThread = 16;
 constexpr std::uint32_t smallestRange = 4;
 
@@ -133,7 +133,7 @@ void CpuDevice::download(const Buffer& buffer, std::size_t offset, std::span<std
 }
 
 void CpuDevice::fill(Buffer& buffer, std::uint32_t value) {
-    // By parts: a copy of the whole would take as much memory again.
+    // Fills in parts: values for the whole buffer would need as much memory again.
     constexpr std::size_t most = 1U << 16U;
     const std::vector<std::uint32_t> values(std::min(buffer.bytes() / sizeof value, most), value);
     for (std::size_t first = 0; first < buffer.bytes(); first += most * sizeof value) {

@@ -12,7 +12,7 @@
 
 namespace spherule::compute::cpu {
 
-// Device on the CPU: runs the kernels that were compiled into the program, whatever sources it is given.
+// Device on the CPU. Runs the kernels that were compiled into the program, and ignores the sources passed to it.
 class CpuDevice final : public Device {
   public:
     CpuDevice(unsigned threads, Precision precision, const std::string& reason);
@@ -44,11 +44,11 @@ class CpuDevice final : public Device {
     std::chrono::steady_clock::time_point began_;
 };
 
-// Whether a choice that is no OpenGL device, or "auto" where there is none, means this one.
+// Returns true if `choice` means the CPU device. That includes "auto", if there is no OpenGL device.
 bool answersTo(const std::string& choice);
 
-// "cpu", "cpu:N" (N threads, 1 to 256) or "cpu-double", "cpu-double:N", or "auto"; Input for anything else. Without N
-// as many threads as this process may use processors. `passedOver`: why OpenGL was not taken.
+// Opens "cpu", "cpu:N" (N threads, 1 to 256), "cpu-double", "cpu-double:N" or "auto"; Input for anything else. Without
+// N, one thread per processor that this process may use. `passedOver`: reason why OpenGL was not used.
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& passedOver);
 
 }  // namespace spherule::compute::cpu

@@ -6,7 +6,7 @@ namespace spherule::compute::cpu::double_precision {
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 
-// The kernels' literals are float, and GLM wants a vector and a number of one type.
+// The kernels' literals are float, and GLM requires a vector and a number of the same type.
 inline vec3 operator*(const vec3& v, float factor) {
     return v * static_cast<double>(factor);
 }

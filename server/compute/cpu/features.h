@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-// The features that kernels may ask for, one bit each, in the order of shaders/features.def.
+// The features that kernels test with HAS(): one bit each, in the order of shaders/features.def.
 namespace spherule::compute::cpu {
 
 enum class FeatureIndex : std::uint8_t {
@@ -20,7 +20,7 @@ struct Features {
     };
 };
 
-// By bit.
+// The names by bit.
 constexpr std::string_view featureNames[] = {
 #define FEATURE(flag, Name, text) #flag,
 #include "features.def"

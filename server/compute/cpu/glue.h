@@ -1,12 +1,13 @@
-// What turns a .comp file, included in the body of a struct, into C++: the counterpart of shaders/shared/kernel.h.
-// Buffers are members that point into the slots of a launch, so that there are no globals and several worlds can run at
-// once; an object serves one thread at a time, because PRIVATE variables are members too.
+// Compiles a .comp file as C++: the file is included in the body of a struct. The counterpart of
+// shaders/shared/kernel.h. Buffers are members that point into the slots of a launch. So there are no globals, and
+// several simulations can run at once. Only one thread at a time may use an object, because PRIVATE variables are
+// members too.
 //
-// Included once by each translation unit that compiles the kernels, which says before what a `float` of theirs is:
-//   SPHERULE_REAL        float or double
-//   SPHERULE_PRECISION   the namespace they go to, which has types vec3 and vec4 of them
+// Included once by each translation unit that compiles the kernels. The unit first defines:
+//   SPHERULE_REAL        the type for `float` in kernels: float or double
+//   SPHERULE_PRECISION   the namespace of the kernels, which contains vec3 and vec4 of that type
 
-// Kernels share callbacks whose parameters not every kernel needs, and Mesa refuses a parameter without a name.
+// Kernels share callbacks whose parameters some kernels do not use, and Mesa refuses a parameter without a name.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #include <atomic>
@@ -29,7 +30,7 @@ using glm::uvec2;
 using glm::uvec4;
 using uint = std::uint32_t;
 
-// GLSL's scalar functions, with GLSL's choice of operand where one is NaN.
+// GLSL's scalar functions. If an operand is NaN, they choose the same operand as GLSL.
 inline real min(real a, real b) {
     return b < a ? b : a;
 }
@@ -60,7 +61,7 @@ inline real uintBitsToFloat(uint x) {
 inline uint floatBitsToUint(real x) {
     return std::bit_cast<uint>(static_cast<float>(x));
 }
-// Of the highest and the lowest bit that is set; -1 where none is.
+// Return the index of the highest and of the lowest set bit; -1 if no bit is set.
 inline int findMSB(uint x) {
     return 31 - std::countl_zero(x);
 }
@@ -72,7 +73,7 @@ inline uint atomicAdd(uint& memory, uint value) {
     return std::atomic_ref<uint>(memory).fetch_add(value, std::memory_order_relaxed);
 }
 
-// Writes only what changes something: thousands of invocations raise one flag, and each write would take the cache line
+// Writes only if the value changes: thousands of invocations raise one flag, and each write would take the cache line
 // from the other threads.
 inline uint atomicOr(uint& memory, uint value) {
     const std::atomic_ref<uint> word(memory);
@@ -94,7 +95,7 @@ inline uint atomicMax(uint& memory, uint value) {
     return seen;
 }
 
-// What the struct around a .comp file derives from.
+// The base class of the struct around a .comp file.
 struct KernelBase : Features {
     explicit KernelBase(const Binding& bound) : binding(bound), phase(bound.phase) {}
 
@@ -103,7 +104,7 @@ struct KernelBase : Features {
         return number < binding.slots.size() ? static_cast<T*>(binding.slots[number]) : nullptr;
     }
 
-    // The place of a buffer among those that the kernel declares.
+    // Returns the slot of the buffer `name` in the kernel's declarations.
     template <std::size_t count>
     static consteval std::size_t placeAmong(const BufferDeclaration (&declared)[count], std::string_view name) {
         std::size_t slot = 0;
@@ -111,7 +112,7 @@ struct KernelBase : Features {
         return slot;
     }
 
-    // A copy: compilers then know that no buffer overlaps it.
+    // Returns a copy, so that the compiler knows that no buffer overlaps it.
     template <class T>
     [[nodiscard]] T copyOfParameters() const {
         T copy{};
@@ -128,8 +129,8 @@ uint countOf(const Binding& binding) {
     return Kernel(binding).kernelCount();
 }
 
-// Compiled once more for processors with AVX2, which the loader then takes. No multiplication is contracted with an
-// addition in either, so that both give the same bits. The sanitizers' runtimes start later than the loader's choice.
+// Compiles a second version for processors with AVX2; the loader chooses. Neither version contracts a multiplication
+// with an addition, so both give the same bits. Not with sanitizers: their runtimes start after the loader has chosen.
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SPHERULE_CLONES __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
 #else

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <string>
 
-// What there is to run on.
+// The hardware of this host.
 namespace spherule::compute::cpu {
 
-std::string processorName();  // "CPU" where the system does not say
-unsigned processors();        // that this process may use, at least 1
+std::string processorName();  // "CPU" if the system does not name it
+unsigned processors();        // number that this process may use, at least 1
 std::size_t memoryBytes();    // of the machine
 
 }  // namespace spherule::compute::cpu

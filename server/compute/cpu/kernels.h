@@ -21,11 +21,11 @@ struct Entry {
     std::span<const BufferDeclaration> buffers;
     bool wantsParameters;
     std::uint32_t (*count)(const Binding&);  // invocations
-    // Invocations begin .. end - 1. Any number of threads, each with a range of its own.
+    // Runs invocations begin .. end - 1. Any number of threads may call it, each with its own range.
     void (*run)(const Binding&, std::uint32_t begin, std::uint32_t end);
 };
 
-// With `float` as GPUs have it, and the same with `double` in its place: in the arithmetic, the buffers and the
+// The kernels with `float` as on GPUs, and the kernels with `double` in its place: in arithmetic, buffers and
 // parameters.
 std::span<const Entry> floatKernels();
 std::span<const Entry> doubleKernels();

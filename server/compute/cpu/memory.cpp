@@ -75,8 +75,8 @@ void Words::load(const std::byte* memory, std::size_t hostOffset, std::span<std:
 Result<std::unique_ptr<Buffer>> CpuBuffer::create(std::string_view label, std::size_t bytes, Words words) {
     const std::size_t size = words.bytesFor((bytes + word - 1) / word * word);
     void* data = nullptr;
-    // Linux gives more than it has, and ends who uses it. What others have been promised is not looked at: who made the
-    // plan of which this is a part has a claim to it.
+    // Linux grants more memory than there is, and kills a process that uses it. This check ignores promised memory,
+    // because the maker of the plan already holds a claim for this buffer.
     const memory::Room room = memory::room();
     if (size > room.left || posix_memalign(&data, alignment, std::max<std::size_t>(size, 1)) != 0) {
         return fail(ErrorKind::Refused, std::string(label),

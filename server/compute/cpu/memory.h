@@ -12,11 +12,10 @@ namespace spherule::compute::cpu {
 
 enum class Precision : std::uint8_t { Single, Double };
 
-// Where the words of a buffer lie in memory: as the host has them, or, in double precision, with eight bytes for each
-// that is a real number.
+// The memory layout of a buffer's words: as on the host, or, in double precision, with eight bytes per real number.
 class Words {
   public:
-    // `pattern` as of Device::createBuffer.
+    // `pattern`: `words` of Device::createBuffer.
     Words(std::string_view pattern, Precision precision);
 
     [[nodiscard]] std::size_t bytesFor(std::size_t hostBytes) const { return placeOf(hostBytes / 4); }
@@ -24,19 +23,20 @@ class Words {
     void load(const std::byte* memory, std::size_t hostOffset, std::span<std::byte> host) const;
 
   private:
-    // Of word `number`: where it begins, and whether it is a double here.
+    // For word `number`: its offset (bytes), and true if it is a real number.
     [[nodiscard]] std::size_t placeOf(std::size_t number) const;
     [[nodiscard]] bool wide(std::size_t number) const;
 
     std::string pattern_;
-    std::vector<std::size_t> places_;  // of the pattern's words, and its length in bytes
+    std::vector<std::size_t> places_;  // offsets of the pattern's words, then its length (bytes)
     bool asOnTheHost_;
 };
 
-// Memory, aligned to cache lines. Of exactly the size that was asked for, so that a sanitizer sees what goes beyond.
+// Memory, aligned to cache lines. It has exactly the requested size, so that a sanitizer detects accesses beyond its
+// end.
 class CpuBuffer final : public Buffer {
   public:
-    // Refused when there is not enough memory.
+    // Refused if there is not enough memory.
     static Result<std::unique_ptr<Buffer>> create(std::string_view label, std::size_t bytes, Words words);
 
     [[nodiscard]] std::size_t bytes() const override { return bytes_; }

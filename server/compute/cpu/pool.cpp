@@ -13,8 +13,8 @@ constexpr std::uint64_t open = 1;
 constexpr std::uint64_t inside = 2;
 constexpr unsigned numberShift = 32;
 constexpr std::uint64_t insideMask = (std::uint64_t{1} << numberShift) - 1 - open;
-constexpr unsigned patienceAlone = 2000;  // some 50 us: the gaps between the runs of a substep are shorter
-constexpr unsigned patienceCrowded = 20;  // more threads than processors: whoever spins keeps another from working
+constexpr unsigned patienceAlone = 2000;  // about 50 us, longer than the gaps between the runs of a substep
+constexpr unsigned patienceCrowded = 20;  // more threads than processors: a spinning thread keeps another from working
 
 void pause() {
 #if defined(__x86_64__)
@@ -66,7 +66,7 @@ void Pool::run(std::uint32_t count, std::uint32_t grain, Body body, const void* 
     close();
 }
 
-// Lets nobody in any more and waits for those inside.
+// Closes the gate and waits for the workers inside.
 void Pool::close() {
     std::uint64_t state = gate_.fetch_sub(open, std::memory_order_acq_rel);
     for (unsigned looks = 0; (state & insideMask) != 0; ++looks) {
@@ -94,8 +94,8 @@ void Pool::serve(unsigned self) {
     std::uint64_t done = 0;
     unsigned looks = 0;
     for (;;) {
-        // In this order: whoever sees the gate as stop() left it sees that it is to stop, and waits for no other
-        // change.
+        // The order matters: a worker that sees the gate as stop() left it also sees `stop_`, and does not wait for
+        // another change.
         std::uint64_t state = gate_.load(std::memory_order_acquire);
         if (stop_) return;
         const std::uint64_t number = state >> numberShift;

@@ -8,23 +8,23 @@
 
 namespace spherule::compute::cpu {
 
-// Threads for very many very short loops: a run costs little more than a microsecond when the threads are awake. Each
-// thread begins with a stretch of its own, always the same one, so that what it wrote in one run is near when the next
-// reads it; whoever is done helps the others. A thread that the system keeps waiting is not waited for unless it has
-// begun. One thread at a time may call run.
+// Threads for very many very short loops: a run costs little more than 1 us if the threads are awake. Each thread
+// begins with its own share of the range, the same in every run, so that its cache may still hold the data. A thread
+// that has finished helps the others. run() does not wait for a thread that has not begun. One thread at a time may
+// call run().
 class Pool {
   public:
     using Body = void (*)(const void* context, std::uint32_t begin, std::uint32_t end);
 
-    explicit Pool(unsigned threads);  // the one that calls run is among them; throws std::system_error
+    explicit Pool(unsigned threads);  // including the thread that calls run(); throws std::system_error
     ~Pool();
     Pool(const Pool&) = delete;
     Pool& operator=(const Pool&) = delete;
 
     [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
 
-    // Calls `body` with ranges that together are 0 .. count - 1, of at most `grain` each but for the last; returns when
-    // all have ended, and their writes are seen. A single range is done by the caller.
+    // Calls `body` with ranges of at most `grain` that together are 0 .. count - 1. Returns when all calls have ended
+    // and their writes are visible. If there is a single range, the caller's thread does it.
     void run(std::uint32_t count, std::uint32_t grain, Body body, const void* context);
 
   private:
@@ -38,16 +38,16 @@ class Pool {
     void close();
     void stop();
 
-    // What is being run; written only while the gate is closed and nobody is inside.
+    // The current run. Written only while the gate is closed and no worker is inside.
     Body body_ = nullptr;
     const void* context_ = nullptr;
     std::uint32_t grain_ = 1;
     std::unique_ptr<Share[]> shares_;  // by thread
 
-    // Bit 0: open; then the number of workers inside; from bit 32 on the number of the run.
+    // Bit 0: open. Bits 1 to 31: number of workers inside. From bit 32 on: number of the run.
     alignas(64) std::atomic<std::uint64_t> gate_ = 0;
     std::atomic<bool> stop_ = false;
-    unsigned patience_ = 0;  // looks at the gate before a worker goes to sleep
+    unsigned patience_ = 0;  // checks of the gate before a worker sleeps
     std::vector<std::jthread> workers_;
 };
 

@@ -1,7 +1,7 @@
-// vec3 and vec4 of the float kernels, each in one register: what the kernels use of GLM's, whose separate floats GCC
-// turns into three or four times the loads, sums and stores.
+// vec3 and vec4 of the float kernels, each in one register, with the part of GLM's interface that the kernels use. From
+// GLM's separate floats, GCC generates three to four times as many loads, sums and stores.
 //
-// The fourth lane of a vec3 holds whatever the vec4 that it came from held there.
+// The fourth lane of a vec3 is undefined: a vec3 made from a vec4 keeps the vec4's fourth lane.
 #pragma once
 
 namespace spherule::compute::cpu::single_precision {

@@ -8,10 +8,10 @@
 namespace spherule::compute::gl {
 namespace {
 
-// The first error since the last call, and none left behind.
+// Returns the first error since the last call, and clears all others.
 GLenum takeError() {
     const GLenum first = glGetError();
-    // A lost context reports its error for ever.
+    // A lost context reports its error forever.
     for (GLenum next = first; next != GL_NO_ERROR && next != GL_CONTEXT_LOST;) next = glGetError();
     return first;
 }

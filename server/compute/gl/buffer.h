@@ -8,10 +8,10 @@
 
 namespace spherule::compute::gl {
 
-// Device memory. Its size is rounded up to a whole vec4, so that a kernel may read in those.
+// Device memory. Its size is rounded up to a whole vec4, so that a kernel may read whole vec4s.
 class GlBuffer final : public Buffer {
   public:
-    // Refused, with figures, when the driver has no room.
+    // Refused, with the sizes, if the driver has no room.
     static Result<std::unique_ptr<Buffer>> create(const std::shared_ptr<Context>& context, std::string_view label,
                                                   std::size_t bytes);
     ~GlBuffer() override;

@@ -15,8 +15,8 @@
 namespace spherule::compute::gl {
 namespace {
 
-// The config to create a context for; nothing when there is none. Surfaces of any kind, or none, will do: we draw to no
-// surface, and a headless driver may offer only configs without windows.
+// Returns the config for a context; nullopt if there is none. The config may have any surfaces or none: the program
+// draws to no surface, and a headless driver may offer only configs without windows.
 std::optional<EGLConfig> chooseConfig(const EglDisplay& display) {
     if (hasExtension(display.extensions(), "EGL_KHR_no_config_context")) return EGL_NO_CONFIG_KHR;
     constexpr std::array wanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -40,7 +40,7 @@ std::vector<EGLint> contextAttributes(bool robust) {
     return attributes;
 }
 
-// The entry points are the same for every context of a process, so they are loaded once, with one current.
+// The entry points are the same for all contexts of a process. They are loaded once, while a context is current.
 bool loadGl() {
     static const bool loaded = gladLoadGL(eglGetProcAddress) != 0;
     return loaded;
@@ -116,9 +116,9 @@ bool Context::makeCurrent() {
 }
 
 const char* Context::resetCause() {
-    if (resetCause_ != nullptr) return resetCause_;  // the driver may say it only once
+    if (resetCause_ != nullptr) return resetCause_;  // the driver may report it only once
     use();
-    // Anything else than these is no answer: without robust access some drivers return leftovers.
+    // Other values are ignored: without robust access some drivers return undefined values.
     switch (glGetGraphicsResetStatus()) {
         case GL_GUILTY_CONTEXT_RESET:
             resetCause_ = "a kernel of this program hung or crashed it";

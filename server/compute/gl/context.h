@@ -11,24 +11,24 @@
 
 namespace spherule::compute::gl {
 
-// One OpenGL 4.5 core context without a surface. Everything that lives in it keeps it alive. Used by one thread, which
-// may use several contexts in turn.
+// An OpenGL 4.5 core context without a surface. Its buffers, kernels and timers share ownership of it. Used by one
+// thread, which may use several contexts in turn.
 class Context {
   public:
-    // Asks for robust access with a reset that loses the context; takes one without where the driver refuses. In debug
-    // builds the driver's messages go to the log.
+    // Requests robust access, with a lost context after a reset. If the driver refuses, creates a context without it.
+    // Debug builds log the driver's messages.
     static Result<std::shared_ptr<Context>> create(const std::shared_ptr<EglDisplay>& display);
 
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    // Makes it the thread's current context; costs a comparison when it is.
+    // Makes this the thread's current context. Costs only a comparison if it already is.
     void use() {
         if (current_ != this) makeCurrent();
     }
 
-    // What the context is set to.
+    // The cached settings of the context.
     State& state() { return state_; }
 
     [[nodiscard]] bool robust() const { return robust_; }
@@ -37,10 +37,11 @@ class Context {
     [[nodiscard]] const std::string& version() const { return version_; }
     [[nodiscard]] const EglDisplay& display() const { return *display_; }
 
-    // Why the device was reset, which this context does not survive; null while it has not been. Asks the driver.
+    // Asks the driver whether the device was reset. Returns the cause; nullptr if there was no reset. A reset loses the
+    // context.
     const char* resetCause();
 
-    // True for the names of renderers that run on the CPU.
+    // Returns true if the renderer is known to run on the CPU.
     [[nodiscard]] bool software() const;
 
   private:

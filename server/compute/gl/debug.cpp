@@ -23,9 +23,9 @@ void GLAD_API_PTR onMessage(GLenum, GLenum type, GLuint id, GLenum severity, GLs
 
 void logDriverMessages() {
     glEnable(GL_DEBUG_OUTPUT);
-    // On the calling thread, inside the call at fault, so that a debugger shows it.
+    // Messages arrive on the calling thread, inside the faulty call, so that a debugger shows the call.
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-    // What the compiler says goes into the error of the kernel.
+    // Compiler messages are part of the kernel's error instead.
     glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
     glDebugMessageCallback(&onMessage, nullptr);
 }

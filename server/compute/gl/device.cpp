@@ -37,7 +37,7 @@ void bindBuffers(State& state, const GlKernel& kernel, const Launch& launch) {
     }
 }
 
-// Rows of equal length, so that the last one wastes little.
+// Divides the groups into rows of equal length, so that the last row wastes little.
 void dispatch(std::uint32_t count, std::uint32_t groupSize) {
     const std::uint32_t groups = count / groupSize + (count % groupSize != 0 ? 1 : 0);
     const std::uint32_t rows = (groups + maxGroupsX - 1) / maxGroupsX;
@@ -95,7 +95,7 @@ void GlDevice::upload(Buffer& buffer, std::size_t offset, std::span<const std::b
                          bytes.data());
 }
 
-// By way of host memory of our own: reading a buffer directly makes some drivers move it there for good.
+// Copies through a staging buffer: after a direct read, some drivers keep the buffer in host memory.
 void GlDevice::download(const Buffer& buffer, std::size_t offset, std::span<std::byte> bytes) {
     checkRange("download", buffer, offset, bytes.size());
     context_->use();

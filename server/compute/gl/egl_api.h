@@ -7,22 +7,22 @@
 
 #include "core/result.h"
 
-// EGL as the host offers it before any display is open. Any thread.
+// The functions of EGL that need no display. Any thread.
 namespace spherule::compute::gl {
 
-// Opens libEGL once per process. NoDevice when the host has none.
+// Opens libEGL once per process. NoDevice if the host has none.
 Result<void> loadEgl();
 
-// What EGL offers without a display; empty when it says nothing (EGL 1.4 without client extensions).
+// Returns the client extensions of EGL; empty if EGL reports none (EGL 1.4 without client extensions).
 std::string clientExtensions();
 
-// True when `name` is one of the blank-separated words of `extensions`.
+// Returns true if `name` is one of the blank-separated words of `extensions`.
 bool hasExtension(std::string_view extensions, std::string_view name);
 
-// "EGL_BAD_ACCESS" and so on.
+// Returns the name of an error code, such as "EGL_BAD_ACCESS".
 std::string eglErrorName(EGLint code);
 
-// The part of EGL that glad loads only when it knows an initialised display. `display` is initialised.
+// Loads the functions of EGL that glad loads only for an initialised display. `display` must be initialised.
 void loadDisplayFunctions(EGLDisplay display);
 
 }  // namespace spherule::compute::gl

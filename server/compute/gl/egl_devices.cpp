@@ -25,8 +25,8 @@ EglDevice describe(EGLDeviceEXT handle, unsigned index) {
     EglDevice device;
     device.handle = handle;
     device.index = index;
-    // Extensions first: a driver may crash when asked for something that the device does not list (NVIDIA 450 does, for
-    // GPUs that a container hides).
+    // Queries the extensions first: a driver may crash on a query that the device does not list. NVIDIA 450 does so for
+    // GPUs that a container hides.
     device.extensions = deviceString(handle, EGL_EXTENSIONS);
     device.deviceClass = classify(device.extensions);
     if (hasExtension(device.extensions, "EGL_EXT_device_query_name")) {

@@ -7,22 +7,22 @@
 
 namespace spherule::compute::gl {
 
-// In the order in which we prefer them.
+// Classes in order of preference.
 enum class EglDeviceClass { Cuda, Drm, OtherHardware, Software };
 
 struct EglDevice {
     EGLDeviceEXT handle = nullptr;
     unsigned index = 0;  // in EGL's order
     EglDeviceClass deviceClass = EglDeviceClass::OtherHardware;
-    std::string name;  // by EGL_EXT_device_query_name, else empty
+    std::string name;  // by EGL_EXT_device_query_name; empty without it
     std::string extensions;
-    std::string drmFile;  // "/dev/dri/card0"; empty when the device has none
+    std::string drmFile;  // "/dev/dri/card0"; empty if the device has none
 
     [[nodiscard]] bool software() const { return deviceClass == EglDeviceClass::Software; }
 };
 
-// The host's EGL devices, preferred first, each logged at debug level; empty when EGL cannot list them. `loadEgl` came
-// before. Any thread.
+// Returns the host's EGL devices, preferred first, and logs each at debug level. Empty if EGL cannot list devices. Call
+// loadEgl() first. Any thread.
 std::vector<EglDevice> eglDevices();
 
 }  // namespace spherule::compute::gl

@@ -13,13 +13,13 @@ namespace {
 
 std::mutex registryMutex;
 
-// Displays that are open now, so that one is not ended under another user.
+// The open displays, so that none is terminated while another user has it.
 std::map<EGLDisplay, std::weak_ptr<EglDisplay>>& registry() {
     static std::map<EGLDisplay, std::weak_ptr<EglDisplay>> open;
     return open;
 }
 
-// glad knows the EGL 1.5 entry only once a display exists, so the extension's is the first choice here.
+// glad loads the EGL 1.5 function only once a display exists, so the extension's function is tried first.
 EGLDisplay platformDisplay(EGLenum platform, void* native) {
     if (eglGetPlatformDisplayEXT != nullptr) return eglGetPlatformDisplayEXT(platform, native, nullptr);
     if (eglGetPlatformDisplay != nullptr) return eglGetPlatformDisplay(platform, native, nullptr);
@@ -75,7 +75,7 @@ EglDisplay::EglDisplay(EGLDisplay handle, std::string name) : handle_(handle), n
 
 EglDisplay::~EglDisplay() {
     const std::lock_guard lock(registryMutex);
-    // Someone may have opened it anew between our last user's leaving and this line.
+    // Another thread may have opened the display again after the last user released it.
     const auto entry = registry().find(handle_);
     if (entry != registry().end() && !entry->second.expired()) return;
     registry().erase(handle_);

@@ -10,14 +10,14 @@
 
 namespace spherule::compute::gl {
 
-// An initialised EGL display without a screen. EGL has one per device and process, so those who ask for the same device
-// share it; it ends with the last of them. Any thread.
+// An initialised EGL display without a screen. EGL has one display per device and process. Users of the same device
+// share the object, and the last one terminates the display. Any thread.
 class EglDisplay {
   public:
     static Result<std::shared_ptr<EglDisplay>> forDevice(const EglDevice& device);
 
-    // For hosts whose EGL lists no devices: Mesa picks one. With `software`, Mesa is told to use its software renderer
-    // (by its environment variable, for the rest of the process: call it before other threads start).
+    // Opens a display on a device that Mesa chooses, for hosts whose EGL lists no devices. With `software`, sets Mesa's
+    // environment variable for its software renderer, for the rest of the process. Call it before other threads start.
     static Result<std::shared_ptr<EglDisplay>> surfaceless(bool software);
 
     EglDisplay(EGLDisplay handle, std::string name);

@@ -7,11 +7,11 @@
 namespace spherule::compute::gl {
 namespace {
 
-// Few enough that they end within seconds on a slow device, many enough that fences cost nothing.
+// Few enough that they end within seconds on a slow device, enough that the cost of fences is negligible.
 constexpr unsigned launchesPerFence = 64;
-// The host is ahead of the device by no more: what it is asked for next must not wait for minutes of work.
+// Limits how far the host is ahead of the device, so that the next request does not wait for minutes of work.
 constexpr std::size_t mostFences = 4;
-constexpr GLuint64 look = 1'000'000'000;  // ns; then the context may be lost, which not every driver tells a fence
+constexpr GLuint64 look = 1'000'000'000;  // ns; then checks for a lost context, which some drivers do not signal
 
 }  // namespace
 

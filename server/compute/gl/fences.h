@@ -7,8 +7,8 @@
 
 namespace spherule::compute::gl {
 
-// Waits for the device, with a sign of life (core/heartbeat.h) for each part of the work that has ended: a wait may be
-// long, as long as something moves.
+// Waits for the device. Sends a heartbeat (core/heartbeat.h) for each part of the work that has ended, so that a wait
+// may be long while the device makes progress.
 class Fences {
   public:
     explicit Fences(std::shared_ptr<Context> context);
@@ -16,9 +16,9 @@ class Fences {
     Fences(const Fences&) = delete;
     Fences& operator=(const Fences&) = delete;
 
-    // After each launch. The context is current. Waits where the device has much to do already.
+    // Call after each launch. The context must be current. Waits if the device has much work pending.
     void launched();
-    // Until all that was asked of the device has ended, or it is lost. The context is current.
+    // Waits until all work of the device has ended, or the device is lost. The context must be current.
     void wait();
 
   private:
@@ -27,7 +27,7 @@ class Fences {
 
     std::shared_ptr<Context> context_;
     std::deque<GLsync> fences_;
-    unsigned launches_ = 0;  // since the last of them
+    unsigned launches_ = 0;  // since the last fence
 };
 
 }  // namespace spherule::compute::gl

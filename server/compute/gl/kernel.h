@@ -11,7 +11,7 @@
 
 namespace spherule::compute::gl {
 
-// A compiled compute program and what it wants bound.
+// A compiled compute program and its bindings.
 class GlKernel final : public Kernel {
   public:
     struct Slot {
@@ -19,7 +19,8 @@ class GlKernel final : public Kernel {
         std::string block;
     };
 
-    // Input, with the compiler's messages, when it does not compile or breaks the conventions of kernels.
+    // Input, with the compiler's messages, if the kernel does not compile or violates the rules of
+    // Device::createKernel.
     static Result<std::unique_ptr<Kernel>> create(const std::shared_ptr<Context>& context, const SourceSet& sources,
                                                   std::string_view file, std::span<const Define> defines);
     ~GlKernel() override;
@@ -33,7 +34,7 @@ class GlKernel final : public Kernel {
     [[nodiscard]] bool wantsParameters() const { return wantsParameters_; }
     [[nodiscard]] std::uint32_t groupSize() const { return groupSize_; }  // invocations per group
 
-    // Sets `phase` and `invocations` where the kernel uses them.
+    // Sets `phase` and `invocations` if the kernel uses them.
     void setUniforms(std::uint32_t phase, std::uint32_t invocations) const;
 
   private:
@@ -61,7 +62,7 @@ class GlKernel final : public Kernel {
     std::vector<Slot> slots_;
     bool wantsParameters_ = false;
     std::uint32_t groupSize_ = 0;
-    mutable Uniform phase_, invocations_;  // caches of what GL holds
+    mutable Uniform phase_, invocations_;  // with the values that GL holds, to skip redundant calls
 };
 
 }  // namespace spherule::compute::gl

@@ -4,7 +4,7 @@
 
 namespace spherule::compute::gl {
 
-// Of the current context.
+// Returns the limits of the current context.
 Limits queryLimits();
 
 }  // namespace spherule::compute::gl

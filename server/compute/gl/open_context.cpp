@@ -22,7 +22,7 @@ Result<std::shared_ptr<Context>> contextOn(const Result<std::shared_ptr<EglDispl
     return Context::create(*display);
 }
 
-// Opens one after the other until one is what is wanted, and keeps what went wrong.
+// Opens displays until one has the wanted kind of renderer, and collects the problems of the others.
 class Attempts {
   public:
     bool open(const Result<std::shared_ptr<EglDisplay>>& display, bool wantSoftware) {
@@ -66,7 +66,7 @@ bool openHardware(Attempts& attempts, const Wish& wish, const std::vector<EglDev
     return devices.empty() && !wish.numbered && attempts.open(EglDisplay::surfaceless(false), false);
 }
 
-// The software device by name: with another vendor's library installed, that is what makes it Mesa's.
+// Opens EGL's software device first: if another vendor's library is installed, only this device is Mesa's for certain.
 bool openSoftware(Attempts& attempts, const std::vector<EglDevice>& devices) {
     for (const auto& device : devices) {
         if (device.software() && attempts.open(EglDisplay::forDevice(device), true)) return true;
@@ -105,7 +105,7 @@ Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devic
         return Opened{context, "gpu", reason};
     }
     if (wish.kind != Wish::Kind::Software) {
-        // Without a GPU, `auto` goes on with the CPU: no advice is needed.
+        // Without a GPU, `auto` uses the CPU, so no advice is needed.
         const std::string advice = wish.kind == Wish::Kind::Auto ? "" : fmt::format(". {}", gpuAdvice);
         return fail(ErrorKind::NoDevice, gpuName(wish),
                     fmt::format("no GPU here computes with OpenGL 4.5{}{}", attempts.problems(), advice));

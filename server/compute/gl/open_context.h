@@ -11,25 +11,26 @@
 
 namespace spherule::compute::gl {
 
-// What `--device` asks for.
+// The device that `--device` requests.
 struct Wish {
     enum class Kind { Auto, Gpu, Software };
     Kind kind = Kind::Auto;
     unsigned gpu = 0;       // place among the hardware devices, preferred first
-    bool numbered = false;  // that one and no other
+    bool numbered = false;  // only the device `gpu`
 };
 
-// Input for anything but "auto", "gpu", "gpu:N", "software". Auto is a GPU that nobody asked for by name.
+// Parses `choice`. Input if it is not "auto", "gpu", "gpu:N" or "software". "auto" means a GPU, like "gpu", but errors
+// contain no advice.
 Result<Wish> parseWish(const std::string& choice);
 
 struct Opened {
     std::shared_ptr<Context> context;
-    std::string kind;    // "gpu" or "software", by what the context turned out to be
+    std::string kind;    // "gpu" or "software", according to the renderer
     std::string reason;  // one sentence
 };
 
-// Opens what is asked for among `devices` (of eglDevices()); when EGL lists none, what Mesa gives without. NoDevice
-// says what was tried and what to do.
+// Opens the requested device among `devices` (from eglDevices()). If EGL lists none, opens the device that Mesa
+// chooses. The error NoDevice lists the attempts and a remedy.
 Result<Opened> openContext(const Wish& wish, const std::vector<EglDevice>& devices);
 
 }  // namespace spherule::compute::gl

@@ -28,11 +28,11 @@ class GlReadBack final : public ReadBack {
     std::optional<std::span<const std::byte>> poll() override {
         if (!arrived_) {
             places_->context_->use();
-            // Unflushed, the copy might never start.
+            // Without a flush, the copy might never start.
             const GLbitfield flush = std::exchange(flushed_, true) ? 0 : GL_SYNC_FLUSH_COMMANDS_BIT;
             const GLenum state = glClientWaitSync(fence_, flush, 0);
             arrived_ = (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) &&
-                       places_->context_->resetCause() == nullptr;  // a lost context copies nothing, and signals
+                       places_->context_->resetCause() == nullptr;  // a lost context signals without copying
         }
         if (!arrived_) return std::nullopt;
         return std::span(place_.staging.data(), bytes_);

@@ -8,12 +8,12 @@
 
 namespace spherule::compute::gl {
 
-// The two places for copies on their way to the host. Lives as long as the device or the last copy.
+// The two staging buffers for copies to the host. Lives until the device and the last copy are gone.
 class ReadBackPlaces : public std::enable_shared_from_this<ReadBackPlaces> {
   public:
     explicit ReadBackPlaces(const std::shared_ptr<Context>& context);
 
-    // Starts copying the first `bytes` of `source`; nothing when both places are taken or there is no memory.
+    // Starts copying the first `bytes` of `source`. Returns nullptr if both places are taken or there is no memory.
     std::unique_ptr<ReadBack> start(GLuint source, std::size_t bytes);
 
   private:

@@ -27,7 +27,7 @@ bool Staging::reserve(std::size_t bytes) {
 }
 
 void Staging::release() {
-    // Deleting unmaps.
+    // Deletion also unmaps the buffer.
     glDeleteBuffers(1, &id_);
     id_ = 0;
     bytes_ = 0;

@@ -7,7 +7,7 @@
 
 namespace spherule::compute::gl {
 
-// Memory that the device copies into and the host reads, mapped for its whole life.
+// Memory that the device writes and the host reads, mapped permanently.
 class Staging {
   public:
     explicit Staging(std::shared_ptr<Context> context);
@@ -15,8 +15,8 @@ class Staging {
     Staging(const Staging&) = delete;
     Staging& operator=(const Staging&) = delete;
 
-    // Makes room for `bytes`; what it held is lost when it grows. False (logged) when there is no memory or the context
-    // is lost.
+    // Makes room for `bytes`; growing discards the content. Returns false (and logs) if there is no memory or the
+    // context is lost.
     [[nodiscard]] bool reserve(std::size_t bytes);
 
     [[nodiscard]] GLuint id() const { return id_; }

@@ -9,8 +9,8 @@
 
 namespace spherule::compute::gl {
 
-// What a context is set to, so that a launch sets only what differs from the launch before. Its context is current in
-// every call.
+// Cached settings of a context, so that a launch changes only settings that differ from the previous launch. The
+// context must be current in every call.
 class State {
   public:
     void useProgram(GLuint program);
@@ -18,13 +18,13 @@ class State {
     void bindUniforms(GLuint buffer);
     void bindArguments(GLuint buffer);
 
-    // Deleted names may be given out again.
+    // Call before a deletion, because GL may reuse deleted names.
     void forgetBuffer(GLuint buffer);
     void forgetProgram(GLuint program);
 
-    // Orders launches: each sees what those before it wrote.
+    // Orders launches, so that each sees the writes of earlier launches.
     void afterLaunch();
-    // Makes what launches wrote visible to copies, fills and uploads, and holds those back until the launches are done.
+    // Makes the writes of launches visible to copies, fills and uploads, which then wait until the launches are done.
     void beforeCopy();
 
   private:

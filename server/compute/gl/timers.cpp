@@ -8,8 +8,8 @@
 namespace spherule::compute::gl {
 namespace {
 
-// Pending spans from which on those that have arrived are collected without waiting, so that they stay few also when
-// nobody takes the times.
+// From this number of pending spans on, begin() collects arrived spans without waiting. So their number stays small
+// even if the times are never taken.
 constexpr std::size_t manyPending = 4096;
 
 double nanoseconds(GLuint query) {

@@ -8,7 +8,7 @@
 
 namespace spherule::compute::gl {
 
-// Device time between pairs of timestamps, added up by slot. Its context is current in every call.
+// Sums of device time between pairs of timestamps, by slot. The context must be current in every call.
 class Timers {
   public:
     explicit Timers(std::shared_ptr<Context> context);
@@ -19,7 +19,7 @@ class Timers {
     void begin(unsigned slot);
     void end();
 
-    // Seconds by slot since the last call; waits for the device.
+    // Returns the time (s) by slot since the last call. Waits for the device.
     std::vector<double> take();
 
   private:

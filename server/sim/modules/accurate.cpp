@@ -20,7 +20,7 @@ void declareForces(PlanBuilder& plan) {
 
 }  // namespace
 
-// The model `accurate`: soft spheres, whose forces are added up before any acts.
+// The model `accurate`: soft spheres. All forces are added up before they are applied.
 const Module moduleAccurate{
     .feature = Feature::Accurate,
     .required = [](const scene::Scene& scene,
@@ -29,8 +29,8 @@ const Module moduleAccurate{
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.wallContacts = from.plan.wallContacts; },
 };
 
-// What float32 cannot hold of a position: the substeps of `accurate` are so short that they would not move a slow
-// sphere.
+// The part of a position that float32 cannot hold. The substeps of `accurate` are so short that without it a slow
+// sphere would not move.
 const Module moduleLowBits{
     .feature = Feature::LowBits,
     .required = [](const scene::Scene& /*scene*/, const Features& others) { return others.has(Feature::Accurate); },

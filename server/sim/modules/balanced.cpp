@@ -2,8 +2,8 @@
 
 namespace spherule::sim {
 
-// The model `balanced`: overlaps resolved by positions, then the velocities that impacts justify. The module of
-// friction adds its two passes.
+// The model `balanced`: resolves overlaps by moving spheres, then sets the velocities after impacts. The friction
+// module adds its own two passes.
 const Module moduleBalanced{
     .feature = Feature::Balanced,
     .required = [](const scene::Scene& scene,
@@ -18,7 +18,7 @@ const Module moduleBalanced{
         },
 };
 
-// The velocity before the substep, from which impacts and sleep are told.
+// The velocity before the substep. Impacts and sleep are detected by it.
 const Module moduleVelocityBefore{
     .feature = Feature::VelocityBefore,
     .required =

@@ -6,8 +6,8 @@ namespace spherule::sim {
 
 namespace {
 
-// Lists hold until a sphere has moved this share of the margin: two may approach each other, and the position pass
-// moves them a little further before the next check.
+// The lists are rebuilt when a sphere has moved this share of the margin. It is below one half: two spheres may
+// approach each other, and the position pass moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
 bool differ(const std::vector<scene::Sphere>& spheres) {
@@ -50,7 +50,7 @@ void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
 
 }  // namespace
 
-// Spheres meet each other: a cell grid and, from it, lists of the pairs that are near each other.
+// Contacts between spheres: a cell grid, and lists of near pairs that are built from it.
 const Module moduleContacts{
     .feature = Feature::Contacts,
     .required = [](const scene::Scene& scene, const Features& /*others*/) { return scene.sphereContacts; },
@@ -64,7 +64,7 @@ const Module moduleRadii{
     .required = [](const scene::Scene& scene, const Features& /*others*/) { return differ(scene.spheres); },
 };
 
-// Radii differ so much that each class of sizes has a grid of its own. Set by planFor(), which makes the grid.
+// Radii differ so much that each size class has its own grid. planFor() sets the feature, because it makes the grid.
 const Module moduleLevels{
     .feature = Feature::Levels,
     .required = [](const scene::Scene& /*scene*/, const Features& /*others*/) { return false; },

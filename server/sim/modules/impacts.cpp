@@ -2,8 +2,8 @@
 
 namespace spherule::sim {
 
-// In observed steps: how fast the pairs that meet approach and part, for the restitution that is measured. `fast` and
-// `balanced` carry an impact out within one substep.
+// Measures restitution in observed steps: the speeds at which colliding pairs approach and part. The models `fast` and
+// `balanced` resolve an impact within one substep.
 const Module moduleImpacts{
     .feature = Feature::Impacts,
     .required = [](const scene::Scene& /*scene*/,

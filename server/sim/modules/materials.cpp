@@ -13,7 +13,7 @@ bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::PairLaw&))
 
 }  // namespace
 
-// Something bounces.
+// Some contact in the scene has restitution.
 const Module moduleRestitution{
     .feature = Feature::Restitution,
     .required =
@@ -22,7 +22,7 @@ const Module moduleRestitution{
         },
 };
 
-// Spheres are of more than one material: what holds in a contact is looked up.
+// Spheres have more than one material: kernels look up the contact parameters by pair of materials.
 const Module moduleMaterials{
     .feature = Feature::Materials,
     .required =
@@ -33,7 +33,7 @@ const Module moduleMaterials{
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::ContactParams}); },
 };
 
-// A contact of `accurate` follows Hertz and Mindlin in place of linear springs.
+// Contacts of `accurate` follow Hertz and Mindlin instead of linear springs.
 const Module moduleHertz{
     .feature = Feature::Hertz,
     .required =
@@ -43,7 +43,7 @@ const Module moduleHertz{
         },
 };
 
-// Something rubs: spheres turn.
+// Some contact in the scene has friction, so that spheres turn.
 const Module moduleFriction{
     .feature = Feature::Friction,
     .required =
@@ -65,7 +65,7 @@ const Module moduleFriction{
         },
 };
 
-// Something resists rolling or spinning.
+// Some contact in the scene resists rolling or spinning.
 const Module moduleRolling{
     .feature = Feature::Rolling,
     .required =

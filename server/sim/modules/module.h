@@ -14,19 +14,19 @@
 namespace spherule::sim {
 
 // The stages of a substep, in their order. Within a stage, launches run in the order of the modules that declare them
-// (that of shaders/features.def). From Wake to RestoreContacts: only while the lists are rebuilt.
+// (the order of shaders/features.def). The stages from Wake to RestoreContacts run only while the lists are rebuilt.
 enum class Stage : std::uint8_t {
     Integrate,
     Rebuild,        // decides whether the lists are rebuilt in this substep
-    Wake,           // the old lists are there once more
-    CarryContacts,  // keeps by id what contacts remember
+    Wake,           // the old lists are still valid
+    CarryContacts,  // saves the history of contacts by id
     SortCells,      // the order of the spheres by cell
     SortColumns,    // each column of the spheres, in that order
-    Reference,      // where the spheres are as the lists are built
-    Outside,        // how far those outside the bounds are from each other
+    Reference,      // positions of the spheres when the lists are built
+    Outside,        // distances between the spheres outside the bounds
     Lists,
-    RestoreContacts,  // gives the new pairs what their contacts remember
-    Activity,         // which cell groups hold anything that moves
+    RestoreContacts,  // gives the new pairs the history of their contacts
+    Activity,         // finds the cell groups that hold anything that moves
     BeforeSolve,      // observed steps only
     Solve,
     Friction,
@@ -35,38 +35,39 @@ enum class Stage : std::uint8_t {
     Statistics,  // on demand
 };
 
-// Collects what modules declare for one scene.
+// Collects the arrays and launches that modules declare for one scene.
 class PlanBuilder {
   public:
-    // `plan` has its features, numbers and grid, and gets its arrays and launches. Both must outlive the builder.
+    // `plan` already has its features, numbers and grid; the builder adds arrays and launches. Both must outlive the
+    // builder.
     PlanBuilder(Plan& plan, const scene::Scene& scene) : plan_(plan), scene_(scene) {}
 
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] bool has(Feature feature) const { return plan_.features.has(feature); }
     [[nodiscard]] bool obstructed() const { return plan_.features.obstructed(); }
 
-    // An array that several modules need is declared by each.
+    // Adds arrays to the plan. Each module declares all arrays that it needs; duplicates are ignored.
     void arrays(std::initializer_list<Array> wanted);
 
-    // `aliases`: buffers of the kernel that are named otherwise than the array to bind.
+    // `aliases`: buffers of the kernel whose names differ from the arrays to bind.
     void overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases = {});
     void overGroups(Stage stage, Pass pass, std::string_view kernel);
-    // Over all listed pairs, one colour of cell groups after the other, level after level.
+    // Runs over all listed pairs: one colour of cell groups after the other, level after level.
     void overPairs(Stage stage, Pass pass, std::string_view kernel);
     void once(Stage stage, Pass pass, std::string_view kernel);
-    // While the lists are rebuilt: as many invocations as that row of the launch table says.
+    // Runs while the lists are rebuilt. Row `row` of the launch table holds the number of invocations.
     void onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::vector<Alias> aliases = {});
-    // Turns the values of an array into exclusive prefix sums, in blocks and blocks of blocks; `rows` of the launch
-    // table: blocks, blocks of blocks.
+    // Turns the values of an array into exclusive prefix sums, in blocks and in blocks of blocks. `rows` of the launch
+    // table: the row for blocks, then the row for blocks of blocks.
     void prefixSumOnRebuild(Stage stage, Pass pass, Array values, std::array<std::uint32_t, 2> rows,
                             std::uint32_t count);
-    // In observed steps only.
+    // Run in observed steps only.
     void observeSpheres(Stage stage, std::string_view kernel, std::vector<Alias> aliases);
     void observeGroups(Stage stage, std::string_view kernel, std::vector<Alias> aliases);
-    // On demand.
+    // Runs on demand.
     void statistics(std::string_view kernel, std::uint32_t count);
 
-    // Adds the launches that sort the columns, and puts everything in order.
+    // Adds the launches that sort the columns, and puts arrays and launches in order.
     void finish();
 
   private:
@@ -80,7 +81,7 @@ class PlanBuilder {
     std::vector<Staged> staged_;
 };
 
-// What parameters follow from.
+// The data from which the parameters are computed.
 struct ParameterSource {
     const scene::Scene& scene;
     const Plan& plan;
@@ -88,10 +89,10 @@ struct ParameterSource {
     double substep;  // s
 };
 
-// An optional feature: all that the plan and the parameters know of it.
+// An optional feature and its contributions to the plan and the parameters.
 struct Module {
     Feature feature;
-    // Whether the scene requires it; `others` has the features of the modules before it.
+    // Returns true if the scene requires the feature. `others`: the features of the modules before this one.
     bool (*required)(const scene::Scene& scene, const Features& others);
     void (*declare)(PlanBuilder& plan) = nullptr;
     void (*upload)(const ParameterSource& from, layout::Parameters& parameters) = nullptr;

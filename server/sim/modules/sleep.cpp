@@ -22,9 +22,9 @@ void declareSleep(PlanBuilder& plan) {
 void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
     const scene::Scene& scene = from.scene;
     const double g = glm::length(scene.gravity);
-    // Well above what lets a sphere fall asleep, or the two would take turns; and above what the solver's pushes make
-    // of a sphere squeezed between others: up to some 15 g h in a bed 20 deep. A sphere that moves away more slowly
-    // creeps.
+    // The wake speed is well above the sleep speed, or a sphere would fall asleep and wake in turns. It is also above
+    // the speed that the solver's pushes give a squeezed sphere: up to about 15 g h in a bed 20 spheres deep (h:
+    // substep). `creep` detects a sphere that moves away more slowly.
     constexpr double kicks = 20;
     p.sleepSpeed = static_cast<float>(scene.sleep.speed);
     p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, kicks * g * from.substep));
@@ -39,11 +39,11 @@ void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
 
 }  // namespace
 
-// Spheres at rest fall asleep: until something wakes them they are passed over.
+// Spheres at rest fall asleep: the solver skips them until something wakes them.
 const Module moduleSleep{
     .feature = Feature::Sleep,
-    // Without gravity nothing rests: what is slow only drifts. Without contacts there is nothing that sleep saves.
-    // Under forces nothing is put to sleep: `accurate` is for those who want to see them.
+    // Without gravity nothing rests: a slow sphere only drifts. Without contacts sleep saves nothing. In `accurate` no
+    // sphere sleeps, because the model is meant to show the forces in a pile.
     .required =
         [](const scene::Scene& scene, const Features& others) {
             return scene.sleep.enabled && others.has(Feature::Contacts) && others.has(Feature::Gravity) &&

@@ -2,8 +2,8 @@
 
 namespace spherule::sim {
 
-// The tangential springs of contacts between spheres, which must outlast the lists: while those are rebuilt, what each
-// contact remembers is kept by the id of one of its spheres.
+// The tangential springs of contacts between spheres must survive a rebuild of the lists. During a rebuild, the slip of
+// each contact is kept by the id of one of its spheres.
 const Module moduleSlipMemory{
     .feature = Feature::SlipMemory,
     .required =
