@@ -9,8 +9,8 @@
 
 // Compares isolated contacts on the device with the reference, over 0.5 s. In this time, float32 rounds a position 240
 // times, each time by up to 2^-24 of its distance from the centre. At constant velocity, all roundings have the same
-// direction. To keep this error smaller than that of the contacts, spheres of 0.5 m stay within 2 m of the centre, and
-// weak oblique gravity makes the roundings differ.
+// direction. To keep the error of roundings below the error of contacts, spheres of 0.5 m stay within 2 m of the
+// centre, and weak oblique gravity makes the roundings differ.
 namespace spherule::physics {
 namespace {
 
