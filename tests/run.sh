@@ -3,7 +3,7 @@
 #
 #   ./tests/run.sh                  the tests that need no privileges; they run as any user, in any container
 #   ./tests/run.sh --long           also the long tests (label "long")
-#   ./tests/run.sh --all            the long tests, the tests that need root (label "all"), and deploy/verify_image.sh too
+#   ./tests/run.sh --all            also long tests, tests that need root (label "all"), and deploy/verify_image.sh
 #   ./tests/run.sh --label unit     only the tests with this label; may be given several times
 #   ./tests/run.sh --tidy           clang-tidy for server/ instead of the tests
 #   ./tests/run.sh --sanitize       only tests without OpenGL, with ASan and UBSan, then with TSan
