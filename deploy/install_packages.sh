@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install_packages.sh SECTION...: installs what is missing of these sections of packages.txt. Touches nothing, and needs
-# neither root nor the network, where nothing is missing.
+# install_packages.sh SECTION...: installs the missing packages of these sections of packages.txt. If none is missing,
+# it changes nothing, and needs neither root nor the network.
 set -euo pipefail
 
 list=$(dirname "${BASH_SOURCE[0]}")/packages.txt

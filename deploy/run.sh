@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# run.sh [ARGUMENTS]: from a clone on Debian 12 to a served page. Installs the packages that are missing, builds, and
-# starts `spherule serve ARGUMENTS`; without arguments the page is at http://127.0.0.1:8080/.
+# run.sh [ARGUMENTS]: installs missing packages on Debian 12, builds the program, and starts `spherule serve ARGUMENTS`.
+# Without arguments, the page is at http://127.0.0.1:8080/.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

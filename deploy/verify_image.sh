@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Builds deploy/Dockerfile without a container engine, over a Debian made here, and checks the image: what is in it, and
-# how it runs, as a user without rights and with a read-only root. Needs root, on Debian 12; installs what is missing.
+# Builds deploy/Dockerfile without a container engine, on a minimal Debian that it makes. Checks the content of the
+# image, and runs it without privileges and with a read-only root. Needs root on Debian 12; installs missing packages.
 #
 #   deploy/verify_image.sh              the image for NVIDIA GPUs and for processors
-#   deploy/verify_image.sh --software   then also the one with Mesa's renderers
+#   deploy/verify_image.sh --software   also the image with Mesa's renderers
 #
-# All it makes lies in build/image: the Debian, the images, and a compiler cache that makes the next time short; or in
-# CCACHE_DIR, where that is set.
+# Its files are in build/image: the Debian, the images, and a compiler cache that shortens later builds. CCACHE_DIR sets
+# another folder for the cache.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -28,13 +28,13 @@ fi
 
 deploy/install_packages.sh image
 if [[ ! -x build/release/spherule_load ]]; then
-    # The client that watches the stream.
+    # The checks need the load client.
     deploy/install_packages.sh build run egl software test
     cmake --preset release --log-level=WARNING -D SPHERULE_TESTS=ON
     cmake --build --preset release -j "$(nproc)" --target spherule spherule_load
 fi
 
-# A store of its own, with overlays where the file system has them; nothing of the machine's images is seen or touched.
+# buildah with its own storage, which is separate from the machine's images. It uses overlays if the file system does.
 images() {
     buildah --root "$work/storage" --runroot "$work/storage-run" "$@"
 }
@@ -47,7 +47,7 @@ make_base() {
     images commit --quiet --rm "$container" "$base"
 }
 
-# build VARIANT: as Docker would, but with this machine's network and a compiler cache.
+# build VARIANT: builds the image as Docker does, but with this machine's network and a compiler cache.
 build() {
     local arguments=()
     [[ $1 != software ]] || arguments=(--build-arg SOFTWARE_GL=1)
@@ -56,7 +56,7 @@ build() {
         --file deploy/Dockerfile --tag "localhost/spherule:$1" .
 }
 
-# check VARIANT
+# check VARIANT: runs the tests of the image.
 check() {
     local facts=$work/$1 container root failed=0
     rm -rf "$facts"
@@ -66,7 +66,7 @@ check() {
     container=$(images from --pull-never "localhost/spherule:$1")
     root=$(images mount "$container")
     python3 tests/image/contents_test.py "$facts" "$root" || failed=1
-    # Its own network, so that no port is taken and none is open to others.
+    # A network namespace: all ports are free, and no port is open to others.
     unshare --mount --net python3 tests/image/running_test.py "$facts" "$root" || failed=1
     images rm "$container" >/dev/null
     rm -rf "$facts/layers"

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# An hour on a GPU host, without debugging: carries what was built here to a host that has a GPU driver and nothing else.
+# Bundles programs and tests, and runs them on a GPU host that has a GPU driver and no development packages.
 #
-#   gpu_day.sh bundle DIR [BUILD]          gathers BUILD (default: build/release) in DIR, relocatable, below 60 MB
-#   gpu_day.sh run DIR OUT [OPTIONS]       probe, GPU tests and benchmarks of the bundle in DIR; report and tables in OUT
-#       --device NAME      as spherule takes it (default: gpu)
-#       --quick            the GPU tests alone and short benchmarks: shows that everything works, measures nothing
+#   gpu_day.sh bundle DIR [BUILD]          copies BUILD (default: build/release) to DIR, relocatable, below 60 MB
+#   gpu_day.sh run DIR OUT [OPTIONS]       probe, GPU tests and benchmarks of the bundle in DIR; results in OUT
+#       --device NAME      a device of spherule (default: gpu)
+#       --quick            only GPU tests and short benchmarks: shows that everything works, but measures nothing
 #       --only PART        probe, tests or bench; may be given several times (default: all)
 #
-# The bundle holds this script, so on the host it is `DIR/gpu_day.sh run DIR OUT`. No command runs for over 10 minutes;
-# OUT receives at most 8 files, and what several runs find is added up there. Exits 1 when a command failed; the others
-# run all the same.
+# The bundle contains this script; on the host, run `DIR/gpu_day.sh run DIR OUT`. No command takes longer than 10
+# minutes. OUT receives at most 8 files; several runs append to them. If a command fails, the others still run, and the
+# exit code is 1.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -20,7 +20,7 @@ usage() {
     exit "$1"
 }
 
-# Libraries that must be the host's own: those of its C library, and those that belong to a driver.
+# Libraries that must come from the host: its C library, and libraries of its drivers.
 host_library='^(ld-linux.*|linux-vdso|lib(c|m|dl|pthread|rt|resolv|util)\.so|lib(EGL|GLX|GL)_.*|libgbm|libdrm.*|libLLVM.*)'
 
 copy_libraries() {
@@ -29,14 +29,14 @@ copy_libraries() {
     ldd "$@" | awk '$2 == "=>" && $3 ~ /^\// { print $1, $3 }' | sort -u | while read -r name path; do
         [[ $name =~ $host_library ]] && continue
         case $name in
-            # Only for hosts that have none or an older one: drivers may need a newer one than ours.
+            # Used only if the host has none or an older version, because drivers may need a newer version than ours.
             libstdc++.so.* | libgcc_s.so.*) cp -L "$path" "$into/lib-cxx/$name" ;;
             *) cp -L "$path" "$into/lib/$name" ;;
         esac
     done
 }
 
-# EGL's dispatch library is opened at run time, so ldd does not know of it.
+# EGL's dispatch library is opened at run time, so ldd does not list it.
 copy_glvnd() {
     local name path
     for name in libEGL.so.1 libGLdispatch.so.0 libOpenGL.so.0; do
@@ -63,7 +63,7 @@ if [ -z "$theirs" ] || [ "$(newest "$theirs")" -lt "$(newest "$here/lib-cxx/libs
 fi
 [ -n "$(host libEGL.so.1)" ] || path=$path:$here/lib-glvnd
 
-# A driver that is installed without its vendor file, as in some containers.
+# In some containers, the driver is installed without its vendor file.
 if [ -z "${__EGL_VENDOR_LIBRARY_FILENAMES-}" ] && [ -n "$(host libEGL_nvidia.so.0)" ] &&
     ! ls /etc/glvnd/egl_vendor.d/*nvidia* /usr/share/glvnd/egl_vendor.d/*nvidia* >/dev/null 2>&1; then
     export __EGL_VENDOR_LIBRARY_FILENAMES="$here/lib-glvnd/nvidia.json"
@@ -82,7 +82,7 @@ LAUNCHER
         >"$1/lib-glvnd/nvidia.json"
 }
 
-# Lines "LABEL PROGRAM" of the tests that run on the device that SPHERULE_TEST_DEVICE names.
+# Prints lines "LABEL PROGRAM" for the tests that use the device named by SPHERULE_TEST_DEVICE.
 device_tests() {
     local label
     for label in gpu physics; do
@@ -119,7 +119,7 @@ bundle() {
     [[ $size -lt 60 ]] || { echo "larger than the 60 MB that a bundle may have" >&2; exit 1; }
 }
 
-# step TITLE LOG COMMAND...: appends what the command says to OUT/LOG and the outcome to the report.
+# step TITLE LOG COMMAND...: runs the command; appends its output to OUT/LOG and its outcome to the report.
 step() {
     local title=$1 log=$2 start=$SECONDS code=0 outcome
     shift 2
@@ -146,7 +146,7 @@ run_tests() {
     done <"$dir/tests.list"
 }
 
-# True when the last two runs in the log ended in the same state, bit for bit.
+# Succeeds when the last two runs in the log ended in the same state, bit for bit.
 same_state() {
     local hashes
     hashes=$(grep -o '"stateHash":"[0-9a-f]*"' "$1" | tail -n 2)

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Everything that must pass: installs what is missing, builds, checks the formatting and runs the tests.
+# Installs missing packages, builds everything, checks the formatting and runs the tests.
 #
-#   ./tests/run.sh                  the tests, which need no rights: any user, any container
-#   ./tests/run.sh --long           the same, and those that take long (label "long")
-#   ./tests/run.sh --all            the same, those that need root (label "all"), and deploy/verify_image.sh
-#   ./tests/run.sh --label unit     only those with this label; may be given several times
-#   ./tests/run.sh --tidy           clang-tidy over server/ in place of the tests
-#   ./tests/run.sh --sanitize       what runs without OpenGL under ASan and UBSan, and under TSan, in place of the tests
-#   ./tests/run.sh --fuzz SECONDS   each fuzz target for so long, from its seeds, in place of the tests
+#   ./tests/run.sh                  the tests that need no privileges; they run as any user, in any container
+#   ./tests/run.sh --long           also the long tests (label "long")
+#   ./tests/run.sh --all            also long tests, tests that need root (label "all"), and deploy/verify_image.sh
+#   ./tests/run.sh --label unit     only the tests with this label; may be given several times
+#   ./tests/run.sh --tidy           clang-tidy for server/ instead of the tests
+#   ./tests/run.sh --sanitize       only tests without OpenGL, with ASan and UBSan, then with TSan
+#   ./tests/run.sh --fuzz SECONDS   each fuzz target for SECONDS, from its seeds, instead of the tests
 #
-# Behind the tests it says which label took how much of their time; the last line sums it up. Exits 1 when anything failed.
+# After the tests it prints the time of each label; the last line is a summary. The exit code is 1 if anything failed.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -46,7 +46,7 @@ fi
 durations=()
 failed=()
 
-# phase NAME COMMAND...: runs the command and notes how long it took and whether it failed.
+# phase NAME COMMAND...: runs the command; records its time, and its name if it failed.
 phase() {
     local name=$1 start=$SECONDS
     shift
@@ -62,7 +62,7 @@ summary() {
     [[ ${#failed[@]} -eq 0 ]]
 }
 
-# Without these there is nothing to test.
+# needed NAME COMMAND...: same as phase, but ends the script if the command failed.
 needed() {
     phase "$@"
     if [[ ${#failed[@]} -gt 0 ]]; then
@@ -75,7 +75,7 @@ check_format() {
         xargs -0 clang-format --dry-run -Werror
 }
 
-# Tests reach this machine only, so no proxy is asked.
+# Tests connect only to this machine, so no proxy is used.
 run_tests() {
     local chosen=() left_out=() log=$build/tests.log code=0
     [[ -n $long ]] || left_out+=(long)
@@ -91,7 +91,8 @@ run_tests() {
     return $code
 }
 
-# shares LOG: of the time of all tests together, from ctest's sums: "unit = 12.34 sec*proc (5 tests)".
+# shares LOG: prints the share of each label in the time of all tests, from ctest's lines such as
+# "unit = 12.34 sec*proc (5 tests)".
 shares() {
     echo "== labels: seconds of their tests together ($jobs run at a time), share, number of tests"
     awk '/ sec\*proc \([0-9]+ tests?\)$/ { seconds[$1] = $3; tests[$1] = substr($5, 2); sum += $3 }
@@ -105,7 +106,7 @@ run_tidy() {
     return "${PIPESTATUS[0]}"
 }
 
-# Mesa's renderer brings findings of its own: these tests compute on the CPU device.
+# These tests compute on the CPU device, because sanitizers report faults of Mesa's renderer.
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
         cmake --build --preset "$1" -j "$jobs" --target scene_test codec_test recording_test playing_test kernels_test pool_test physics_tests net_tests &&
@@ -113,7 +114,7 @@ sanitized() {
             -R '^(scene_test|codec_test|recording_test|playing_test|kernels_test|pool_test|physics_tests_cpu|net_tests)\.'
 }
 
-# Finds go to build/fuzz/finds-TARGET.
+# Inputs that fail are written to build/fuzz/finds-TARGET.
 fuzzed() {
     local target=$1 seconds=$2
     mkdir -p "build/fuzz/corpus-$target" "build/fuzz/finds-$target"

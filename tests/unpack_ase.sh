@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# unpack_ase.sh FOLDER: ASE, which reads extended XYZ in the tests, from Debian's packages, for those who have it not.
-# It is unpacked rather than installed: SciPy wants Pythran, that Boost 1.74's headers, and these do not go with the 1.81
-# that we build with. 20 MB to download, 84 MB in the folder.
+# unpack_ase.sh FOLDER: unpacks ASE from Debian's packages if it is not installed. Tests read extended XYZ with it. It
+# cannot be installed: SciPy depends on Pythran, and that on Boost 1.74, which conflicts with Boost 1.81 of the build.
+# The download has 20 MB, the folder 84 MB.
 set -euo pipefail
 
 /usr/bin/python3 -c 'import ase.io' 2>/dev/null && exit 0

@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# unpack_packages.sh FOLDER PACKAGE...: Debian packages unpacked in the folder, where they can be used but change nothing
-# of the machine.
+# unpack_packages.sh FOLDER PACKAGE...: unpacks Debian packages in the folder, without installing them.
 set -euo pipefail
 
 folder=$1
@@ -11,7 +10,7 @@ mkdir -p "$folder/packages"
 cd "$folder/packages"
 download() { apt-get download -qq "$@" 2>/dev/null; }
 if ! download "$@"; then
-    # Without lists of packages, or with old ones.
+    # The package lists may be missing or old.
     apt-get update -qq || true
     download "$@" || { echo "cannot be downloaded: apt-get download $*" >&2; exit 1; }
 fi

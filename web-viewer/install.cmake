@@ -1,5 +1,5 @@
 # cmake -D NPM=... -P install.cmake, in a folder with package-lock.json
-# Installs what the lock file names, where that is not yet done. Build trees share the folder: one works at a time.
+# Installs the packages of the lock file, if they are not installed yet. Build trees share the folder, so it is locked.
 function(install_packages)
   if(EXISTS node_modules/.package-lock.json AND NOT package-lock.json IS_NEWER_THAN node_modules/.package-lock.json)
     return()

@@ -16,7 +16,7 @@ namespace {
 using sim::layout::uint;
 #include "kernels/tally.h"
 
-// The baselines' kernels, and the program's own for what both share.
+// The baselines' kernels, and the program's shaders that they include.
 class Sources final : public compute::SourceSet {
   public:
     [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const override {
@@ -86,7 +86,7 @@ void Baseline::stage(std::string_view kernel, std::vector<compute::Buffer*> buff
 }
 
 void Baseline::response(std::string_view kernel, const std::vector<compute::Buffer*>& buffers) {
-    // In place, the state was sorted into the second half and comes back to the first.
+    // InPlace: the sort has written the state to the second half; the response writes it back to the first.
     const unsigned from = state_ == State::InPlace ? 1 : 0;
     std::vector<compute::Buffer*> all = {position_[from], velocity_[from], position_[1 - from], velocity_[1 - from],
                                          tally_};

@@ -8,11 +8,11 @@
 
 namespace spherule::bench {
 
-// A method as a list of launches over its own arrays. While it is put together, the first failure is kept and what
-// follows does nothing; `ready` tells.
+// A method as a list of launches over its own arrays. The first failure of array(), stage() or response() is kept, and
+// later calls have no effect. ready() returns that failure.
 class Baseline final : public Method {
   public:
-    // Whether substeps write to the other half of the state, or back to the half they read.
+    // PingPong: a substep writes to the other half of the state. InPlace: back to the half that it reads.
     enum class State { PingPong, InPlace };
 
     Baseline(const Setting& setting, State state);
@@ -20,11 +20,12 @@ class Baseline final : public Method {
     compute::Buffer* array(std::string_view label, std::size_t bytes);
     void stage(std::string_view kernel, std::vector<compute::Buffer*> buffers, std::uint32_t count,
                std::uint32_t phase = 0);
-    // The response kernel: the state, the tally, then the arrays of the broad phase.
+    // Adds a response kernel. It binds the state, the tally, then `buffers`: the arrays of the broad phase.
     void response(std::string_view kernel, const std::vector<compute::Buffer*>& buffers);
     void define(std::string name, std::string value) { defines_.push_back({std::move(name), std::move(value)}); }
 
-    // The halves of the state: what a substep reads first, and the other. With PingPong they swap in `stage`.
+    // The halves of the state: 0 is the half that the first substep reads. With PingPong, stage() swaps them for odd
+    // substeps.
     [[nodiscard]] compute::Buffer* position(unsigned half) const { return position_[half]; }
     [[nodiscard]] compute::Buffer* velocity(unsigned half) const { return velocity_[half]; }
     [[nodiscard]] compute::Buffer* tallyArray() const { return tally_; }
@@ -36,8 +37,8 @@ class Baseline final : public Method {
     std::string note() override;
 
     std::vector<glm::vec4> positions();  // w = radius, in any order
-    std::uint64_t contacts();            // since the upload, each counted once
-    std::uint32_t overflowed();          // spheres that found their cell full, summed over the substeps
+    std::uint64_t contacts();            // since the upload; each pair counts once a substep
+    std::uint32_t overflowed();          // spheres whose cell was full, summed over the substeps
 
   private:
     struct Stage {

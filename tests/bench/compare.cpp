@@ -35,7 +35,7 @@ void describe(sim::Simulation& simulation, const std::string& state, Figures& fi
 struct Contender {
     std::string name;
     std::unique_ptr<Method> method;
-    std::string absence;  // why there is no method
+    std::string absence;  // why `method` is missing
 };
 
 std::vector<Contender> contenders(compute::Device& device, sim::Simulation& simulation) {
@@ -80,11 +80,12 @@ void measure(compute::Device& device, sim::Simulation& simulation, const std::st
         }
         figures.push_back(figure);
     }
-    // The race has moved ours on; what follows starts where the race did.
+    // The race has advanced the simulation; the next measurement starts from the same state.
     simulation.put(from);
 }
 
-// How deep the baselines' contact law lets the same bed sink: they are no cheaper way to the same result.
+// Measures the overlap of the same bed under the baselines' contact law. It shows that a baseline does not reach the
+// same result for less time.
 Result<void> holdWithBaselines(compute::Device& device, sim::Simulation& simulation, Figures& figures) {
     const Setting setting = settingFor(device, simulation);
     auto method = slotsGrid(setting, fineGrid(setting, 64));

@@ -26,7 +26,7 @@ class Contacts : public testing::Test {
         return (*method)->contacts();
     }
 
-    // From the definition, on the host.
+    // Number of contacts, computed on the host from the definition.
     [[nodiscard]] std::uint64_t expected() const {
         std::uint64_t contacts = 0;
         for (std::uint32_t a = 0; a < state_.count(); ++a) {
@@ -64,7 +64,7 @@ TEST_F(Contacts, LaterSubstepsStartFromTheStateThatTheEarlierOnesLeft) {
         method->upload(state_);
         for (int k = 0; k < 6; ++k) method->substep();
     }
-    // Sums of floats in another order: rounding may decide about a pair that just touches.
+    // The methods add floats in different orders, so rounding may decide whether a pair just touches.
     const auto all = static_cast<double>(brute->contacts());
     EXPECT_GT(all, 6.0 * 2000);
     EXPECT_NEAR(static_cast<double>(sweep->contacts()), all, 0.002 * all);

@@ -14,7 +14,7 @@ void addOnce(std::vector<T>& values, const T& value) {
     if (std::ranges::find(values, value) == values.end()) values.push_back(value);
 }
 
-// Three figures that mean something.
+// Formats a number with at least three significant digits, but at most six decimals.
 std::string number(double value) {
     if (value == 0) return "0";
     const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;

@@ -7,7 +7,7 @@
 
 namespace spherule::bench {
 
-// One measured value, or why there is none.
+// One measured value, or the reason why it is missing.
 struct Figure {
     std::string table;
     std::uint32_t spheres = 0;
@@ -19,15 +19,15 @@ struct Figure {
 
 using Figures = std::vector<Figure>;
 
-// The value of `what` at a size in a table, if there is one.
+// Returns the value of `what` for a number of spheres in a table; nullopt if there is none.
 std::optional<double> valueOf(const Figures& figures, const std::string& table, std::uint32_t spheres,
                               const std::string& what);
 
-// Tables by name, with one column per size and one row per `what`, both in the order in which they came. Where a table
-// has a row `ours`, the others also say how many times ours they are.
+// One table per name, with one column per number of spheres and one row per `what`, in order of their first figures.
+// If a table has a row `ours`, the other rows also give the ratio to it.
 struct Table {
     std::string name;
-    std::vector<std::vector<std::string>> rows;  // the first is the head
+    std::vector<std::vector<std::string>> rows;  // the first is the header
     std::vector<std::string> notes;
 };
 std::vector<Table> tablesOf(const Figures& figures);

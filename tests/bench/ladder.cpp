@@ -28,9 +28,9 @@ struct Rung {
     std::unique_ptr<sim::Simulation> simulation;
     std::unique_ptr<Method> method;
     sim::State state;
-    unsigned every = 1;                         // takes part in each so many rounds
-    std::vector<double> wall{};                 // s per substep, one for each round
-    std::vector<std::vector<double>> passes{};  // the same by pass, on the device's clock
+    unsigned every = 1;                         // takes part in every n-th round
+    std::vector<double> wall{};                 // s per substep, by round
+    std::vector<std::vector<double>> passes{};  // device s per substep, by pass and round
 };
 
 Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres) {
@@ -43,7 +43,7 @@ Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres) {
     return rung;
 }
 
-// The first step finds out how many pairs there are to make room for.
+// Runs one step, in which the simulation allocates memory for the number of pairs.
 Result<void> letGo(Rung& rung, const Arrangement& arrangement) {
     sim::Simulation& simulation = *rung.simulation;
     simulation.put(arranged(simulation.scene(), arrangement));
@@ -65,7 +65,7 @@ void report(Rung& rung, const std::string& table, Figures& figures) {
     double all = 0;
     for (unsigned pass = 0; pass < sim::passCount; ++pass) {
         const double seconds = median(rung.passes[pass]);
-        if (seconds == 0) continue;  // not in this scene's plan
+        if (seconds == 0) continue;  // the plan of this scene has no such pass
         all += seconds;
         figures.push_back({table, n, std::string(sim::nameOf(static_cast<sim::Pass>(pass))), seconds * 1e3, "ms", ""});
     }

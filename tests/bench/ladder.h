@@ -7,12 +7,12 @@
 
 namespace spherule::bench {
 
-// Ours by pass at several sizes, one step after the spheres were let go from the arrangements `falling` and `dense`,
-// which cost little to reach at any size. Medians of `rounds` rounds of 24 substeps each, fewer where they take
-// seconds; the sizes take turns, so that a change of the machine's load meets all of them.
+// Measures the passes of our simulation for several numbers of spheres, one step after the arrangements `falling` and
+// `dense`, which take little time to reach. Adds medians of `rounds` rounds of 24 substeps, or of fewer rounds if these
+// take seconds. The sizes take turns, so that a change of the machine's load affects all of them.
 Result<void> climb(compute::Device& device, std::span<const std::uint32_t> sizes, unsigned rounds, Figures& figures);
 
-// Largest over smallest cost per sphere between the sizes, per state; empty where there are none.
+// Returns, per state, the largest cost per sphere of all sizes divided by the smallest; empty without figures.
 std::string spreadOf(const Figures& figures);
 
 }  // namespace spherule::bench

@@ -7,7 +7,7 @@
 #include "ladder.h"
 #include "report.h"
 
-// Measures broad phases against each other on one device, and the simulation's passes over sizes.
+// Compares broad phases on one device, and measures the passes of the simulation for several numbers of spheres.
 
 namespace {
 

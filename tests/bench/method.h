@@ -10,23 +10,24 @@
 
 namespace spherule::bench {
 
-// One way to do a substep, with its own arrays on the device.
+// An implementation of a substep, with its own arrays on the device.
 class Method {
   public:
     virtual ~Method() = default;
     virtual void upload(const sim::State& state) = 0;
     virtual void substep() = 0;
-    // Substeps that belong together because their work differs, as when lists are kept for some of them.
+    // Number of substeps to measure together because their work differs, for example when lists are kept between
+    // rebuilds.
     [[nodiscard]] virtual unsigned period() const { return 1; }
-    // What there is to say about the substeps since the upload; may be empty. Waits for the device.
+    // A note on the substeps since the upload; may be empty. Waits for the device.
     virtual std::string note() = 0;
 };
 
-// What the baselines are made for: equal spheres between walls.
+// The setting of a baseline: equal spheres between walls.
 struct Setting {
     compute::Device& device;
-    sim::layout::Parameters parameters;  // the kernels' uniform block, but for the cells
-    bool count = false;                  // tally contacts, which costs time
+    sim::layout::Parameters parameters;  // the kernels' uniform block, except the fields of the cell grid
+    bool count = false;                  // count contacts, which costs time
 };
 Setting settingFor(compute::Device& device, sim::Simulation& simulation, bool count = false);
 

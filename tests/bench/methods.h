@@ -6,7 +6,7 @@
 
 namespace spherule::bench {
 
-// Every sphere against every other, one invocation per sphere.
+// Tests every sphere against every other, with one invocation per sphere.
 Result<std::unique_ptr<Baseline>> bruteForce(const Setting& setting);
 
 // A grid over the domain with `slots` places per cell, filled by one atomic counter per cell.
@@ -17,13 +17,13 @@ struct SlotsGrid {
 };
 Result<std::unique_ptr<Baseline>> slotsGrid(const Setting& setting, const SlotsGrid& grid);
 
-// 8 x 8 x 8 cells with room for every sphere in each, one invocation per group.
+// 8 x 8 x 8 cells, each with slots for all spheres, and work groups of one invocation.
 SlotsGrid studentGrid(const Setting& setting);
 
-// Cells as wide as a sphere, 64 slots in each.
+// Cells as wide as a sphere, with 64 slots each.
 SlotsGrid fineGrid(const Setting& setting, std::uint32_t localSize);
 
-// Sort along x by counting (65,536 keys: count, prefix sum, scatter of the state), then walk the order both ways.
+// Sorts the state along x (counting sort with 65,536 keys), then walks the order in both directions.
 Result<std::unique_ptr<Baseline>> sweepAndPrune(const Setting& setting);
 
 // The simulation's own substep.

@@ -21,7 +21,7 @@ class Ours final : public Method {
         ++substeps_;
     }
 
-    // Several rebuilds of the lists. The upload asks for one, so the first substep of them has it.
+    // Long enough for several rebuilds of the lists. The upload requests one, which the first substep does.
     [[nodiscard]] unsigned period() const override { return mostSubsteps; }
 
     std::string note() override {

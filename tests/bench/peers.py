@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Spherule beside LAMMPS on one bed, in one run:
+"""Compares Spherule and LAMMPS on the same bed:
 peers.py [--sizes 10000,50000] [--rounds 3] [--friction 0.3] [--rest SECONDS] [--markdown FILE]
 
 N spheres (r = 5 cm, 1000 kg/m3, e = 0.5) fall from a jittered lattice of 1.25 d into an open box of the width
@@ -45,7 +45,7 @@ LAMMPS = {
 
 
 def bed(count):
-    """Positions and the width of the box."""
+    """Returns positions and the width of the box (m)."""
     width = 2 * RADIUS * math.sqrt(count / 20)
     across = int(width / SPACING)
     margin = (width - (across - 1) * SPACING) / 2
@@ -125,7 +125,8 @@ thermo_modify lost warn norm no
 
 
 def run_lammps(folder, spheres, width, friction, stiffness, step, phases):
-    """Wall seconds of each phase (s simulated), and [id, x, y, z, vx, vy, vz] of every sphere after it."""
+    """Runs phases of these simulated times (s). Returns for each its wall time (s) and the state at its end:
+    [id, x, y, z, vx, vy, vz] per sphere."""
     count = len(spheres)
     with open(os.path.join(folder, f"bed{count}.data"), "w", encoding="utf-8") as file:
         top = spheres[-1][2] + 1
@@ -154,7 +155,7 @@ def rms_of(rows):
 
 def race_lammps(folder, spheres, width, friction, stiffness, step):
     loops, ends = run_lammps(folder, spheres, width, friction, stiffness, step, (1, 2, 0.5))
-    # A soft sphere may reach into a wall, where a scene may not: the faces of this one are out of the way.
+    # Soft spheres may overlap walls, but a scene must not, so its bounds are larger and the positions are shifted.
     raised = [[axis + 1 for axis in row[1:4]] for row in ends[-1]]
     overlaps = reports(scene_of(folder, "lammps_end", raised, width + 2, friction), "--device", "cpu", "--quality", "fast", "--for", "0s")[0]
     return {"fall": loops[0], "settled": 2 * loops[2], "speedRms": rms_of(ends[-1]), "sleeping": 0,

@@ -44,7 +44,7 @@ sim::State arranged(const scene::Scene& scene, const Arrangement& arrangement) {
     sim::State state = sim::stateOf(scene);
     const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
     const double spacing = arrangement.spacing * radius;
-    // A touching lattice may press its jitter into the walls; others keep clear of them.
+    // In a touching lattice, the jitter may push spheres into the walls; other lattices keep this distance.
     const double room = arrangement.spacing > 2 ? arrangement.jitter * radius : 0;
     const auto across = static_cast<std::uint32_t>(std::floor((extent.x - 2 * (radius + room)) / spacing + 1e-9)) + 1;
     const glm::dvec3 first(-0.5 * spacing * (across - 1), -0.5 * spacing * (across - 1),

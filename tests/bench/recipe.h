@@ -7,14 +7,15 @@
 namespace spherule::bench {
 
 constexpr double radius = 0.05;   // m
-constexpr unsigned layers = 20;   // of the bed, about
+constexpr unsigned layers = 20;   // approximate depth of the bed
 constexpr unsigned substeps = 8;  // per step of 1/60 s
 
-// The scene box-50k for any number of spheres: a lattice of 2.2 r with a jitter of 0.1 r falls into an open box of the
-// width 2 r sqrt(N / 20), so that the bed is equally deep at all sizes. e = 0.5, no friction, nobody sleeps.
+// The scene box-50k for any number of spheres N: a lattice of 2.2 r with a jitter of 0.1 r falls into an open box. The
+// box has the width 2 r sqrt(N / 20), so that the bed has the same depth for every N. Restitution 0.5, no friction, no
+// sleep.
 Result<scene::Scene> box(std::uint32_t spheres);
 
-// The spheres of `scene` on a cubic lattice from the floor up.
+// Places the spheres of `scene` on a cubic lattice that starts at the floor.
 struct Arrangement {
     double spacing = 0;  // in r
     double jitter = 0;   // in r, uniform in +-jitter per axis
@@ -23,14 +24,14 @@ struct Arrangement {
 };
 sim::State arranged(const scene::Scene& scene, const Arrangement& arrangement);
 
-// As dense as a bed at once: each sphere touches its neighbours.
+// As dense as a bed: each sphere touches its neighbours.
 constexpr Arrangement dense{.spacing = 2, .jitter = 0.01};
 
-// Halfway down, nearly touching. Its spacing has nothing to do with the width of the grid's cells: where they agree, as
-// in the box before it falls, the cells hold one sphere each or many, depending on the number of spheres.
+// Falling and nearly touching. The spacing differs from the width of the grid's cells on purpose. Where they are equal,
+// as in the box at its start, the number of spheres per cell depends on the total number of spheres.
 constexpr Arrangement falling{.spacing = 2.4, .jitter = 0.2, .fall = 2, .stir = 0.5};
 
-// Mean overlap of the overlapping pairs of equal spheres (w = radius), as a share of the radius.
+// Returns the mean overlap / radius of all overlapping pairs. The spheres are equal; w is the radius (m).
 double meanOverlap(std::vector<glm::vec4> positions);
 
 }  // namespace spherule::bench

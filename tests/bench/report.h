@@ -9,12 +9,12 @@
 
 namespace spherule::bench {
 
-// Date, device, machine and its load, command: one `name: value` per line.
+// Returns date, device, machine, load and command, as lines `name: value`.
 std::vector<std::string> headerFor(const compute::DeviceInfo& info, const std::string& command);
 
 std::string textOf(const std::vector<std::string>& header, const Figures& figures);
 std::string markdownOf(const std::vector<std::string>& header, const Figures& figures);
-// One line per figure: table,spheres,what,value,unit,note; the header as lines that start with #.
+// Returns the header as lines that start with #, then one line per figure: table,spheres,what,value,unit,note.
 std::string csvOf(const std::vector<std::string>& header, const Figures& figures);
 
 Result<void> writeFile(const std::string& path, const std::string& text);

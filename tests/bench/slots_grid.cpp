@@ -30,7 +30,7 @@ SlotsGrid fineGrid(const Setting& setting, std::uint32_t localSize) {
     SlotsGrid grid{glm::uvec3(1), 64, localSize};
     for (int axis = 0; axis < 3; ++axis) {
         const float extent = setting.parameters.wallMax[axis] - setting.parameters.wallMin[axis];
-        // Not narrower than a sphere, or neighbours would be missed.
+        // A cell must be at least as wide as a sphere; otherwise contacts would be missed.
         grid.cells[axis] =
             static_cast<std::uint32_t>(std::max(1.0F, std::floor(extent / (2 * setting.parameters.radius))));
     }

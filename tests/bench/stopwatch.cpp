@@ -12,14 +12,14 @@ constexpr double verySlow = 30;  // s
 
 struct Lane {
     Method* method = nullptr;
-    unsigned substeps = 1;  // from one upload
+    unsigned substeps = 1;  // after each upload
     unsigned uploads = 1;   // per round
     unsigned rounds = 0;
-    std::vector<double> seconds;  // per substep, one for each round
+    std::vector<double> seconds;  // per substep, by round
 };
 
 Lane laneFor(compute::Device& device, Method& method, const sim::State& state, const Effort& effort) {
-    // The first substep also compiles; one that takes long anyway is taken as it is.
+    // The first substep also compiles kernels. It is repeated unless it takes 1 s or longer.
     double estimate = timeSubsteps(device, method, state, 1);
     if (estimate < 1) estimate = timeSubsteps(device, method, state, method.period()) / method.period();
     Lane lane;

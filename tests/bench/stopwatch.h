@@ -8,25 +8,25 @@
 
 namespace spherule::bench {
 
-// Most substeps from one state before it is put back: 0.05 s, in which neither a fall nor a bed changes its nature.
+// Largest number of substeps before the state is restored: 0.05 s, in which a fall or a bed hardly changes.
 constexpr unsigned mostSubsteps = 24;
 
 struct Effort {
-    unsigned rounds = 5;  // of every method in turn; those with substeps over 2 s do 3, over 30 s only one substep
-    double roundSeconds = 0.5;  // of one method, about
+    unsigned rounds = 5;        // per method; 3 if a substep takes over 2 s, a single substep if over 30 s
+    double roundSeconds = 0.5;  // approximate duration of a round of one method
 };
 
 struct Timing {
-    double seconds = 0;   // per substep, wall, median
-    unsigned rounds = 0;  // that it is the median of
+    double seconds = 0;   // median wall time of a substep
+    unsigned rounds = 0;  // number of rounds in the median
 };
 
 double median(std::vector<double> values);
 
-// Wall seconds of `substeps` substeps from `state`, until the device is idle.
+// Returns the wall time (s) of `substeps` substeps from `state`, until the device is idle.
 double timeSubsteps(compute::Device& device, Method& method, const sim::State& state, unsigned substeps);
 
-// Each method, measured in turns so that a change of the machine's load meets all of them.
+// Measures the methods in turns, so that a change of the machine's load affects all of them.
 std::vector<Timing> race(compute::Device& device, std::span<Method* const> methods, const sim::State& state,
                          const Effort& effort);
 

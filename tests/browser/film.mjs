@@ -1,7 +1,10 @@
 // Takes the frames of docs/images/collapse.webp: node tests/browser/film.mjs FOLDER (SPHERULE names the binary). Not a test.
-// It plays a recording and waits at each moment until the picture is complete, because software rendering is slow. Then
-//   img2webp -loop 0 -d 50 -lossy -q 75 -m 6 FOLDER/*.png -o docs/images/collapse.webp
-// makes a film that runs at the rate of the simulation (with -d 1500 before the last frame, which is held).
+// It plays a recording and waits at each moment until the picture is complete, because software rendering is slow.
+// This command makes a film at the rate of the simulation:
+//
+//     img2webp -loop 0 -d 50 -lossy -q 75 -m 6 FOLDER/*.png -o docs/images/collapse.webp
+//
+// Put -d 1500 before the last frame, to hold it for 1.5 s.
 import { mkdirSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""deploy/compose.yaml: Docker Compose takes it, it agrees with the Dockerfile, and gives the container no more than it
-needs."""
+"""Checks deploy/compose.yaml: Docker Compose accepts it, it agrees with the Dockerfile, and the container has no
+unnecessary rights."""
 import os
 import re
 import subprocess

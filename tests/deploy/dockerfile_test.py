@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The Dockerfile agrees with the program, and packages.txt with what the program is linked with:
-dockerfile_test.py BINARY. The image itself is checked by deploy/verify_image.sh."""
+"""Checks that the Dockerfile agrees with the program, and packages.txt with the program's libraries:
+dockerfile_test.py BINARY. deploy/verify_image.sh checks the image itself."""
 import re
 import subprocess
 import sys
@@ -10,7 +10,7 @@ from facts import Dockerfile, read
 
 BINARY = sys.argv.pop()
 
-# These are in every Debian image: libgcc_s and libstdc++ are what apt itself is linked with, as is zlib.
+# Packages of every Debian image: apt itself is linked with libgcc_s, libstdc++ and zlib.
 EVERYWHERE = {"libc6", "libgcc-s1", "libstdc++6", "zlib1g"}
 
 
@@ -20,7 +20,7 @@ def section(name):
 
 
 def package_of(library):
-    # Where /lib is a link to /usr/lib, dpkg may know the file by either name.
+    # If /lib is a link to /usr/lib, dpkg may know the file by either path.
     for path in (library, "/usr" + library):
         asked = subprocess.run(["dpkg-query", "--search", path], capture_output=True, text=True, check=False)
         if asked.returncode == 0:
@@ -55,7 +55,7 @@ class Packages(unittest.TestCase):
         self.assertNotIn("not found", lines)
         libraries = set(re.findall(r"(/\S+\.so\S*)", lines))
         linked = {package_of(library) for library in libraries} - EVERYWHERE
-        # libglvnd0 is what EGL's loader and its vendors are linked with.
+        # EGL's loader and vendor libraries are linked with libglvnd0.
         self.assertEqual(linked | {"libglvnd0"}, section("run"))
 
 

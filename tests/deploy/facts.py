@@ -1,4 +1,4 @@
-"""What the files of deploy/ must agree with: the Dockerfile, the version, and constants of the server."""
+"""Facts with which the files of deploy/ must agree: the Dockerfile, the version, and constants of the server."""
 import json
 import pathlib
 import re
@@ -11,7 +11,7 @@ def read(path):
 
 
 def found(path, pattern):
-    """The first group of the pattern, which must be in the file."""
+    """Returns the first group of the pattern, which must match in the file."""
     match = re.search(pattern, read(path))
     if not match:
         raise AssertionError(f"{path} has no {pattern}")
@@ -28,7 +28,7 @@ IDLE_MS = milliseconds("server/net/server.h", "idleTimeout")
 
 
 class Dockerfile:
-    """Its last stage: the image."""
+    """The last stage of the Dockerfile, which makes the image."""
 
     def __init__(self):
         text = re.sub(r"\\\n", " ", re.sub(r"^#.*\n", "", read("deploy/Dockerfile"), flags=re.MULTILINE))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The manifests of deploy/kubernetes: what kubectl makes of them is what Kubernetes' own client understands, it agrees
-with the Dockerfile, and it gives the pod no more than it needs."""
+"""Checks the manifests of deploy/kubernetes: the Kubernetes client accepts the output of kubectl, the manifests agree
+with the Dockerfile, and the pod has no unnecessary rights."""
 import json
 import subprocess
 import unittest
@@ -12,8 +12,8 @@ from facts import DRAIN_MS, ROOT, VERSION, Dockerfile, read
 
 
 def understood(manifest):
-    """The manifest as Kubernetes' client has read it: without fields that it does not know, values in the types that they
-    have there. Raises ValueError where something needed is missing."""
+    """Returns the manifest as the Kubernetes client reads it: without unknown fields, and with the types of its fields.
+    Raises ValueError if a required field is missing."""
     api = client.ApiClient()
     kind = "V1" + manifest["kind"]
 
@@ -24,14 +24,14 @@ def understood(manifest):
 
 
 def built(overlay):
-    """{kind: manifest} of what `kubectl apply -k` sends."""
+    """Returns the manifests that `kubectl apply -k` sends, as {kind: manifest}."""
     done = subprocess.run(["kubectl", "kustomize", str(ROOT / "deploy/kubernetes" / overlay)], capture_output=True,
                           text=True, check=True)
     return {manifest["kind"]: manifest for manifest in yaml.safe_load_all(done.stdout)}
 
 
 class Overlay:
-    """What holds for both."""
+    """Tests of both overlays."""
 
     def setUp(self):
         self.image = Dockerfile()
@@ -62,7 +62,7 @@ class Overlay:
             "allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True, "capabilities": {"drop": ["ALL"]}})
         self.assertIs(self.spec["automountServiceAccountToken"], False)
         self.assertIn("memory", self.container["resources"]["limits"])
-        # It would give all GPUs of the node, past the device plugin.
+        # This variable would make all GPUs of the node visible, without the device plugin.
         self.assertNotIn("NVIDIA_VISIBLE_DEVICES", self.environment)
 
     def test_service_and_policy_lead_to_the_pod(self):
@@ -125,7 +125,7 @@ class Cpu(Overlay, unittest.TestCase):
 
 
 class Understood(unittest.TestCase):
-    """The check itself."""
+    """Tests of the function understood()."""
 
     def test_what_kubernetes_would_refuse_or_drop_is_found(self):
         service = built("cpu")["Service"]

@@ -1,4 +1,4 @@
-// The proxy of docs/operations.md: deploy/nginx/spherule.conf in a real nginx, the real server behind it, Chromium before it.
+// The proxy of docs/operations.md: Chromium connects to a real nginx with deploy/nginx/spherule.conf, and that to the server.
 import assert from "node:assert/strict";
 import http from "node:http";
 import https from "node:https";
@@ -30,7 +30,7 @@ after(async () => {
   await stopAll();
 });
 
-/** Status and headers that the proxy answers with. */
+/** Returns status and headers of the proxy's answer. */
 function ask(path, { plain = false, headers = {}, agent } = {}) {
   const [module, port] = plain ? [http, ports.plain] : [https, ports.tls];
   const host = plain ? name : `${name}:${ports.tls}`;
@@ -43,7 +43,7 @@ function ask(path, { plain = false, headers = {}, agent } = {}) {
   });
 }
 
-/** The protocol of a handshake, or the error that it ends with. */
+/** Returns the protocol of a TLS handshake, or its error. */
 function shake(options) {
   return new Promise((resolve) => {
     const socket = tls.connect({ host: "127.0.0.1", port: ports.tls, servername: name, ca: nginx.ca, ...options });
@@ -56,7 +56,7 @@ test("the page loads over https and states come over wss", async () => {
   const page = await open(browser, nginx.url);
   const before = await page.evaluate(() => spherule.session.frames);
   await when(page, (then) => spherule.session.frames > then + 10, before);
-  // A browser lets no page of https open a WebSocket that is not of wss.
+  // A browser does not let an https page open a WebSocket without TLS.
   assert.equal(await page.evaluate(() => location.protocol), "https:");
   assert.deepEqual(page.faults, []);
   await page.close();
@@ -64,7 +64,7 @@ test("the page loads over https and states come over wss", async () => {
 
 test("a server that ends says so through the proxy, and the page finds the next one", async () => {
   const page = await open(browser, nginx.url);
-  await server.stop(); // throws unless it ends with 0
+  await server.stop(); // throws unless the exit code is 0
   await when(page, (where) => document.querySelector(where).textContent !== "connected", control("connection"));
   assert.equal((await ask("/readyz")).statusCode, 502);
   server = await serveBehind();

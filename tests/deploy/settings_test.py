@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every SPHERULE_... that the files of deploy/ and docs/operations.md name is a setting of `spherule serve`:
+"""Checks that every SPHERULE_... in the files of deploy/ and in docs/operations.md is a setting of `spherule serve`:
 settings_test.py BINARY"""
 import re
 import subprocess
@@ -9,8 +9,7 @@ import unittest
 from facts import ROOT
 
 BINARY = sys.argv.pop()
-# Tokens are read from the environment alone, and the file of settings is named there. The last is of the build:
-# -D SPHERULE_TESTS.
+# Tokens and the path of the settings file are only read from the environment. SPHERULE_TESTS is an option of the build.
 BESIDES = {"SPHERULE_VIEWER_TOKEN", "SPHERULE_CONTROLLER_TOKEN", "SPHERULE_CONFIG", "SPHERULE_TESTS"}
 
 

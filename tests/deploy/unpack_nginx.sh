@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# unpack_nginx.sh FOLDER: Debian's nginx, for those who have it not. Unpacked rather than installed: the package would
-# start a web server on port 80.
+# unpack_nginx.sh FOLDER: unpacks Debian's nginx if nginx is not installed. It does not install the package, because
+# that would start a web server on port 80.
 set -euo pipefail
 
 [[ -x /usr/sbin/nginx ]] && exit 0

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A device that is lost, hangs or is full, and what the program makes of it: device_test.py BINARY DRIVER, where DRIVER is
-the library of faulty_driver.c."""
+"""Tests the program with a device that is lost, hangs or has no memory: device_test.py BINARY DRIVER. DRIVER is the
+library of faulty_driver.c."""
 import http.client
 import json
 import os
@@ -21,8 +21,8 @@ BINARY = sys.argv.pop()
 
 
 def setUpModule():
-    """Mesa compiles a kernel when it is first launched. On a busy machine that takes longer than the watchdogs here wait, so
-    all are compiled before, in a cache that the programs of these tests share."""
+    """Compiles all kernels into a cache that the tests share. Otherwise Mesa compiles a kernel at its first launch. On a
+    busy machine, this takes longer than the watchdogs of these tests allow."""
     cache = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(cache.cleanup)
     os.environ["MESA_SHADER_CACHE_DIR"] = cache.name
@@ -77,7 +77,7 @@ class Lost(Faults):
         driver.strike()
         self.told(viewer, self.cause)
         self.assertEqual(server.wait(), 75)
-        self.assertLess(time.monotonic() - begun, 20)  # though the driver takes nothing down any more
+        self.assertLess(time.monotonic() - begun, 20)  # although the driver blocks when objects are destroyed
         self.assertRegex(server.said, rf"(?m)^spherule: llvmpipe.*: {self.cause}; start it again$")
         self.recorded(whole=True)
 
@@ -107,7 +107,7 @@ class Hangs(Faults):
     cause = r"nothing has progressed for 3 s \([a-z_. ]+\): the device or its driver hangs, or needs a longer --watchdog"
 
     def unhealthy_then_ended(self, server, viewer, wait):
-        """Whether /healthz says it before the end; the exit code, and how long it took."""
+        """Checks that /healthz reports the hang, and that the server then ends with the right exit code, in time."""
         begun = time.monotonic()
         unhealthy = None
         while unhealthy is None and time.monotonic() < begun + 10:
@@ -145,7 +145,7 @@ class Hangs(Faults):
 
     def test_a_program_that_was_stopped_as_a_whole_goes_on(self):
         server = self.serve("--watchdog", "4s", device="cpu:1")
-        # It is in the middle of something, and not the first to wake.
+        # The simulation thread is stopped in the middle of its work, and is not the first thread to resume.
         with HeldThread(server.pid, "simulation", lambda: answers(server.port)):
             time.sleep(1)
             os.kill(server.pid, signal.SIGSTOP)
@@ -159,7 +159,7 @@ class Hangs(Faults):
 
     def test_a_stop_does_not_wait_for_a_step_that_never_ends(self):
         driver = self.driver("hang")
-        server = self.serve(driver=driver)  # a watchdog that waits for longer
+        server = self.serve(driver=driver)  # the default watchdog waits longer
         viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 3)
         driver.strike()
         begun = time.monotonic()

@@ -1,4 +1,4 @@
-"""What goes wrong on purpose: a driver that fails (faulty_driver.c), a thread that stands still."""
+"""Simulated faults: a driver that fails (faulty_driver.c), and a thread that is stopped."""
 import ctypes
 import json
 import os
@@ -9,7 +9,7 @@ ALL_CHILDREN = 0x40000000  # __WALL of waitpid: threads, too
 
 
 class FaultyDriver:
-    """Mesa's renderer, until `strike()`; `environment` is for the program that is to have it."""
+    """A driver that works like Mesa's until `strike()`. A program started with `environment` uses it."""
 
     def __init__(self, folder, library, fault):
         self._when = os.path.join(folder, "strike")
@@ -25,10 +25,10 @@ class FaultyDriver:
 
 
 class HeldThread:
-    """One thread of a process that we started, standing still as long as the with statement lasts.
+    """Stops one thread of a child process within a with statement.
 
-    `others_run` returns whether the rest of the process works meanwhile; it does not where the thread was stopped while it
-    held a lock, and another moment is tried."""
+    `others_run` returns whether the other threads still work. They do not if the stopped thread holds a lock. It is
+    then resumed, and stopped again at another moment."""
 
     def __init__(self, pid, name, others_run):
         self._others_run = others_run
@@ -60,11 +60,11 @@ class HeldThread:
             self._held = False
             try:
                 _ptrace(DETACH, self._id)
-            except ProcessLookupError:  # its process has ended, and waits for us to see that
+            except ProcessLookupError:  # the process has ended, and is a zombie
                 os.waitpid(self._id, ALL_CHILDREN)
 
     def wait_for_the_end(self, patience):
-        """Of its process; the thread is not released."""
+        """Waits for the end of the process (`patience`: s), without resuming the thread."""
         end = time.monotonic() + patience
         while os.waitpid(self._id, ALL_CHILDREN | os.WNOHANG)[0] == 0:
             if time.monotonic() > end:

@@ -1,10 +1,11 @@
-// An EGL vendor library for tests: Mesa's, but that it fails in the way that SPHERULE_FAULT names, from when the file
-// that SPHERULE_FAULT_WHEN names is there:
-//   reset    the device is reset, and says so once; to take anything down then never ends
-//   hang     the device computes no more; nor does anything end that waits for it
-//   memory   there is no room for buffers of 1 MiB or more
-//   buffers  a kernel may have 8 storage buffers
-// Libglvnd loads it by a vendor file (tests/faults/faults.py writes it).
+// An EGL vendor library for tests. It passes all calls to Mesa until the file that SPHERULE_FAULT_WHEN names exists.
+// Then it fails in the way that SPHERULE_FAULT names:
+// - reset: the device reports one reset; destroying an object then blocks for ever;
+// - hang: the device stops computing, and calls that wait for it block for ever;
+// - memory: buffers of 1 MiB or more cannot be allocated;
+// - buffers: a kernel may have at most 8 storage buffers.
+//
+// Libglvnd loads the library through a vendor file, which tests/faults/faults.py writes.
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +23,7 @@ enum {
 typedef void (*Function)(void);
 typedef Function (*GetProcAddress)(const char*);
 
-// The beginning of libglvnd's __EGLapiImports, which it keeps as it is (glvnd/libeglabi.h).
+// The beginning of libglvnd's __EGLapiImports (glvnd/libeglabi.h), which stays the same in later versions.
 typedef struct {
     Function others[3];
     GetProcAddress getProcAddress;
@@ -112,7 +113,7 @@ static Function getProcAddress(const char* name) {
     return mesa(name);
 }
 
-// What libglvnd calls.
+// The function that libglvnd calls after loading this library.
 unsigned __egl_Main(unsigned version, const void* exports, void* vendor, Imports* imports);
 unsigned __egl_Main(unsigned version, const void* exports, void* vendor, Imports* imports) {
     void* const library = dlopen("libEGL_mesa.so.0", RTLD_NOW | RTLD_LOCAL);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program where what it needs to reach a device is missing: no_device_test.py BINARY."""
+"""Tests the program without the libraries or files that a device needs: no_device_test.py BINARY."""
 import json
 import os
 import subprocess

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How the server starts and ends, as its clients and its supervisor see it: start_and_stop_test.py [CLASS...] BINARY."""
+"""Tests start and end of the server, as clients and supervisors see them: start_and_stop_test.py [CLASS...] BINARY."""
 import http.client
 import json
 import os
@@ -17,12 +17,12 @@ from serving import Server
 from viewer import Viewer, answers
 
 BINARY = sys.argv.pop()
-SLOW = {"bounds": {"min": [0, 0, 0], "max": [100, 100, 100]},  # takes seconds to be made
+SLOW = {"bounds": {"min": [0, 0, 0], "max": [100, 100, 100]},  # takes seconds to build
         "groups": [{"radius": {"constant": 0.1}, "fill": {"count": 2_000_000, "min": [0, 0, 0], "max": [100, 100, 100]}}]}
 
 
 class Connection:
-    """HTTP that stays connected, as what asks for health may."""
+    """A persistent HTTP connection, as health checks may use."""
 
     def __init__(self, port):
         self._connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10)
@@ -34,7 +34,7 @@ class Connection:
 
 
 def taken_port():
-    """A socket that listens, and its port."""
+    """Returns a listening socket and its port."""
     taken = socket.create_server(("127.0.0.1", 0))
     return taken, taken.getsockname()[1]
 
@@ -54,7 +54,7 @@ class Program(unittest.TestCase):
         return self.at("slow.json")
 
     def refused(self, listen, code, pattern, *options):
-        # Had it looked for the scene first, it would say that there is none.
+        # The server checks the port before the scene: otherwise it would report that the scene does not exist.
         done = subprocess.run([BINARY, "serve", self.at("none.json"), "--device", "cpu", "--listen", listen, *options],
                               capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual(done.returncode, code)
@@ -84,7 +84,7 @@ class Start(Program):
 
     @contextmanager
     def starting(self):
-        """A server that still makes its scene; its port."""
+        """Starts a server that is building its scene; yields it and its port."""
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = free.getsockname()[1]
         with subprocess.Popen([BINARY, "serve", self.slow_scene(), "--device", "cpu", "--listen", f"127.0.0.1:{port}"],
@@ -137,7 +137,7 @@ class Stop(Program):
         viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 20)
         health = Connection(server.port)
         self.assertEqual(health.get("/readyz")[0], 200)
-        with HeldThread(server.pid, "simulation", lambda: answers(server.port)):  # a step that takes long
+        with HeldThread(server.pid, "simulation", lambda: answers(server.port)):  # like a step that takes long
             os.kill(server.pid, signal.SIGTERM)
             viewer.wait(lambda one: one.of("event"))
             status, ready = health.get("/readyz")
@@ -161,13 +161,14 @@ class Stop(Program):
         server = self.serve()
         viewer = Viewer(server.port).wait(lambda one: one.of("frame"))
         viewer.stall()
-        time.sleep(2)  # until nothing more fits on its way
+        time.sleep(2)  # until all buffers of the connection are full
         begun = time.monotonic()
         self.assertEqual(server.end(), 0)
         self.assertLess(time.monotonic() - begun, 13)
 
     def test_a_second_signal_ends_it_at_once(self):
-        """By an exit of its own, with 143: a signal that is left to the system does not end a container's first process."""
+        """The server exits with code 143 by itself, because the signal's default does not end the first process of a
+        container."""
         server = self.serve()
         Viewer(server.port).wait(lambda one: one.of("frame")).stall()
         self.end_by_a_second_signal(server.pid, server.port)
@@ -175,7 +176,7 @@ class Stop(Program):
 
 
 class FirstProcess(Program):
-    """The first process of a PID namespace, as of a container. Making one takes rights."""
+    """The server as the first process of a PID namespace, as in a container. Creating a namespace needs privileges."""
 
     def test_a_second_signal_ends_it_at_once(self):
         with Server("unshare", "--pid", "--fork", "--kill-child", BINARY, "serve", "box-4k", "--device", "cpu") as server:
@@ -188,7 +189,7 @@ class FirstProcess(Program):
 
 
 def _computed(pid):
-    """Processor time so far, s."""
+    """Returns the processor time of a process since its start (s)."""
     with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
         user, system = file.read().rsplit(")", 1)[1].split()[11:13]
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")

@@ -9,7 +9,7 @@ import time
 
 
 def answers(port):
-    """Whether the server tells a new viewer within a second how things are."""
+    """Returns whether a new viewer gets the settings within a second."""
     try:
         Viewer(port, rate=0, patience=1).wait(lambda one: one.of("settings"), 1)
     except (AssertionError, TimeoutError):
@@ -18,13 +18,13 @@ def answers(port):
 
 
 class Viewer:
-    """Reads on a thread of its own what the server sends, until that closes."""
+    """Reads the server's messages on its own thread, until the server closes the connection."""
 
     def __init__(self, port, rate=30, patience=30):
-        """`patience`: s without a byte, after which it counts as closed."""
+        """`patience`: time without a byte (s) after which the connection counts as closed."""
         self.messages = []
         self._stalled = False
-        self.closed = None  # (code, reason), or (None, "") where the connection just ended
+        self.closed = None  # (code, reason); (None, "") if the connection ended without a close frame
         self._socket = socket.create_connection(("127.0.0.1", port), timeout=patience)
         key = base64.b64encode(os.urandom(16)).decode()
         self._socket.sendall((f"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
@@ -81,7 +81,7 @@ class Viewer:
             self.messages.append((time.monotonic(), json.loads(payload)))
 
     def stall(self):
-        """Reads no more, and stays connected."""
+        """Stops reading, and stays connected."""
         self._stalled = True
         self._thread.join()
 
@@ -89,7 +89,7 @@ class Viewer:
         return [message[kind] for _, message in list(self.messages) if kind in message]
 
     def wait(self, condition, patience=90):
-        """Until `condition(self)`; fails with what has come."""
+        """Waits until `condition(self)` is true. A failure lists the last messages."""
         end = time.monotonic() + patience
         while not condition(self):
             if time.monotonic() > end:

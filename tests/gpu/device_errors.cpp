@@ -8,7 +8,7 @@ class DeviceDeathTest : public DeviceTest {
   protected:
     static void SetUpTestSuite() { startLog(false, LogFormat::Text); }
 
-    // The child starts anew and opens its own device: Mesa's threads do not survive a fork.
+    // The child process restarts the program and opens its own device, because Mesa's threads do not survive a fork.
     void SetUp() override { testing::FLAGS_gtest_death_test_style = "threadsafe"; }
 
     std::unique_ptr<Kernel> setter_ = kernel(R"(

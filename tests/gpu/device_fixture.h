@@ -31,7 +31,7 @@ class MapSources final : public SourceSet {
     Files files_;
 };
 
-// What every kernel of these tests begins with: the conventions of device.h, without the project's own shaders.
+// The head of every kernel of these tests. It follows the conventions of device.h, without the project's shaders.
 inline const std::string kernelHead = R"(
 layout(local_size_x = 64) in;
 layout(location = 0) uniform uint phase;
@@ -39,7 +39,7 @@ layout(location = 1) uniform uint invocations;
 uint self() { return gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u; }
 )";
 
-// The device that every machine has, or the one that SPHERULE_TEST_DEVICE names.
+// Opens the device named by SPHERULE_TEST_DEVICE. The default is Mesa's software renderer, which runs everywhere.
 inline std::unique_ptr<Device> openTestDevice() {
     const char* const named = std::getenv("SPHERULE_TEST_DEVICE");
     auto device = openDevice(named == nullptr ? "software" : named);
@@ -57,7 +57,7 @@ class DeviceTest : public testing::Test {
         return result;
     }
 
-    // A kernel of one file that starts with kernelHead.
+    // Compiles a kernel from kernelHead and `body`.
     std::unique_ptr<Kernel> kernel(const std::string& body, std::span<const Define> defines = {}) {
         const MapSources sources{{"test.comp", kernelHead + body}};
         auto result = device_->createKernel(sources, "test.comp", defines);

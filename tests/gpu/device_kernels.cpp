@@ -79,7 +79,7 @@ TEST_F(DeviceTest, KernelThatNeedsNeitherPhaseNorCountRuns) {
 }
 
 TEST_F(DeviceTest, KernelWithOneInvocationPerGroupRunsOnceForEachOfTheCount) {
-    constexpr std::uint32_t count = 70000;  // more groups than a row of them has
+    constexpr std::uint32_t count = 70000;  // more work groups than one row of a launch has
     const MapSources sources{{"single.comp", R"(
         layout(local_size_x = 1) in;
         layout(location = 1) uniform uint invocations;

@@ -45,7 +45,7 @@ TEST_F(DeviceTest, TimeIsThatOfTheLaunchesInside) {
     device_->finish();
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
     const double measured = device_->takeTimes().at(0);
-    EXPECT_LE(measured, 1.02 * wall.count());  // two clocks
+    EXPECT_LE(measured, 1.02 * wall.count());  // the two clocks differ slightly
     EXPECT_GE(measured, 0.5 * wall.count());
 }
 

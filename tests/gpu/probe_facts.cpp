@@ -1,4 +1,4 @@
-// What the probe finds out of a host: of a folder that looks like one, and of vendor files that are wrong.
+// The facts that the probe reads from a host. Here the host is a folder with such files; some vendor files are invalid.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -60,7 +60,7 @@ TEST_F(ProbeFacts, AnNvidiaDriverIsSeenByItsFiles) {
 }
 
 TEST_F(ProbeFacts, AMigSliceIsSeenByItsNameOrItsRights) {
-    file("proc/driver/nvidia/capabilities/mig/config");  // of a driver that could make some
+    file("proc/driver/nvidia/capabilities/mig/config");  // exists if the driver supports MIG
     EXPECT_FALSE(facts().migSlice);
     file("proc/driver/nvidia/capabilities/gpu0/mig/gi7/access");
     EXPECT_TRUE(facts().migSlice);

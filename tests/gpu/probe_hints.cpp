@@ -1,4 +1,4 @@
-// What the probe says of each thing that is missing, and that docs/troubleshooting.md says the same.
+// The hints of the probe for each missing part of a host. docs/troubleshooting.md must contain them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -21,7 +21,7 @@ ProbeDevice device(const std::string& choice, const std::string& extensions = ""
     return result;
 }
 
-// A host where the software renderer works and nothing else is known.
+// A host with a working software renderer and no other device.
 Probe withSoftware(std::vector<ProbeVendor> vendors = {}) {
     Probe seen;
     seen.devices = {device("software")};
@@ -37,7 +37,7 @@ HostFacts withNvidia() {
 
 const ProbeVendor nvidia{"/usr/share/glvnd/egl_vendor.d/10_nvidia.json", "libEGL_nvidia.so.0", ""};
 
-// The only hint, or the first: it has this, and is in the document word for word.
+// Checks the number of hints. The first must contain `part`, and docs/troubleshooting.md must contain it word for word.
 void expectHint(const Probe& seen, const HostFacts& host, const std::string& part, std::size_t hints = 1) {
     const auto said = hintsFor(seen, host);
     ASSERT_EQ(said.size(), hints) << testing::PrintToString(said);
@@ -104,7 +104,8 @@ TEST(ProbeHints, AVendorFileWhereEglDoesNotLookIsTold) {
 TEST(ProbeHints, ALibraryThatIsPassedOverIsNamedWithWhatItMisses) {
     ProbeVendor broken = nvidia;
     broken.problem = "libnvidia-glsi.so.535.183.01: cannot open shared object file: No such file or directory";
-    expectHint(withSoftware({broken}), withNvidia(), "because libnvidia-glsi.so.535.183.01, which it needs, is missing");
+    expectHint(withSoftware({broken}), withNvidia(),
+               "because libnvidia-glsi.so.535.183.01, which it needs, is missing");
     broken.problem = "libEGL_nvidia.so.0: invalid ELF header";
     expectHint(withSoftware({broken}), withNvidia(), "it does not open (libEGL_nvidia.so.0: invalid ELF header)");
 }

@@ -1,6 +1,6 @@
-"""A container of the image, run by crun as Kubernetes' nodes do: the image's user, no capabilities, no new privileges, the
-usual filter of system calls, and a root that cannot be written. What is not taken from the machine: its control groups,
-and a network per container; the caller has one of its own."""
+"""A container of the image, run by crun with the settings of Kubernetes. It has the image's user, no capabilities, no
+new privileges, the usual filter of system calls, and a read-only root. Unlike on a Kubernetes node, there are no control
+groups. The container shares the network of the caller, which has its own network namespace."""
 import json
 import os
 import platform
@@ -9,12 +9,12 @@ import subprocess
 import tempfile
 import uuid
 
-PROFILE = "/usr/share/containers/seccomp.json"  # of Docker, Podman and, as RuntimeDefault, Kubernetes
+PROFILE = "/usr/share/containers/seccomp.json"  # the default of Docker and Podman, and RuntimeDefault of Kubernetes
 ARCHITECTURES = {"x86_64": "amd64", "aarch64": "arm64"}
 
 
 def system_calls():
-    """The profile in OCI's form, for a container without capabilities."""
+    """Returns the profile of system calls in OCI's format, for a container without capabilities."""
     with open(PROFILE, encoding="utf-8") as file:
         profile = json.load(file)
     here = ARCHITECTURES[platform.machine()]
@@ -32,7 +32,7 @@ def mount(destination, kind, *options):
 
 
 class Container:
-    """With `data` at /data: the only folder that it may write, but for /tmp."""
+    """A container with `data` at /data. It may only write there and in /tmp."""
 
     def __init__(self, config, root, data, arguments=None, settings=None):
         self._config, self._root, self._data = config, str(root), data
@@ -91,12 +91,12 @@ class Container:
         subprocess.run(self._crun("kill", self._name, str(int(number))), check=True)
 
     def execute(self, *command):
-        """Another process in it, as `docker exec` and health checks start them."""
+        """Runs another process in the container, as `docker exec` and health checks do."""
         return subprocess.run(self._crun("exec", self._name, *command), capture_output=True, text=True, timeout=60,
                               check=False)
 
     def code(self):
-        """Its exit code; None while it runs."""
+        """Returns the exit code; None while the container runs."""
         return self._process.poll()
 
     def wait(self, seconds=60):
@@ -109,7 +109,7 @@ class Container:
 
 
 def without_control_groups():
-    """In a mount namespace of the caller's own. crun looks at them although it is told to leave them alone, and refuses
-    when there are two versions."""
+    """Hides the control groups, in the caller's mount namespace. crun reads them even if it is configured not to use
+    them, and fails if there are two versions."""
     subprocess.run(["mount", "-t", "tmpfs", "tmpfs", "/sys/fs/cgroup"], check=True)
     os.makedirs("/run/crun", exist_ok=True)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What is in the image: contents_test.py FACTS ROOT. FACTS has image.json, as buildah inspects it, and its layers in OCI's
-form; ROOT is its file system. Started by deploy/verify_image.sh."""
+"""Checks the content of the image: contents_test.py FACTS ROOT. FACTS has image.json, the output of buildah inspect,
+and the layers in OCI's format. ROOT is the file system of the image. Started by deploy/verify_image.sh."""
 import gzip
 import json
 import os
@@ -19,7 +19,7 @@ IMAGE = json.loads((FACTS / "image.json").read_text())["Docker"]
 CONFIG = IMAGE["config"]
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 MEGABYTE = 1_000_000
-BUDGET = 120 * MEGABYTE  # over the base, for the image without Mesa
+BUDGET = 120 * MEGABYTE  # on top of the base, for the image without Mesa
 
 
 def inside(*command):
@@ -27,7 +27,7 @@ def inside(*command):
 
 
 def files():
-    """(path inside, lstat) of all there is."""
+    """Yields (path in the image, lstat) of all files and folders."""
     for folder, _, names in os.walk(ROOT):
         for name in names:
             path = os.path.join(folder, name)
@@ -39,7 +39,7 @@ def blob(digest):
 
 
 def layer_sizes():
-    """(packed, unpacked) of each layer, the base first."""
+    """Yields (packed, unpacked) of each layer, the base first."""
     index = json.loads((FACTS / "layers" / "index.json").read_text())
     manifest = json.loads(blob(index["manifests"][0]["digest"]).read_text())
     for layer in manifest["layers"]:
@@ -48,7 +48,7 @@ def layer_sizes():
 
 
 def section(name):
-    """The packages of a section of deploy/packages.txt."""
+    """Returns the packages of a section of deploy/packages.txt."""
     text = (REPOSITORY / "deploy/packages.txt").read_text()
     body = re.search(rf"^# == {name} ==\n(.*?)(?=^# ==|\Z)", text, re.MULTILINE | re.DOTALL)
     return {line.split()[0] for line in body.group(1).splitlines() if line and not line.startswith("#")}

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# make_base.sh TAR: a minimal Debian 12 as a tar file, by debootstrap, from where this machine's apt gets Debian and with
-# this machine's settings for apt, npm and certificates, so that what is installed on top comes from the same place.
+# make_base.sh TAR: makes a minimal Debian 12 as a tar file, with debootstrap. It uses the mirror of this machine's apt.
+# It copies this machine's settings of apt, npm and certificates, so that later packages come from the same place.
 set -euo pipefail
 
 tar=$1
@@ -14,7 +14,7 @@ if ! debootstrap --variant=minbase bookworm "$root" ${mirror:+"$mirror"} >"$work
     exit 1
 fi
 
-# As in Debian's own slim image: no documentation but licences, and no wait for the disk at each file.
+# Same as in Debian's slim image: no documentation except licences, and no wait for the disk after each file.
 cat >"$root/etc/dpkg/dpkg.cfg.d/image" <<'END'
 force-unsafe-io
 path-exclude /usr/share/doc/*
@@ -24,14 +24,14 @@ path-exclude /usr/share/locale/*
 path-exclude /usr/share/man/*
 END
 
-# In place of debootstrap's own list of where Debian is.
+# Replaces the list of sources of debootstrap.
 rm "$root/etc/apt/sources.list"
 for settings in /etc/apt/sources.list /etc/apt/sources.list.d /etc/apt/apt.conf.d /etc/apt/auth.conf.d /etc/npmrc \
     /root/.npmrc /usr/local/share/ca-certificates; do
     [[ -e $settings ]] || continue
     cp -r --parents "$settings" "$root"
 done
-# What a Debian image leaves out too.
+# Debian's image does not contain these files either.
 rm -rf "$root"/var/cache/apt/archives/*.deb "$root"/var/cache/apt/*.bin "$root"/var/lib/apt/lists/* "$root"/var/log/*
 tar -C "$root" -cf "$tar.new" .
 mv "$tar.new" "$tar"

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""How the image runs: running_test.py FACTS ROOT, as root in a mount and a network namespace of its own. FACTS has
-image.json, as buildah inspects it; ROOT is its file system. Started by deploy/verify_image.sh."""
+"""Tests running containers of the image: running_test.py FACTS ROOT, as root in its own mount and network namespaces.
+FACTS has image.json, the output of buildah inspect. ROOT is the file system of the image. Started by
+deploy/verify_image.sh."""
 import json
 import os
 import pathlib
@@ -22,10 +23,10 @@ SOFTWARE = FACTS.name == "software"
 
 CONFIG = json.loads((FACTS / "image.json").read_text())["Docker"]["config"]
 RELEASE = pathlib.Path(__file__).resolve().parents[2] / "build/release"
-GRACE = 20  # s to end in; orchestrators are told 30
+GRACE = 20  # s within which the server must end; orchestrators wait 30 s
 ADDRESS = "127.0.0.1:8080"
 
-# Who listens wider than loopback without tokens has to say that this is meant.
+# A server that listens beyond loopback without tokens needs SPHERULE_OPEN.
 OPEN = {"SPHERULE_OPEN": "true", "SPHERULE_DEVICE": "cpu"}
 
 
@@ -63,7 +64,7 @@ class Running(unittest.TestCase):
             time.sleep(0.1)
 
     def ends(self, container):
-        """SIGTERM, which it gets as the first process of its container."""
+        """Sends SIGTERM to the first process of the container; returns the time until its end (s)."""
         begun = time.monotonic()
         container.signal(signal.SIGTERM)
         self.assertEqual(container.wait(GRACE), 0, container.said())

@@ -7,10 +7,10 @@
 #include "scene/random.h"
 #include "support.h"
 
-// Isolated contacts on the device and in the reference, for 0.5 s. Float32 rounds a position 240 times meanwhile, each
-// time by up to 2^-24 of its distance from the centre, and where velocities are constant always the same way. To see
-// the contact and not that, spheres of half a metre stay within two metres of the centre, and a weak oblique gravity
-// makes the roundings differ.
+// Compares isolated contacts on the device with the reference, over 0.5 s. In this time, float32 rounds a position 240
+// times, each time by up to 2^-24 of its distance from the centre. At constant velocity, all roundings have the same
+// direction. To keep the error of roundings below the error of contacts, spheres of 0.5 m stay within 2 m of the
+// centre, and weak oblique gravity makes the roundings differ.
 namespace spherule::physics {
 namespace {
 
@@ -25,7 +25,7 @@ glm::dvec3 somewhere(scene::Random& random, double reach) {
     return {x, y, random.uniform(-reach, reach)};
 }
 
-// Two spheres of unequal radius and mass a little apart, about to meet at any angle.
+// Places two spheres of unequal radius and mass that are about to collide, at a random angle.
 void placePair(scene::Random& random, scene::Scene& scene, scene::Sphere& a, scene::Sphere& b) {
     a.radius = static_cast<float>(random.uniform(0.35, 0.55));
     b.radius = static_cast<float>(random.uniform(0.35, 0.55));
@@ -41,10 +41,10 @@ void placePair(scene::Random& random, scene::Scene& scene, scene::Sphere& a, sce
 
 struct Difference {
     double ofRadius = 0;
-    double turned = 0;  // change of the slowest-changed velocity, m/s
+    double turned = 0;  // smallest change of a velocity by contacts, m/s
 };
 
-// Runs both, and compares sphere by sphere.
+// Runs the simulation and the reference; returns their largest difference.
 Difference difference(sim::Simulation& simulation) {
     const sim::State start = simulation.snapshot();
     reference::World world = referenceOf(simulation.scene(), start);
@@ -61,7 +61,7 @@ Difference difference(sim::Simulation& simulation) {
     return worst;
 }
 
-// One simulation takes the pairs in turn.
+// One simulation runs the pairs one after another.
 TEST(AgainstReference, FortyIsolatedPairsAgree) {
     scene::Scene scene = openSpace(5);
     scene.gravity = weakGravity;
@@ -84,7 +84,7 @@ TEST(AgainstReference, FortyIsolatedPairsAgree) {
     RecordProperty("worstInRadii", std::to_string(worst * 1e9) + "e-9");
 }
 
-// Spheres that do not meet each other: each hits one or two of five walls and a slope.
+// The spheres do not touch each other. Each hits one or two of five walls and a slope.
 TEST(AgainstReference, FortySpheresAtWallsAgree) {
     scene::Scene scene = openSpace(1.6);
     scene.gravity = weakGravity;

@@ -5,7 +5,7 @@
 namespace spherule::physics {
 namespace {
 
-// 4,000 spheres, twenty deep, three seconds after they were let go, nobody asleep.
+// A bed of 4,000 spheres in 20 layers, 3 s after the start, with sleep off.
 TEST(Bed, HardlyOverlapsAndHardlyMoves) {
     const auto simulation = simulate(named("box-4k", {.noSleep = true}));
     run(*simulation, 2.5);

@@ -1,6 +1,6 @@
-// Every scene that comes with the program, on the CPU with different numbers of threads and on Mesa's software
-// renderer: the same bits. SPHERULE_BITS_SECONDS says for how long; without it, 2 s, and one step of a scene above
-// 100,000 spheres.
+// Every shipped scene gives the same bits on the CPU with any number of threads, and on Mesa's software renderer.
+// SPHERULE_BITS_SECONDS sets the simulated time (s). The default is 2 s, or one step for scenes of more than 100,000
+// spheres.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST_P(SceneBits, AreTheSameOnAllDevices) {
         EXPECT_EQ(hashOn(choice, GetParam()), expected) << choice;
 }
 
-// Two hundred spheres of two materials and many sizes, thrown onto a box in a box, with all that contacts can have.
+// 200 spheres of two materials and many sizes, thrown onto an obstacle in a box, with all contact parameters.
 scene::Scene mixture(scene::Model model) {
     scene::Scene scene = closedBox(0.8);
     scene.materials = {{.name = "a", .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.05},
@@ -61,7 +61,7 @@ scene::Scene mixture(scene::Model model) {
     return scene;
 }
 
-// A bed with a sphere above that is `ratio` times as large as the smallest: each class of sizes has cells of its own.
+// A bed below a sphere that is `ratio` times as large as the smallest one. Each size class has its own cells.
 scene::Scene mixedBed(scene::Model model, double ratio) {
     scene::Scene scene = bedUnderOne(ratio < 50 ? 200 : 900, ratio);
     scene.materials[0].friction = 0.4;

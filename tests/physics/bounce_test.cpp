@@ -7,8 +7,8 @@
 namespace spherule::physics {
 namespace {
 
-// Heights over the floor at which the only sphere of a simulation turns downwards, by its energy in the step of each
-// turn.
+// Returns the heights (m) of the first `count` apexes of the only sphere, above its height on the floor. Each follows
+// from the sphere's energy in the step of the apex.
 std::vector<double> apexes(sim::Simulation& simulation, std::size_t count) {
     const scene::Scene& scene = simulation.scene();
     const double g = -scene.gravity.z;

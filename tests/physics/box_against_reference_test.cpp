@@ -7,8 +7,8 @@
 #include "scene/random.h"
 #include "support.h"
 
-// Two hundred spheres of 5 cm in a box of half a metre, on the device and in the reference. Both do the same to every
-// pair, but in another order, so that they differ by what is left of the overlaps.
+// 200 spheres of 5 cm in a box of 0.5 m, on the device and in the reference. Both treat each pair in the same way, but
+// take the pairs in different orders. So their results differ by the remaining overlaps.
 namespace spherule::physics {
 namespace {
 
@@ -76,7 +76,7 @@ TEST(BoxAgainstReference, OneSubstepFromEachOfAHundredStatesDiffersByLessThanThe
     RecordProperty("worstOfLargestOverlap", std::to_string(worst));
 }
 
-// The pairs that the device has just gone through, by id, in its order: the groups of one colour after the other.
+// Returns the pairs (ids) of the last substep in the device's order: colour by colour, and group by group.
 std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simulation) {
     sim::Pipeline& pipeline = simulation.pipeline();
     const auto span = pipeline.read<glm::uvec4>(sim::Array::GroupRange);
@@ -97,9 +97,9 @@ std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simula
     return order;
 }
 
-// The order is all that the two differ in: with the device's, they agree to float32's rounding, velocities too. From
-// the lattice on: spheres fall, hit each other and the walls, and pile up. Now and then two that barely touch do so on
-// one side only.
+// Only the order of pairs differs: with the device's order, positions and velocities agree to the rounding of float32.
+// The test begins with the lattice; spheres fall, hit each other and the walls, and pile up. Rarely, two spheres that
+// barely touch do so only on the device or only in the reference.
 TEST(BoxAgainstReference, OneSubstepInTheDevicesOrderIsTheSame) {
     const scene::Scene scene = boxOf200();
     const auto simulation = simulate(scene);
@@ -126,7 +126,7 @@ TEST(BoxAgainstReference, OneSubstepInTheDevicesOrderIsTheSame) {
     RecordProperty("othersOf20000", static_cast<int>(others));
 }
 
-// From the same state, half a second each; averages over that time.
+// Runs both for 0.5 s from the same state, and compares averages over this time.
 void expectTheSameHalfSecond(double from) {
     const scene::Scene scene = boxOf200();
     const auto simulation = simulate(scene);

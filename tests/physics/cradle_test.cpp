@@ -18,7 +18,7 @@ TEST(Cradle, TheLastBallLeavesWithTheSpeedPutIn) {
     for (std::uint32_t id = 0; id < 4; ++id) EXPECT_LT(glm::length(velocityOf(state, id)), 0.01 * speed) << id;
 }
 
-// What becomes of it depends on the contact law; docs/accuracy.md says what this one makes of it.
+// The velocities after the impact depend on the contact law; docs/accuracy.md describes the result.
 TEST(Cradle, TouchingBallsKeepTheirMomentum) {
     const auto simulation = simulate(named("cradle-touching"));
     const sim::State before = simulation->snapshot();

@@ -1,4 +1,4 @@
-// Far more spheres in one place than there is room for.
+// Many more spheres in one place than fit there.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace spherule::physics {
 namespace {
 
-// All in one point: spheres of `radius`, or, if mixed, one in fifty ten times as large.
+// Spheres of `radius` that are all in one point. If `mixed`, one in fifty is ten times as large.
 scene::Scene crowdOf(std::uint32_t count, float radius, bool mixed, scene::Model model) {
     scene::Scene scene = closedBox(2);
     scene.quality.model = model;
@@ -28,7 +28,7 @@ TEST(Crowd, FourThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
     for (const bool mixed : {false, true}) {
         const scene::Scene scene = crowdOf(4'000, 0.01F, mixed, scene::Model::Balanced);
         const auto simulation = simulate(scene);
-        simulation->put(sim::stateOf(scene));  // as no scene begins
+        simulation->put(sim::stateOf(scene));  // with the overlaps that a new simulation removes
         run(*simulation, scene.step);
         const sim::Simulation::Counters counters = simulation->counters();
         EXPECT_GT(counters.sampled, 0U);

@@ -5,7 +5,7 @@
 namespace spherule::physics {
 namespace {
 
-// Spheres poured onto obstacles: contacts, walls, a rebuild of the lists every few substeps.
+// Spheres are poured onto obstacles, with contacts, walls, and a rebuild of the lists every few substeps.
 std::uint64_t hashAfterHalfASecond(compute::Device& on, std::uint64_t seed) {
     scene::Overrides overrides;
     overrides.seed = seed;

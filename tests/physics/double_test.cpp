@@ -10,8 +10,8 @@
 namespace spherule::physics {
 namespace {
 
-// A sphere that glides and meets nothing: how far it is from where it must be after 20 s, in m. The host hands the
-// kernels floats; this step is one.
+// Returns the error (m) of the position of a sphere that moves freely for 20 s. The host passes floats to the kernels;
+// this step length is exact as a float.
 double errorOfAGlide(const std::string& choice) {
     scene::Scene scene = openSpace(100);
     scene.sphereContacts = false;
@@ -28,7 +28,7 @@ double errorOfAGlide(const std::string& choice) {
     return glm::length(positionOf(simulation->snapshot(), 0) - wanted);
 }
 
-// Floats lose half a unit in the last place in each of 10,240 substeps; of the doubles only the result is rounded.
+// Floats lose up to half a unit in the last place in each of 10,240 substeps. With doubles, only the result is rounded.
 TEST(Double, RoundsOnlyTheResult) {
     const double rounding = 32.0 / (1 << 24);  // of floats below 32, in three components
     EXPECT_LT(errorOfAGlide("cpu-double"), rounding);

@@ -7,13 +7,13 @@
 #include "scene/quality.h"
 #include "support.h"
 
-// Nothing passes through what it should hit: substeps are raised while a sphere moves too far in one.
+// Fast spheres do not pass through obstacles: the simulation uses more substeps while a sphere moves too far in one.
 namespace spherule::physics {
 namespace {
 
 constexpr scene::Model models[] = {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate};
 
-// A sphere for each of the heights above the middle, side by side, shot at the floor.
+// Spheres side by side, one at each of the heights above the middle, which fly towards the floor.
 scene::Scene shots(scene::Model model, double speed, const std::vector<double>& heights) {
     scene::Scene scene = closedBox(4);
     scene.step = 1.0 / 60;
@@ -31,9 +31,9 @@ TEST(FastMotion, IsHeldByTheFloorInEveryModelFromFortyHeights) {
     std::vector<double> heights;
     for (int k = 0; k < 40; ++k) heights.push_back(0.5 + 0.017 * k);
     for (const scene::Model model : models) {
-        // Springs for 1,000 m/s would take hundreds of thousands of substeps.
+        // At 1,000 m/s, springs would need hundreds of thousands of substeps.
         const auto simulation = simulate(shots(model, model == scene::Model::Accurate ? 100 : 1000, heights));
-        run(*simulation, scene::Scene{}.step);  // long enough for all to arrive
+        run(*simulation, scene::Scene{}.step);  // all spheres reach the floor in this time
         const sim::Statistics statistics = simulation->statistics();
         EXPECT_EQ(statistics.outside, 0U) << scene::nameOf(model);
         EXPECT_EQ(statistics.nonFinite, 0U) << scene::nameOf(model);
@@ -65,7 +65,7 @@ TEST(FastMotion, IsForgottenWithTheRunItWasIn) {
 }
 
 TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
-    // 0.6 radii in a step of one substep: two are enough, one is not.
+    // 0.6 radii per step: two substeps are enough, one is not.
     scene::Scene scene = shots(scene::Model::Fast, 0, {0});
     scene.gravity = {};
     scene.bounds.min = glm::dvec3(-100);

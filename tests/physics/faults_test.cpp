@@ -14,7 +14,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// A cube of touching spheres, all of them in contact with their neighbours.
+// A cube of spheres that touch their neighbours.
 scene::Scene block(int perSide) {
     scene::Scene scene = closedBox(1);
     for (int k = 0; k < perSide * perSide * perSide; ++k) {

@@ -6,7 +6,7 @@
 #include "sim/plan.h"
 #include "support.h"
 
-// What a scene does not need is neither allocated nor dispatched.
+// Arrays and passes that a scene does not need are neither allocated nor dispatched.
 namespace spherule::physics {
 namespace {
 
@@ -22,7 +22,7 @@ bool dispatches(const sim::Plan& plan, Pass pass) {
     return std::ranges::any_of(plan.substep, [pass](const sim::LaunchSpec& launch) { return launch.pass == pass; });
 }
 
-// Sixty-four spheres with everything that a scene can ask for.
+// 64 spheres, in a scene that uses all features.
 scene::Scene everything(scene::Model model = scene::Model::Balanced) {
     scene::Scene scene = closedBox(10);
     scene.quality.model = model;
@@ -78,7 +78,8 @@ TEST(Plan, OfEverythingInAllModelsHasEveryArray) {
         EXPECT_TRUE(arrays.contains(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
 }
 
-// Spins, what presses the pairs and the walls, the memory of contacts: gone with the friction, and what reads them.
+// Without friction, there are no arrays for spins, for impulses of pairs and walls, or for the slip of contacts. There
+// are no passes that read them either.
 TEST(Plan, WithoutFrictionHasNoRotationAndNoMemoryOfContacts) {
     for (const auto& [model, passes] : passesByModel) {
         scene::Scene scene = everything(model);
@@ -158,12 +159,12 @@ TEST(Plan, SaysWhichKernelsNeedNotKnowOfGravityOrRadii) {
     EXPECT_FALSE(planOf(dust()).features.has(sim::Feature::Radii));
 }
 
-// The device holds what the plan says, and runs what it says.
+// The simulation allocates the arrays of the plan, and runs the passes of the plan.
 TEST(Plan, IsWhatTheSimulationAllocatesAndTimes) {
     const auto simulation = simulate(dust());
     EXPECT_EQ(simulation->plan().bytes(), planOf(dust()).bytes());
     EXPECT_TRUE(simulation->pipeline().read<std::uint32_t>(Array::Pairs).empty());
-    static_cast<void>(simulation->passSeconds());  // forgets what other tests took
+    static_cast<void>(simulation->passSeconds());  // discards the times of other tests
     run(*simulation, 0.1);
     const std::vector<double> seconds = simulation->passSeconds();
     EXPECT_GT(seconds.at(static_cast<std::size_t>(Pass::Integrate)), 0);

@@ -8,7 +8,7 @@
 #include "scene/quality.h"
 #include "support.h"
 
-// Friction and rotation against what is known exactly, in every model.
+// Friction and rotation in every model, compared with exact solutions.
 namespace spherule::physics {
 namespace {
 
@@ -23,19 +23,19 @@ class Friction : public testing::TestWithParam<scene::Model> {
         scene.step = 1.0 / 60;
         scene.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
         scene.materials = {material};
-        scene.quality = {.model = GetParam(), .pinned = false, .overlap = 0.3};  // soft, to be done in time
+        scene.quality = {.model = GetParam(), .pinned = false, .overlap = 0.3};  // soft, for fewer substeps
         scene.spheres = {{.position = {-2, 0, -4 + r}, .velocity = velocity, .radius = static_cast<float>(r)}};
         if (auto fits = scene::fitSubsteps(scene); !fits) throw std::runtime_error(fits.error().text());
         return scene;
     }
 };
 
-// Both ends of a run of a scene of one sphere.
+// The motion of the only sphere of a scene.
 struct Track {
     double travelled = 0;  // along x, m
     double speed = 0;      // along x, m/s, at the end
     double spin = 0;       // about y, rad/s
-    double arm = 0;        // from the centre to the floor, m: soft spheres are in it by a little
+    double arm = 0;        // distance from the centre to the floor, m: soft spheres overlap it a little
 };
 
 Track trackOf(scene::Scene scene, double seconds) {
@@ -128,7 +128,8 @@ TEST_P(Friction, OfTwoSpheresKeepsMomentumAndAngularMomentum) {
     run(*simulation, 0.3);
     const sim::Statistics after = simulation->statistics();
     EXPECT_LT(glm::length(after.momentum - before.momentum), 1e-5 * glm::length(before.momentum));
-    // A push out of an overlap moves mass across the line of motion: a share of the overlap over the arm.
+    // The removal of an overlap moves mass across the line of motion. This changes the angular momentum by a share of
+    // overlap / arm.
     EXPECT_LT(glm::length(after.angularMomentum - before.angularMomentum), 0.02 * glm::length(before.angularMomentum));
     EXPECT_LT(after.kineticEnergy + after.rotationalEnergy, before.kineticEnergy + before.rotationalEnergy);
 }
@@ -137,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Friction,
                          testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),
                          [](const auto& parameter) { return std::string(scene::nameOf(parameter.param)); });
 
-// A ball on three others, held together by friction alone.
+// A ball on three others, which only friction holds together.
 TEST(FrictionInAPile, HoldsATetrahedronOfSoftSpheres) {
     scene::Scene scene = closedBox(2);
     scene.step = 1.0 / 60;
@@ -157,7 +158,7 @@ TEST(FrictionInAPile, HoldsATetrahedronOfSoftSpheres) {
     EXPECT_NEAR(positionOf(simulation->snapshot(), 3).z, scene.spheres[3].position.z, 0.01 * r);
 }
 
-// Springs that wound up, or dashpots too strong for their substeps, would keep it moving for ever.
+// The pile would never rest if springs stored energy without limit, or if dashpots were too strong for the substeps.
 TEST(FrictionInAPile, ComesToRestUnderForcesWhateverTheRestitution) {
     for (const double e : {0.0, 0.5}) {
         scene::Scene scene = closedBox(0.4);
@@ -173,7 +174,7 @@ TEST(FrictionInAPile, ComesToRestUnderForcesWhateverTheRestitution) {
         const auto simulation = simulate(scene);
         run(*simulation, 2);
         const sim::Statistics end = simulation->statistics();
-        // Velocities are those after the forces: at rest, half of what gravity takes in a substep.
+        // Velocities are reported after the forces. A sphere at rest has half of gravity's change in a substep.
         const double half = 0.5 * earth * scene.step / simulation->scene().quality.substeps;
         EXPECT_LT(end.speedRms, 1e-3 + half) << "e = " << e;
         EXPECT_LT(end.rotationalEnergy, 1e-3) << "e = " << e;

@@ -1,4 +1,4 @@
-// What is observed of impacts on the device is what happens, and looking changes nothing.
+// The device counts impacts correctly, and counting does not change the simulation.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double within = 0.005;
 
-// A gas of two hundred spheres in flight between walls.
+// A gas of 200 spheres between walls.
 scene::Scene gas(scene::Model model, double restitution) {
     scene::Scene scene = closedBox(2);
     scene.gravity = {};
@@ -30,8 +30,7 @@ scene::Scene gas(scene::Model model, double restitution) {
     return scene;
 }
 
-// Thirty-two pairs, each in a lane of its own, that meet head-on in the middle of the first step, of the second, and so
-// on.
+// 32 pairs, each in its own lane. Pair n collides head-on in the middle of step n.
 scene::Scene headOn(scene::Model model, double restitution) {
     scene::Scene scene = openSpace(8);
     scene.quality.model = model;
@@ -123,7 +122,7 @@ TEST(Observing, BeginsAnewWithTheScene) {
     EXPECT_EQ(simulation->statistics().impacts.since(before).count, 1) << "those of before are of another world";
 }
 
-// A bounce in `accurate` takes many substeps: nothing is said of it, and nothing spent on it.
+// In the model `accurate`, an impact takes many substeps. Impacts are not counted there, and have no array.
 TEST(Observing, IsNotForForces) {
     scene::Scene scene = headOn(scene::Model::Accurate, 0.5);
     scene.quality.substeps = 100;

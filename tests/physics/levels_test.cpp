@@ -17,7 +17,7 @@
 namespace spherule::physics {
 namespace {
 
-// By slot. As floats, the way the kernel does it.
+// Returns the slots of all pairs that are closer than the margin. It computes with floats, as the kernel does.
 std::vector<SlotPair> withinMargin(sim::Simulation& simulation) {
     auto at = simulation.pipeline().read<glm::vec4>(sim::Array::ListReference);
     const auto radii = simulation.pipeline().read<glm::vec4>(sim::Array::Position);
@@ -34,8 +34,8 @@ std::vector<SlotPair> withinMargin(sim::Simulation& simulation) {
     return found;
 }
 
-// 400 spheres on and about the surfaces of each other, some of them far outside, where the torus of cells wraps around.
-// Each approaches another one, in m/s.
+// 400 spheres near the surfaces of each other. Some are far outside, where the torus of cells wraps around. Each moves
+// towards another one with the speed `approach` (m/s).
 scene::Scene cluster(double side, double ratio, double approach) {
     scene::Scene scene = openSpace(side);
     scene::Random random(7);
@@ -68,7 +68,7 @@ TEST_P(Ratio, ListsAreWhatBruteForceFinds) {
         const scene::Scene scene = cluster(side, GetParam(), 0);
         const auto simulation = simulate(scene);
         EXPECT_EQ(simulation->plan().features.has(sim::Feature::Levels), GetParam() > 2);
-        run(*simulation, 2 * scene.step);  // the first of them may have to make room
+        run(*simulation, 2 * scene.step);  // the first step may allocate memory
         ASSERT_EQ(simulation->counters().unlisted, 0U);
         ASSERT_EQ(simulation->counters().sampled, 0U);
         const std::vector<SlotPair> expected = withinMargin(*simulation);
@@ -117,7 +117,7 @@ TEST(Levels, ALargeSphereRestsOnABedOfSmallOnes) {
     EXPECT_LT(statistics.overlapMean, 0.2);
 }
 
-// A large sphere rolls into small sleepers; a small one into a large sleeper.
+// A large sphere rolls into small sleeping ones, and a small sphere into a large sleeping one.
 TEST(Levels, SleepersWakeWhenSpheresOfOtherSizesComeToThem) {
     scene::Scene scene = sleepyBox(2);
     auto add = [&scene](double x, double y, double radius) {

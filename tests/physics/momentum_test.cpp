@@ -8,8 +8,8 @@
 namespace spherule::physics {
 namespace {
 
-// A cloud of 1,000 spheres on a jittered lattice that falls into itself: towards the middle at 2 m/s per m, and each
-// with a velocity of its own of up to 0.5 m/s along each axis.
+// A cloud of 1,000 spheres on a jittered lattice that contracts. Each sphere moves towards the middle at 2 m/s per m of
+// distance, plus a random velocity of up to 0.5 m/s along each axis.
 scene::Scene contractingCloud(bool equal) {
     scene::Scene scene = openSpace(10);
     scene::Random random(7);

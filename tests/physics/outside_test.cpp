@@ -1,4 +1,4 @@
-// Spheres that have left through an open face: they cost next to nothing, and still meet what they come to.
+// Spheres that have left through an open face cost almost nothing, and still collide.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ TEST(Outside, OneThatFallsForEverAsksForNoListsAndNoSubsteps) {
     EXPECT_LE(rebuilds[1], rebuilds[0] + 2);
 }
 
-// Processor time, so that others who use the machine do not count, in turns.
+// Measures processor time in turns, so that other programs on the machine hardly affect it.
 TEST(Outside, OneThatFallsForEverAddsLessThanAFifthToTheTimeOfASleepingBed) {
     const auto cpu = compute::openDevice("cpu:1").value();
     const auto without = settled(pit(12, false), *cpu);
@@ -81,7 +81,7 @@ TEST(Outside, OneThatFallsForEverAddsLessThanAFifthToTheTimeOfASleepingBed) {
     EXPECT_LT(ratios[7], 1.2);
 }
 
-// Two that leave a small domain side by side and approach each other slowly as they fall.
+// Two spheres leave a small domain side by side, and slowly approach each other as they fall.
 TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
     for (const scene::Model model : models) {
         for (const std::uint64_t seed : {1, 2, 3}) {
@@ -138,7 +138,7 @@ TEST(Outside, TwoThatMeetFarFromTheBoundsDoNotPassThroughEachOther) {
     }
 }
 
-// Up through the open top with 30 m/s, and back after six seconds, onto sleepers.
+// A sphere leaves through the open top at 30 m/s, and falls back onto sleeping spheres after 6 s.
 TEST(Outside, OneThatComesBackHitsWhatItLeft) {
     scene::Scene scene = sleepyBox(2);
     scene.bounds.open[scene::ZMax] = true;
@@ -183,7 +183,7 @@ TEST(Outside, APlaneBelowTheBoundsIsHit) {
     }
 }
 
-// Whatever a swarm does that leaves the bounds, those that touch are in the lists.
+// All touching pairs of a swarm that leaves the bounds are in the lists.
 TEST(Outside, ASwarmThatLeavesHasAllThatTouchInItsLists) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
         SCOPED_TRACE(seed);

@@ -9,9 +9,9 @@ namespace spherule::reference {
 
 namespace {
 
-constexpr double atWall = 2e-4;  // of the radius: the gap up to which a sphere counts as at a wall
+constexpr double atWall = 2e-4;  // gap / radius up to which a sphere counts as at a wall
 
-// Gives the pair the relative velocity change `change` along the line of centres, shared by inverse mass.
+// Changes the relative velocity of the pair by `change`, shared by inverse mass.
 void share(glm::dvec3& a, glm::dvec3& b, double inverseMassA, double inverseMassB, const glm::dvec3& change) {
     const double sum = inverseMassA + inverseMassB;
     a += change * (inverseMassA / sum);

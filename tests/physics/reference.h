@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
-// The contact laws once more, in double, all pairs, one after the other: what the simulation is compared with. Written
-// from the description of the laws, not from the kernels.
+// The reference for the simulation: the contact laws in double, for all pairs, one after another. It is written after
+// the description of the laws, not after the kernels.
 namespace spherule::reference {
 
 struct Sphere {
@@ -18,10 +18,10 @@ struct Sphere {
     double restitution = 0;
 };
 
-// The half-space behind `point` is solid.
+// A wall: the half-space behind `point` is solid.
 struct Wall {
     glm::dvec3 point{};
-    glm::dvec3 normal{};  // unit length, to the free side
+    glm::dvec3 normal{};  // unit length, towards the free side
     double restitution = 0;
 };
 
@@ -30,13 +30,13 @@ class World {
     std::vector<Sphere> spheres;
     std::vector<Wall> walls;
     glm::dvec3 gravity{};
-    bool contacts = true;                                    // of spheres with each other
-    std::vector<std::pair<std::size_t, std::size_t>> order;  // in which pairs are taken; empty: by index, all of them
+    bool contacts = true;                                    // false: spheres do not collide with each other
+    std::vector<std::pair<std::size_t, std::size_t>> order;  // order of the pairs; empty: all pairs, by index
 
     // Advances by h seconds.
     void substep(double h);
 
-    // Of the last substep: overlaps as they were when they were corrected, in m.
+    // Figures of the last substep. An overlap (m) is measured when it is corrected.
     [[nodiscard]] double largestOverlap() const { return largestOverlap_; }
     [[nodiscard]] std::size_t touchingPairs() const { return touching_.size(); }
 
@@ -51,13 +51,13 @@ class World {
     void bounceAtWall(std::size_t i, const Wall& wall);
     void hitWall(std::size_t i, const Wall& wall, double depth, double h);
 
-    std::vector<glm::dvec3> u_;  // the running velocity: before the substep, then after each impact
+    std::vector<glm::dvec3> u_;  // velocities before the substep, updated after each impact
     std::vector<std::pair<std::size_t, std::size_t>> touching_;
     double largestOverlap_ = 0;
     bool anythingBounces_ = false;
 };
 
-// How deep a sphere is in a wall, in m; negative: the gap.
+// Returns the depth (m) of a sphere in a wall; negative: the gap.
 double depthIn(const Wall& wall, const Sphere& sphere);
 
 }  // namespace spherule::reference

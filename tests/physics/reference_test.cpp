@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-// What the laws promise, of the reference itself: it has to be right before anything is compared with it.
+// Checks that the reference itself obeys the contact laws.
 namespace spherule::reference {
 namespace {
 

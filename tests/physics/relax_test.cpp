@@ -1,4 +1,4 @@
-// Spheres that begin deep in each other come apart without flying apart.
+// Spheres that overlap deeply at the start separate without gaining speed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include "support.h"
 
-// |e_got - e| <= 0.01, whatever meets.
+// The measured restitution differs from the requested one by at most 0.01, for all kinds of pairs.
 namespace spherule::physics {
 namespace {
 
@@ -21,7 +21,7 @@ struct Meeting {
     scene::Sphere b;
 };
 
-// Along x, each meeting in a lane of its own. The last figure is the material: of 1,000, 20,000, 7,800 or 500 kg/m^3.
+// Collisions along x, each in its own lane. The last figure is the material, of 1,000, 20,000, 7,800 or 500 kg/m^3.
 const std::vector<Meeting> meetings{
     {"equal", {{-0.3, 0, 0}, {1, 0, 0}, 0.05F}, {{0.3, 0, 0}, {-1, 0, 0}, 0.05F}},
     {"one at rest", {{-0.3, 0, 0}, {2, 0, 0}, 0.05F}, {{0, 0, 0}, {}, 0.05F}},
@@ -47,7 +47,7 @@ scene::Scene lanes(double restitution) {
     return scene;
 }
 
-// Speed of parting over speed of approach along the line on which the two acted on each other.
+// Returns separation speed / approach speed, along the direction of the impulse.
 double measured(const sim::State& before, const sim::State& after, std::uint32_t a, std::uint32_t b) {
     const glm::dvec3 change = velocityOf(after, a) - velocityOf(before, a);
     EXPECT_GT(glm::length(change), 1e-3) << "they never met";
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Restitution, testing::Values(0.0, 0.5, 0.9, 1.0));
 
 TEST(Restitution, APairTakesTheSmallerOfItsTwo) {
     scene::Scene scene = lanes(0.9);
-    // Of the same density as the one that it replaces.
+    // The new material keeps the density of the one that it replaces.
     for (std::size_t k = 0; k < scene.spheres.size(); k += 2) {
         scene::Sphere& sphere = scene.spheres[k + (k / 2) % 2];
         sphere.material = addMaterial(scene, {.density = scene.materials[sphere.material].density, .restitution = 0.3});

@@ -24,7 +24,7 @@ void push(sim::Simulation& simulation, std::uint32_t id, glm::dvec3 velocity) {
 // A column of balls, one exactly on top of the other, all asleep.
 std::unique_ptr<sim::Simulation> sleepingColumn(int height) {
     scene::Scene scene = sleepyBox(2);
-    scene.bounds.material = addMaterial(scene, {.restitution = 0});  // what is shot away stays away
+    scene.bounds.material = addMaterial(scene, {.restitution = 0});  // a sphere that is pushed away does not come back
     for (int k = 0; k < height; ++k) scene.spheres.push_back(at({0, 0, -0.95 + 0.1 * k}));
     auto simulation = simulate(scene);
     run(*simulation, 3);
@@ -49,7 +49,8 @@ TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
     }
 }
 
-// It stays within the creep of one place, and is slow at each apex, but never slow and carried at once.
+// The sphere moves by less than the creep, and is slow at each apex. But it never is slow and supported at the same
+// time.
 TEST(Sleep, DoesNotTakeASphereThatHopsForEver) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.948})};
@@ -114,7 +115,7 @@ TEST(Sleep, EndsWhenTheSupportIsOutOfReachWithinASubstep) {
     push(*simulation, 0, {40, 0, 0});  // 83 mm a substep
     run(*simulation, 0.08);
     EXPECT_LT(positionOf(simulation->snapshot(), 1).z, -0.95 + 0.1 - 0.025) << "it falls from the first substep on";
-    // Each of the others follows when what carries it has sunk by the creep, here 5 mm: 32 ms of falling.
+    // Each other sphere falls when its support has sunk by the creep (5 mm), after 32 ms.
     run(*simulation, 0.05);
     const sim::State state = simulation->snapshot();
     for (std::uint32_t id = 2; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.01) << id;
@@ -127,7 +128,7 @@ TEST(Sleep, EndsWhenTheSupportCreepsAway) {
     EXPECT_LT(positionOf(simulation->snapshot(), 1).z, -0.95 + 0.01) << "nothing holds it up there";
 }
 
-// Others that move fast have the lists built anew in every substep, before a slow one has left its margin.
+// A fast sphere causes a rebuild of the lists in every substep, before a slow sphere has moved by the margin.
 TEST(Sleep, EndsWhenTheSupportCreepsAwayInABusyWorld) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.95}), at({0, 0, -0.85}), at({0.9, 0.9, 0.9})};

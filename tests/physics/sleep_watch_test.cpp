@@ -9,10 +9,10 @@
 namespace spherule::physics {
 namespace {
 
-constexpr double watched = 2;  // s that a sleeper is to stay exactly where it is
+constexpr double watched = 2;  // s for which a sleeping sphere must not move
 
-// Looks at every sphere after every step: who falls asleep must not have moved faster than the threshold over the sleep
-// time, and a sleeper does not move by a bit.
+// Checks every sphere after every step. A sphere that falls asleep must have been slower than the threshold over the
+// sleep time. The position of a sleeping sphere must not change by a bit.
 class Watch {
   public:
     explicit Watch(const scene::Scene& scene)
@@ -37,7 +37,7 @@ class Watch {
     int fellAsleep = 0;
     int tooFast = 0;
     int moved = 0;
-    int sleptLong = 0;  // for all of the watched time
+    int sleptLong = 0;  // spheres that slept for all of the watched time
 
   private:
     struct Seen {
@@ -74,7 +74,7 @@ Watch watch(sim::Simulation& simulation, double seconds) {
     return watch;
 }
 
-// A hundred balls fall on the floor one by one, twenty more on top of some of them.
+// 100 balls fall on the floor one by one, and 20 more on top of some of them.
 TEST(SleepWatch, BallsOnTheFloorAllFallAsleepAndStayExactlyWhereTheyAre) {
     scene::Scene scene = sleepyBox(2);
     scene::Sphere ball;

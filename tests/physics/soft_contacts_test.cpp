@@ -1,5 +1,5 @@
-// Contacts of the model `accurate`: against an integration of the same law in double, and what must hold whatever the
-// case. Without sleep and gravity; several seeds.
+// Contacts of the model `accurate`: compared with an integration of the same law in double, and checked for conserved
+// quantities. There is no sleep and no gravity. Each test runs with several seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace spherule::physics {
 namespace {
 
-constexpr int phases = 25;      // of a substep in which contact begins
+constexpr int phases = 25;      // instants within a substep at which the contact begins
 constexpr double approach = 3;  // substeps
 
 struct Setting {
@@ -46,7 +46,7 @@ scene::Scene soft(const Setting& setting, double restitution) {
     return scene;
 }
 
-// A velocity against -z, at 20 to 80 degrees to it.
+// Returns a random velocity at 20 to 80 degrees to -z.
 glm::dvec3 obliquely(scene::Random& random) {
     const double angle = random.uniform(20, 80) * std::numbers::pi / 180;
     const double about = random.uniform(0, 2 * std::numbers::pi);
@@ -64,7 +64,8 @@ reference::SoftLaw lawOf(const scene::Scene& scene, std::uint8_t a, std::uint8_t
     return {scene::followsHertz(scene), law.normal, law.tangential, law.damping, friction};
 }
 
-// Rows of spheres over the floor, or of pairs; in a row, all do the same, and touch in another phase of a substep.
+// Places rows of pairs, or of spheres above the floor. The contacts of a row are equal, except that they begin at
+// different instants within a substep.
 void place(scene::Scene& scene, scene::Random& random, bool walls, int rows) {
     for (int row = 0; row < rows; ++row) {
         const glm::vec3 v(obliquely(random));
@@ -159,7 +160,8 @@ INSTANTIATE_TEST_SUITE_P(Of, ObliqueImpact, testing::ValuesIn(settings()), [](co
            std::to_string(std::lround(10 * of.friction));
 });
 
-// Pairs that meet obliquely, spinning, each in a place of its own. Radii, masses, speeds and directions at random.
+// Pairs of spinning spheres that collide obliquely, far from other pairs. Radii, masses, speeds and directions are
+// random.
 scene::Scene meetings(std::uint64_t seed, const Setting& setting, double restitution, int count = 40) {
     scene::Random random(seed);
     scene::Scene scene = soft(setting, restitution);
@@ -189,9 +191,9 @@ scene::Scene meetings(std::uint64_t seed, const Setting& setting, double restitu
     return scene;
 }
 
-constexpr double longEnough = 0.05;  // s, for all of them to part
+constexpr double longEnough = 0.05;  // s after which all pairs have separated
 
-// J, of each pair, at the end.
+// Returns the rotational energy (J) of each pair at the end.
 std::vector<double> rotationsAfter(scene::Scene scene, double seconds = longEnough) {
     EXPECT_TRUE(scene::fitSubsteps(scene));
     const auto simulation = simulate(std::move(scene));
@@ -247,7 +249,8 @@ TEST_P(SoftContacts, AreTheSameInAnyOrder) {
     expectTheSame(energies, rotationsAfter(scene), 0.001);
 }
 
-// Lengths and speeds a thousand times as large: masses 10^9, energies 10^15 times. Moduli go with the square of speeds.
+// With lengths and speeds 1,000 times as large, masses are 10^9 and energies 10^15 times as large. Moduli are
+// proportional to the square of speeds.
 TEST_P(SoftContacts, ScaleWithTheScene) {
     const scene::Scene scene = meetings(5, setting(), 0.7);
     scene::Scene large = scene;
@@ -304,7 +307,7 @@ TEST_P(SoftContacts, KeepMomentumAndAngularMomentumAndGainNoEnergy) {
     }
 }
 
-// Elastic and without sliding, all that is lost is what Mindlin's spring loses as a contact closes.
+// In elastic contacts without sliding, only Mindlin's spring loses energy, as its stiffness changes.
 TEST_P(SoftContacts, ElasticEnergyIsWhatTheOthersLack) {
     for (const double friction : {0.0, 0.5}) {
         scene::Scene scene = meetings(8, {.hertz = GetParam(), .walls = false, .friction = friction}, 1, 1);
@@ -325,7 +328,7 @@ TEST_P(SoftContacts, ElasticEnergyIsWhatTheOthersLack) {
             if (friction == 0) {
                 EXPECT_NEAR(energyOf(now), start, 2e-3 * start);
             }
-            // With friction a reading is off by the work of the tangential force in half a substep, to either side.
+            // With friction, the error of a reading is the work of the tangential force in half a substep.
             EXPECT_LT(energyOf(now), 1.01 * start);
             if (!GetParam()) {
                 EXPECT_GT(energyOf(now), 0.99 * start);
@@ -344,7 +347,7 @@ TEST_P(SoftContacts, ElasticEnergyIsWhatTheOthersLack) {
 INSTANTIATE_TEST_SUITE_P(Of, SoftContacts, testing::Bool(),
                          [](const auto& parameter) { return std::string(parameter.param ? "Hertz" : "Linear"); });
 
-// A sphere that lies on the floor holds m g d / 2 in a linear spring, and 2/5 m g d in one of Hertz.
+// A sphere at rest on the floor stores m g d / 2 in a linear spring, and 2/5 m g d in a Hertz spring.
 TEST(SoftFloor, HoldsWhatASphereAtRestHasPressedIntoIt) {
     for (const bool hertz : {false, true}) {
         scene::Scene scene = soft({.hertz = hertz, .walls = true, .friction = 0.3}, 0.2);

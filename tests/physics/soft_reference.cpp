@@ -48,15 +48,15 @@ double contactTime(const SoftLaw& law, const Pair& pair, double speed) {
     return 2.943 * deepest / speed;
 }
 
-// How the tangential spring's force on the first goes on, and what acts together with the dashpot's. `slip` is that of
-// the first against the second.
+// Integrates the force of the tangential spring on the first body. Returns the tangential force: spring and dashpot,
+// limited by friction. `slip` is the velocity of the first surface relative to the second (m/s).
 class Tangent {
   public:
     glm::dvec3 force(const SoftLaw& law, const Forces& f, double normal, glm::dvec3 n, glm::dvec3 slip, double h) {
         const double length = glm::length(spring_);
         spring_ -= n * glm::dot(spring_, n);
         if (const double left = glm::length(spring_); left > 0) spring_ *= length / left;
-        // Released by a contact that opens; one that closes takes nothing of it.
+        // A contact that opens releases a part of the spring's force; one that closes does not change it.
         if (f.stiffness < stiffness_) spring_ *= f.stiffness / stiffness_;
         stiffness_ = f.stiffness;
         spring_ -= slip * (f.stiffness * h);
@@ -87,7 +87,7 @@ double SoftBody::rotationalEnergy() const {
 void meet(SoftBody& a, SoftBody& b, const SoftLaw& law, int steps) {
     const Pair pair{a.radius * b.radius / (a.radius + b.radius), 1 / (a.inverseMass + b.inverseMass)};
     const double reach = a.radius + b.radius;
-    // On to where they touch.
+    // Move the bodies to the first contact.
     const glm::dvec3 d = a.x - b.x;
     const glm::dvec3 w = a.v - b.v;
     const double along = glm::dot(d, w);

@@ -2,8 +2,8 @@
 
 #include <glm/vec3.hpp>
 
-// One contact of the model `accurate`, in double and in tiny steps: what its kernels are compared with. Written from
-// the description of the law (docs/accuracy.md), with the force of the tangential spring in place of its stretch.
+// The reference for the kernels of the model `accurate`: one contact in double, in tiny steps. It is written after
+// docs/accuracy.md, but integrates the force of the tangential spring instead of its elongation.
 namespace spherule::reference {
 
 struct SoftBody {
@@ -24,10 +24,10 @@ struct SoftLaw {
     double friction = 0;
 };
 
-// Lets two spheres that approach each other meet and part; `steps` to the time that the contact takes without damping.
+// Lets two approaching spheres collide and separate. `steps`: number of steps in the contact time without damping.
 void meet(SoftBody& a, SoftBody& b, const SoftLaw& law, int steps = 20000);
 
-// The same with the half-space z < 0.
+// Same as meet(), with the half-space z < 0 instead of a second sphere.
 void meetFloor(SoftBody& body, const SoftLaw& law, int steps = 20000);
 
 }  // namespace spherule::reference

@@ -10,7 +10,7 @@
 namespace spherule::physics {
 namespace {
 
-// Six hundred spheres of two kinds that have fallen half a second, so that everything is moving and touching.
+// 600 spheres of two kinds after a fall of 0.5 s, so that the spheres move and touch.
 std::unique_ptr<sim::Simulation> fallenHeap() {
     scene::Scene scene = closedBox(1.2);
     scene.bounds.open[scene::ZMax] = true;
@@ -93,7 +93,7 @@ TEST(Statistics, AreWhatPlainSumsOverTheStateSay) {
     EXPECT_EQ(expected.outside, 1U) << "the test throws one out";
     EXPECT_EQ(got.outside, expected.outside);
     EXPECT_GT(expected.contacts, 200);
-    // Pairs that just touch overlap in float32 or not.
+    // The rounding of float32 decides whether pairs that just touch overlap.
     EXPECT_NEAR(static_cast<double>(got.contacts), expected.contacts, 0.05 * expected.contacts);
     EXPECT_NEAR(got.overlapMean * static_cast<double>(got.contacts), expected.overlaps, 1e-3 * expected.overlaps);
     EXPECT_NEAR(got.overlapMax, expected.largest, share);

@@ -17,39 +17,39 @@
 
 namespace spherule::physics {
 
-// The device of these tests: Mesa's software renderer, which every machine has, or what SPHERULE_TEST_DEVICE names.
+// Opens the device named by SPHERULE_TEST_DEVICE. The default is Mesa's software renderer, which runs everywhere.
 std::unique_ptr<compute::Device> openTestDevice();
 compute::Device& device();  // one for all tests
 
-// A scene that comes with the program.
+// Loads a shipped scene.
 scene::Scene named(const std::string& name, const scene::Overrides& overrides = {});
 
-// A cube of `side` m around the origin: all faces open, no gravity, no sleep, every step one substep of 1/480 s.
+// A cube of `side` m around the origin with open faces, no gravity and no sleep. A step is one substep of 1/480 s.
 scene::Scene openSpace(double side);
 
-// The same with closed faces and, downwards, the earth's gravity.
+// Same as openSpace(), with closed faces and the earth's gravity downwards.
 scene::Scene closedBox(double side);
 
-// The same in steps of 1/60 s, eight substeps each, with sleep; everything has a restitution of 0.3.
+// Same as closedBox(), with steps of 1/60 s, eight substeps per step, sleep, and a restitution of 0.3.
 scene::Scene sleepyBox(double side);
 
 using measure::addMaterial;
 using measure::earth;
 using measure::setRestitution;
 
-// Ends the test with the reason when the scene cannot be simulated.
+// Ends the test with an error message when the scene cannot be simulated.
 std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on = device());
 
 void run(sim::Simulation& simulation, double seconds);
 
-// The reference in the state of a simulation: closed faces and planes are its walls, lengths are relative to the
-// bounds' centre.
+// Returns the reference in the state of a simulation. Its walls are the closed faces and planes. Positions are relative
+// to the centre of the bounds.
 reference::World referenceOf(const scene::Scene& scene, const sim::State& state);
 
-// Pairs that overlapped in the last substep and were pushed apart.
+// Returns the number of pairs that overlapped in the last substep and were pushed apart.
 std::uint64_t touchingPairs(sim::Simulation& simulation);
 
-// The slots of the pairs that are listed, the lower one first; sorted.
+// The slots of the listed pairs, sorted; the lower slot of a pair comes first.
 using SlotPair = std::pair<std::uint32_t, std::uint32_t>;
 std::vector<SlotPair> listedPairs(sim::Simulation& simulation);
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tokens, TLS and settings of a server, as its users meet them: admission_test.py BINARY. Uses tests/load/serving.py."""
+"""Tests tokens, TLS and settings of a server: admission_test.py BINARY. Uses tests/load/serving.py."""
 import json
 import os
 import signal
@@ -109,10 +109,10 @@ class Tls(Files):
         self.authorities = Authorities(self.folder)
 
     def certificate_of(self, server, **limits):
-        """What a client is shown that trusts the root alone."""
+        """Returns TLS version and certificate, as seen by a client that trusts only the root."""
         context = ssl.create_default_context(cafile=self.authorities.root)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # that some versions are old
+            warnings.simplefilter("ignore")  # a warning that some TLS versions are old
             for name, value in limits.items():
                 setattr(context, name, value)
         port = int(server.stream.split(":")[2].split("/")[0])
@@ -165,7 +165,7 @@ class Tls(Files):
             os.kill(server.pid, signal.SIGHUP)
             self.assertTrue(wait_for(lambda: self.certificate_of(server)[1]["serialNumber"] != first))
             second = self.certificate_of(server)[1]["serialNumber"]
-            os.replace(self.authorities.certify("third")[0], chain)  # of another key
+            os.replace(self.authorities.certify("third")[0], chain)  # a certificate for another key
             os.kill(server.pid, signal.SIGHUP)
             time.sleep(0.5)
             self.assertEqual(self.certificate_of(server)[1]["serialNumber"], second)

@@ -1,4 +1,4 @@
-"""Certificates for tests, made by the openssl program: a root, one between, and a server's own."""
+"""Makes certificates for tests with the openssl program: a root, an intermediate, and server certificates."""
 import os
 import subprocess
 
@@ -15,7 +15,7 @@ class Authorities:
         self._sign("between", "A certifier of a test", CA, "root")
 
     def certify(self, name, places="DNS:localhost,IP:127.0.0.1"):
-        """A new certificate: the paths of its chain (without the root) and of its key."""
+        """Makes a certificate; returns the paths of its chain (without the root) and of its key."""
         self._sign(name, name, f"subjectAltName={places}\n{LEAF}", "between")
         chain = self._at(f"{name}-chain.pem")
         with open(chain, "w", encoding="ascii") as out:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Goals that substeps are moved for, and the table of the dial, as a user meets them: auto_quality_test.py BINARY."""
+"""Tests goals of automatic quality, warnings, and the table of the dial: auto_quality_test.py BINARY."""
 import json
 import os
 import re
@@ -19,7 +19,7 @@ def call(*arguments):
 
 
 class Served(unittest.TestCase):
-    """A server with its log."""
+    """Tests with a server and its log."""
 
     def serve(self, *arguments):
         self.log = tempfile.NamedTemporaryFile(mode="r", suffix=".log")
@@ -79,7 +79,7 @@ class Budget(Served):
 class Metrics(Served):
     def test_figures_of_the_world_are_there_for_who_asks(self):
         self.serve("cradle")
-        self.metric("spherule_contacts")  # asking is what begins it
+        self.metric("spherule_contacts")  # the first request starts the statistics
         self.eventually(lambda: self.metric("spherule_speed_max_metres_per_second"), "spheres move")
         self.assertEqual(self.metric("spherule_energy_rises"), 0)
         self.assertGreater(self.metric('spherule_energy_joules{kind="kinetic"}'), 0)
@@ -87,7 +87,7 @@ class Metrics(Served):
 
 class Energy(Served):
     def test_balls_that_touch_get_some_from_the_model_and_that_is_told(self):
-        # docs/accuracy.md has how much.
+        # docs/accuracy.md gives the rise of energy.
         self.serve("cradle-touching", "--quality", "balanced")
         self.metric("spherule_contacts")
         self.ctl("reset")

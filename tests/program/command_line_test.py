@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program as a user calls it: command_line_test.py BINARY DEVICE, on `software` or `cpu`."""
+"""Tests commands of the program: command_line_test.py BINARY DEVICE, with the device `software` or `cpu`."""
 import csv
 import fcntl
 import json
@@ -202,7 +202,7 @@ class Interrupted(unittest.TestCase):
             self.assertAlmostEqual(after["simSeconds"], before["simSeconds"] + after["stretchSeconds"], places=6)
 
     def test_the_second_signal_ends_it_at_once(self):
-        os.mkfifo(self.dump)  # nobody reads on, so that it cannot finish
+        os.mkfifo(self.dump)  # the pipe fills up, so that the program cannot finish
         reader = os.open(self.dump, os.O_RDWR | os.O_NONBLOCK)
         self.addCleanup(os.close, reader)
 
@@ -349,7 +349,7 @@ class Serve(unittest.TestCase):
         self.assertEqual((ready["device"], ready["scene"], ready["spheres"]), (DEVICE, "cradle", 5))
         self.assertIn(ready["state"], ("running", "paused"))
         self.assertIn("spherule_spheres 5", self.get("/metrics"))
-        for _ in range(100):  # figures come once somebody has asked
+        for _ in range(100):  # figures appear after the first request
             metrics = self.get("/metrics")
             if "spherule_momentum" in metrics:
                 break

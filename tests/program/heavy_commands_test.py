@@ -1,4 +1,4 @@
-"""Commands and scenes that take long: meanwhile the server answers others, and ends when it is told to."""
+"""Tests commands and scenes that take long: meanwhile the server answers other commands, and can be stopped."""
 import json
 import os
 import statistics
@@ -15,7 +15,7 @@ BINARY = sys.argv.pop(1)
 
 
 class Controller(Viewer):
-    """Gives commands as JSON, and knows which answers came before which."""
+    """Sends commands as JSON, and keeps the order of the answers."""
 
     def __init__(self, port, rate=0):
         super().__init__(port, rate)
@@ -34,7 +34,7 @@ class Controller(Viewer):
         return next(result for result in self.of("result") if result["id"] == str(number))
 
     def ask(self, command):
-        """The answer, and how long it took, s."""
+        """Returns the answer and its delay (s)."""
         began = time.monotonic()
         answer = self.answer(self.give(command))
         return answer, time.monotonic() - began
@@ -52,7 +52,7 @@ BOXES = scene([{"radius": {"constant": 0.004},
                 "lattice": {"min": [-1, -1, -0.5], "max": [1, 1, 1], "spacing": 0.012, "count": 30000}}],
               obstacles=[{"box": {"min": [-1 + 0.002 * k, -1, -1], "max": [-0.999 + 0.002 * k, 1, -0.9]}}
                          for k in range(1000)])
-# Each is given to a world of 4,000 spheres that runs.
+# Each case is sent to a running simulation of 4,000 spheres.
 CASES = {
     "the most substeps": [{"set": {"substeps": "most"}}],
     "the largest push": [{"push": {"sphere": 0, "impulse": ["most", 0, 0]}}],
@@ -64,7 +64,7 @@ CASES = {
 
 
 def largest(controller, command):
-    """The command with the largest value that is accepted, as its refusal says."""
+    """Returns the command with the largest accepted value, which the refusal of a larger one gives."""
     kind = next(iter(command))
     tried = json.loads(json.dumps(command).replace('"most"', "1e9" if kind == "push" else "1000000"))
     answer, _ = controller.ask(tried)
@@ -95,7 +95,7 @@ class HeavyCommands(unittest.TestCase):
                         times.append(took)
                 health = server.get("/healthz")
                 self.assertTrue(health.startswith("alive"), health)
-                # What is still under way ends; what was done already was not refused.
+                # The cancel ends a pending command. A command that was done before it is not refused.
                 cancelled, took = controller.ask({"cancel": {}})
                 times.append(took)
                 outcome = controller.answer(heavy)
@@ -122,7 +122,7 @@ class HeavyCommands(unittest.TestCase):
             controller = Controller(server.port)
             ctl = subprocess.Popen([BINARY, "ctl", "--timeout", "1", server.stream, "load", path], stderr=subprocess.PIPE,
                                    text=True)
-            # Five a second, and one each time that it has come farther.
+            # The progress is sent five times a second.
             controller.wait(lambda one: len({change.get("share") for change in one.of("change")}) > 12)
             self.assertIsNone(ctl.poll())
             controller.ask({"cancel": {}})

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`spherule measure` as a user calls it: measure_test.py BINARY. What it measures must keep within bounds."""
+"""Tests `spherule measure`, and that measured errors keep within bounds: measure_test.py BINARY."""
 import csv
 import json
 import math
@@ -12,15 +12,15 @@ import unittest
 import xml.etree.ElementTree
 
 BINARY = sys.argv.pop()
-LONGEST = 250  # s; it is made to take 50 on two free processors
+LONGEST = 250  # s; it should take 50 s on two free processors
 MODELS = {"fast", "balanced", "accurate"}
 ONLY_ACCURATE = ("Chung & Ooi 1, glass", "Chung & Ooi 1, limestone", "Chung & Ooi 2, aluminium",
                  "Chung & Ooi 2, magnesium")
 CASES = {"projectile", "bounce", "head-on", "oblique", "Chung & Ooi 3", "Chung & Ooi 4", "slip to roll", "incline",
          "rolling resistance", "cradle, gaps of 1 %", "cradle, touching", "elastic gas", "stack of five", "bed"}
 
-# (case, beginning of the figure, model or "" for each): the largest error at the substeps that the model chooses; two to
-# three times what was measured, or what was asked for.
+# (case, beginning of the figure, model or "" for all): the largest error, with the substeps that the model chooses. It
+# is two to three times the measured error, or a requirement.
 BOUNDS = {
     ("projectile", "distance", "fast"): 1e-5,
     ("projectile", "distance", "balanced"): 2e-5,
@@ -34,7 +34,7 @@ BOUNDS = {
     ("head-on", "restitution", ""): 0.001,
     ("oblique", "restitution", "fast"): 0.001,
     ("oblique", "restitution", "balanced"): 0.001,
-    # Soft spheres turn around each other while they touch, at restitution 0 for long.
+    # Soft spheres rotate around each other while they touch, for a long time at restitution 0.
     ("oblique", "restitution 0.", "accurate"): 0.012,
     ("oblique", "restitution 1", "accurate"): 0.005,
     ("head-on", "momentum", ""): 1e-5,

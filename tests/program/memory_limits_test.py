@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The server in control groups of 1 and 4 GiB, in which it is loaded with scenes of many sizes and watched: each load
-runs or is refused, and the system ends none: memory_limits_test.py BINARY. Needs the right to make control groups.
-SPHERULE_TEST_MILLIONS="1.5 2" chooses sizes."""
+"""Loads scenes of many sizes into a server in control groups of 1 and 4 GiB: memory_limits_test.py BINARY. Each load
+runs or is refused, and the system never kills the server. Needs the right to create control groups.
+SPHERULE_TEST_MILLIONS="1.5 2" selects sizes (millions of spheres)."""
 import json
 import os
 import re
@@ -21,7 +21,7 @@ PATIENCE = 240  # s, for an answer
 
 
 class ControlGroup:
-    """One with `limit` bytes, of version 1 or 2, within that of this process."""
+    """A control group with `limit` bytes, of version 1 or 2, inside the group of this process."""
 
     def __init__(self, limit):
         groups = dict(line.split(":", 2)[1:] for line in Path("/proc/self/cgroup").read_text().splitlines())
@@ -44,7 +44,7 @@ class ControlGroup:
         (self.folder / "cgroup.procs").write_text(str(os.getpid()))
 
     def killed(self):
-        """How many processes the system has ended in it for want of memory."""
+        """Returns how many processes of the group the system has killed for lack of memory."""
         events = "memory.oom_control" if self._first is not None else "memory.events"
         return int(re.search(r"^oom_kill (\d+)$", (self.folder / events).read_text(), re.MULTILINE)[1])
 
@@ -73,7 +73,7 @@ def allowed():
 
 
 class Watcher:
-    """A viewer who is sent frames and forgets them. Ends with the server."""
+    """A viewer that receives frames and discards them, until the server ends."""
 
     def __init__(self, port):
         self._socket = socket.create_connection(("127.0.0.1", port), timeout=30)
@@ -82,7 +82,7 @@ class Watcher:
                               "Sec-WebSocket-Protocol: spherule.v1\r\n\r\n").encode())
         self._socket.recv(4096)
         hello = json.dumps({"hello": {"client": "test", "view": {"rate": 30}}}).encode()
-        self._socket.sendall(bytes([0x81, 0x80 | len(hello), 0, 0, 0, 0]) + hello)  # under a mask of zeros
+        self._socket.sendall(bytes([0x81, 0x80 | len(hello), 0, 0, 0, 0]) + hello)  # the mask is zero
         self._socket.settimeout(None)
         self.bytes = 0
         threading.Thread(target=self._read, daemon=True).start()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What has no room in memory is refused before it is made, with need and limit: memory_test.py BINARY"""
+"""Tests that scenes and commands that need too much memory are refused with need and limit: memory_test.py BINARY"""
 import json
 import os
 import subprocess
@@ -60,7 +60,7 @@ class Memory(unittest.TestCase):
         self.assertEqual(memory["device: arrays"], plan["bytes"])
         self.assertEqual(memory["host: scene"], 56 * 200_000)
         together = memory["all, where device and host are one"]
-        room = 40 << 20  # of the program itself, and what is left over
+        room = 40 << 20  # memory of the program itself, and a margin
         for limit, code in ((together + 2 * room, 0), (together - room, 4)):
             done = self.call("run", path, "--for", "0.02s", "--device", "cpu:1", "--memory-limit", str(limit))
             self.assertEqual(done.returncode, code, f"{limit}: {done.stderr}")

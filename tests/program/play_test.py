@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Recordings that are played, and made by a server: play_test.py BINARY LOAD_CLIENT. Uses tests/load/serving.py."""
+"""Tests playback, and recording by a server: play_test.py BINARY LOAD_CLIENT. Uses tests/load/serving.py."""
 import json
 import os
 import resource
@@ -43,7 +43,7 @@ class Files(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def length_of(self, recording):
-        """First and last time; what is said of its end."""
+        """Returns the first and the last time (s), and the message about the end of the recording."""
         done = call("export", recording, "--format", "csv", "--out", self.at("out.csv"), "--force")
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.at("out.csv"), encoding="utf-8") as file:

@@ -1,5 +1,5 @@
-// What docs/protocol.md tells somebody who writes a client: its examples run as they stand, its ranges are those of the server,
-// and `load` keeps what it says.
+// Checks docs/protocol.md: its examples run unchanged, its ranges equal the server's ranges, and `load` keeps the documented
+// settings.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -12,7 +12,7 @@ import { serve, stopAll } from "../browser/support/server.mjs";
 import { loadDecoder } from "../../web-viewer/tools/decoder.mjs";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
-const { WebSocket } = createRequire(path.join(root, "tests/browser/package.json"))("ws"); // Node has one of its own from 22 on
+const { WebSocket } = createRequire(path.join(root, "tests/browser/package.json"))("ws"); // Node has its own WebSocket since version 22
 const documentText = readFileSync(path.join(root, "docs/protocol.md"), "utf8");
 const blocks = documentText.split("\n## Examples")[1].matchAll(/^```(\w+)\n([^]*?)^```/gm);
 const examples = [...blocks].map(([, kind, text]) => ({ kind, text }));
@@ -34,7 +34,7 @@ after(async () => {
 const address = () => `ws://127.0.0.1:${server.port}/ws`;
 const here = (text) => text.replaceAll("ws://127.0.0.1:8080/ws", address());
 
-/** A session in JSON; the newest message of each kind is in `heard`. */
+/** Connects a JSON session, whose `heard` has the newest message of each kind. */
 async function connect(view) {
   const socket = new WebSocket(address(), "spherule.v1");
   const heard = {};
@@ -50,7 +50,7 @@ async function connect(view) {
   await new Promise((resolve, reject) => socket.on("open", resolve).on("error", reject));
   socket.send(JSON.stringify({ hello: { client: "test", view } }));
   const say = (message) => socket.send(JSON.stringify(message));
-  /** The result of the command. */
+  /** Sends a command; returns its result. */
   const command = (words) =>
     new Promise((resolve) => {
       results.set(String(++last), resolve);
@@ -64,7 +64,7 @@ async function until(condition) {
   assert.ok(condition());
 }
 
-/** So many steps are accepted; nobody waits for them all. */
+/** Checks that this number of steps is accepted, then cancels them. */
 async function begun(count) {
   const result = client.command({ step: { count } });
   if (count === 1) return assert.ok((await result).applied);
@@ -161,13 +161,13 @@ test("positions come out of a frame as is shown", async () => {
   places.forEach(([, , z], id) => assert.ok(Math.abs(heights.get(id) - z) <= frame.quantum / 2 + 1e-6));
 });
 
-/** The range that the table of commands gives. */
+/** Returns the range of a field in the table of commands. */
 function rangeOf(field) {
   const row = documentText.split("\n").find((line) => line.startsWith(`| \`${field}\` |`));
   return row?.split("|")[3].trim();
 }
 
-/** { set: { speed: value } } of "set.speed". */
+/** Returns { set: { speed: value } } for the field "set.speed". */
 const nested = (field, value) => field.split(".").reduceRight((inner, name) => ({ [name]: inner }), value);
 
 for (const [field, range, within, outside] of [
@@ -200,7 +200,7 @@ test("vectors and targets have the ranges of the document", async () => {
     [{ push: { sphere: 0, impulse: [0, 0, 1.1e9] } }, "impulse"],
     [{ push: { ray: { origin: [0, 0, 1], direction: [0, 0, 0] }, impulse } }, "direction"],
     [{ set: { substeps: 0 } }, "substeps"],
-    [{ seek: { time: 1 } }, ""], // of a server that simulates
+    [{ seek: { time: 1 } }, ""], // a server that simulates has no timeline
   ]) {
     const { refused } = await client.command(words);
     assert.ok((refused.field ?? "").includes(field), JSON.stringify([words, refused]));
@@ -233,7 +233,7 @@ test("load keeps what the document says, and nothing else", async () => {
   assert.deepEqual([client.heard.recording.active, client.heard.recording.file], [true, file]);
   await applied({ stopRecording: {} });
 
-  // Reset goes back to the scene that was loaded, but for the speed.
+  // Reset restores the loaded scene, except the speed.
   await applied({ set: { gravity: [0, 0, -2] } });
   await applied({ reset: {} });
   await until(() => client.heard.settings.gravity[2] === -9.81);

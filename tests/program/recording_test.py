@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Recordings as a user makes them, and as other programs read them: recording_test.py BINARY. Runs on Debian's Python,
-with ASE (tests/unpack_ase.sh) and VTK."""
+"""Tests recordings, and exports as other programs read them: recording_test.py BINARY. Runs with Debian's Python, with
+ASE (tests/unpack_ase.sh) and VTK."""
 import csv
 import json
 import os
@@ -21,7 +21,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 BINARY = sys.argv.pop()
 COLUMNS = ["id", "x", "y", "z", "radius"]
-FLOAT = 1e-6  # m; what float32 and nine digits cannot hold of places some metres from the origin
+FLOAT = 1e-6  # m; rounding of float32 and of nine digits, some metres from the origin
 MIXED = {"bounds": {"min": [0, 0, 0], "max": [1, 2, 1.5]},
          "groups": [{"name": "small", "radius": {"constant": 0.03},
                      "fill": {"count": 150, "min": [0, 0, 0], "max": [1, 2, 1.5]}},
@@ -34,7 +34,7 @@ def call(*arguments, **options):
 
 
 def frames_of(path):
-    """[(time, rows of COLUMNS in id order)] of a CSV file that `run --dump` or `export` wrote."""
+    """Reads a CSV file of `run --dump` or `export`; returns [(time, rows of COLUMNS in id order)]."""
     frames = {}
     with open(path, encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -69,7 +69,7 @@ class Files(unittest.TestCase):
 
 
 class Formats(Files):
-    """Each reads back as the states that the same run has dumped, to within what is stated."""
+    """Each export has the states of the same run's dump, within the documented error."""
 
     def record(self, scene, smallest, *more):
         dump = self.at("states.csv")
@@ -246,7 +246,7 @@ class Export(Files):
         self.assertIn("No space left on device", self.refused(*export, "/dev/full", "--force", code=4))
 
     def interrupted(self, sign, *arguments):
-        """What it says when it gets the signal after the first of its files is there and before it is done."""
+        """Sends the signal after the first file exists and before the end; returns exit code and output."""
         for _ in range(50):
             with subprocess.Popen([BINARY, "export", self.recording, "--force", *arguments], stderr=subprocess.PIPE,
                                   text=True) as running:
@@ -254,7 +254,7 @@ class Export(Files):
                     time.sleep(0.001)
                 running.send_signal(sign)
                 said = running.stderr.read()
-            if running.returncode != 0:  # else it was too fast
+            if running.returncode != 0:  # otherwise it ended before the signal
                 return running.returncode, said
             for name in os.listdir(self.folder):
                 if name.startswith("out"):
@@ -292,7 +292,7 @@ class Export(Files):
                                "were exported; --from exports the part after it$")
         before = frames_of(self.at("a.csv"))
         self.assertGreater(len(before), 10)
-        # From a keyframe, and from before one: what lies between is damaged.
+        # Starts at a keyframe, and in the damaged part before it.
         for begin in "4s", f"{before[-1][0] + 0.1}s":
             after = self.times("b.csv", "--from", begin, "--force")
             numpy.testing.assert_allclose((after[0], after[-1]), (4, 5), atol=1e-8)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A bed with friction comes to rest and stays there: rest_test.py BINARY."""
+"""Tests that a bed with friction comes to rest and does not move again: rest_test.py BINARY."""
 import json
 import os
 import random
@@ -16,7 +16,7 @@ LAYERS = 28
 
 
 def write_bed(folder):
-    """A lattice of jittered spheres over the floor of an open box; returns the path of the scene, and how many."""
+    """Writes a scene with a jittered lattice in an open box; returns its path and its number of spheres."""
     rng = random.Random(1)
     width = ACROSS * PITCH
 

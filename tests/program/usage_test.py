@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the program says of wrong command lines, variables and files: usage_test.py BINARY."""
+"""Tests the messages about invalid command lines, variables and files: usage_test.py BINARY."""
 import os
 import pathlib
 import re

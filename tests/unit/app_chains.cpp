@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using Kind = codec::EncodedFrame::Kind;
 constexpr codec::Rendition normal{v1::NORMAL, 30};
 
-// A world of spheres on the CPU device that somebody watches.
+// Chains for a world of spheres on the CPU device.
 class Watched : public testing::Test {
   protected:
     static constexpr std::uint32_t spheres = 100;
@@ -39,7 +39,7 @@ class Watched : public testing::Test {
                 .head = [] { return v1::Frame(); }};
     }
 
-    // The world as it is after `steps` more; the kinds of the frames that came.
+    // Serves the subscriptions after `steps` more steps; returns the kinds of the frames.
     std::string serve(std::vector<codec::Subscription> subscriptions, std::chrono::milliseconds later,
                       std::uint64_t steps = 1) {
         version_ += steps;

@@ -13,7 +13,7 @@
 namespace spherule::app {
 namespace {
 
-// A film whose frames come two at a time, as of worlds that were paused.
+// Writes a film in which each two frames have the same time, as when the simulation was paused.
 void doubled(const std::string& path) {
     recording::film(path, 10);
     const auto file = recording::RecordFile::open(path);

@@ -8,7 +8,7 @@
 namespace spherule::app {
 namespace {
 
-// In step 34 the lattice has fallen and is squeezed most; then it expands again.
+// The lattice falls, and its overlaps are largest in step 34. Then it expands.
 TEST(Observer, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
     const auto device = compute::openDevice("cpu").value();
     auto simulation = sim::Simulation::create(*device, scene::load("box-4k", "cpu", {}).value()).value();

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A loop over one sphere that lies on the floor, with a viewer who takes frames.
+// A SimLoop with one sphere that lies on the floor, and a viewer that takes frames.
 class Looping : public testing::Test {
   protected:
     Looping() {
@@ -32,7 +32,7 @@ class Looping : public testing::Test {
         command.mutable_step()->set_count(count);
         tell(command);
     }
-    // The first frame of that step.
+    // Waits for the first frame of a step.
     v1::Frame frameOf(std::uint64_t step) {
         std::unique_lock lock(mutex_);
         v1::Frame found;
@@ -86,7 +86,7 @@ TEST_F(Looping, AFrameOfAPausedWorldTellsHowManySleepInIt) {
     tell(reset);
     tell(fast);
     EXPECT_EQ(frameOf(0).status().sleeping(), 0U);
-    // Faster than the figures are told again.
+    // These steps take less time than the interval of diagnostics.
     step(60);
     EXPECT_EQ(frameOf(60).status().sleeping(), 1U);
     EXPECT_TRUE(frameOf(60).status().paused());

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The records of a scene of so many spheres of radius 0.5 m, and of a keyframe, all at `time`.
+// Returns the records of a scene and of a keyframe at `time` (s). All spheres have a radius of 0.5 m.
 std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
     v1::ServerMessage scene;
     scene.mutable_scene()->set_epoch(epoch);
@@ -45,7 +45,7 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
            recording::recordBytes(recording::Kind::Keyframe, time, message.SerializeAsString());
 }
 
-// What a viewer is told while a recording is played in a loop, until the scene has changed `changes` times.
+// Plays a recording in a loop until the scene has changed `changes` times. Keeps the messages that a viewer receives.
 class Stage {
   public:
     std::vector<v1::SceneFacts> scenes;
@@ -92,7 +92,7 @@ TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
         Stage stage;
         stage.play(path, 6);
         ASSERT_EQ(stage.scenes.size(), 7U);
-        // A thread that waits for its processor for long goes on with the scene that is due by then.
+        // When the thread is delayed, it continues with the scene that is then due.
         const std::vector<std::uint32_t> counts = {2, 5, 3};
         std::size_t next = 0;
         for (std::size_t k = 0; k < stage.scenes.size(); ++k) {

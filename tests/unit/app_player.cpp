@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A film of 23 frames, one every 0.1 s, that is played; the clock goes as the test says.
+// Plays a film of 23 frames, one every 0.1 s. The tests set the clock.
 class Playing : public testing::Test {
   protected:
     static constexpr double end = 2.2;  // s
@@ -30,7 +30,7 @@ class Playing : public testing::Test {
         moved_ = player_->advance(now_);
     }
 
-    // The time of the frame that is shown then.
+    // Advances the clock; returns the time (s) of the frame that is then shown.
     double after(std::chrono::milliseconds time) {
         now_ += time;
         moved_ = player_->advance(now_);
@@ -60,7 +60,7 @@ class Playing : public testing::Test {
         command.mutable_set()->set_speed(speed);
         return give(command).has_value();
     }
-    // Changes a bit of the first record of that kind after `time`; says where it begins.
+    // Changes a bit of the first record of a kind after `time` (s); returns the record's offset.
     std::uint64_t damage(double time, recording::Kind kind = recording::Kind::Delta) {
         const auto file = recording::RecordFile::open(path_);
         std::uint64_t offset = recording::fileHeadBytes;
@@ -75,7 +75,7 @@ class Playing : public testing::Test {
         recording::writeFile(path_, content);
         return offset;
     }
-    // What a loop does: comes when it is due, at most so often. False where it waits for a command.
+    // Advances the clock to the time when the player is due, as PlayLoop does. Returns false when it is not due.
     bool comeWhenDue() {
         const auto due = player_->due();
         if (!due) return false;
@@ -112,7 +112,7 @@ TEST_F(Playing, ComesForEachFrameAndNotInBetween) {
     int calls = 0;
     for (; comeWhenDue(); ++calls) frames += moved_.shown ? 1 : 0;
     EXPECT_EQ(frames, 23);
-    EXPECT_LE(calls, 24);  // and the end
+    EXPECT_LE(calls, 24);  // one more for the end
     EXPECT_TRUE(player_->paused());
     EXPECT_TRUE(player_->settings().paused());
 }
@@ -217,7 +217,7 @@ TEST_F(Playing, CarriesOutWhatTheRulesAllowWhilePlaying) {
 }
 
 TEST_F(Playing, WhatIsDamagedIsToldAndSkipped) {
-    const std::uint64_t offset = damage(0.65);  // the next keyframe is that of 1.0 s
+    const std::uint64_t offset = damage(0.65);  // the next keyframe is at 1.0 s
     open();
     EXPECT_NEAR(after(650ms), 0.6, 1e-9);
     EXPECT_NEAR(after(100ms), 1.0, 1e-9);
@@ -231,14 +231,14 @@ TEST_F(Playing, WhatIsDamagedIsToldAndSkipped) {
 }
 
 TEST_F(Playing, ADamagedEndIsTheEnd) {
-    damage(2.05);  // no keyframe comes behind that of 2.0 s
+    damage(2.05);  // the last keyframe is at 2.0 s
     open(true);
     EXPECT_NEAR(after(1300ms), 1.3, 1e-9);
     after(900ms);
     EXPECT_EQ(moved_.damage.size(), 1U);
     EXPECT_NEAR(player_->recording().time(), 2.0, 1e-9);
     EXPECT_TRUE(moved_.shown);
-    // Round again, and it is told once a round.
+    // In a loop, the damage is reported once per round.
     std::size_t told = 0;
     for (int k = 0; k < 40; ++k) {
         ASSERT_TRUE(comeWhenDue());
@@ -278,7 +278,7 @@ TEST_F(Playing, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
 }
 
 TEST_F(Playing, WaitsForAFrameThatIsLongInComing) {
-    // The same frames, 10,000 s apart.
+    // The same frames with intervals of 10,000 s.
     std::string content = recording::fileHead();
     const auto film = recording::RecordFile::open(path_);
     for (std::uint64_t offset = recording::fileHeadBytes;;) {
@@ -307,7 +307,7 @@ TEST_F(Playing, GoingElsewhereEndsTheSteps) {
     ASSERT_TRUE(seek(1.5));
     EXPECT_NEAR(after(0ms), 1.5, 1e-9);
     EXPECT_FALSE(player_->due());
-    // Given together with a seek, steps and resuming go on from there.
+    // Steps and resume that follow a seek start from its target.
     ASSERT_TRUE(seek(0.5));
     ASSERT_TRUE(step(2));
     while (comeWhenDue()) continue;

@@ -12,14 +12,14 @@
 namespace spherule::app {
 namespace {
 
-// A loop on its own, without a network: what sessions give it, and what they are answered, in order.
+// A SimLoop without a network. Queues commands of sessions, and keeps the answers in order.
 class Desk {
   public:
     explicit Desk(const std::string& scene = "two-spheres")
         : loop_(std::move(*World::open("cpu:1", scene, {})), {requests_, live_, outlets()}, quality::ownTable(),
                 TapeOptions()) {}
 
-    // Numbers commands in the order in which they are given.
+    // Queues a command; returns its id, which counts from 1.
     std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
         v1::Command command;
         EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &command).ok()) << json;
@@ -28,12 +28,12 @@ class Desk {
         return given_;
     }
 
-    // Until `enough` says so, which is asked after each answer and each message to all.
+    // Runs until `enough` returns true. It is called after each answer and each retained message.
     void run(std::function<bool()> enough) {
         enough_ = std::move(enough);
         EXPECT_TRUE(loop_.run(stop_.get_token()));
     }
-    // Until all that was given is answered.
+    // Runs until all commands have an answer.
     void run() {
         run([this] { return answers.size() >= given_; });
     }
@@ -45,7 +45,7 @@ class Desk {
         return v1::CommandResult::default_instance();
     }
     [[nodiscard]] std::string refusal(std::uint64_t id) const { return answer(id).refused().reason(); }
-    // Its place among the answers.
+    // Returns the position of the command's answer among all answers.
     [[nodiscard]] std::size_t placeOf(std::uint64_t id) const {
         for (std::size_t k = 0; k < answers.size(); ++k)
             if (answers[k].id() == id) return k;
@@ -53,7 +53,7 @@ class Desk {
     }
 
     std::vector<v1::CommandResult> answers;
-    std::vector<v1::Change> changes;  // that everybody was told of
+    std::vector<v1::Change> changes;  // the changes sent to all sessions
 
   private:
     void look() {
@@ -85,11 +85,11 @@ class Desk {
     SimLoop loop_;
 };
 
-// 1,000 spheres in one point: hundreds of sweeps push them apart.
+// 1,000 spheres almost in one point. It takes hundreds of sweeps to push them apart.
 constexpr const char* crowd = R"({"load":{"scene":{"name":"crowd","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
     "groups":[{"radius":{"constant":0.05},"lattice":{"min":[-0.1,-0.1,-0.1],"max":[0.1,0.1,0.1],"spacing":1e-6,
                                                      "count":1000}}]}}})";
-// Random places without overlaps are hard to find there: looking for them takes many seconds.
+// In this dense scene, the search for random places without overlaps takes many seconds.
 constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
     "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
 
@@ -99,7 +99,7 @@ TEST(SimLoop, AStepIsAnsweredOnceItsStepsAreDone) {
     const auto second = desk.give(R"({"step":{"count":4}})");
     const auto pause = desk.give(R"({"pause":{}})");
     desk.run();
-    // The pause ends both: it came before they were done.
+    // The pause ends both, because it comes before they are done.
     EXPECT_NE(desk.refusal(first).find("of 30 steps"), std::string::npos) << desk.refusal(first);
     EXPECT_EQ(desk.refusal(second).rfind("0 of 4 steps", 0), 0U) << desk.refusal(second);
     EXPECT_TRUE(desk.answer(pause).has_applied());
@@ -156,7 +156,7 @@ TEST(SimLoop, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
             << desk.refusal(id);
         EXPECT_NE(desk.refusal(id).find("cancel"), std::string::npos);
     }
-    // At its end the loop refuses what is under way.
+    // When the loop ends, it refuses pending commands.
     EXPECT_EQ(desk.refusal(load), "the server is stopping");
 
     Desk quick;
@@ -164,14 +164,14 @@ TEST(SimLoop, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
     const auto gravity = quick.give(R"({"set":{"gravity":[0,0,1]}})", 2);
     quick.run();
     EXPECT_TRUE(quick.answer(friction).has_applied());
-    // On a machine that is kept busy the first may take too long.
+    // On a busy machine, the first command may take so long that the second is refused.
     EXPECT_TRUE(quick.answer(gravity).has_applied() || quick.refusal(gravity).find("set is under way") == 0);
     if (quick.answer(gravity).has_applied()) {
         EXPECT_LT(quick.placeOf(friction), quick.placeOf(gravity));
     }
 }
 
-// In the order in which one session gives them: a step that waits for a load is ended by what comes after it.
+// Commands of one session run in order. A later pause or resume ends a step that waits for a load.
 TEST(SimLoop, APauseOrResumeEndsStepsThatWaitForAChange) {
     for (const char* later : {R"({"resume":{}})", R"({"pause":{}})"}) {
         Desk desk;

@@ -12,7 +12,7 @@ namespace {
 TEST(Site, ReadinessIsJsonWhateverBytesANameHas) {
     Live live;
     live.update([](LiveReport& report) {
-        report.scene = std::string("caf\xe9");  // as a file system of Latin 1 has it
+        report.scene = std::string("caf\xe9");  // a file name in Latin 1
         report.device.renderer = std::string("\xff");
     });
     const Watchdog watchdog(Watchdog::Seconds(0));

@@ -13,7 +13,7 @@ class NoHost : public HostCommands {
     static Result<void> none() { return fail(ErrorKind::Refused, "", "there is no host"); }
 };
 
-// Gives a command to a world alone.
+// Applies a command to a world without recordings.
 inline std::optional<Result<sim::Applied>> give(World& world, const v1::Command& command) {
     NoHost host;
     return dispatch(command, world, host);

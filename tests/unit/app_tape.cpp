@@ -17,7 +17,7 @@ using Kind = codec::EncodedFrame::Kind;
 constexpr std::uint32_t spheres = 70;
 constexpr codec::Rendition rendition{v1::FINE, 30};
 
-// A tape, and a chain of frames like those that it would be told of.
+// A tape, and a chain of frames for it.
 class Taping : public testing::Test {
   protected:
     Taping() { options_.folder = folder_ / "made"; }
@@ -49,7 +49,7 @@ class Taping : public testing::Test {
         frame.set_spb(bytes.data(), bytes.size());
         return {rendition, kind, number_, codec::share(std::move(message))};
     }
-    // The state once the disk has all.
+    // Returns the state when all records are on the disk.
     v1::Recording ended() {
         v1::Recording state;
         for (int k = 0; k < 1000; ++k) {
@@ -294,17 +294,17 @@ TEST_F(Taping, OfAPausedWorldTakesNothing) {
     for (int k = 0; k < 5; ++k) paused(Kind::Delta, 1);
     EXPECT_FALSE(subscriptions()[0].lost) << "before the world goes on";
     paused(Kind::Resync, 1);
-    tape_->frame(encoded(Kind::Delta, 1));  // it goes on, but has not yet
+    tape_->frame(encoded(Kind::Delta, 1));  // resumed, but still at the same step
     tape_->frame(encoded(Kind::Delta, 2));
     EXPECT_TRUE(subscriptions()[0].lost);
     tape_->frame(encoded(Kind::Resync, 2));
     tape_->frame(encoded(Kind::Delta, 3));
     paused(Kind::Delta, 3);
-    paused(Kind::Delta, 0);  // it was reset
+    paused(Kind::Delta, 0);  // the world was reset
     retain(recording::sceneMessage(2, spheres));
     order(2);
-    paused(Kind::Keyframe, 0, 2);  // and others were loaded
-    paused(Kind::Delta, 0.5, 2);   // and stepped
+    paused(Kind::Keyframe, 0, 2);  // other spheres were loaded
+    paused(Kind::Delta, 0.5, 2);   // the world was stepped
     paused(Kind::Resync, 0.5, 2);
     tape_->frame(encoded(Kind::Delta, 0.75, 2));
     ASSERT_TRUE(tape_->stop());

@@ -40,7 +40,7 @@ TEST(ResultOf, IsFitForAMessageWhateverBytesAFileHas) {
     EXPECT_EQ(refusalOf(command, "a\xff.json").reason(), "a\xef\xbf\xbd.json: is wrong");
 }
 
-// The refusals of each command, as clients see them.
+// The refusals of a command, as clients receive them.
 TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
     auto world = World::open("cpu:1", "cradle", {});
     ASSERT_TRUE(world);

@@ -17,7 +17,7 @@ namespace spherule::app {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto now = World::Clock::time_point::min();  // in the past: as little as can be done is done
+constexpr auto now = World::Clock::time_point::min();  // a deadline in the past: each call does the least work
 
 v1::Command commandOf(const std::string& json) {
     v1::Command command;
@@ -25,7 +25,7 @@ v1::Command commandOf(const std::string& json) {
     return command;
 }
 
-// Result of a command that is carried out at once.
+// Returns the result of a command that is carried out at once.
 sim::Applied done(World& world, const std::string& json) {
     const auto applied = give(world, commandOf(json));
     EXPECT_TRUE(applied && *applied) << json;
@@ -38,7 +38,7 @@ Error refusalOf(World& world, const std::string& json) {
     return applied && !*applied ? applied->error() : Error();
 }
 
-// Pieces until the change has its result.
+// Returns the number of pieces until the change has a result.
 int piecesOf(World& world, int most, Result<sim::Applied>& result) {
     for (int pieces = 1; pieces <= most; ++pieces) {
         if (auto applied = world.advanceChange(0ns)) {
@@ -56,7 +56,7 @@ std::unique_ptr<World> open(const std::string& scene = "two-spheres") {
     return std::move(*world);
 }
 
-// A sphere that falls in empty space, from z = 0 with 0.9 m/s upwards.
+// A sphere in empty space that starts at z = 0 with an upward speed of 0.9 m/s.
 constexpr const char* thrown =
     R"("bounds":{"min":[-9,-9,-9],"max":[9,9,9]},"groups":[{"radius":{"constant":0.05},"velocity":[0,0,0.9],
        "list":{"spheres":[{"position":[0,0,0]}]}}])";
@@ -106,7 +106,7 @@ TEST(World, PausesInTheMiddleOfAStepAndGoesOnWithIt) {
     EXPECT_EQ(world->simulation().steps(), 1U);
 }
 
-// Whatever substeps are set in the middle of a step: it ends where its length says.
+// The step keeps its length when the number of substeps changes in the middle of it.
 TEST(World, SubstepsMayChangeWithinAStep) {
     for (const int before : {2, 7, 64, 999}) {
         for (const int after : {1, 3, 64, 1000}) {
@@ -126,7 +126,7 @@ TEST(World, SubstepsMayChangeWithinAStep) {
             const sim::State state = simulation.snapshot();
             EXPECT_NEAR(sim::positionOf(state, 0).z, 0.9 * t - 9.81 / 2 * t * t, 2e-6) << before << " " << after;
             EXPECT_NEAR(sim::velocityOf(state, 0).z, 0.9 - 9.81 * t, 1e-4) << before << " " << after;
-            // The next step is a whole one again.
+            // The next step has the new number of substeps.
             substeps = 1;
             while (!*world->advance(now)) ++substeps;
             EXPECT_EQ(substeps, after);
@@ -154,7 +154,7 @@ TEST(World, GoesOnWhileAnotherSceneIsMade) {
         ASSERT_TRUE(*applied) << applied->error().text();
         break;
     }
-    EXPECT_GT(pieces, 20);  // each array and each kernel is one
+    EXPECT_GT(pieces, 20);  // one for each array and each kernel
     EXPECT_NE(world->epoch(), epoch);
     EXPECT_EQ(world->simulation().count(), 10000U);
     EXPECT_EQ(world->simulation().steps(), 0U);
@@ -174,7 +174,7 @@ TEST(World, ACancelledLoadLeavesTheWorldAsItWas) {
     EXPECT_EQ(sim::hashOf(world->simulation().snapshot()), hash);
 }
 
-// While spheres are added the others hold still: where they are is where there is no room.
+// While spheres are added, the others must not move, because new spheres must not overlap them.
 TEST(World, HoldsStillWhileSpheresAreAdded) {
     const auto world = open("two-spheres");
     while (!*world->advance(now)) {
@@ -199,7 +199,7 @@ TEST(World, HoldsStillWhileSpheresAreAdded) {
     EXPECT_EQ(sim::hashOf(state), hash);
 }
 
-// Sweep by sweep, and a look after every 16.
+// Each sweep is a piece, and so is the check after every 16 sweeps.
 TEST(World, SpheresInOnePointArePushedApartInPieces) {
     const auto world = open("two-spheres");
     ASSERT_FALSE(give(*world, commandOf(R"({"load":{"scene":{"bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
@@ -222,7 +222,7 @@ TEST(World, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
     EXPECT_EQ(world->simulation().substeps(), most);
 }
 
-// More spheres, fewer substeps: a step of the largest accepted number is of limited work.
+// With more spheres, fewer substeps are accepted, so that the work of a step is limited.
 TEST(World, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     scene::Scene scene;
     scene.bounds = {.min = glm::dvec3(-10), .max = glm::dvec3(10)};
@@ -244,14 +244,14 @@ TEST(World, RefusesAPushThatIsTooFastAndTakesTheLargest) {
         const double most = std::stod(refused.message.substr(at + 8));
         refusalOf(*world, fmt::format(R"({{"push":{{"sphere":0,"impulse":[{},0,0]}}}})", 1.001 * most));
         done(*world, fmt::format(R"({{"push":{{"sphere":0,"impulse":[{},0,0]}}}})", 0.999 * most));
-        // The fastest that is accepted moves no farther in a substep than it should.
+        // After the largest accepted push, the sphere does not move too far in a substep.
         sim::Simulation& simulation = world->simulation();
         const double h = simulation.scene().step / simulation.substeps();
         EXPECT_LE(glm::length(sim::velocityOf(simulation.snapshot(), 0)) * h, 1.001 * scene::farMotion * 0.05);
     }
 }
 
-// What is refused changes nothing, its speed neither.
+// A command that is cancelled does not change the speed either.
 TEST(World, ASpeedComesWithTheRestOfItsCommand) {
     const auto world = open("two-spheres");
     const char* set = R"({"set":{"speed":4,"model":"ACCURATE"}})";
@@ -265,13 +265,13 @@ TEST(World, ASpeedComesWithTheRestOfItsCommand) {
     EXPECT_EQ(world->pacer().speed(), 4);
 }
 
-// However fast it was: the refusal names an impulse that is accepted.
+// Even for a very fast sphere, the refusal gives an impulse that is accepted.
 TEST(World, APushAgainstAVeryFastSphereNamesTheLargest) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":20}})");
     done(*world, R"({"push":{"sphere":0,"impulse":[1000,0,0]}})");
-    done(*world, R"({"set":{"substeps":1}})");  // too few for so fast a sphere: from now on it is faster than may be
+    done(*world, R"({"set":{"substeps":1}})");  // too few substeps for this speed: the sphere is now too fast
     const Error refused = refusalOf(*world, R"({"push":{"sphere":0,"impulse":[-1e9,0,0]}})");
     const auto at = refused.message.rfind("at most ");
     ASSERT_NE(at, std::string::npos) << refused.text();

@@ -67,26 +67,26 @@ Bytes garbled(Random& random, Bytes frame, const Bytes& other) {
         case 0:
             frame.resize(draw(random, frame.size()));
             break;
-        case 1: {  // some bytes more
+        case 1: {  // appends random bytes
             const std::size_t room = 1 + draw(random, 12);
             for (std::size_t k = 0; k < room; ++k) frame.push_back(static_cast<std::byte>(random()));
             break;
         }
-        case 2: {  // its beginning, the end of another
+        case 2: {  // joins its beginning and the end of another frame
             if (other.empty()) break;
             frame.resize(static_cast<std::size_t>(at()) & ~std::size_t{3});
             const auto from = static_cast<std::ptrdiff_t>(std::min(frame.size(), other.size()));
             frame.insert(frame.end(), other.begin() + from, other.end());
             break;
         }
-        case 3:  // its head
+        case 3:  // changes bytes of the head
             for (unsigned k = 1 + draw(random, 3); k > 0; --k)
                 frame[draw(random, 24) % frame.size()] = static_cast<std::byte>(random());
             break;
-        case 4:  // nothing but bytes
+        case 4:  // only random bytes
             std::ranges::generate(frame, [&] { return static_cast<std::byte>(random()); });
             break;
-        default:  // some bits behind the head
+        default:  // flips bits after the head
             for (unsigned k = 1 + draw(random, 6); k > 0; --k) {
                 const std::size_t byte = std::min<std::size_t>(16 + static_cast<std::size_t>(at()), frame.size() - 1);
                 frame[byte] ^= std::byte(1U << draw(random, 8));
@@ -124,12 +124,12 @@ class Chain {
         encoder_.tier().join(hashed());
         return last_ = encoder_.tier().download();
     }
-    // Where the chain is lost, a keyframe soon.
+    // Returns the next frame; if the chain is lost, soon a keyframe.
     Bytes frame() {
         const std::uint32_t kind = draw(random_, 32);
         if (decoder_.wantsKeyframe() ? kind < 16 : kind < 2) return join();
         if (kind == 17) return begin();
-        if (kind == 18) (void)next();  // is missed
+        if (kind == 18) (void)next();  // the decoder misses a frame
         if (kind < 26) return next();
         const Bytes other = last_;
         return garbled(random_, kind >= 29 ? join() : next(), other);

@@ -121,12 +121,12 @@ const std::vector<glm::ivec3>& Motion::next() {
                 q = draw(2 * reach, 2 * reach, 2 * reach) - static_cast<int>(reach);
                 break;
             }
-            case 5: {  // as far as a float holds whole numbers
+            case 5: {  // jumps as far as a float holds whole numbers
                 const std::uint32_t reach = 1U << (10 + (block / 8 + frame_) % 14);
                 q = draw(2 * reach, 2 * reach, 2 * reach) - static_cast<int>(reach);
                 break;
             }
-            case 6:  // a common motion
+            case 6:  // moves with a velocity common to all
                 q += glm::ivec3(300, -5000, 70) + draw(2, 2, 2);
                 if (q.y < -10000000) q.y = 0;
                 break;

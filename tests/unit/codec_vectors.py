@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""A decoder written from docs/codec.md alone, held against the test vectors that the document describes:
-codec_vectors.py Vectors FOLDER, with the repository's folder; and on random chains, sound and garbled, against our decoder:
-codec_vectors.py Chains CODEC_CHAINS, with the program of codec_chains.cpp. As plain as it can be: it takes its time."""
+"""A decoder written after docs/codec.md alone, which is compared with the test vectors of that document:
+codec_vectors.py Vectors FOLDER, with the repository's folder. It is also compared with our decoder, on random chains of
+valid and garbled frames: codec_vectors.py Chains CODEC_CHAINS, with the program of codec_chains.cpp. It is simple and
+slow."""
 import re
 import struct
 import subprocess
@@ -27,7 +28,7 @@ def signed(value, bits=32):
 
 
 class Bits:
-    """Of a chunk, least significant first."""
+    """The bits of a chunk, least significant first."""
 
     def __init__(self, data):
         self._all = int.from_bytes(data, "little")

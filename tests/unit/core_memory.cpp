@@ -19,7 +19,7 @@ class ControlGroup : public testing::Test {
         fs::create_directories((root_ / path).parent_path());
         std::ofstream(root_ / path) << text;
     }
-    // Room that the control groups leave.
+    // Memory (bytes) that the control groups still allow.
     [[nodiscard]] std::optional<std::uint64_t> room() const {
         const auto found = roomInControlGroup(root_);
         return found ? std::optional(found->left) : std::nullopt;
@@ -58,7 +58,7 @@ TEST_F(ControlGroup, LeastRoomOfTheGroupsCounts) {
 
 TEST_F(ControlGroup, Version1IsRead) {
     file("proc/self/cgroup", "5:cpu:/a\n4:memory:/docker/1f\n");
-    file("sys/fs/cgroup/memory/memory.limit_in_bytes", "8000\n");  // the root that a container sees
+    file("sys/fs/cgroup/memory/memory.limit_in_bytes", "8000\n");  // the root group, as seen in a container
     file("sys/fs/cgroup/memory/memory.usage_in_bytes", "3000\n");
     file("sys/fs/cgroup/memory/memory.stat", "inactive_file 1\ntotal_inactive_file 1000\n");
     EXPECT_EQ(room(), 6000U);

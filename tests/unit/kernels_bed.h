@@ -9,15 +9,15 @@ namespace spherule::kernels {
 
 using Feature = compute::cpu::Features;
 
-// Spheres of up to 0.5 m in cells of 1.1 m, each of 1 kg and the first material, with the lists and the state that the
-// pair kernels want. Slots change with every rebuild: tests speak of ids.
+// Spheres of up to 0.5 m in cells of 1.1 m, with the lists and arrays that the pair kernels use. Each has 1 kg and the
+// first material. Tests use ids, because slots change with every rebuild.
 struct Bed {
     explicit Bed(std::vector<vec4> places, std::uint64_t has = 0);
 
-    // With the contacts' history carried over, in the order of the simulation's plan.
+    // Rebuilds the lists in the order of the simulation's plan, and carries over the history of contacts.
     void rebuild();
 
-    // A kernel over all groups, one colour after the other.
+    // Runs a kernel over all groups, one colour after another.
     void sweep(std::string_view kernel);
 
     uint slotOf(uint id) const;
@@ -32,20 +32,20 @@ struct Bed {
     void setSpin(uint id, vec3 to) { angularVelocity[slotOf(id)] = vec4(to, 0); }
 
     vec3 normal(uint a, uint b) const;  // from b to a
-    vec3 slip(uint a, uint b) const;    // how fast the surface of `a` moves along that of `b`
+    vec3 slip(uint a, uint b) const;    // tangential velocity of the surface of `a` relative to the surface of `b`
 
     vec3 momentum() const;
     vec3 angularMomentum() const;
     float energy() const;
 
-    // Indices into `pairs`, and the ids of one.
+    // Indices into `pairs`, and the ids of one pair.
     std::vector<uint> listed() const;
     uvec2 idsOf(uint pair) const;
-    // Indices into `touching` and `normalImpulses`, and the ids of one.
+    // Indices into `touching` and `normalImpulses`, and the ids of one pair.
     std::vector<uint> inTouch() const;
     uvec2 idsInTouch(uint pair) const;
 
-    // Makes all listed pairs touch, pressed together by this.
+    // Makes all listed pairs touch, with this normal impulse (N s).
     void pressAll(float impulse);
 
     uint count;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""kernels_check.py PROJECT CMAKE: the checks of server/compute/cpu/Kernels.cmake stop the build, with a sentence, for
-kernels that no device could run."""
+"""kernels_check.py PROJECT CMAKE: tests that server/compute/cpu/Kernels.cmake stops the build with a message when a
+kernel is invalid."""
 import shutil
 import subprocess
 import sys

@@ -8,7 +8,7 @@
 namespace spherule::kernels {
 namespace {
 
-constexpr vec3 across(0.6F, 0.64F, 0.48F);  // of length 1
+constexpr vec3 across(0.6F, 0.64F, 0.48F);  // unit length
 constexpr float plenty = 1000;              // N s
 
 void rub(Bed& bed, float pressing) {
@@ -16,7 +16,7 @@ void rub(Bed& bed, float pressing) {
     bed.sweep("solve_friction");
 }
 
-// Two equal spheres that touch, of 0.5 m and 1 kg each, with this law.
+// Two equal spheres of 0.5 m and 1 kg that touch, with this contact law.
 Bed pairWith(vec4 law) {
     Bed bed({vec4(across, 0.5F), vec4(0, 0, 0, 0.5F)}, Feature::FRICTION);
     bed.parameters.law = law;
@@ -24,7 +24,7 @@ Bed pairWith(vec4 law) {
     return bed;
 }
 
-// That slide and turn in all directions.
+// A pair that slides and spins in all directions.
 Bed slidingPair(float friction) {
     Bed bed = pairWith(vec4(0, friction, 0, 0));
     bed.setVelocity(0, {1, -2, 0.5F});
@@ -37,7 +37,7 @@ void expectNear(vec3 value, vec3 wanted, float within = 1e-5F) {
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(value[axis], wanted[axis], within) << "axis " << axis;
 }
 
-// What contacts cannot change.
+// Quantities that contacts do not change.
 struct Conserved {
     explicit Conserved(const Bed& bed) : momentum(bed.momentum()), angularMomentum(bed.angularMomentum()) {}
     void expectIn(const Bed& bed) const {
@@ -84,7 +84,7 @@ TEST(KernelsAsCpp, NothingRubsThatIsNotPressed) {
     }
 }
 
-// Of different size, mass and material.
+// A pair with different radii, masses and materials.
 Bed unequalPair(vec4 law, std::uint64_t features) {
     Bed bed({vec4(0.8F * across, 0.5F), vec4(0, 0, 0, 0.3F)},
             Feature::FRICTION | Feature::RADII | Feature::MATERIALS | features);
@@ -127,19 +127,19 @@ TEST(KernelsAsCpp, RollingResistanceAndFrictionStopRollAndSlipTogether) {
     EXPECT_LT(bed.energy(), energy);
 }
 
-// Of solid spheres.
+// Returns the moment of inertia of a solid sphere.
 float inertiaOf(const Bed& bed, uint id) {
     return 0.4F * bed.massOf(id) * bed.radiusOf(id) * bed.radiusOf(id);
 }
 
-constexpr float lever = 0.5F * 0.3F / (0.5F + 0.3F);  // of the unequal pair
+constexpr float lever = 0.5F * 0.3F / (0.5F + 0.3F);  // effective radius of the unequal pair (m)
 
 TEST(KernelsAsCpp, RollingIsSlowedByNoMoreThanItsResistance) {
     const float resistance = 0.1F;
     const float pressing = 0.2F;
     Bed bed = unequalPair(vec4(0, 10, resistance, 0), Feature::ROLLING);
     const vec3 axis = glm::normalize(glm::cross(across, vec3(1, 0, 0)));
-    // Like two gears, which do not slip.
+    // The spheres turn like two gears, without slip.
     bed.setVelocity(1, vec3(0));
     bed.setSpin(0, 3.0F * axis);
     bed.setSpin(1, -5.0F * axis);

@@ -1,4 +1,4 @@
-// What contacts remember of their slip, as the model `accurate` keeps it.
+// The slip of contacts, which the model `accurate` keeps from substep to substep.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace spherule::kernels {
 namespace {
 
-using Ids = std::pair<uint, uint>;  // the lower first
+using Ids = std::pair<uint, uint>;  // the lower id first
 
-// As the sphere of the lower id sees it.
+// Returns the slip of the sphere with the lower id relative to the other one.
 vec4 seenByTheLower(const Bed& bed, uint pair) {
     const uvec2 ids = bed.idsOf(pair);
     const vec4 one = bed.tangentialSlip[pair];
@@ -35,7 +35,7 @@ uint pairsWhoseFirstIsTheLower(const Bed& bed) {
     return sum;
 }
 
-// 64 spheres on a jittered lattice, in random order, of radii from 0.42 to 0.5 m, some alike.
+// 64 spheres on a jittered lattice, in random order. Their radii are 0.42 to 0.5 m, some of them equal.
 std::vector<vec4> cluster() {
     std::mt19937 random(4);
     std::uniform_real_distribution<float> jitter(-0.08F, 0.08F);
@@ -49,7 +49,7 @@ std::vector<vec4> cluster() {
     return places;
 }
 
-// Two thirds of the pairs have slipped.
+// Gives a random slip to two thirds of the pairs.
 void slipAtRandom(Bed& bed) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> slip(-1e-3F, 1e-3F);
@@ -57,7 +57,7 @@ void slipAtRandom(Bed& bed) {
         bed.tangentialSlip[k] = random() % 3 == 0 ? vec4(0) : vec4(slip(random), slip(random), slip(random), 1);
 }
 
-// Turns the bed inside out: it keeps its distances, to the last bit, and hardly a sphere keeps its slot.
+// Mirrors all positions at the origin. Distances stay exactly the same, but almost all spheres change their slots.
 void mirror(Bed& bed) {
     for (uint id = 0; id < bed.count; ++id) bed.setPlace(id, -bed.at(id));
 }
@@ -119,8 +119,8 @@ TEST(KernelsAsCpp, AContactAddsUpItsSlipUntilItEnds) {
     bed.setVelocity(0, {0, 0.1F, 0});
     bed.setSpin(1, {0, 0, 0.5F});
     const auto press = [&bed] { bed.sweep("solve_forces"); };
-    // The surface of the second moves against y with half its spin's speed, at radius 0.5: 0.25 m/s. The contact point
-    // lies in the middle between the centres, at 0.495: 0.2475 m/s.
+    // The surface of the second sphere moves towards -y with 0.5 rad/s times the arm. slip() uses the radius of 0.5 m,
+    // which gives 0.25 m/s. The kernel uses the distance to the contact point, 0.495 m, which gives 0.2475 m/s.
     ASSERT_NEAR(bed.slip(0, 1).y, 0.35F, 1e-6F);
     for (float substeps = 1; substeps < 4; ++substeps) {
         press();
@@ -141,7 +141,8 @@ TEST(KernelsAsCpp, ASlidingContactStretchesItsSpringNoFurtherThanFrictionHolds) 
     bed.rebuild();
     bed.setVelocity(0, {0, 100, 0});
     bed.sweep("solve_forces");
-    // k = 2 Y R of 0.01 m, against 2 G R of the slip: what is remembered is what friction can hold.
+    // The normal force is 2 Y R * 0.01 m, the tangential force 2 G R * slip. The slip is limited to the one that
+    // friction can hold.
     EXPECT_NEAR(remembered(bed).at({0, 1}).y, friction * 1e5F / 3e4F * 0.01F, 1e-6F);
 }
 

@@ -8,14 +8,14 @@
 namespace spherule::kernels {
 namespace {
 
-constexpr vec3 across(0.6F, 0.64F, 0.48F);  // of length 1
+constexpr vec3 across(0.6F, 0.64F, 0.48F);  // unit length
 constexpr std::uint64_t bouncing = Feature::RESTITUTION;
 
 void collide(Bed& bed) {
     bed.sweep("solve_impulses");
 }
 
-// Two spheres of 1 and 3 kg that overlap by a hundredth of a metre.
+// Two spheres of 1 and 3 kg that overlap by 0.01 m.
 Bed pairWith(vec4 law, std::uint64_t features) {
     Bed bed({vec4(0.99F * across, 0.5F), vec4(0, 0, 0, 0.5F)}, features);
     bed.setMass(1, 3);
@@ -98,7 +98,7 @@ TEST(KernelsAsCpp, AnImpactRubsWithinCoulombsLimit) {
         const float energy = bed.energy();
         const vec3 slip = bed.slip(0, 1);
         collide(bed);
-        // The normal impulse is (1 + e) v m*, and friction changes the slip by 7/2 of what it is over m*.
+        // The normal impulse is (1 + e) v m*. A friction impulse J changes the slip by 7/2 J / m*.
         const vec3 wanted = friction < 1 ? slip - 3.5F * friction * 3 * glm::normalize(slip) : vec3(0);
         expectNear(bed.slip(0, 1), wanted, 2e-5F);
         EXPECT_NEAR(partingSpeed(bed), 1, 1e-5F);

@@ -12,7 +12,8 @@ void separate(Bed& bed) {
 }
 
 TEST(KernelsAsCpp, PairsWithinTheMarginAreListedOnce) {
-    // 0-1 overlap, 1-2 are apart by half the margin, 3 is alone; 0-4 meet across a cell border below the origin.
+    // 0 and 1 overlap; 1 and 2 are half a margin apart; 3 is alone; 0 and 4 are near across a cell border below the
+    // origin.
     Bed bed({vec4(0.1F, 0, 0, 0.5F), vec4(1.0F, 0, 0, 0.5F), vec4(2.05F, 0, 0, 0.5F), vec4(0, 5, 0, 0.5F),
              vec4(-0.8F, 0, 0, 0.5F)});
     bed.rebuild();

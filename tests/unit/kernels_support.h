@@ -12,7 +12,7 @@
 
 #include "compute/cpu/kernels.h"
 
-// Runs kernels by the name of their file, as C++.
+// Runs kernels, compiled as C++, by their file names.
 namespace spherule::kernels {
 
 using glm::uvec2;
@@ -21,14 +21,14 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 
-// As shaders/shared/layout.h has it, with its constants.
+// The structures and constants of shaders/shared/layout.h.
 namespace layout {
 #include "shared/layout.h"
 }
 
 constexpr std::uint64_t allFeatures = ~std::uint64_t{0};
 
-// A buffer of a kernel: any vector.
+// A buffer of a kernel, in any vector.
 struct Slot {
     template <class T>
     Slot(std::string_view buffer, std::vector<T>& values) : name(buffer), data(values.data()) {}
@@ -42,8 +42,8 @@ struct Launch {
     std::uint64_t features = 0;
 };
 
-// Binds the buffers that the kernel declares; there may be more. Throws std::out_of_range for a kernel or a buffer that
-// is not there.
+// Binds the buffers that the kernel declares; `slots` may have more. Throws std::out_of_range if the kernel or a buffer
+// does not exist.
 void launch(std::string_view kernel, std::span<const Slot> slots, const Launch& how);
 inline void launch(std::string_view kernel, std::initializer_list<Slot> slots, const Launch& how) {
     launch(kernel, std::span(slots.begin(), slots.size()), how);
@@ -51,7 +51,7 @@ inline void launch(std::string_view kernel, std::initializer_list<Slot> slots, c
 
 std::vector<std::string_view> kernelNames();
 
-// Turns values into exclusive prefix sums with the three scan kernels, two levels of blocks deep.
+// Replaces values with their exclusive prefix sums, by the three scan kernels with two levels of blocks.
 void prefixSum(std::vector<uint>& values);
 
 }  // namespace spherule::kernels

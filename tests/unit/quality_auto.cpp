@@ -9,7 +9,7 @@ using scene::Goal;
 
 constexpr scene::SubstepRange range{.fewest = 2, .most = 64};
 
-// A world whose steps take as long as their substeps, and whose overlap falls with their square.
+// A model of a world: the step time is proportional to the substeps, the overlap to the inverse of their square.
 struct World {
     AutoQuality quality;
     double msPerSubstep = 1;
@@ -104,7 +104,7 @@ TEST(AutoQuality, NeverLeavesItsRange) {
     world.read(100);
     EXPECT_EQ(world.substeps, 64U);
     EXPECT_NE(world.said.find("out of reach even with 64 substeps"), std::string::npos) << world.said;
-    // More than its most, as a user may have asked for: it does not come down to make overlaps smaller.
+    // More substeps than the range allows, as a user may set: they are not reduced while the overlap is too large.
     world.substeps = 100;
     world.read(20);
     EXPECT_EQ(world.substeps, 100U);

@@ -5,7 +5,7 @@
 namespace spherule::quality {
 namespace {
 
-// Reads motions with this energy, `times` in a row; how often something was said.
+// Takes a reading with this kinetic energy `times` times; returns the number of messages.
 int read(EnergyWatch& watch, double joules, int times = 1) {
     int said = 0;
     for (int k = 0; k < times; ++k) said += watch.take({.step = 7, .kinetic = joules, .potential = 0}) ? 1 : 0;

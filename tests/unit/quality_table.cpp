@@ -119,7 +119,7 @@ TEST(Dial, EstimatesWhatASubstepCostsAndWhatEachSphereAdds) {
     ASSERT_TRUE(table);
     scene::Scene scene = bounce();
     ASSERT_EQ(scene.spheres.size(), 1U);
-    // 0.2 ms for one sphere, 0.4 ms for 101: 2 us for each more; 8 substeps.
+    // 0.2 ms for one sphere and 0.4 ms for 101: 2 us per further sphere. There are 8 substeps.
     EXPECT_NEAR(dialFor(*table, scene).positions(1).step_ms(), 8 * 0.2, 1e-9);
     scene.spheres.resize(501, scene.spheres.front());
     const v1::Dial dial = dialFor(*table, scene);

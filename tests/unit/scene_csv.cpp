@@ -15,7 +15,7 @@ class SceneCsv : public ::testing::Test {
                     "software");
     }
 
-    // The refusal from the name of the CSV file on.
+    // Returns the part of the refusal that starts with the name of the CSV file.
     std::string refusal(const std::string& csv, const std::string& more = "") {
         const auto scene = loaded(csv, more);
         if (scene) return "accepted";

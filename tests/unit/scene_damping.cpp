@@ -9,14 +9,14 @@
 namespace spherule::scene::testing {
 namespace {
 
-// The speed of parting over that of meeting, where `acceleration` of overlap x and its rate v holds until it would
-// pull.
+// Integrates an impact; returns separation speed / approach speed. `acceleration` depends on the overlap x and its rate
+// v. The contact ends when the acceleration would pull.
 double restitutionUnder(auto acceleration) {
     constexpr double h = 1e-4;
     double x = 0;
     double v = 1;
     for (int k = 0; k < 1'000'000; ++k) {
-        // Runge and Kutta's of the fourth order.
+        // Runge-Kutta method of the fourth order.
         const std::array<double, 2> a{v, acceleration(x, v)};
         const std::array<double, 2> b{v + 0.5 * h * a[1], acceleration(x + 0.5 * h * a[0], v + 0.5 * h * a[1])};
         const std::array<double, 2> c{v + 0.5 * h * b[1], acceleration(x + 0.5 * h * b[0], v + 0.5 * h * b[1])};
@@ -48,7 +48,8 @@ TEST(SceneDamping, GivesItsRestitutionToLinearSprings) {
     }
 }
 
-// The dashpot goes as the fourth root of the overlap; sqrt(5) makes of it the linear one, in x^(5/4) for the overlap.
+// The dashpot is proportional to the fourth root of the overlap. Its factor sqrt(5) gives the same restitution as a
+// linear dashpot.
 TEST(SceneDamping, GivesItsRestitutionUnderHertzsLaw) {
     for (const double e : restitutions) {
         const double z = dampingRatio(e);

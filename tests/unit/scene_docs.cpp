@@ -8,7 +8,7 @@
 namespace spherule::scene::testing {
 namespace {
 
-// The first block of `language` in the page on the format.
+// Returns the first code block of `language` in the page on the scene format.
 std::string blockOf(const std::string& language) {
     std::ifstream file(SPHERULE_DOCS "/scene-format.md");
     const std::string page(std::istreambuf_iterator<char>(file), {});

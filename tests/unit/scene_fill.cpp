@@ -39,7 +39,7 @@ TEST(SceneFill, MixesVeryDifferentRadiiWithoutOverlaps) {
 }
 
 TEST(SceneFill, KeepsRadiiInTheOrderDrawn) {
-    // Large ones are placed first; that must not show in the ids.
+    // Large spheres are placed first, but ids keep the order in which radii are drawn.
     const Scene scene = sceneWith(fill(R"("count": 100)", R"({"uniform": {"min": 0.01, "max": 0.05}})"));
     const auto rises = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
     const auto falls = [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; };
@@ -107,7 +107,7 @@ TEST(SceneFill, RefusesWhatCannotBe) {
 
 TEST(SceneFill, OccupancyAgreesWithAllPairs) {
     Random random(3);
-    Occupancy occupancy(0.15);  // smaller than the largest: slower, with the same answers
+    Occupancy occupancy(0.15);  // smaller than the largest radius: slower, with the same results
     std::vector<std::pair<glm::dvec3, double>> taken;
     int free = 0;
     for (int i = 0; i < 3000; ++i) {

@@ -11,7 +11,7 @@ std::string lattice(const std::string& more, const std::string& radius = R"({"co
 
 TEST(SceneLattice, FillsTheRegionAlongXThenYThenZ) {
     const Scene scene = sceneWith(lattice(R"("spacing": 0.4)"));
-    ASSERT_EQ(scene.spheres.size(), 27U);  // centres from 0.1 to 0.9
+    ASSERT_EQ(scene.spheres.size(), 27U);  // centres between 0.1 and 0.9 m
     EXPECT_NEAR(scene.spheres[0].position.x, 0.1, 1e-12);
     EXPECT_NEAR(scene.spheres[1].position.x, 0.5, 1e-12);
     EXPECT_NEAR(scene.spheres[1].position.y, 0.1, 1e-12);

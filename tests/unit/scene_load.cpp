@@ -84,7 +84,7 @@ TEST(SceneLoad, OnlyRegularFilesAreRead) {
 TEST(SceneLoad, FilesThatAreTooLargeAreRefusedBeforeTheyAreRead) {
     const TemporaryFolder folder;
     const std::string path = folder.write("large.json", "{}");
-    std::filesystem::resize_file(path, 2ULL << 30U);  // takes up no room on the disk
+    std::filesystem::resize_file(path, 2ULL << 30U);  // a sparse file, which takes no space on the disk
     EXPECT_EQ(load(path, "gpu").error().text(), path + ": has 2147483648 bytes, at most 33554432 are allowed");
     std::string empty = R"({"groups": [{})";
     for (int k = 0; k < 2'000'000; ++k) empty += ",{}";

@@ -11,7 +11,8 @@ namespace {
 constexpr int draws = 200'000;
 
 TEST(SceneRandom, IsTheSameEverywhere) {
-    // The values are fixed by the C++ standard (mt19937_64) and IEEE 754 alone; other ones move every seeded scene.
+    // The C++ standard (mt19937_64) and IEEE 754 determine these values. Other values would change all scenes with a
+    // seed.
     Random random(1);
     EXPECT_EQ(random.uniform(), Random(1).uniform());
     EXPECT_NE(random.uniform(), Random(2).uniform());
@@ -72,7 +73,7 @@ TEST(SceneRadii, StayWithinTheirLimits) {
         normalSum += static_cast<double>(n);
     }
     EXPECT_NEAR(uniformSum / draws, 0.15, 0.0005);
-    // The mean of a normal cut one deviation below and four above: 0.12 + 0.02 phi(1) / Phi(1).
+    // Mean of a normal distribution that is cut at -1 and +4 standard deviations: 0.12 + 0.02 phi(1) / Phi(1).
     EXPECT_NEAR(normalSum / draws, 0.12 + 0.02 * 0.24197 / 0.84134, 0.0005);
 }
 

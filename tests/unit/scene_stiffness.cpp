@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// One sphere of 5 cm without weight, in the unit cube, that flies at `speed`.
+// One sphere of 5 cm in the unit cube without gravity, which moves at `speed` (m/s).
 Scene flying(double speed, const std::string& material = "", const std::string& overlap = "0.01") {
     return sceneWith(R"("gravity": [0, 0, 0], "materials": [)" + object(material) +
                      R"(], "quality": {"model": "ACCURATE", "overlap": )" + overlap + "}, " +
@@ -32,8 +32,8 @@ double massOf(const Scene& scene) {
     return 4.0 / 3 * pi * std::pow(static_cast<double>(sphere.radius), 3) * scene.materials[sphere.material].density;
 }
 
-// How long two bodies of this reduced mass touch that meet at `speed` and repel each other with `force` of the overlap;
-// in steps of `h`.
+// Returns the contact time (s) of two bodies with this reduced mass (kg) and approach speed (m/s). `force` (N) depends
+// on the overlap (m). It is integrated in steps of `h` (s).
 double contactUnder(auto force, double mass, double speed, double h) {
     double x = h * speed;
     double v = speed;
@@ -58,7 +58,7 @@ TEST(SceneStiffness, LinearSpringsYieldByTheOverlapAskedForAtTheFastestImpact) {
         const Scene scene = flying(2, R"("density": 2500)", std::to_string(overlap));
         const auto r = static_cast<double>(scene.spheres[0].radius);
         const double modulus = lawOf(scene).normal;
-        // m* v^2 = k d^2 for two equal spheres, and for one on a wall.
+        // m* v^2 = k d^2, for two equal spheres and for one sphere at a wall.
         EXPECT_NEAR(2 * std::sqrt(massOf(scene) / 2 / (2 * modulus * r / 2)) / r, overlap, 1e-6 * overlap);
         EXPECT_NEAR(2 * std::sqrt(massOf(scene) / (2 * modulus * r)) / r, overlap, 1e-6 * overlap);
     }
@@ -79,7 +79,7 @@ TEST(SceneStiffness, LinearSpringsBearThePileWithAFifthOfTheOverlap) {
                                       "radius": {"constant": 0.05})");
     const Scene scene = sceneWith(pile);
     ASSERT_EQ(scene.spheres.size(), 1000U);
-    // The lowest bear the weight of all on 100 places, each k d with k = 2 Y R* = Y r.
+    // The lowest layer carries the weight of all spheres at 100 contacts. Each has the force k d with k = 2 Y R* = Y r.
     const double load = massOf(scene) * 9.81 * 1000 / 100;
     const auto r = static_cast<double>(scene.spheres[0].radius);
     EXPECT_NEAR(load / (lawOf(scene).normal * r) / r, 0.2 * 0.5, 1e-6);
@@ -139,7 +139,7 @@ TEST(SceneContactTime, ExpectsSpheresToMeetHeadOn) {
     EXPECT_NEAR(springModulus(scene) / modulus, 0.25, 1e-6);
 }
 
-// Fifty spheres at all speeds of up to 1 m/s.
+// 50 spheres with random speeds of up to 1 m/s.
 Scene swarm(std::uint64_t seed) {
     Scene scene = sceneWith(R"("gravity": [0, 0, 0], "quality": {"model": "ACCURATE"})");
     scene.bounds.min = glm::dvec3(-1);
@@ -225,7 +225,7 @@ TEST(SceneContactTime, ScalesWithTheScene) {
     }
 }
 
-// What Hertz's law says of how deep a sphere gets into a wall of the same material, in radii.
+// Returns the largest overlap / radius of a sphere with a wall of the same material, by Hertz's law.
 double depthAfter(const Scene& scene, double speed) {
     const auto r = static_cast<double>(scene.spheres[0].radius);
     return std::pow(15 * massOf(scene) * speed * speed / (16 * lawOf(scene).normal * std::sqrt(r)), 0.4) / r;
@@ -263,14 +263,14 @@ TEST(SceneYoung, IsRefusedWhereSpheresWouldFallThroughTheFloor) {
 }
 
 TEST(SceneYoung, BearsThePile) {
-    // In weak gravity nothing falls fast, but a thousand lie on a hundred.
+    // The impacts of falling spheres are weak, but the lowest 100 spheres carry 1,000.
     const std::string pile = group(R"("lattice": {"min": [0, 0, 0], "max": [1, 1, 1], "spacing": 0.1},
                                       "radius": {"constant": 0.05})");
     Scene scene = sceneWith(R"("materials": [{"young": 1e9}], "quality": {"model": "ACCURATE"}, )" + pile);
     for (Sphere& sphere : scene.spheres) sphere.position.z = 0.05;
     const double force = massOf(scene) * 9.81 * 1000 / 100;
     const auto r = static_cast<double>(scene.spheres[0].radius);
-    // F = 4/3 E* sqrt(R*) d^1.5 of two spheres.
+    // F = 4/3 E* sqrt(R*) d^1.5 for two spheres.
     const double modulus = force / (4.0 / 3 * std::sqrt(r / 2) * std::pow(0.5 * r, 1.5));
     const double young = modulus * 2 * (1 - 0.25 * 0.25);
     scene.materials[0].young = 1.01 * young;
@@ -344,7 +344,7 @@ TEST(SceneContactTime, IsThatOfTheSmallestSphereAndTheStiffestSurface) {
     const std::string plate =
         R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "material": "steel"}])";
     const double plated = contactTimeOf(sceneWith(both + plate + ", " + spheres)).contact;
-    // E* doubles, nearly: the felt yields alone.
+    // E* is almost twice as large, because only the felt is deformed.
     EXPECT_NEAR(plated / soft, std::pow(0.5, 0.4), 0.001);
     const double large = contactTimeOf(sceneWith("\"materials\": [" + felt + R"(], "groups": [
         {"list": {"spheres": [{"position": [0.3, 0.5, 0.5], "radius": 0.1}]}}])"))

@@ -1,4 +1,4 @@
-// Substeps that were asked for, and substeps that are chosen.
+// Substeps that the scene sets, and substeps that the program chooses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace spherule::scene::testing {
 namespace {
 
-// Two spheres of 5 cm, with this quality and of this material.
+// Two spheres of 5 cm with this quality and this material.
 Scene sceneOf(const std::string& quality, const std::string& material = "", const Overrides& overrides = {}) {
     return sceneWith("\"quality\": " + object(quality) + ", \"materials\": [" + object(material) + "], " +
                          group(R"("list": {"spheres": [{"position": [0.3, 0.5, 0.5]}, {"position": [0.7, 0.5, 0.5]}]},

@@ -8,19 +8,19 @@
 
 namespace spherule::scene::testing {
 
-// A scene in the unit cube with these further members, as JSON: `"step": 0.01, "groups": []`.
+// Builds a scene in the unit cube. `members`: its other members as JSON, such as `"step": 0.01, "groups": []`.
 Result<Scene> builtWith(std::string_view members, const Overrides& overrides = {});
 
-// The scene, or a failed test and an empty one.
+// Returns the scene. If it is refused, the test fails and the scene is empty.
 Scene sceneWith(std::string_view members, const Overrides& overrides = {});
 
-// The text of the refusal, or "accepted".
+// Returns the text of the refusal, or "accepted".
 std::string refusalOf(std::string_view members, const Overrides& overrides = {});
 
-// Members in braces.
+// Returns a JSON object with these members.
 std::string object(std::string_view members);
 
-// One group with these members.
+// Returns the member `groups`, with one group that has these members.
 std::string group(std::string_view members);
 
 v1::Scene parsed(const std::string& json);

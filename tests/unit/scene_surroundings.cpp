@@ -71,7 +71,7 @@ TEST(SceneBounds, MayBeTouched) {
 }
 
 TEST(SceneBounds, AreNoLargerThanFloat32Resolves) {
-    // Half of 2000 m over 2^23 is 1.19e-4 m; a ten-thousandth of 1 m is less, of 1.2 m more.
+    // The resolution is 2000 m / 2 / 2^23 = 1.19e-4 m. The limit is 1e-4 of the radius: 1 m is too small, 1.2 m is not.
     const std::string bounds = R"("min": [-1000, 0, 0], "max": [1000, 10, 10])";
     EXPECT_EQ(refusalOfBounds(bounds, ", " + ballAt("[5, 5, 5]", "1.2")), "accepted");
     EXPECT_EQ(

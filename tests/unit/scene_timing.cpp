@@ -9,7 +9,7 @@ namespace {
 
 constexpr double frame = 1.0 / 60;
 
-// For one sphere of this radius, or none.
+// Returns the substeps for one sphere of this radius (m); 0: no sphere.
 double substepsFor(double step, double gravity, double radius, Model model = Model::Balanced) {
     Scene scene;
     scene.step = step;
@@ -57,8 +57,8 @@ TEST(SceneTiming, FastTakesAQuarter) {
 }
 
 TEST(SceneTiming, AccurateTakesSeventySubstepsForAContact) {
-    // A spring that the slowest impact that is expected, 0.1 m/s, presses by a hundredth of 5 cm holds it for pi times
-    // 5 ms: 74.27 substeps.
+    // The slowest expected impact (0.1 m/s) compresses the spring by 0.01 * 5 cm. The contact time is then pi * 5 ms:
+    // 74.27 substeps.
     const auto substeps = [](const std::string& overlap) {
         const std::string quality = R"("quality": {"model": "ACCURATE", "overlap": )" + overlap + "}, ";
         return sceneWith(R"("gravity": [0, 0, 0], )" + quality + sphereOf("0.05")).quality.substeps;

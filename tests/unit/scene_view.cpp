@@ -14,7 +14,7 @@
 namespace spherule::scene::testing {
 namespace {
 
-// The largest distance of a corner of the bounds from the picture's middle, 1 at its edge.
+// Returns the largest distance of a corner of the bounds from the middle of the picture; the edge is at 1.
 double reachInPicture(const Camera& camera, const Bounds& bounds, double aspect) {
     const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
@@ -62,7 +62,7 @@ TEST(SceneView, CamerasAreChecked) {
     EXPECT_EQ(refusalOf(R"("camera": {"fieldOfView": 200})"), "camera.fieldOfView: is 200, must be 1 to 150 degrees");
 }
 
-// From the floor of the bounds to the highest sphere; without walls, just the spheres.
+// Returns the bounds up to the highest sphere. If the scene has no walls, returns the bounds of the spheres.
 Bounds contentsOf(const Scene& scene) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Bounds contents;

@@ -17,7 +17,7 @@ using scene::Model;
 using scene::testing::parsed;
 using enum Feature;
 
-// Nothing but two equal spheres that do not bounce.
+// A scene of two equal spheres that do not bounce.
 constexpr const char* bare =
     R"({"gravity": [0, 0, 0], "materials": [{"name": "clay", "restitution": 0}], "sleep": {"enabled": false},
     "bounds": {"min": [0,0,0], "max": [1,1,1], "open": ["X_MIN", "X_MAX", "Y_MIN", "Y_MAX", "Z_MIN", "Z_MAX"]},
@@ -46,7 +46,7 @@ v1::MaterialPair& addPair(v1::Scene& scene, const std::string& a, const std::str
     return pair;
 }
 
-// Makes the uppermost face a wall of this material.
+// Closes the top face with a wall of this material.
 void closeTop(v1::Scene& scene, const std::string& material) {
     scene.mutable_bounds()->mutable_open()->RemoveLast();
     scene.mutable_bounds()->set_material(material);
@@ -61,7 +61,7 @@ Names namesOf(const Features& features) {
     return names;
 }
 
-// Those of the bare scene, and these.
+// Returns the features of the bare scene and these further features.
 Features bareWith(std::initializer_list<Feature> more) {
     Features features = featuresAfter([](v1::Scene&) {});
     for (const Feature feature : more) features.set(feature);

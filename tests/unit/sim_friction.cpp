@@ -1,4 +1,4 @@
-// What friction and resistance require of a simulation.
+// The features that friction and rolling resistance require.
 #include <gtest/gtest.h>
 
 #include "scene_support.h"
@@ -9,7 +9,7 @@ namespace {
 
 using scene::testing::parsed;
 
-// Two spheres of "ball" in a closed cube of "wall", with these further members.
+// Returns the features of two spheres of the material "ball" in a closed cube of "wall". `more`: further members.
 Features featuresWith(const std::string& ball, const std::string& wall, const std::string& more = "") {
     const auto scene =
         scene::build(parsed(R"({"bounds": {"min": [0,0,0], "max": [1,1,1], "material": "wall"}, "groups": [

@@ -39,9 +39,9 @@ v1::Scene latticeOf(std::uint32_t count, double friction) {
     return scene;
 }
 
-// Bytes that this process holds, and the most that it ever held.
+// Memory of this process (bytes): held() at present, mostHeld() at its peak.
 std::uint64_t held() {
-    malloc_trim(0);  // what was freed is not held
+    malloc_trim(0);  // returns freed memory to the system
     std::ifstream file("/proc/self/statm");
     std::uint64_t size = 0;
     std::uint64_t resident = 0;
@@ -78,7 +78,7 @@ TEST_F(SimMemory, WhatIsCountedIsWhatIsTaken) {
     EXPECT_EQ(memory::claimed().held + memory::claimed().promised, 0U);
 }
 
-// More spheres than the other tests have, so that their most does not hide this one's.
+// This test has more spheres than the others, so that an earlier peak does not hide its own peak.
 TEST_F(SimMemory, ASceneIsMadeWithoutASecondCopyOfItsSpheres) {
     constexpr std::uint32_t spheres = 4'000'000;
     const std::uint64_t before = held();

@@ -1,4 +1,4 @@
-// The rows of sim/arrays.def and the kernels: they name the same things.
+// sim/arrays.def and the kernels declare the same arrays and buffers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using compute::BufferDeclaration;
 
-// Buffers of kernels that serve several arrays: a launch says which.
+// Buffers that are bound to different arrays; each launch gives the array.
 const std::set<std::string_view> general{"values", "sums", "column", "velocityBeforeSolve"};
 
 bool encodes(std::string_view kernel) {
@@ -38,7 +38,7 @@ TEST(SimArrays, EveryBufferOfAKernelIsAnArrayOfItsType) {
 }
 
 TEST(SimArrays, EveryArrayIsABufferOfSomeKernel) {
-    // Bound by aliases.
+    // These arrays are bound through aliases.
     std::set<std::string_view> used{nameOf(Array::BlockSums), nameOf(Array::SuperSums)};
     for (const auto& entry : compute::cpu::floatKernels())
         for (const auto& declared : entry.buffers) used.insert(declared.name);
@@ -75,7 +75,7 @@ TEST(SimArrays, ThatCannotBeBoundAreRefusedWithASentence) {
               "fake.comp: declares the buffer postion, but sim/arrays.def has no array of that name");
     EXPECT_EQ(refusalOf({{"uint", "position"}}),
               "fake.comp: declares the buffer position as uint; the array position has elements of type vec4");
-    // Two arrays that were swapped.
+    // Two arrays are swapped.
     EXPECT_EQ(refusalOf({{"uint", "values"}, {"vec4", "column"}},
                         {{"values", Array::Velocity}, {"column", Array::CellStart}}),
               "fake.comp: declares the buffer values as uint; the array velocity has elements of type vec4");
@@ -94,7 +94,7 @@ TEST(SimLayout, WordsAreReadFromTheText) {
     EXPECT_EQ(layout::wordsOf("Parameters").rfind('r') * 4 + 4, offsetof(layout::Parameters, spheres));
 }
 
-// A plan of all features but one has nothing that only the module of that one declares.
+// A plan without one feature has no arrays or launches that only this feature's module declares.
 TEST(SimModules, AreAbsentFromAPlanThatDoesNotRequireThem) {
     for (const char* const model : {"FAST", "BALANCED", "ACCURATE"}) {
         const auto scene =
@@ -117,7 +117,7 @@ TEST(SimModules, AreAbsentFromAPlanThatDoesNotRequireThem) {
                 fewer.set(other->feature, other != module && other->required(*scene, fewer));
             const Plan plan = planWith(fewer);
             const bool smaller = plan.bytes() < whole.bytes() || plan.substep.size() < whole.substep.size();
-            // What a wall or an obstacle needs, the others of this scene need, too.
+            // Walls and obstacles share all arrays and launches, so the plan is not smaller without one of them.
             if (!all.obstructed() || (module->feature != Feature::Walls && module->feature != Feature::Planes &&
                                       module->feature != Feature::Boxes && module->feature != Feature::Materials)) {
                 EXPECT_TRUE(smaller) << nameOf(module->feature) << " of " << model;

@@ -12,7 +12,7 @@
 #include "speed.h"
 #include "trajectories.h"
 
-// Measures the codec of docs/codec.md: bytes per sphere beside other codecs, and times.
+// Measures the codec of docs/codec.md: its bytes per sphere, compared with other codecs, and its times.
 
 namespace {
 
@@ -43,7 +43,7 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--frames", options.frames, "folder for the frames that were timed, for tools/bench_codec.mjs");
 }
 
-// Codecs down, trajectories across.
+// One row per codec, one column per trajectory.
 void printTable(const std::vector<bench::CodecSize>& sizes, double ratio) {
     std::vector<std::string> codecs, trajectories;
     std::map<std::pair<std::string, std::string>, double> bytes;

@@ -30,7 +30,7 @@ std::size_t zstd(std::span<const std::byte> bytes, int level) {
     return ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), level);
 }
 
-// Changes since the frame before, byte plane by byte plane.
+// Changes since the previous frame, byte plane by byte plane.
 std::vector<std::byte> planesOf(const CodecFrame& frame) {
     const std::size_t spheres = frame.cells.size();
     std::vector<std::byte> planes(12 * spheres);
@@ -62,7 +62,7 @@ std::size_t meshoptChanges(const CodecFrame& frame) {
 #endif
 
 #ifdef SPHERULE_HAS_DRACO
-// Points come out in another order.
+// Draco does not preserve the order of points.
 std::size_t draco(const CodecFrame& frame) {
     std::vector<std::uint32_t> values;
     for (const glm::ivec3& cell : frame.cells)

@@ -9,20 +9,20 @@
 
 namespace spherule::bench {
 
-// What a codec is given: positions in m, and on the grid now and in the frame before, all in one order.
+// Input of a codec: positions (m), and grid positions of this and of the previous frame, all in the same order.
 struct CodecFrame {
     const std::vector<glm::vec3>& metres;
     const std::vector<glm::ivec3>& cells;
     const std::vector<glm::ivec3>& before;
 };
 
-// Somebody else's codec.
+// A codec of another project.
 struct Rival {
     std::string name;
-    std::function<std::size_t(const CodecFrame&)> bytes;  // that a frame takes
+    std::function<std::size_t(const CodecFrame&)> bytes;  // size of the encoded frame
 };
 
-// Those whose libraries were there at build time: zstd, Draco, meshoptimizer.
+// The rivals whose libraries existed at build time: zstd, Draco, meshoptimizer.
 std::vector<Rival> rivals();
 
 }  // namespace spherule::bench

@@ -98,7 +98,7 @@ std::vector<CodecSize> codecSizes(compute::Device& device, const Trajectory& tra
 
     std::map<std::string, double> sums;
     Cells before = inOrder(cellsOf(trajectory.frames[warmUp - 1], quantum), order);
-    constexpr std::size_t every = 4;  // the others are slow, and their frames much alike
+    constexpr std::size_t every = 4;  // rivals encode every 4th frame: they are slow, and their frames are similar
     std::size_t frames = 0;
     for (std::size_t k = warmUp; k < trajectory.frames.size(); ++k) {
         const Metres metres = inOrder(trajectory.frames[k], order);

@@ -12,12 +12,12 @@ namespace spherule::bench {
 struct CodecSize {
     std::string codec;
     std::string trajectory;
-    double ratio = 0;  // the error is the smallest radius over this, per axis
+    double ratio = 0;  // largest error per axis = smallest radius / ratio
     double bytes = 0;
 };
 
-// Of ours in order of ids and in Morton order frozen at the first frame (with that of a keyframe), and of the rivals in
-// the latter. Whatever ours makes is decoded again and compared; throws where it differs.
+// Sizes of our codec by id and in the Morton order of the first frame, with a keyframe in the latter. Rivals use the
+// Morton order too. Decodes each frame of ours and compares it; throws if it differs.
 std::vector<CodecSize> codecSizes(compute::Device& device, const Trajectory& trajectory, double ratio);
 
 }  // namespace spherule::bench

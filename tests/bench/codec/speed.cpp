@@ -61,8 +61,8 @@ struct World {
     std::vector<std::uint32_t> slotOf;
 };
 
-// A cube of spheres whose slots are in the order of a grid's cells, slice by slice. Their ids are those of a lattice,
-// row by row, or shuffled.
+// A cube of spheres. Slots are in the order of grid cells, slice by slice. Ids number a lattice row by row, or are
+// shuffled.
 struct Kicked : World {
     Kicked(std::uint32_t spheres, bool shuffled) : World(spheres), velocity(spheres) {
         const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(spheres)));
@@ -84,7 +84,7 @@ struct Kicked : World {
         if (shuffled) std::ranges::shuffle(slotOf, random);
     }
 
-    // Everything falls, and is kicked by about as much as spheres of a splash are.
+    // All spheres fall, and change their velocities at random, about as much as in a splash.
     void move() override {
         std::normal_distribution<float> kick(0, 0.0025F);
         std::vector<float> kicks(4099);
@@ -102,7 +102,7 @@ struct Kicked : World {
     std::vector<glm::vec4> velocity;
 };
 
-// Copies of a simulated bed side by side, slots in an order in which neighbours are near each other.
+// Copies of a simulated bed side by side. Slots are in Morton order.
 struct Copies : World {
     Copies(std::uint32_t spheres, const Trajectory& bed) : World(spheres), bed_(bed) {
         std::iota(slotOf.begin(), slotOf.end(), 0U);

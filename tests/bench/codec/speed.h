@@ -9,22 +9,22 @@
 
 namespace spherule::bench {
 
-// Median wall times of a frame in ms, of spheres that all move, each in a way of its own.
+// Median wall times of a frame (ms). All spheres move, each with its own velocity.
 struct CodecSpeed {
-    double fastest = 0;   // of the encoder
-    double encode = 0;    // all passes, positions gathered through order and slots
-    double keyframe = 0;  // of the state
-    double hash = 0;      // on top of either
-    double decode = 0;    // here, in one thread
-    double bytes = 0;     // per sphere
+    double fastest = 0;   // encode time of the fastest frame
+    double encode = 0;    // all passes; positions are gathered through order and slots
+    double keyframe = 0;  // keyframe of the present state
+    double hash = 0;      // added to `encode` by the hash
+    double decode = 0;    // on the host, in one thread
+    double bytes = 0;     // of the last frame, per sphere
 };
 
-// The error is the smallest radius over `ratio`. Ids are those of a lattice, or `shuffled`, which costs the gather more
-// than any mixing can. Writes the frames, and the ids in their order, into the folder `keep` unless that is empty;
-// throws what goes wrong as std::runtime_error.
+// The largest error is the smallest radius / `ratio`. Ids number a lattice, or are `shuffled`: the worst case of the
+// gather. Writes the frames and their order of ids to the folder `keep`, unless it is empty. Throws
+// std::runtime_error.
 CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, bool shuffled,
                       const std::string& keep);
-// The same of copies of a bed, from the first frame of the trajectory on.
+// Same as above, with copies of a bed; starts at the first frame of the trajectory.
 CodecSpeed codecSpeed(compute::Device& device, std::uint32_t spheres, double ratio, const Trajectory& bed,
                       const std::string& keep);
 

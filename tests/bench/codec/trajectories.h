@@ -10,7 +10,7 @@
 
 namespace spherule::bench {
 
-// Positions of all spheres in id order, in m relative to the centre of the bounds, frame after frame.
+// Frames with the positions (m) of all spheres, in id order, relative to the centre of the bounds.
 struct Trajectory {
     std::string name;
     std::uint32_t spheres = 0;
@@ -20,13 +20,17 @@ struct Trajectory {
 
 constexpr double framesPerSecond = 30;
 
-// A column of spheres of 20 mm +-20 % collapses in a box of 1.6 m (50,000 spheres; other numbers in a box of the same
-// shape): `moving` while it falls and splashes, `settled` with sleep off, `stirred` by gravity that tilts and turns,
-// `asleep` after the same settled bed has been let to sleep. Runs the simulation; throws what goes wrong as
-// std::runtime_error.
+// Simulates a column of spheres of 20 mm +-20 % that collapses in a box. For 50,000 spheres the box is 1.6 m wide;
+// other numbers get a box of the same shape. Returns four trajectories:
+// - moving: the column falls and splashes;
+// - stirred: gravity tilts and turns;
+// - settled: the bed at rest, with sleep off;
+// - asleep: the settled bed after its spheres have fallen asleep.
+//
+// Throws std::runtime_error.
 std::vector<Trajectory> collapse(compute::Device& device, std::uint32_t spheres);
 
-// The same from a file that `save` wrote, so that codecs can be compared without the simulation.
+// Loads the trajectories that `save` has written, so that codecs can be compared without the simulation.
 std::vector<Trajectory> load(const std::string& path);
 void save(const std::string& path, const std::vector<Trajectory>& trajectories);
 

@@ -4,7 +4,7 @@
 
 #include "trajectories.h"
 
-// A plain dump for this machine: per trajectory its name, sizes and frames.
+// A binary dump in the byte order of this machine. For each trajectory: name, sizes and frames.
 namespace spherule::bench {
 
 namespace {

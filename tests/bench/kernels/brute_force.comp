@@ -1,4 +1,4 @@
-// Every sphere against every other.
+// Tests every sphere against every other.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,6 +1,6 @@
-// What every baseline does with the spheres that its broad phase offers: half of the overlap is pushed out, approaching
-// pairs bounce, then gravity, motion and walls. A sphere gathers for itself from the state before the substep (Jacobi),
-// so one kernel does it all. Equal radii and masses. The includer binds nothing else at slots 0 to 4.
+// The contact response of all baselines, for the pairs that their broad phases find. Removes half of the overlap,
+// bounces approaching pairs, then applies gravity, motion and walls. A sphere only reads the state before the substep
+// (Jacobi), so one kernel suffices. Radii and masses are equal. This file uses buffer slots 0 to 4.
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, velocity)
@@ -37,7 +37,7 @@ void meet(uint other) {
     if (approach < 0.0f) kick = kick - normal * (0.5f * (1.0f + params.law.x) * approach);
 }
 
-// Keeps a coordinate between two walls; returns it and the speed.
+// Keeps the coordinate x between two walls; returns the new coordinate and the new speed.
 vec2 bounce(float x, float v, float low, float high, uint face) {
     if ((params.closedFaces & (1u << face)) != 0u && x < low)
         return vec2(low, v < 0.0f ? -params.law.x * v : v);

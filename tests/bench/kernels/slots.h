@@ -1,4 +1,4 @@
-// A grid over the domain with a fixed number of slots per cell, SLOTS. Spheres outside count to the nearest cell.
+// A grid over the domain with SLOTS slots per cell. A sphere outside the domain belongs to the nearest cell.
 
 uvec3 cellAt(vec3 point) {
     vec3 extent = vec3(params.wallMax) - vec3(params.wallMin);

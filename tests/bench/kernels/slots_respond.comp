@@ -1,4 +1,4 @@
-// Every sphere against those in the 27 cells around it.
+// Tests every sphere against the spheres in its own cell and the 26 cells around it.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

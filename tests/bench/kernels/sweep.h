@@ -1,5 +1,5 @@
-// Keys of the sort along x: the domain's width in SWEEP_KEYS equal strips, a number that the host defines. Spheres
-// outside count to the nearest strip.
+// Keys of the sort along x: the width of the domain is divided into SWEEP_KEYS equal strips. The host defines
+// SWEEP_KEYS. A sphere outside the domain belongs to the nearest strip.
 
 float stripWidth() {
     return (params.wallMax.x - params.wallMin.x) / float(SWEEP_KEYS);

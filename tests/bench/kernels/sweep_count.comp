@@ -1,4 +1,4 @@
-// Counting sort along x, first part: spheres per key; a sphere keeps the place it drew.
+// Counting sort along x, first part: counts the spheres per key. Each sphere stores its place among equal keys.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

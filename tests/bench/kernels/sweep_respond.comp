@@ -1,5 +1,5 @@
-// Every sphere against its neighbours in the order along x, both ways, as far as a diameter reaches. Inside one key the
-// order is loose, hence one strip more.
+// Tests every sphere against its neighbours in the order along x, in both directions, up to one diameter away. Spheres
+// with the same key are not sorted, so the search goes one strip farther.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,4 +1,4 @@
-// Counting sort along x, last part: the state in its new order. Spheres of one key stand in any order.
+// Counting sort along x, last part: writes the state in its new order. Spheres with the same key are in any order.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -1,4 +1,4 @@
-// Certificates as a public authority gives them: a root that clients know, one below it that signs, and a server's own.
+// Certificates as a public authority issues them: a root that clients trust, an intermediate, and a server certificate.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";

@@ -1,4 +1,4 @@
-// deploy/nginx/spherule.conf as it is but for its ports and paths, in a real nginx.
+// A real nginx that runs deploy/nginx/spherule.conf with other ports and paths.
 import { execFileSync, spawn } from "node:child_process";
 import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import net from "node:net";
@@ -19,13 +19,13 @@ export async function freePort() {
   return port;
 }
 
-/** A file of the repository. */
+/** Returns the content of a file of the repository. */
 export const read = (file) => readFileSync(path.join(root, file), "utf8");
 
-/** nginx between `tls` (https) or `plain` (http) and the server at `upstream`, ports of 127.0.0.1. */
+/** Starts nginx, which passes requests to the server. Ports of 127.0.0.1: `tls` (https), `plain` (http), `upstream`. */
 export async function start({ tls, plain, upstream }) {
   const folder = mkdtempSync(path.join(os.tmpdir(), "spherule-nginx-"));
-  chmodSync(folder, 0o755); // its workers are somebody else
+  chmodSync(folder, 0o755); // nginx's workers run as another user
   const ca = certify(folder, name);
   let site = read("deploy/nginx/spherule.conf");
   for (const [written, here] of [
@@ -46,14 +46,14 @@ export async function start({ tls, plain, upstream }) {
      http { access_log off; ${temporary.join(" ")} include site.conf; }`,
   );
   const words = ["-p", folder, "-e", "stderr", "-c", "nginx.conf"];
-  execFileSync(program, [...words, "-t", "-q"]); // throws with what it says
+  execFileSync(program, [...words, "-t", "-q"]); // throws an Error with nginx's output
   const child = spawn(program, words, { stdio: ["ignore", "ignore", "inherit"] });
   const ended = new Promise((resolve) => child.once("exit", resolve));
   while (!(await answers(tls))) if (child.exitCode !== null) throw new Error("nginx has ended");
   return {
     ca,
     url: `https://${name}:${tls}/`,
-    /** What Chromium takes to find the name here, and to trust this one certificate. */
+    /** Options with which Chromium resolves the name to 127.0.0.1 and trusts this certificate. */
     switches: [`--host-resolver-rules=MAP ${name} 127.0.0.1`, `--ignore-certificate-errors-spki-list=${pin(folder)}`],
     async stop() {
       child.kill("SIGQUIT");
@@ -64,7 +64,7 @@ export async function start({ tls, plain, upstream }) {
   };
 }
 
-/** The leaf's public key, as Chromium names it. */
+/** Returns the hash of the leaf's public key, in the form that Chromium's option takes. */
 function pin(folder) {
   const shell = "openssl x509 -in leaf.pem -noout -pubkey | openssl pkey -pubin -outform der | openssl dgst -sha256 -binary";
   return execFileSync("sh", ["-c", shell], { cwd: folder }).toString("base64");
