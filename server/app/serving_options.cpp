@@ -42,7 +42,8 @@ void ServingOptions::addTo(CLI::App& command) {
         ->capture_default_str()
         ->group(limits);
     command
-        .add_option("--max-sessions-per-address", net.connectionLimits.sessionsPerAddress, "sessions of one address at a time")
+        .add_option("--max-sessions-per-address", net.connectionLimits.sessionsPerAddress,
+                    "sessions of one address at a time")
         ->capture_default_str()
         ->group(limits);
     command

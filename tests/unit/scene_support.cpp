@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "scene/json.h"
 
 namespace spherule::scene::testing {
