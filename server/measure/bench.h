@@ -8,21 +8,22 @@
 
 namespace spherule::measure {
 
-// Where a case runs: opens its simulations at a rung, takes their time and collects its figures.
+// Runs a case at a rung: opens its simulations, measures their time and collects its figures.
 class Bench {
   public:
     Bench(compute::Device& device, Rung rung, bool quick) : device_(device), quick_(quick) { outcome_.rung = rung; }
 
-    // The last simulation opened is the one whose substeps, spheres and cost are reported.
+    // Opens a simulation with the substeps of the rung. The outcome has the substeps, spheres and cost of the
+    // simulation that was opened last.
     Result<std::unique_ptr<sim::Simulation>> open(scene::Scene scene);
-    // The same in steps of one substep, to see what happens within a contact.
+    // Same as open(), but each step is one substep, so that a case can follow a contact.
     Result<std::unique_ptr<sim::Simulation>> openBySubstep(scene::Scene scene);
-    // The same with the substeps that the scene says.
+    // Same as open(), with the substeps of the scene.
     Result<std::unique_ptr<sim::Simulation>> openAsIs(scene::Scene scene);
 
     Result<void> step(sim::Simulation& simulation);
     Result<void> run(sim::Simulation& simulation, double seconds);
-    void startClock();  // what ran before does not count
+    void startClock();  // discards the time measured before
 
     void add(Figure figure) { outcome_.figures.push_back(std::move(figure)); }
     Outcome finish();
@@ -39,7 +40,7 @@ class Bench {
     double simulated_ = 0;
 };
 
-// Device seconds since the last call, except statistics and packing.
+// Returns the device time (s) since the last call, without statistics and packing.
 double takeSubstepSeconds(compute::Device& device);
 
 }  // namespace spherule::measure

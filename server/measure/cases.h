@@ -7,13 +7,13 @@
 
 namespace spherule::measure {
 
-// Builds its scenes, runs them and adds figures. An error is published with the case, after the figures so far.
+// A case builds scenes, runs them and adds figures. An error is reported after the figures that it has added.
 struct Case {
     std::string suite;
     std::string name;
     Result<void> (*run)(Bench& bench) = nullptr;
-    bool everyRung = true;   // else only at the substeps that the model chooses
-    bool everyModel = true;  // else only `accurate`
+    bool everyRung = true;   // false: only with the substeps that the model chooses
+    bool everyModel = true;  // false: only `accurate`
     bool whenQuick = true;
 };
 

@@ -4,7 +4,7 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 
-// Five spheres in a row: the first arrives, the last should leave.
+// Five spheres in a row: the first hits the others, and the last should move on.
 namespace spherule::measure {
 
 namespace {

@@ -6,7 +6,7 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 
-// One sphere in flight, and falling on a floor.
+// One sphere in free flight, and one that bounces on a floor.
 namespace spherule::measure {
 
 namespace {
@@ -29,10 +29,10 @@ Result<void> projectile(Bench& bench) {
 
 struct Apex {
     double time = 0;    // s
-    double height = 0;  // m over the lowest place of the centre
+    double height = 0;  // m above the lowest possible position of the centre
 };
 
-// Where the only sphere turns downwards, by its speed in the step of each turn.
+// Returns the first `count` apexes of the only sphere. Each follows from the sphere's speed in the step of the apex.
 Result<std::vector<Apex>> apexes(Bench& bench, sim::Simulation& simulation, std::size_t count) {
     const double g = -simulation.scene().gravity.z;
     const double floor = simulation.scene().bounds.min.z;

@@ -5,14 +5,14 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 
-// One sphere on a floor that rubs.
+// One sphere on a floor with friction.
 namespace spherule::measure {
 
 namespace {
 
 constexpr double r = 0.05;
 
-// Sphere 0 lies on the floor, at the left; gravity leans by `slope` (radians) towards +x.
+// Sphere 0 lies on the floor at the left. Gravity is tilted by `slope` (radians) towards +x.
 scene::Scene onFloor(double friction, double slope, double speed) {
     scene::Scene scene = openSpace(8);
     scene.bounds.min.z = -0.5;
@@ -35,11 +35,11 @@ Result<void> slipToRoll(Bench& bench) {
     if (auto done = bench.run(**opened, duration); !done) return done;
     const sim::State after = (*opened)->snapshot();
     const double u = velocityOf(after, 0).x;
-    // Soft spheres lie in the floor by a little, and turn about where they touch it.
+    // Soft spheres overlap the floor a little, and rotate about the contact point.
     const double arm = positionOf(after, 0).z + 0.5;
     const double inertia = 2.5 * arm * arm / (r * r);
-    // The speed falls evenly until it rolls, so the extra way, beyond the last speed times the time, is half of the
-    // slip.
+    // The speed falls linearly until the sphere rolls. So the distance beyond final speed * time follows from the
+    // duration of the slip: it is half of (initial speed - final speed) * duration.
     const double way = positionOf(after, 0).x - start;
     const double slipped = 2 * (way - u * (*opened)->time()) / (u0 - u);
     Figure time = against("time until it rolls", slipped, u0 / ((1 + inertia) * mu * earth), "s");
@@ -50,7 +50,7 @@ Result<void> slipToRoll(Bench& bench) {
     return {};
 }
 
-// m/s^2 down the slope, once it has settled into its motion.
+// Returns the acceleration down the slope (m/s^2), after the motion has become steady.
 Result<double> acceleration(Bench& bench, const scene::Scene& scene) {
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());

@@ -10,7 +10,7 @@ namespace spherule::measure {
 
 namespace {
 
-// Elastic spheres of three radii fly into each other in open space.
+// Elastic spheres of three radii collide in open space.
 Result<void> gas(Bench& bench) {
     const int side = bench.quick() ? 6 : 10;
     constexpr double pitch = 0.13;

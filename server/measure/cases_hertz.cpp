@@ -9,7 +9,7 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 
-// Benchmarks of Chung and Ooi 2011 (Granular Matter 13, 643): 1 to 4.
+// Benchmarks 1 to 4 of Chung and Ooi 2011 (Granular Matter 13, 643).
 namespace spherule::measure {
 
 namespace {
@@ -23,12 +23,12 @@ const scene::Material magnesium{.name = "magnesium", .density = 1800, .restituti
 const scene::Material rigid{.name = "rigid", .restitution = 1, .young = 1e18, .poisson = 0.2};
 const scene::Material alumina{.name = "alumina", .density = 4000, .restitution = 1, .young = 380e9, .poisson = 0.23};
 
-// An elastic impact by Hertz's law.
+// An elastic impact under Hertz's law.
 struct Hertz {
     double modulus = 0;  // Pa, effective
     double radius = 0;   // m, effective
     double mass = 0;     // kg, effective
-    double speed = 0;    // m/s, of the meeting
+    double speed = 0;    // approach speed, m/s
 
     [[nodiscard]] double force(double overlap) const {
         return overlap > 0 ? 4.0 / 3 * modulus * std::sqrt(radius) * std::pow(overlap, 1.5) : 0;
@@ -39,7 +39,7 @@ struct Hertz {
     [[nodiscard]] double time() const { return 2.943 * overlap() / speed; }
 };
 
-// Steps through the contact of sphere 0 with its neighbour in the direction +x.
+// Steps through the contact of sphere 0 with its neighbour in the direction +x, and adds figures.
 Result<void> follow(Bench& bench, sim::Simulation& simulation, const Hertz& law, double reach, bool pair) {
     const double h = simulation.scene().step;
     const double mass = massOf(simulation.snapshot(), 0);
@@ -81,7 +81,7 @@ double modulusOf(const scene::Material& a, const scene::Material& b) {
     return 1 / ((1 - a.poisson * a.poisson) / a.young + (1 - b.poisson * b.poisson) / b.young);
 }
 
-// 1: two equal spheres, R = 10 mm, at 10 m/s each.
+// Benchmark 1: two equal spheres, R = 10 mm, at 10 m/s each.
 Result<void> twoSpheres(Bench& bench, const scene::Material& material) {
     constexpr double r = 0.01;
     constexpr double v = 10;
@@ -97,7 +97,7 @@ Result<void> twoSpheres(Bench& bench, const scene::Material& material) {
     return follow(bench, **opened, law, 2 * static_cast<double>(static_cast<float>(r)), true);
 }
 
-// 2: a sphere, R = 0.1 m, on a rigid wall at 0.2 m/s.
+// Benchmark 2: a sphere, R = 0.1 m, hits a rigid wall at 0.2 m/s.
 Result<void> sphereAtWall(Bench& bench, const scene::Material& material) {
     constexpr double r = 0.1;
     constexpr double v = 0.2;
@@ -112,7 +112,7 @@ Result<void> sphereAtWall(Bench& bench, const scene::Material& material) {
     return follow(bench, **opened, law, static_cast<double>(static_cast<float>(r)), false);
 }
 
-// The spheres hit the floor of a scene once.
+// Benchmarks 3 and 4: the spheres of a scene hit the floor once.
 constexpr double small = 0.0025;  // m, radius
 constexpr double fast = 3.9;      // m/s
 
@@ -121,7 +121,7 @@ scene::Scene overFloor(const Bench& bench) {
     scene.bounds.open[scene::ZMin] = false;
     scene.bounds.min.z = -0.01;
     scene.bounds.max.z = 0.01;
-    // Impacts of real alumina take ten microseconds: no time for longer steps.
+    // An impact of real alumina takes 10 us, so steps must be short.
     scene.step = bench.accurate() ? 5e-4 : 1.0 / 60;
     return scene;
 }
@@ -148,7 +148,7 @@ Result<void> normalImpact(Bench& bench) {
     return {};
 }
 
-// 4: at an angle to the normal; where it slides all the time, what it should do is known.
+// Benchmark 4: impacts at an angle to the normal. The exact result is known if the sphere slides all the time.
 Result<void> obliqueImpact(Bench& bench) {
     constexpr double mu = 0.092;
     constexpr double e = 0.98;

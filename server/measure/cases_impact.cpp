@@ -8,14 +8,14 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 
-// Two spheres that meet, once: many such pairs side by side.
+// Pairs of spheres that collide once, many of them side by side.
 namespace spherule::measure {
 
 namespace {
 
 constexpr std::array<double, 6> restitutions = {0, 0.3, 0.5, 0.8, 0.9, 1};
 
-// The contact time of soft spheres goes as the root of the lightest mass, the substeps with it: they get fewer ratios.
+// Soft spheres get fewer ratios, because their contact time is proportional to the square root of the lightest mass.
 std::vector<double> massRatios(const Bench& bench) {
     std::vector<double> ratios = {1, 10};
     if (!bench.quick()) ratios.push_back(1e3);
@@ -28,7 +28,7 @@ struct Meeting {
     double massRatio = 0;
 };
 
-// Every restitution with every mass ratio, the second sphere `aside` radii off the path of the first.
+// Adds a pair for each restitution and mass ratio. The second sphere is `aside` radii off the path of the first.
 std::vector<Meeting> addMeetings(const Bench& bench, scene::Scene& scene, double aside) {
     constexpr double r = 0.05;
     std::vector<Meeting> meetings;
@@ -48,7 +48,7 @@ std::vector<Meeting> addMeetings(const Bench& bench, scene::Scene& scene, double
 
 struct Parting {
     double restitution = 0;
-    glm::dvec3 normal{};  // along which the two acted on each other
+    glm::dvec3 normal{};  // direction of the impulse, unit length
 };
 
 Parting partingOf(const sim::State& before, const sim::State& after, std::uint32_t heavy) {
@@ -81,9 +81,9 @@ Result<void> meet(Bench& bench, double aside, const char* curve) {
         const glm::dvec3 gained =
             massOf(before, 2 * k) * (velocityOf(after, 2 * k) - velocityOf(before, 2 * k)) +
             massOf(before, 2 * k + 1) * (velocityOf(after, 2 * k + 1) - velocityOf(before, 2 * k + 1));
-        // The momentum of the light one changes by its mass times some m/s; against it the sum's rounding is seen.
+        // The momentum of the light sphere changes by its mass times about 1.5 m/s. The drift is relative to this.
         drift = std::max(drift, glm::length(gained) / (massOf(before, 2 * k) * 1.5));
-        // Where it was met is only known as well as the place it had moved to within a substep.
+        // The angle of the line of centres is only exact to the distance that a sphere moves in a substep.
         const double off = std::acos(std::clamp(parting.normal.x, -1.0, 1.0)) - std::asin(aside / 2);
         turned = std::max(turned, std::abs(off));
     }

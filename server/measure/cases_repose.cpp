@@ -9,15 +9,15 @@
 #include "measure/cases.h"
 #include "measure/scenes.h"
 
-// The slope that is left of a column which falls apart.
+// The slope of the pile that remains of a collapsed column.
 namespace spherule::measure {
 
 namespace {
 
 constexpr double r = 0.05;
 
-// Degrees: of the line through the highest spheres of each ring, a diameter wide, around the middle of the pile, from
-// its crest down to where a single layer lies.
+// Returns the slope of the pile (degrees). It is fitted to the highest sphere of each ring around the middle, from the
+// crest to the first ring with a single layer. A ring is as wide as a diameter.
 double slopeOf(const sim::State& state, double floor) {
     constexpr std::size_t most = 40;
     std::array<double, most> tops{};
@@ -54,13 +54,13 @@ Result<void> repose(Bench& bench) {
         scene.bounds.open.fill(true);
         scene.bounds.open[scene::ZMin] = false;
         setFriction(scene, friction);
-        // Without it, spheres on a flat floor roll away one by one.
+        // Without rolling resistance, spheres on a flat floor roll away one by one.
         scene.materials[0].rollingResistance = 0.1;
         auto opened = bench.open(scene);
         if (!opened) return tl::unexpected(opened.error());
         if (auto done = bench.run(**opened, 3); !done) return done;
         const double slope = slopeOf((*opened)->snapshot(), scene.bounds.min.z);
-        // No law says what a fall leaves; poured piles lie at about atan(friction).
+        // The slope of a collapsed column follows no law. The slope of poured piles is about atan(friction).
         bench.add(plain(fmt::format("slope with friction {:g}", friction), slope, "degrees"));
     }
     return {};

@@ -8,7 +8,7 @@
 #include "measure/scenes.h"
 #include "scene/stiffness.h"
 
-// Spheres that lie on each other.
+// Spheres at rest on each other.
 namespace spherule::measure {
 
 namespace {
@@ -19,7 +19,7 @@ double weightOf(const sim::State& state) {
     return mass * earth;
 }
 
-// N, from how deep spheres are in the floor, by the linear springs of `accurate`; of all spheres at rest.
+// Returns the force (N) of all spheres on the floor, from their overlaps and the linear springs of `accurate`.
 double springForceOnFloor(const scene::Scene& scene, const sim::State& state) {
     const double modulus = scene::springModulus(scene);
     double force = 0;
@@ -31,8 +31,8 @@ double springForceOnFloor(const scene::Scene& scene, const sim::State& state) {
     return force;
 }
 
-// The upward force (N) of the tangential springs at the sides: walls with friction carry a share of a bed, or press it
-// down.
+// Returns the upward force (N) of the tangential springs at the sides. Walls with friction carry a share of a bed, or
+// push it down.
 double springForceOnSides(sim::Simulation& simulation, const sim::State& state) {
     const double modulus =
         scene::stiffnessBetween(simulation.scene(), 0, 0, scene::springModulus(simulation.scene())).tangential;
@@ -80,7 +80,8 @@ Result<void> stack(Bench& bench) {
     return addFloorForce(bench, **opened, 30);
 }
 
-// Share of the volume that spheres fill, away from walls, floor and surface: of points on a fine lattice.
+// Returns the share of the volume that spheres fill, away from walls, floor and surface. It counts points of a fine
+// lattice.
 double packingOf(const sim::State& state, const scene::Scene& scene, double height) {
     const double r = radiusOf(state, 0);
     const glm::dvec3 low = scene.bounds.min + 3 * r;
@@ -108,7 +109,7 @@ double packingOf(const sim::State& state, const scene::Scene& scene, double heig
 struct BedSize {
     std::uint32_t count = 0;
     double radius = 0;  // m
-    double across = 0;  // diameters
+    double across = 0;  // width, in diameters
     double friction = 0;
 };
 
@@ -117,7 +118,7 @@ Result<void> bed(Bench& bench, const BedSize& size, const char* curve) {
     setFriction(scene, size.friction);
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());
-    // Falls are as long as the square root of the lengths says.
+    // The time of a fall is proportional to the square root of the lengths.
     const double settle = (bench.quick() ? 1.2 : 3) * std::sqrt(size.radius / 0.05);
     if (auto done = bench.run(**opened, settle); !done) return done;
     bench.startClock();

@@ -10,7 +10,7 @@ namespace spherule::measure {
 
 namespace {
 
-// Beds of more and more spheres with friction, twenty deep, until a bed is slower than real time.
+// Beds with friction, 20 layers deep, of more and more spheres, until a bed is slower than real time.
 Result<void> beds(Bench& bench) {
     constexpr double longest = 1;  // device seconds per simulated second
     const double growth = bench.quick() ? 2 : std::sqrt(2.0);
@@ -38,7 +38,7 @@ Result<void> beds(Bench& bench) {
     return {};
 }
 
-// Beds of spheres of one size with one larger sphere above.
+// Beds of equal spheres with one larger sphere above.
 Result<void> sizes(Bench& bench) {
     constexpr double radius = 0.01;
     const std::uint32_t count = (bench.quick() ? 2'000 : 20'000) / (bench.accurate() ? 10 : 1);

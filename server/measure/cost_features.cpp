@@ -6,7 +6,7 @@
 #include "measure/scenes.h"
 #include "scene/random.h"
 
-// The cost of a feature: two worlds in the same state, one with it and one without, take turns.
+// The cost of a feature. Two simulations in the same state, one with it and one without it, run in turns.
 namespace spherule::measure {
 
 namespace {
@@ -18,11 +18,11 @@ struct Feature {
     const char* name = nullptr;
     Change off;
     Change on;
-    bool statistics = false;  // after every step of the one with it
-    bool observed = false;    // the one without looks at no impacts; elsewhere both do
+    bool statistics = false;  // the simulation with the feature computes statistics after every step
+    bool observed = false;    // the simulation without the feature does not observe impacts; otherwise both do
 };
 
-// So that one step of a round is observed.
+// One step of a round is observed.
 constexpr int stepsPerRound = sim::observedEvery;
 
 double medianOf(std::vector<double> values) {
@@ -30,7 +30,7 @@ double medianOf(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// Where `balanced` comes to rest.
+// Returns the state in which the scene comes to rest under the model `balanced`.
 Result<sim::State> settled(Bench& bench, const scene::Scene& scene) {
     scene::Scene quick = scene;
     quick.quality = {.model = scene::Model::Balanced, .substeps = 8, .pinned = true};
@@ -51,7 +51,7 @@ Result<World> open(Bench& bench, scene::Scene scene, sim::State state, const Cha
     return opened;
 }
 
-// Device seconds per substep.
+// Returns the device time per substep (s).
 Result<double> timed(Bench& bench, sim::Simulation& simulation, int substeps, bool statistics) {
     static_cast<void>(bench.device().takeTimes());
     for (int k = 0; k < substeps; ++k) {
@@ -72,7 +72,7 @@ Result<void> compare(Bench& bench, const scene::Scene& scene, const sim::State& 
     const int rounds = bench.quick() ? 9 : 21;
     std::vector<double> off;
     std::vector<double> on;
-    // The first round, with lists to build and caches to fill, does not count.
+    // The first round does not count, because it builds lists and fills caches.
     for (int round = 0; round <= rounds; ++round) {
         const auto first = timed(bench, **without, stepsPerRound, false);
         const auto second = timed(bench, **with, stepsPerRound, feature.statistics);

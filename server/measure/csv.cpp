@@ -9,7 +9,7 @@ namespace spherule::measure {
 
 namespace {
 
-// As RFC 4180 quotes a field.
+// Quotes a field as in RFC 4180.
 std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string result = "\"";

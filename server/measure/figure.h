@@ -10,7 +10,7 @@
 // The results of `spherule measure`: figures of cases, each at a model and at a number of substeps.
 namespace spherule::measure {
 
-// A model and how many substeps it gets, as a multiple of those it would choose itself.
+// A model, and its number of substeps as a multiple of the number that the model chooses.
 struct Rung {
     scene::Model model = scene::Model::Balanced;
     double factor = 1;
@@ -22,14 +22,14 @@ struct Figure {
     std::optional<double> expected{};
     std::optional<double> error{};  // relative to the expected value, unless the case defines another error
     std::string unit{};             // of value and expected
-    std::string curve{};            // the work-precision curve that takes its error; empty: none
-    std::string verdict{};          // "pass", what fails from where, or why it is refused; empty: only measured
+    std::string curve{};            // the work-precision curve that shows the error; empty: none
+    std::string verdict{};          // "pass", the failure, or the reason of a refusal; empty: only measured
 };
 
 // A figure with its error relative to the expected value, or to `scale` if that is not 0.
 Figure against(std::string name, double value, double expected, std::string unit, double scale = 0);
 
-// Nothing to compare it with.
+// A figure without an expected value.
 Figure plain(std::string name, double value, std::string unit);
 
 // The result of one case at one rung.
@@ -42,7 +42,7 @@ struct Outcome {
     std::uint32_t spheres = 0;
     double cost = 0;  // device seconds per simulated second
     std::vector<Figure> figures;
-    std::string trouble;  // why there are no more figures; empty: all are there
+    std::string trouble;  // why figures are missing; empty: none is
 };
 
 }  // namespace spherule::measure

@@ -13,12 +13,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// To four digits: what was measured has no more, and the file stays small.
+// Rounds to four digits: measured values are not more precise, and the file stays small.
 double brief(double value) {
     return std::stod(fmt::format("{:.4g}", value));
 }
 
-// The rung's entry in its model's list; made where it is missing.
+// Returns the rung's entry in the list of its model; creates it if it is missing.
 Json& entryOf(Json& models, const Rung& rung) {
     Json& rungs = models[std::string(scene::nameOf(rung.model))];
     if (rungs.is_null()) rungs = Json::array();

@@ -11,7 +11,7 @@ namespace spherule::measure {
 
 namespace {
 
-// A bar would end the cell.
+// Escapes text for a table cell: a bar would end the cell.
 std::string cell(const std::string& text) {
     std::string result;
     for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
@@ -28,7 +28,7 @@ void addRow(std::string& text, const Outcome& o, const Figure& f) {
                    cell(f.verdict));
 }
 
-// All outcomes of one case together: a figure's rungs under each other.
+// Adds all outcomes of one case. The rungs of a figure are in consecutive rows.
 void addCase(std::string& text, const std::vector<const Outcome*>& outcomes) {
     fmt::format_to(std::back_inserter(text), "\n### {}\n\n", outcomes.front()->name);
     std::vector<std::string> names;

@@ -28,7 +28,7 @@ void addFailures(std::string& text, const Report& report) {
     text += failures.empty() ? "none.\n" : "| model | case | figure | verdict |\n|---|---|---|---|\n" + failures;
 }
 
-// Headline errors, a row per model and rung, a column per curve.
+// Adds the main errors: one row per model and rung, one column per curve.
 void addErrors(std::string& text, const Report& report) {
     std::set<std::string> curves;
     std::map<std::pair<scene::Model, double>, std::map<std::string, std::string>> rows;

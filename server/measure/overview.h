@@ -6,7 +6,7 @@
 
 namespace spherule::measure {
 
-// The summary above the tables: headline errors with their cost, and all failures.
+// Returns the summary above the tables: the main errors with their cost, and all failures.
 std::string overviewOf(const Report& report);
 
 }  // namespace spherule::measure

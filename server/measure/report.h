@@ -10,7 +10,7 @@
 namespace spherule::measure {
 
 struct Options {
-    std::string suite = "all";  // or "accuracy", "cost", "stability"
+    std::string suite = "all";  // "all", "accuracy", "cost" or "stability"
     bool quick = false;
 };
 
@@ -20,30 +20,31 @@ struct Report {
     std::vector<Outcome> outcomes;
 };
 
-// Tells what is about to run.
+// Called with the name of the case that starts.
 using Progress = std::function<void(const std::string& what)>;
 
-// Runs every case of the suite at every model and rung that it wants. Fails only when the device is lost: what a case
-// cannot do is published with it.
+// Runs every case of the suite with its models and rungs. Fails only when the device is lost; other errors are part of
+// the report.
 Result<Report> measure(compute::Device& device, const Options& options, const Progress& progress);
 
-// Model and factor, such as "balanced x2".
+// Returns model and factor, such as "balanced x2".
 std::string nameOf(const Rung& rung);
 
 // The files of a report.
-std::string csvOf(const Report& report);       // a row per figure
-std::string markdownOf(const Report& report);  // tables to read
-std::string jsonOf(const Report& report);      // per model and rung: errors, cost; and all verdicts
+std::string csvOf(const Report& report);       // one row per figure
+std::string markdownOf(const Report& report);  // tables for people
+std::string jsonOf(const Report& report);      // errors and cost per model and rung, and all verdicts
 
-// Error against cost of one work-precision curve, a line per model.
+// A chart of one work-precision curve: error against cost, one line per model.
 struct Plot {
     std::string name;  // of the curve, and of the file with '-' for ' '
     std::string svg;
 };
 std::vector<Plot> plotsOf(const Report& report);
 
-// Writes all of them into `folder`, which is made where it is missing. Input for a folder that cannot be written.
+// Creates the folder if it is missing. Input if it cannot be written.
 Result<void> checkFolder(const std::string& folder);
+// Writes all files of the report into the folder.
 Result<void> write(const Report& report, const std::string& folder);
 
 }  // namespace spherule::measure

@@ -14,13 +14,13 @@ constexpr double earth = 9.81;  // m/s^2
 // A cube of `side` m with open faces, without gravity or sleep, in steps of 1/60 s.
 scene::Scene openSpace(double side);
 
-// The same with closed faces and the earth's gravity.
+// Same as openSpace(), with closed faces and the earth's gravity.
 scene::Scene closedBox(double side);
 
-void setRestitution(scene::Scene& scene, double restitution);  // of everything there is
+void setRestitution(scene::Scene& scene, double restitution);  // of all materials
 void setFriction(scene::Scene& scene, double friction);
 
-// The index to give to spheres and walls.
+// Adds a material; returns its index.
 std::uint8_t addMaterial(scene::Scene& scene, const scene::Material& material);
 scene::Sphere& addSphere(scene::Scene& scene, glm::dvec3 position, double radius, glm::dvec3 velocity = {},
                          std::uint8_t material = 0);

@@ -13,7 +13,7 @@ double energyOf(const sim::Statistics& s) {
     return s.kineticEnergy + s.rotationalEnergy + s.elasticEnergy + s.potentialEnergy;
 }
 
-// The present failure; empty if there is none.
+// Returns the present failure; empty if there is none.
 std::string troubleIn(const sim::Statistics& s, double rise, double time, const Limits& limits) {
     if (s.nonFinite > 0) return fmt::format("fails: {} not finite after {:.3g} s", s.nonFinite, time);
     if (s.outside > 0) return fmt::format("fails: {} outside the bounds after {:.3g} s", s.outside, time);

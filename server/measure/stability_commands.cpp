@@ -7,7 +7,7 @@
 #include "measure/stability.h"
 #include "scene/random.h"
 
-// Commands of a user to a running simulation, then a long time without any.
+// Random commands to a running simulation, and a long time without commands.
 namespace spherule::measure {
 
 namespace {
@@ -66,7 +66,7 @@ Result<void> randomCommands(Bench& bench) {
     return {};
 }
 
-// Nothing may go on when nothing is done to a bed at rest.
+// A bed at rest must stay at rest.
 Result<void> longRest(Bench& bench) {
     auto opened = bench.open(smallBed());
     if (!opened) return tl::unexpected(opened.error());

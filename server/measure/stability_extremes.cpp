@@ -8,7 +8,7 @@
 #include "measure/scenes.h"
 #include "measure/stability.h"
 
-// Few spheres that are far from equal, or fast.
+// Few spheres with extreme mass ratios, radius ratios or speeds.
 namespace spherule::measure {
 
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr double r = 0.05;
 constexpr std::uint32_t starts = 40;
 
-// Two stacks of two, apart: heavy on light, and light on heavy.
+// Two separate stacks of two spheres: heavy on light, and light on heavy.
 Result<void> massRatios(Bench& bench) {
     for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
         scene::Scene scene = closedBox(1);
@@ -34,7 +34,7 @@ Result<void> massRatios(Bench& bench) {
     return {};
 }
 
-// A sphere a hundred times as large falls on twenty-five small ones.
+// A sphere falls on 25 spheres that are 100 times smaller.
 Result<void> radiusRatio(Bench& bench) {
     constexpr double large = 0.5;
     constexpr double small = 0.005;
@@ -46,13 +46,14 @@ Result<void> radiusRatio(Bench& bench) {
     return survive(bench, **opened, "1 : 100", 1, {.overlap = 1});
 }
 
-// From starts that differ, so that substeps end everywhere in the contact.
+// Returns the height (m) at which sphere k starts. Heights differ, so that contacts begin at different instants within
+// a substep.
 double startOf(std::uint32_t k, double speed) {
     return 1 + 0.05 * k + 1e-4 * speed * k / starts;
 }
 
-// The scene after `seconds`, or a whole step where that is longer; `accurate`, with thousands of substeps, gets shorter
-// steps.
+// Opens the scene and runs it for `seconds`, rounded up to whole steps. The model `accurate` gets shorter steps,
+// because it takes thousands of substeps per step.
 Result<std::unique_ptr<sim::Simulation>> openFor(Bench& bench, scene::Scene scene, double seconds) {
     if (bench.accurate()) scene.step = std::min(scene.step, seconds);
     auto opened = bench.open(scene);
@@ -79,7 +80,7 @@ Result<void> atWall(Bench& bench) {
     return {};
 }
 
-// Each at a sphere of its own that rests: behind that one, it has passed through.
+// Each sphere is shot at its own resting sphere. It has passed through if it ends behind that sphere.
 Result<void> atSphere(Bench& bench) {
     for (const double speed : {1.0, 10.0, 100.0, 200.0, 1000.0}) {
         scene::Scene scene = openSpace(400);

@@ -7,12 +7,12 @@
 #include "measure/stability.h"
 #include "scene/quality.h"
 
-// A few spheres, with settings at the ends of their ranges.
+// A few spheres, with settings at the limits of their ranges.
 namespace spherule::measure {
 
 namespace {
 
-// Closed on all sides, so that none may get out.
+// A heap in a box that is closed on all sides, so that no sphere may leave.
 scene::Scene heap(std::uint32_t count) {
     scene::Scene scene = lattice(count, 0.05, 5);
     scene.bounds.open.fill(false);
@@ -59,7 +59,7 @@ Result<void> restitutions(Bench& bench) {
     return {};
 }
 
-// Spheres in one place: they should come apart, and not much faster than by a fall over a radius.
+// Spheres in one place: they should separate, but not much faster than in a fall over one radius.
 Result<void> inOnePlace(Bench& bench, std::uint32_t count, double seconds) {
     constexpr double most = 1;  // m/s
     scene::Scene scene = closedBox(8);

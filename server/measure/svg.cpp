@@ -20,7 +20,7 @@ constexpr double top = 44;
 constexpr double bottom = 56;
 constexpr std::array<const char*, 4> colours = {"#e8743b", "#3b82d0", "#4b9e5f", "#8a5bb5"};
 
-// Whole powers of ten around all figures above 0, and where they come to lie.
+// A logarithmic axis from one power of ten to another, which include all figures above 0.
 struct Axis {
     int low = 0;   // power
     int high = 0;  // power

@@ -15,8 +15,8 @@ struct Line {
     std::vector<Point> points;
 };
 
-// A chart with logarithmic axes as an SVG document. Points that are not above 0 lie on the lower edge, as the smallest
-// figure that is shown; there is no chart without a point above 0.
+// Returns a chart with logarithmic axes as an SVG document. Values that are not above 0 are drawn at the low end of the
+// axis.
 std::string logChart(const std::string& title, const std::string& xName, const std::string& yName,
                      const std::vector<Line>& lines);
 

@@ -23,7 +23,7 @@ Result<void> checkFolder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return fail(ErrorKind::Input, folder, "cannot be made: " + error.message());
-    // Whether files can be made there is best asked by making one: the one that is written at the end.
+    // Test whether files can be written by writing one, which is replaced at the end.
     return writeFile(std::filesystem::path(folder) / "measure.csv", "");
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int missesToAct = 3;
 constexpr int easyToAct = 6;
-constexpr double aim = 0.85;  // of the goal, after a change
+constexpr double aim = 0.85;  // share of the goal that a change aims at
 constexpr double mostChange = 2;
 
 }  // namespace
@@ -24,7 +24,7 @@ double AutoQuality::overGoal(const Reading& reading) const {
     return (goal_.of == scene::Goal::Of::StepTime ? reading.stepMs : reading.overlapMean) / goal_.most;
 }
 
-// Time grows with the substeps, overlap falls with their square.
+// The step time is proportional to the substeps, the overlap to the inverse of their square.
 std::uint32_t AutoQuality::wanted(double over, std::uint32_t substeps) const {
     const bool time = goal_.of == scene::Goal::Of::StepTime;
     const double right = time ? aim / over : std::sqrt(over / aim);
@@ -52,7 +52,8 @@ std::optional<Decision> AutoQuality::take(const Reading& reading, std::uint32_t 
     missed_ = 0;
     easy_ = 0;
     const std::uint32_t next = wanted(over, substeps);
-    // Fewer save time, more reduce overlap; what is easy leaves room for the other.
+    // A step time beyond its goal needs fewer substeps, an overlap beyond its goal more. Far below the goal, substeps
+    // change in the other direction.
     const bool down = time == missing;
     if (down ? next < substeps : next > substeps) {
         gaveUp_ = false;

@@ -8,25 +8,25 @@
 
 namespace spherule::quality {
 
-// Measured over some steps.
+// Figures measured over some steps.
 struct Reading {
     double stepMs = 0;  // wall time, mean
     std::uint64_t contacts = 0;
-    double overlapMean = 0;  // of the radius
+    double overlapMean = 0;  // mean overlap / radius
 };
 
 struct Decision {
-    std::uint32_t substeps = 0;  // from now on; may be as before, when there is only something to say
+    std::uint32_t substeps = 0;  // from now on; unchanged if the decision only has a message
     std::string text;
 };
 
-// Moves substeps to hold a goal. One reading beyond the goal moves nothing; several in a row do. In a band below the
-// goal nothing moves, so substeps do not oscillate.
+// Adjusts the substeps to hold a goal. It acts after several readings beyond the goal in a row, not after one. In a
+// band below the goal it changes nothing, so that substeps do not oscillate.
 class AutoQuality {
   public:
     AutoQuality(scene::Goal goal, scene::SubstepRange range) : goal_(goal), range_(range) {}
 
-    // The reading of steps with `substeps` substeps.
+    // Takes a reading of steps with this number of substeps. Returns nullopt if nothing changes.
     std::optional<Decision> take(const Reading& reading, std::uint32_t substeps);
 
   private:
@@ -39,7 +39,7 @@ class AutoQuality {
     scene::SubstepRange range_;
     int missed_ = 0;  // readings in a row
     int easy_ = 0;
-    bool gaveUp_ = false;  // it has been said that the goal is out of reach
+    bool gaveUp_ = false;  // it has reported that the goal is out of reach
 };
 
 }  // namespace spherule::quality

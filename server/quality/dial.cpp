@@ -11,8 +11,8 @@ namespace spherule::quality {
 
 namespace {
 
-// Seconds of a substep of `spheres` spheres, on a line through the smallest and the largest timed case. The line has a
-// constant cost per substep and a cost per sphere.
+// Returns the time of a substep (s) of `spheres` spheres. It lies on a line through the smallest and the largest timed
+// case, which has a constant cost per substep and a cost per sphere.
 double substepSeconds(const Rung& rung, double spheres) {
     const auto size = [](const auto& curve) { return curve.second.spheres; };
     const auto seconds = [](const Measured& measured) { return measured.cost * measured.substep; };
@@ -54,7 +54,8 @@ v1::Dial dialFor(const Table& table, const scene::Scene& scene) {
         for (const Rung& rung : table.rungs) {
             if (rung.model != model) continue;
             const double substeps = std::round(rung.factor * *own);
-            // Two rungs may be the same where there are few: then the model's own counts, or else the first.
+            // With few substeps, two rungs may have the same number. The rung with the model's own number is kept, or
+            // else the first one.
             if (substeps == last && rung.factor == 1)
                 dial.mutable_positions()->RemoveLast();
             else if (substeps < fewest || substeps > scene::maxSubsteps || substeps == last)

@@ -5,14 +5,14 @@
 
 namespace spherule::quality {
 
-// The table's rungs for this scene: with the substeps that they are here, and the times that they would take where the
-// table was measured.
+// Returns the table's rungs for this scene: with their substeps for the scene, and their step times on the machine
+// where the table was measured.
 v1::Dial dialFor(const Table& table, const scene::Scene& scene);
 
-// Wall ms of a step, by the position of the model that is nearest; 0 where it has none.
+// Returns the wall time of a step (ms), estimated from the nearest position of the model; 0 if the model has none.
 double estimateMs(const v1::Dial& dial, scene::Model model, std::uint32_t substeps);
 
-// With all times multiplied.
+// Returns the dial with all times multiplied by `ratio`, marked as calibrated.
 v1::Dial calibrated(v1::Dial dial, double ratio);
 
 }  // namespace spherule::quality

@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t several = 5;
 constexpr std::size_t quietReadings = 10;
-constexpr double tolerated = 0.01;  // of the energy there is
+constexpr double tolerated = 0.01;  // tolerated rise / energy
 
 }  // namespace
 
 std::optional<std::string> EnergyWatch::take(const Reading& reading) {
     const double energy = reading.kinetic + reading.elastic + reading.potential - reading.given;
     if (!std::isfinite(energy)) return std::nullopt;
-    // Far below the bounds potential energy is negative, and the sum says little of how much there is.
+    // Far below the bounds, potential energy is negative; the plain sum would be too small as a scale.
     const double scale = reading.kinetic + reading.elastic + std::abs(reading.potential);
     std::optional<std::string> told;
     if (!recent_.empty()) {

@@ -8,9 +8,9 @@
 
 namespace spherule::quality {
 
-// Notices when mechanical energy rises though nothing can have given it. Where contacts store energy that a reading
-// does not show, one that is low for a moment proves nothing: a rise is one above the highest of several. Elsewhere one
-// reading is enough until there are several.
+// Detects that mechanical energy rises without a source. Readings of soft contacts may be low for a moment, because
+// contacts store energy that readings do not show. So a rise is measured from the highest of several readings. For
+// other contacts, fewer readings suffice at the start.
 class EnergyWatch {
   public:
     struct Reading {
@@ -18,15 +18,15 @@ class EnergyWatch {
         double kinetic = 0;    // J, of motion and rotation
         double potential = 0;  // J, zero at the lowest place of the scene
         double elastic = 0;    // J, in the springs of soft spheres
-        double given = 0;      // J, of pushes out of walls, which are known to give some
-        bool soft = false;     // contacts hold energy that the others do not show
+        double given = 0;      // J, added by pushes out of walls
+        bool soft = false;     // contacts store energy that the other fields do not include
     };
 
-    // A message about a rise, once until there has been none for a while.
+    // Returns a message about a rise; nullopt if there is none, or if a rise was reported recently.
     std::optional<std::string> take(const Reading& reading);
     // A command, or more substeps, may have added energy: earlier readings are discarded.
     void disturbed();
-    // Nothing to compare with has been read.
+    // Returns true if there is no earlier reading to compare with.
     [[nodiscard]] bool fresh() const { return recent_.empty(); }
     [[nodiscard]] bool alarmed() const { return alarmed_; }
 
@@ -37,7 +37,7 @@ class EnergyWatch {
     };
 
     std::deque<Seen> recent_;
-    std::optional<double> ceiling_;  // J: the lowest that the highest of several in a row has been
+    std::optional<double> ceiling_;  // J: the smallest maximum of several readings in a row
     bool alarmed_ = false;
     std::size_t quiet_ = 0;  // readings since the last rise
 };

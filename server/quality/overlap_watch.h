@@ -7,15 +7,16 @@
 
 namespace spherule::quality {
 
-// Notices when spheres are so deep in each other, or in a wall, that the model does not hold them apart any more.
+// Detects overlaps of spheres, or of spheres and walls, that are too large for the model.
 class OverlapWatch {
   public:
-    // `largest`: overlap over the (smaller) radius. Returns a message, once until there has been none for a while.
+    // `largest`: largest overlap / (smaller) radius. Returns a message; nullopt if the overlap is tolerable, or was
+    // reported recently.
     std::optional<std::string> take(std::uint64_t step, double largest);
 
   private:
     bool told_ = false;
-    std::size_t quiet_ = 0;  // readings without
+    std::size_t quiet_ = 0;  // readings since the last overlap that was too large
 };
 
 }  // namespace spherule::quality

@@ -36,7 +36,7 @@ const Json& member(const Json& object, const std::string& where, const char* nam
     return *found;
 }
 
-// A list may be deeper than the stack: nlohmann/json reads it without recursion, but writes it with.
+// Nested lists may be too deep to be written: nlohmann/json parses them without recursion, but writes them with it.
 std::string shown(const Json& value) {
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
     return scene::shown(value.dump());
@@ -47,7 +47,7 @@ double number(const Json& object, const std::string& where, const char* name, do
     const bool good = value.is_number() && std::isfinite(value.get<double>()) && value.get<double>() >= least;
     if (!good)
         throw Wrong{scene::at(where, name), fmt::format("is {}, must be a number of at least {}", shown(value), least)};
-    constexpr double most = 1e12;  // what is reckoned with them stays finite
+    constexpr double most = 1e12;  // results computed from these numbers stay finite
     if (value.get<double>() > most)
         throw Wrong{scene::at(where, name), fmt::format("is {}, must be at most {}", shown(value), most)};
     return value.get<double>();

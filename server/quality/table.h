@@ -21,7 +21,7 @@ struct Measured {
 
 struct Rung {
     scene::Model model = scene::Model::Balanced;
-    double factor = 1;  // substeps, as a multiple of those that the model would choose
+    double factor = 1;  // substeps, as a multiple of the number that the model chooses
     std::map<std::string, Measured> curves;
 };
 
@@ -29,13 +29,13 @@ struct Rung {
 struct Table {
     std::string device;
     std::string renderer;
-    std::vector<Rung> rungs;  // from fast to accurate, each model's by factor
+    std::vector<Rung> rungs;  // from fast to accurate, then by factor
 };
 
-// The text of a measure.json; `file` only names it in errors.
+// Parses the text of a measure.json. `file`: its name in errors.
 Result<Table> parseTable(const std::string& text, std::string_view file);
 Result<Table> loadTable(const std::string& path);
-// The one that comes with the program.
+// Returns the table that is embedded in the program.
 Table ownTable();
 
 }  // namespace spherule::quality

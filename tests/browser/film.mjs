@@ -1,5 +1,6 @@
-// Takes the frames of docs/images/collapse.webp: node tests/browser/film.mjs FOLDER (SPHERULE names the binary). Not a test.
-// It plays a recording and waits at each moment until the picture is complete, because software rendering is slow.
+// Takes the frames of docs/images/collapse.webp: node tests/browser/film.mjs FOLDER (SPHERULE names the binary).
+// This is not a test. It plays a recording and waits at each moment until the picture is complete, because software
+// rendering is slow.
 // This command makes a film at the rate of the simulation:
 //
 //     img2webp -loop 0 -d 50 -lossy -q 75 -m 6 FOLDER/*.png -o docs/images/collapse.webp

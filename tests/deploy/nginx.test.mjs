@@ -1,4 +1,5 @@
-// The proxy of docs/operations.md: Chromium connects to a real nginx with deploy/nginx/spherule.conf, and that to the server.
+// Tests the proxy of docs/operations.md: Chromium connects to the server through a real nginx, which runs
+// deploy/nginx/spherule.conf.
 import assert from "node:assert/strict";
 import http from "node:http";
 import https from "node:https";

@@ -34,8 +34,8 @@ std::vector<SlotPair> withinMargin(sim::Simulation& simulation) {
     return found;
 }
 
-// 400 spheres near the surfaces of each other. Some are far outside, where the torus of cells wraps around. Each moves
-// towards another one with the speed `approach` (m/s).
+// 400 spheres near the surfaces of each other. Some are far outside, where the torus of cells wraps around. Most of
+// them move towards another one with the speed `approach` (m/s).
 scene::Scene cluster(double side, double ratio, double approach) {
     scene::Scene scene = openSpace(side);
     scene::Random random(7);

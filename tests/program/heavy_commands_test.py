@@ -122,7 +122,7 @@ class HeavyCommands(unittest.TestCase):
             controller = Controller(server.port)
             ctl = subprocess.Popen([BINARY, "ctl", "--timeout", "1", server.stream, "load", path], stderr=subprocess.PIPE,
                                    text=True)
-            # The progress is sent five times a second.
+            # Progress is sent five times a second, so 12 different shares take longer than the timeout of ctl.
             controller.wait(lambda one: len({change.get("share") for change in one.of("change")}) > 12)
             self.assertIsNone(ctl.poll())
             controller.ask({"cancel": {}})

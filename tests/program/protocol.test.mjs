@@ -1,5 +1,5 @@
-// Checks docs/protocol.md: its examples run unchanged, its ranges equal the server's ranges, and `load` keeps the documented
-// settings.
+// Checks docs/protocol.md: its examples run unchanged, its ranges equal the server's ranges, and `load` keeps the
+// documented settings.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";

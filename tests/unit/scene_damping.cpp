@@ -48,8 +48,8 @@ TEST(SceneDamping, GivesItsRestitutionToLinearSprings) {
     }
 }
 
-// The dashpot is proportional to the fourth root of the overlap. Its factor sqrt(5) gives the same restitution as a
-// linear dashpot.
+// The dashpot is proportional to the fourth root of the overlap. With the factor sqrt(5), the impact has the same
+// restitution as a linear spring and dashpot with the same damping ratio.
 TEST(SceneDamping, GivesItsRestitutionUnderHertzsLaw) {
     for (const double e : restitutions) {
         const double z = dampingRatio(e);
