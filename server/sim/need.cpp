@@ -8,7 +8,6 @@
 #include "scene/occupancy.h"
 #include "scene/scene.h"
 #include "sim/layout.h"
-#include "sim/tier.h"
 
 namespace spherule::sim {
 
@@ -32,33 +31,24 @@ std::uint64_t snapshotBytes(const Plan& plan) {
 
 std::uint64_t Need::onHost() const {
     return std::accumulate(host.begin(), host.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Part& part) { return sum + part.bytes; });
+                           [](std::uint64_t sum, const MemoryPart& part) { return sum + part.bytes; });
 }
 
-std::vector<Need::Part> Need::parts() const {
-    std::vector<Part> all{{"device: arrays", arrays}};
-    for (const Part& part : host) all.push_back(part);
-    all.insert(all.end(), {{"host: for a time", work},
-                           {"all, where device and host are one", arrays + onHost() + work},
-                           {"device: order, if watched", orderArrays},
-                           {"host: order, if watched", order},
-                           {"device: each tier that is watched", tierArrays},
-                           {"host: each tier that is watched", tier}});
+std::vector<MemoryPart> Need::parts() const {
+    std::vector<MemoryPart> all{{"device: arrays", arrays}};
+    for (const MemoryPart& part : host) all.push_back(part);
+    all.insert(all.end(),
+               {{"host: for a time", work}, {"all, where device and host are one", arrays + onHost() + work}});
     return all;
 }
 
 Need needOf(const Plan& plan) {
     const std::uint64_t n = plan.spheres;
-    const TierSizes sizes = tierSizes(plan.spheres);
     Need need{.arrays = plan.bytes(),
               .host = {{"host: scene", n * sizeof(scene::Sphere)},
                        {"host: scene at the start", n * sizeof(scene::Sphere)},
                        {"host: last good state", n * slotBytes(plan.features.has(Feature::Friction))}},
-              .work = n * snapshotBytes(plan),
-              .orderArrays = sizes.toolArrays,
-              .order = sizes.order,
-              .tierArrays = sizes.tierArrays,
-              .tier = sizes.frames};
+              .work = n * snapshotBytes(plan)};
     if (plan.features.has(Feature::Radii)) need.host.push_back({"host: radii for viewers", n * radiiBytes});
     return need;
 }

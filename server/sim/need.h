@@ -14,20 +14,12 @@
 namespace spherule::sim {
 
 struct Need {
-    struct Part {
-        std::string_view name;
-        std::uint64_t bytes = 0;
-    };
-    std::uint64_t arrays = 0;  // the plan's arrays on the device; host memory if the device has none of its own
-    std::vector<Part> host;    // host memory, as long as the simulation exists
-    std::uint64_t work = 0;    // host memory in addition, while it is made or executes the command that copies most
-    // The order: allocated with the first viewer or recording. Tiers: each tier that is watched or recorded.
-    // `...Arrays` on the device, the others on the host.
-    std::uint64_t orderArrays = 0, order = 0;
-    std::uint64_t tierArrays = 0, tier = 0;
+    std::uint64_t arrays = 0;      // the plan's arrays on the device; host memory if the device has none of its own
+    std::vector<MemoryPart> host;  // host memory, as long as the simulation exists
+    std::uint64_t work = 0;        // host memory in addition, while it is made or executes the command that copies most
 
-    [[nodiscard]] std::uint64_t onHost() const;     // the sum of `host`
-    [[nodiscard]] std::vector<Part> parts() const;  // all of it, with names for users
+    [[nodiscard]] std::uint64_t onHost() const;           // the sum of `host`
+    [[nodiscard]] std::vector<MemoryPart> parts() const;  // all of it, with names for users
 };
 
 Need needOf(const Plan& plan);

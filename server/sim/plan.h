@@ -74,8 +74,14 @@ constexpr std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const Radii& radii,
              std::uint32_t pairCapacity = 0);
 
-// Describe the plan and the memory that it needs.
-std::string planText(const scene::Scene& scene, const Plan& plan);
-std::string planJson(const scene::Scene& scene, const Plan& plan);
+// A part of the memory of a scene, with its name for users.
+struct MemoryPart {
+    std::string_view name;
+    std::uint64_t bytes = 0;
+};
+
+// Describe the plan and the memory that it needs. `more`: memory beside the simulation's.
+std::string planText(const scene::Scene& scene, const Plan& plan, std::span<const MemoryPart> more);
+std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<const MemoryPart> more);
 
 }  // namespace spherule::sim

@@ -66,9 +66,15 @@ std::string whenOf(const Row& row) {
     return row.onRebuild ? "on rebuild" : "every substep";
 }
 
+std::vector<MemoryPart> memoryOf(const Plan& plan, std::span<const MemoryPart> more) {
+    std::vector<MemoryPart> parts = needOf(plan).parts();
+    parts.insert(parts.end(), more.begin(), more.end());
+    return parts;
+}
+
 }  // namespace
 
-std::string planText(const scene::Scene& scene, const Plan& plan) {
+std::string planText(const scene::Scene& scene, const Plan& plan, std::span<const MemoryPart> more) {
     std::string text =
         fmt::format("scene      {}\nspheres    {}\nstep       {:g} s in {} substeps\nquality    {}\n", scene.name,
                     plan.spheres, scene.step, scene.quality.substeps, scene::nameOf(plan.model));
@@ -87,7 +93,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan) {
         text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));
     text += fmt::format("{:<16}{:>14}{:>16.1f}\n", "all", plan.bytes(), perSphere(plan, plan.bytes()));
     text += fmt::format("\n{:<36}{:>14}{:>16}\n", "memory", "bytes", "bytes/sphere");
-    for (const Need::Part& part : needOf(plan).parts())
+    for (const MemoryPart& part : memoryOf(plan, more))
         text += fmt::format("{:<36}{:>14}{:>16.1f}\n", part.name, part.bytes, perSphere(plan, part.bytes));
     text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "invocations", "when");
     for (const Row& row : rowsOf(plan))
@@ -96,7 +102,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan) {
     return text;
 }
 
-std::string planJson(const scene::Scene& scene, const Plan& plan) {
+std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<const MemoryPart> more) {
     nlohmann::ordered_json json;
     json["scene"] = scene.name;
     json["spheres"] = plan.spheres;
@@ -127,7 +133,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
     json["bytes"] = plan.bytes();
     json["bytesPerSphere"] = perSphere(plan, plan.bytes());
     json["memory"] = nlohmann::ordered_json::array();
-    for (const Need::Part& part : needOf(plan).parts())
+    for (const MemoryPart& part : memoryOf(plan, more))
         json["memory"].push_back({{"name", part.name}, {"bytes", part.bytes}});
     json["passes"] = nlohmann::ordered_json::array();
     for (const Row& row : rowsOf(plan))

@@ -291,9 +291,8 @@ void Simulation::makeRoom() {
     uploadParameters();
 }
 
-TierSource Simulation::tierSource() {
-    return {.position = &pipeline_->buffer(Array::Position),
-            .slotOf = plan().has(Array::SlotOf) ? &pipeline_->buffer(Array::SlotOf) : nullptr};
+compute::Buffer* Simulation::buffer(Array array) {
+    return plan().has(array) ? &pipeline_->buffer(array) : nullptr;
 }
 
 void Simulation::readCounters() {

@@ -16,7 +16,6 @@
 #include "sim/preparation.h"
 #include "sim/state.h"
 #include "sim/statistics.h"
-#include "sim/tier.h"
 
 namespace spherule::sim {
 
@@ -61,8 +60,8 @@ class Simulation {
     // Returns to the last state that was found finite. States are kept about once per simulated second.
     void restore();
 
-    // Returns the buffers that hold the positions. Valid until the next command.
-    [[nodiscard]] TierSource tierSource();
+    // Returns an array on the device; null if the plan has none. Valid until the next command.
+    [[nodiscard]] compute::Buffer* buffer(Array array);
 
     struct Counters {
         std::uint32_t pairs = 0;           // listed

@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <string>
 
-#include "quality/table.h"
+#include "diagnostics/table.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace spherule;
-    const auto table = quality::parseTable(std::string(reinterpret_cast<const char*>(data), size), "fuzz.json");
+    const auto table = diagnostics::parseTable(std::string(reinterpret_cast<const char*>(data), size), "fuzz.json");
     if (!table) return 0;
-    for (const quality::Rung& rung : table->rungs)
+    for (const diagnostics::Rung& rung : table->rungs)
         for (const auto& [name, measured] : rung.curves)
             if (!std::isfinite(measured.error) || !std::isfinite(measured.cost)) std::abort();
     return 0;

@@ -5,9 +5,9 @@
 #include <thread>
 #include <vector>
 
-#include "app/runtime.h"
-#include "app/sim_loop.h"
 #include "fake_app.h"
+#include "host/host.h"
+#include "host/simulation_producer.h"
 #include "raw_socket.h"
 
 namespace spherule::net {
@@ -22,7 +22,8 @@ std::unique_ptr<app::Runtime> serve() {
         [](const app::Stage& stage) -> Result<std::unique_ptr<app::Show>> {
             auto world = app::World::open("cpu:1", "box-4k", {});
             if (!world) return tl::unexpected(world.error());
-            return std::make_unique<app::SimLoop>(std::move(*world), stage, quality::ownTable(), app::TapeOptions());
+            return std::make_unique<app::SimLoop>(std::move(*world), stage, diagnostics::ownTable(),
+                                                  app::TapeOptions());
         },
         quickOptions(), app::Watchdog::Seconds(0));
     if (!runtime) throw std::runtime_error(runtime.error().text());

@@ -1,4 +1,4 @@
-#include "app/chains.h"
+#include "encode/stream_encoder.h"
 
 #include <gtest/gtest.h>
 
@@ -8,20 +8,20 @@
 
 #include "core/memory.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
 using Kind = codec::EncodedFrame::Kind;
 constexpr codec::Rendition normal{v1::NORMAL, 30};
 
-// Chains for a world of spheres on the CPU device.
+// StreamEncoder for a world of spheres on the CPU device.
 class Watched : public testing::Test {
   protected:
     static constexpr std::uint32_t spheres = 100;
 
     Watched()
-        : chains_(
+        : encoder_(
               *device_, [this](const codec::EncodedFrame& encoded) { encoded_.push_back(encoded); },
               [this](auto order) { orders_.push_back(std::move(order)); },
               [this](const std::string& text) { complaints_.push_back(text); }) {
@@ -29,7 +29,7 @@ class Watched : public testing::Test {
         state_.position.resize(spheres);
     }
 
-    [[nodiscard]] Scenery scenery() const {
+    [[nodiscard]] EncoderInput encoderInput() const {
         return {.source = {.position = position_.get(), .slotOf = nullptr},
                 .spheres = count_,
                 .smallestRadius = 0.05,
@@ -45,7 +45,7 @@ class Watched : public testing::Test {
         version_ += steps;
         now_ += later;
         encoded_.clear();
-        chains_.serve(scenery(), subscriptions, now_);
+        encoder_.serve(encoderInput(), subscriptions, now_);
         std::string kinds;
         for (const codec::EncodedFrame& encoded : encoded_)
             kinds += encoded.kind == Kind::Keyframe ? 'K' : encoded.kind == Kind::Resync ? 'J' : 'D';
@@ -58,11 +58,11 @@ class Watched : public testing::Test {
     std::vector<codec::EncodedFrame> encoded_;
     std::vector<codec::SharedMessage> orders_;
     std::vector<std::string> complaints_;
-    Chains chains_;
+    StreamEncoder encoder_;
     std::uint32_t count_ = spheres;
     std::uint32_t epoch_ = 1;
     std::uint64_t version_ = 0;
-    Chains::Clock::time_point now_ = Chains::Clock::now();
+    StreamEncoder::Clock::time_point now_ = StreamEncoder::Clock::now();
 };
 
 TEST_F(Watched, MakesNothingForNobodyAndAKeyframeForTheFirst) {
@@ -93,7 +93,7 @@ TEST_F(Watched, KeepsToTheRateOfEachChain) {
 TEST_F(Watched, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
     serve({{.rendition = normal, .newcomer = true}}, 1s);
     EXPECT_EQ(serve({{.rendition = normal}}, 1s, 0), "");
-    EXPECT_FALSE(chains_.due());
+    EXPECT_FALSE(encoder_.due());
     EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s, 0), "J");
     EXPECT_EQ(encoded_[0].number, 1U) << "of the state that others have";
 }
@@ -139,7 +139,7 @@ TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
     memory::setLimit(1);
     EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
     EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
-    const Result<void> refused = chains_.open(normal, scenery());
+    const Result<void> refused = encoder_.open(normal, encoderInput());
     memory::setLimit(0);
     ASSERT_EQ(complaints_.size(), 1U) << "not again and again";
     EXPECT_NE(complaints_[0].find("Viewers of NORMAL at 30/s get no frames: "), std::string::npos) << complaints_[0];
@@ -154,4 +154,4 @@ TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

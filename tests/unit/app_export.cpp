@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/options.h"
-#include "app/player.h"
+#include "cli/options.h"
+#include "host/player.h"
 #include "recording/record.h"
 #include "recording_support.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 // Writes a film in which each two frames have the same time, as when the simulation was paused.
@@ -57,4 +57,4 @@ TEST(Player, OfFramesOfOneTimeShowsOne) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

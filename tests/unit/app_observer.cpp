@@ -1,18 +1,18 @@
-#include "app/observer.h"
+#include "host/diagnostics_sampler.h"
 
 #include <gtest/gtest.h>
 
-#include "quality/table.h"
+#include "diagnostics/table.h"
 #include "scene/load.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 // The lattice falls, and its overlaps are largest in step 34. Then it expands.
-TEST(Observer, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
+TEST(DiagnosticsSampler, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
     const auto device = compute::openDevice("cpu").value();
     auto simulation = sim::Simulation::create(*device, scene::load("box-4k", "cpu", {}).value()).value();
-    Observer observer(quality::ownTable());
+    DiagnosticsSampler observer(diagnostics::ownTable());
     observer.refresh(*simulation, 1);
     const auto step = [&](int count) {
         for (int k = 0; k < count; ++k) {
@@ -24,8 +24,8 @@ TEST(Observer, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
     const auto squeezed = observer.look(*simulation, {});
     step(4);
     const auto expanded = observer.look(*simulation, {});
-    const auto energyOf = [](const Observer::Sight& sight) {
-        return sight.diagnostics.statistics().kinetic_energy() + sight.diagnostics.statistics().potential_energy();
+    const auto energyOf = [](const DiagnosticsSampler::Sample& sample) {
+        return sample.diagnostics.statistics().kinetic_energy() + sample.diagnostics.statistics().potential_energy();
     };
     EXPECT_GT(energyOf(expanded), 1.02 * energyOf(squeezed)) << "this is no test";
     for (const std::string& alarm : expanded.alarms) ADD_FAILURE() << alarm;
@@ -33,4 +33,4 @@ TEST(Observer, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

@@ -1,4 +1,4 @@
-#include "app/sim_loop.h"
+#include "host/simulation_producer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,20 +8,20 @@
 
 #include "recording_support.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
 
-// A SimLoop with one sphere that lies on the floor, and a viewer that takes frames.
+// A SimulationProducer with one sphere that lies on the floor, and a viewer that takes frames.
 class Looping : public testing::Test {
   protected:
     Looping() {
         recording::writeFile(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
             "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
         thread_ = std::jthread([this](const std::stop_token& stop) {
-            SimLoop loop(World::open("cpu:1", folder_ / "one.json", {}).value(), {requests_, live_, outlets()},
-                         quality::ownTable(), TapeOptions());
+            SimulationProducer loop(SimulationHost::open("cpu:1", folder_ / "one.json", {}).value(),
+                                    {requests_, board_, outlets()}, diagnostics::ownTable(), recording::LiveOptions());
             EXPECT_TRUE(loop.run(stop));
         });
     }
@@ -48,7 +48,7 @@ class Looping : public testing::Test {
     }
 
   private:
-    Outlets outlets() {
+    net::Publisher outlets() {
         return {.retain = [](const codec::SharedMessage&) {},
                 .broadcast = [](const codec::SharedMessage&) {},
                 .order = [](const codec::SharedMessage&) {},
@@ -68,7 +68,7 @@ class Looping : public testing::Test {
 
     recording::TemporaryFolder folder_;
     Requests requests_;
-    Live live_;
+    StatusBoard board_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<v1::Frame> frames_;
@@ -93,4 +93,4 @@ TEST_F(Looping, AFrameOfAPausedWorldTellsHowManySleepInIt) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

@@ -1,4 +1,4 @@
-#include "app/play_loop.h"
+#include "host/playback_producer.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "recording/record.h"
 #include "recording_support.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
@@ -46,20 +46,20 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
 }
 
 // Plays a recording in a loop until the scene has changed `changes` times. Keeps the messages that a viewer receives.
-class Stage {
+class ProducerIo {
   public:
     std::vector<v1::SceneFacts> scenes;
     std::vector<v1::Frame> frames;
 
     void play(const std::string& path, std::size_t changes) {
         Player player(std::move(*recording::Recording::open(path)), "film.sph", true, Player::Clock::now());
-        PlayLoop loop(std::move(*compute::openDevice("cpu:1")), std::move(player),
-                      {requests_, live_, outlets(changes)});
+        PlaybackProducer loop(std::move(*compute::openDevice("cpu:1")), std::move(player),
+                              {requests_, board_, outlets(changes)});
         EXPECT_TRUE(loop.run(stop_.get_token()));
     }
 
   private:
-    Outlets outlets(std::size_t changes) {
+    net::Publisher outlets(std::size_t changes) {
         return {
             .retain =
                 [this, changes](const codec::SharedMessage& message) {
@@ -79,35 +79,35 @@ class Stage {
     }
 
     Requests requests_;
-    Live live_;
+    StatusBoard board_;
     std::stop_source stop_;
 };
 
-TEST(PlayLoop, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
+TEST(PlaybackProducer, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
     for (const std::uint32_t second : {1U, 2U}) {
         const recording::TemporaryFolder folder;
         const std::string path = folder / "film.sph";
         recording::writeFile(
             path, recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
-        Stage stage;
-        stage.play(path, 6);
-        ASSERT_EQ(stage.scenes.size(), 7U);
+        ProducerIo io;
+        io.play(path, 6);
+        ASSERT_EQ(io.scenes.size(), 7U);
         // When the thread is delayed, it continues with the scene that is then due.
         const std::vector<std::uint32_t> counts = {2, 5, 3};
         std::size_t next = 0;
-        for (std::size_t k = 0; k < stage.scenes.size(); ++k) {
-            EXPECT_EQ(stage.scenes[k].epoch(), k + 1);
-            const auto place = std::ranges::find(counts, stage.scenes[k].count()) - counts.begin();
-            ASSERT_LT(place, 3) << stage.scenes[k].count();
-            EXPECT_TRUE(k == 0 ? place == 0 : stage.scenes[k].count() != stage.scenes[k - 1].count());
+        for (std::size_t k = 0; k < io.scenes.size(); ++k) {
+            EXPECT_EQ(io.scenes[k].epoch(), k + 1);
+            const auto place = std::ranges::find(counts, io.scenes[k].count()) - counts.begin();
+            ASSERT_LT(place, 3) << io.scenes[k].count();
+            EXPECT_TRUE(k == 0 ? place == 0 : io.scenes[k].count() != io.scenes[k - 1].count());
             next += static_cast<std::size_t>(place) == k % 3 ? 1 : 0;
         }
         EXPECT_GT(next, 0U);
-        ASSERT_FALSE(stage.frames.empty());
-        for (const v1::Frame& frame : stage.frames)
-            EXPECT_EQ(frame.count(), stage.scenes.at(frame.epoch() - 1).count()) << "of epoch " << frame.epoch();
+        ASSERT_FALSE(io.frames.empty());
+        for (const v1::Frame& frame : io.frames)
+            EXPECT_EQ(frame.count(), io.scenes.at(frame.epoch() - 1).count()) << "of epoch " << frame.epoch();
     }
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

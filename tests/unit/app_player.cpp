@@ -1,4 +1,4 @@
-#include "app/player.h"
+#include "host/player.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "net/command_rules.h"
 #include "recording_support.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
@@ -75,7 +75,8 @@ class Playing : public testing::Test {
         recording::writeFile(path_, content);
         return offset;
     }
-    // Advances the clock to the time when the player is due, as PlayLoop does. Returns false when it is not due.
+    // Advances the clock to the time when the player is due, as PlaybackProducer does. Returns false when it is not
+    // due.
     bool comeWhenDue() {
         const auto due = player_->due();
         if (!due) return false;
@@ -327,4 +328,4 @@ TEST_F(Playing, ANameThatIsNoTextBecomesOne) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

@@ -1,4 +1,4 @@
-#include "app/requests.h"
+#include "host/requests.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
@@ -96,4 +96,4 @@ TEST(Requests, WakeWhoWaitsForThem) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

@@ -1,4 +1,4 @@
-#include "app/sim_loop.h"
+#include "host/simulation_producer.h"
 
 #include <gtest/gtest.h>
 
@@ -9,15 +9,15 @@
 
 #include <google/protobuf/util/json_util.h>
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
-// A SimLoop without a network. Queues commands of sessions, and keeps the answers in order.
+// A SimulationProducer without a network. Queues commands of sessions, and keeps the answers in order.
 class Desk {
   public:
     explicit Desk(const std::string& scene = "two-spheres")
-        : loop_(std::move(*World::open("cpu:1", scene, {})), {requests_, live_, outlets()}, quality::ownTable(),
-                TapeOptions()) {}
+        : loop_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, outlets()},
+                diagnostics::ownTable(), recording::LiveOptions()) {}
 
     // Queues a command; returns its id, which counts from 1.
     std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
@@ -59,7 +59,7 @@ class Desk {
     void look() {
         if (enough_ && enough_()) stop_.request_stop();
     }
-    Outlets outlets() {
+    net::Publisher outlets() {
         return {.retain =
                     [this](const codec::SharedMessage& message) {
                         if (message->content().has_change()) changes.push_back(message->content().change());
@@ -78,11 +78,11 @@ class Desk {
     }
 
     Requests requests_;
-    Live live_;
+    StatusBoard board_;
     std::stop_source stop_;
     std::function<bool()> enough_;
     std::uint64_t given_ = 0;
-    SimLoop loop_;
+    SimulationProducer loop_;
 };
 
 // 1,000 spheres almost in one point. It takes hundreds of sweeps to push them apart.
@@ -93,7 +93,7 @@ constexpr const char* crowd = R"({"load":{"scene":{"name":"crowd","bounds":{"min
 constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
     "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
 
-TEST(SimLoop, AStepIsAnsweredOnceItsStepsAreDone) {
+TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
     Desk desk;
     const auto first = desk.give(R"({"step":{"count":30}})");
     const auto second = desk.give(R"({"step":{"count":4}})");
@@ -112,7 +112,7 @@ TEST(SimLoop, AStepIsAnsweredOnceItsStepsAreDone) {
     EXPECT_EQ(other.answer(few).applied().step(), 34U);
 }
 
-TEST(SimLoop, PauseAndCancelAreAnsweredWhileASceneIsMade) {
+TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneIsMade) {
     for (const char* scene : {crowd, packed}) {
         Desk desk;
         const auto load = desk.give(scene);
@@ -130,7 +130,7 @@ TEST(SimLoop, PauseAndCancelAreAnsweredWhileASceneIsMade) {
     }
 }
 
-TEST(SimLoop, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
+TEST(SimulationProducer, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
     Desk desk;
     const auto first = desk.give(packed);
     const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);
@@ -145,7 +145,7 @@ TEST(SimLoop, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
     EXPECT_TRUE(desk.answer(third).has_applied());
 }
 
-TEST(SimLoop, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
+TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
     Desk desk;
     const auto load = desk.give(packed);
     const auto set = desk.give(R"({"set":{"gravity":[0,0,1]}})", 2);
@@ -172,7 +172,7 @@ TEST(SimLoop, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
 }
 
 // Commands of one session run in order. A later pause or resume ends a step that waits for a load.
-TEST(SimLoop, APauseOrResumeEndsStepsThatWaitForAChange) {
+TEST(SimulationProducer, APauseOrResumeEndsStepsThatWaitForAChange) {
     for (const char* later : {R"({"resume":{}})", R"({"pause":{}})"}) {
         Desk desk;
         const auto load = desk.give(R"({"load":{"name":"cradle"}})");
@@ -185,7 +185,7 @@ TEST(SimLoop, APauseOrResumeEndsStepsThatWaitForAChange) {
     }
 }
 
-TEST(SimLoop, EverybodyIsToldHowFarALongChangeHasCome) {
+TEST(SimulationProducer, EverybodyIsToldHowFarALongChangeHasCome) {
     Desk desk;
     desk.give(packed, 7);
     desk.run([&] { return desk.changes.size() >= 3; });
@@ -200,4 +200,4 @@ TEST(SimLoop, EverybodyIsToldHowFarALongChangeHasCome) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

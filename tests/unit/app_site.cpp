@@ -1,4 +1,4 @@
-#include "app/site.h"
+#include "host/http_routes.h"
 
 #include <gtest/gtest.h>
 
@@ -6,20 +6,20 @@
 
 #include <nlohmann/json.hpp>
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
-TEST(Site, ReadinessIsJsonWhateverBytesANameHas) {
-    Live live;
-    live.update([](LiveReport& report) {
+TEST(HttpRoutes, ReadinessIsJsonWhateverBytesANameHas) {
+    StatusBoard live;
+    live.update([](ServerStatus& report) {
         report.scene = std::string("caf\xe9");  // a file name in Latin 1
         report.device.renderer = std::string("\xff");
     });
     const Watchdog watchdog(Watchdog::Seconds(0));
-    Site site(live, watchdog);
+    HttpRoutes site(live, watchdog);
     const auto answer = site.get("/readyz", net::Counters());
     EXPECT_EQ(nlohmann::json::parse(answer.body).at("scene"), "caf\xef\xbf\xbd");
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "app/dispatch.h"
+#include "host/dispatch.h"
 
-namespace spherule::app {
+namespace spherule::host {
 
 // A host without recordings, in which nothing can be cancelled.
-class NoHost : public HostCommands {
+class NoHost : public ProducerCommands {
     Result<void> startRecording() override { return none(); }
     Result<void> stopRecording() override { return none(); }
     Result<void> cancel() override { return none(); }
@@ -14,9 +14,9 @@ class NoHost : public HostCommands {
 };
 
 // Applies a command to a world without recordings.
-inline std::optional<Result<sim::Applied>> give(World& world, const v1::Command& command) {
+inline std::optional<Result<sim::Applied>> give(SimulationHost& world, const v1::Command& command) {
     NoHost host;
     return dispatch(command, world, host);
 }
 
-}  // namespace spherule::app
+}  // namespace spherule::host

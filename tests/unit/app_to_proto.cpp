@@ -1,4 +1,4 @@
-#include "app/to_proto.h"
+#include "host/to_proto.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "app_support.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 v1::Refused refusalOf(const v1::Command& command, const std::string& where) {
@@ -42,7 +42,7 @@ TEST(ResultOf, IsFitForAMessageWhateverBytesAFileHas) {
 
 // The refusals of a command, as clients receive them.
 TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
-    auto world = World::open("cpu:1", "cradle", {});
+    auto world = SimulationHost::open("cpu:1", "cradle", {});
     ASSERT_TRUE(world);
     const auto refused = [&](const v1::Command& command) {
         auto applied = give(**world, command);
@@ -107,4 +107,4 @@ TEST(StatisticsMessage, HasNoRestitutionWithoutImpacts) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

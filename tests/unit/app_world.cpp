@@ -1,4 +1,4 @@
-#include "app/world.h"
+#include "host/simulation_host.h"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@
 #include "app_support.h"
 #include "scene/quality.h"
 
-namespace spherule::app {
+namespace spherule::host {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto now = World::Clock::time_point::min();  // a deadline in the past: each call does the least work
+constexpr auto now = SimulationHost::Clock::time_point::min();  // a deadline in the past: each call does the least work
 
 v1::Command commandOf(const std::string& json) {
     v1::Command command;
@@ -26,20 +26,20 @@ v1::Command commandOf(const std::string& json) {
 }
 
 // Returns the result of a command that is carried out at once.
-sim::Applied done(World& world, const std::string& json) {
+sim::Applied done(SimulationHost& world, const std::string& json) {
     const auto applied = give(world, commandOf(json));
     EXPECT_TRUE(applied && *applied) << json;
     return applied && *applied ? **applied : sim::Applied();
 }
 
-Error refusalOf(World& world, const std::string& json) {
+Error refusalOf(SimulationHost& world, const std::string& json) {
     const auto applied = give(world, commandOf(json));
     EXPECT_TRUE(applied && !*applied) << json;
     return applied && !*applied ? applied->error() : Error();
 }
 
 // Returns the number of pieces until the change has a result.
-int piecesOf(World& world, int most, Result<sim::Applied>& result) {
+int piecesOf(SimulationHost& world, int most, Result<sim::Applied>& result) {
     for (int pieces = 1; pieces <= most; ++pieces) {
         if (auto applied = world.advanceChange(0ns)) {
             result = std::move(*applied);
@@ -50,8 +50,8 @@ int piecesOf(World& world, int most, Result<sim::Applied>& result) {
     return most;
 }
 
-std::unique_ptr<World> open(const std::string& scene = "two-spheres") {
-    auto world = World::open("cpu:1", scene, {});
+std::unique_ptr<SimulationHost> open(const std::string& scene = "two-spheres") {
+    auto world = SimulationHost::open("cpu:1", scene, {});
     EXPECT_TRUE(world) << world.error().text();
     return std::move(*world);
 }
@@ -61,7 +61,7 @@ constexpr const char* thrown =
     R"("bounds":{"min":[-9,-9,-9],"max":[9,9,9]},"groups":[{"radius":{"constant":0.05},"velocity":[0,0,0.9],
        "list":{"spheres":[{"position":[0,0,0]}]}}])";
 
-void load(World& world, const std::string& scene) {
+void load(SimulationHost& world, const std::string& scene) {
     ASSERT_FALSE(give(world, commandOf(R"({"load":{"scene":{)" + scene + "}}}")));
     Result<sim::Applied> result;
     while (true) {
@@ -72,7 +72,7 @@ void load(World& world, const std::string& scene) {
     }
 }
 
-TEST(World, ComesBackAfterEachSubstepOfALongStep) {
+TEST(SimulationHost, ComesBackAfterEachSubstepOfALongStep) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":1000}})");
@@ -90,7 +90,7 @@ TEST(World, ComesBackAfterEachSubstepOfALongStep) {
     EXPECT_EQ(simulation.time(), simulation.scene().step);
 }
 
-TEST(World, PausesInTheMiddleOfAStepAndGoesOnWithIt) {
+TEST(SimulationHost, PausesInTheMiddleOfAStepAndGoesOnWithIt) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":100}})");
@@ -107,7 +107,7 @@ TEST(World, PausesInTheMiddleOfAStepAndGoesOnWithIt) {
 }
 
 // The step keeps its length when the number of substeps changes in the middle of it.
-TEST(World, SubstepsMayChangeWithinAStep) {
+TEST(SimulationHost, SubstepsMayChangeWithinAStep) {
     for (const int before : {2, 7, 64, 999}) {
         for (const int after : {1, 3, 64, 1000}) {
             const auto world = open();
@@ -135,7 +135,7 @@ TEST(World, SubstepsMayChangeWithinAStep) {
     }
 }
 
-TEST(World, GoesOnWhileAnotherSceneIsMade) {
+TEST(SimulationHost, GoesOnWhileAnotherSceneIsMade) {
     const auto world = open("box-4k");
     const std::uint32_t epoch = world->epoch();
     ASSERT_FALSE(give(*world, commandOf(R"({"load":{"name":"box-10k"}})")));
@@ -160,7 +160,7 @@ TEST(World, GoesOnWhileAnotherSceneIsMade) {
     EXPECT_EQ(world->simulation().steps(), 0U);
 }
 
-TEST(World, ACancelledLoadLeavesTheWorldAsItWas) {
+TEST(SimulationHost, ACancelledLoadLeavesTheWorldAsItWas) {
     const auto world = open("two-spheres");
     const std::uint32_t epoch = world->epoch();
     const std::uint64_t hash = sim::hashOf(world->simulation().snapshot());
@@ -175,7 +175,7 @@ TEST(World, ACancelledLoadLeavesTheWorldAsItWas) {
 }
 
 // While spheres are added, the others must not move, because new spheres must not overlap them.
-TEST(World, HoldsStillWhileSpheresAreAdded) {
+TEST(SimulationHost, HoldsStillWhileSpheresAreAdded) {
     const auto world = open("two-spheres");
     while (!*world->advance(now)) {
     }
@@ -200,7 +200,7 @@ TEST(World, HoldsStillWhileSpheresAreAdded) {
 }
 
 // Each sweep is a piece, and so is the check after every 16 sweeps.
-TEST(World, SpheresInOnePointArePushedApartInPieces) {
+TEST(SimulationHost, SpheresInOnePointArePushedApartInPieces) {
     const auto world = open("two-spheres");
     ASSERT_FALSE(give(*world, commandOf(R"({"load":{"scene":{"bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
         "groups":[{"radius":{"constant":0.02},
@@ -212,7 +212,7 @@ TEST(World, SpheresInOnePointArePushedApartInPieces) {
     EXPECT_FALSE(world->simulation().takeNotices().empty());
 }
 
-TEST(World, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
+TEST(SimulationHost, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
     const auto world = open("box-4k");
     const std::uint32_t most = scene::mostSubsteps(world->simulation().scene());
     const Error refused = refusalOf(*world, R"({"set":{"substeps":1000000}})");
@@ -223,7 +223,7 @@ TEST(World, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
 }
 
 // With more spheres, fewer substeps are accepted, so that the work of a step is limited.
-TEST(World, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
+TEST(SimulationHost, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     scene::Scene scene;
     scene.bounds = {.min = glm::dvec3(-10), .max = glm::dvec3(10)};
     for (const std::size_t spheres : {1, 1000, 100'000, 1'000'000}) {
@@ -234,7 +234,7 @@ TEST(World, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     }
 }
 
-TEST(World, RefusesAPushThatIsTooFastAndTakesTheLargest) {
+TEST(SimulationHost, RefusesAPushThatIsTooFastAndTakesTheLargest) {
     for (const char* model : {"FAST", "BALANCED", "ACCURATE"}) {
         const auto world = open("box-4k");
         load(*world, std::string(R"("quality":{"model":")") + model + "\"}," + thrown);
@@ -252,21 +252,21 @@ TEST(World, RefusesAPushThatIsTooFastAndTakesTheLargest) {
 }
 
 // A command that is cancelled does not change the speed either.
-TEST(World, ASpeedComesWithTheRestOfItsCommand) {
+TEST(SimulationHost, ASpeedComesWithTheRestOfItsCommand) {
     const auto world = open("two-spheres");
     const char* set = R"({"set":{"speed":4,"model":"ACCURATE"}})";
     ASSERT_FALSE(give(*world, commandOf(set)));
     world->cancelChange();
-    EXPECT_EQ(world->pacer().speed(), 1);
+    EXPECT_EQ(world->scheduler().speed(), 1);
     ASSERT_FALSE(give(*world, commandOf(set)));
     Result<sim::Applied> result;
     piecesOf(*world, 1'000'000'000, result);
     ASSERT_TRUE(result) << result.error().text();
-    EXPECT_EQ(world->pacer().speed(), 4);
+    EXPECT_EQ(world->scheduler().speed(), 4);
 }
 
 // Even for a very fast sphere, the refusal gives an impulse that is accepted.
-TEST(World, APushAgainstAVeryFastSphereNamesTheLargest) {
+TEST(SimulationHost, APushAgainstAVeryFastSphereNamesTheLargest) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":20}})");
@@ -280,7 +280,7 @@ TEST(World, APushAgainstAVeryFastSphereNamesTheLargest) {
     done(*world, fmt::format(R"({{"push":{{"sphere":0,"impulse":[{},0,0]}}}})", -0.999 * most));
 }
 
-TEST(World, RefusesSpheresThatBeginTooFast) {
+TEST(SimulationHost, RefusesSpheresThatBeginTooFast) {
     const auto world = open();
     const std::string scene = R"("bounds":{"min":[-1,-1,-1],"max":[1,1,1]},"groups":[{"radius":{"constant":0.05},
         "velocity":[0,{},0],"list":{"spheres":[{"position":[0,0,0]}]}}])";
@@ -299,4 +299,4 @@ TEST(World, RefusesSpheresThatBeginTooFast) {
 }
 
 }  // namespace
-}  // namespace spherule::app
+}  // namespace spherule::host

@@ -13,14 +13,18 @@ MODULES = {
     "core": set(),
     "compute": {"core"},
     "scene": {"core"},
-    "quality": {"scene", "core"},
     "sim": {"compute", "scene", "core"},
+    "diagnostics": {"sim", "scene", "core"},
     "measure": {"sim", "scene", "compute", "core"},
     "codec": {"scene", "core"},
+    "encode": {"codec", "sim", "compute", "core"},
     "recording": {"codec", "scene", "core"},
     "net": {"codec", "core"},
     "client": {"net", "core"},
-    "app": {"client", "net", "measure", "quality", "sim", "recording", "codec", "scene", "compute", "core"},
+    "host": {"net", "recording", "encode", "diagnostics", "codec", "sim", "scene", "compute", "core"},
+    "cli": {
+        "host", "client", "measure", "net", "recording", "encode", "diagnostics", "sim", "scene", "compute", "core",
+    },
 }
 # Quoted includes outside of server/: messages, files embedded at build time, layout of the kernels' data.
 SHARED = {"spherule", "embedded", "shared"}

@@ -20,12 +20,12 @@
 #include "codec/decoder.h"
 #include "codec/rendition.h"
 #include "compute/device.h"
+#include "encode/frame_encoder.h"
+#include "encode/morton.h"
 #include "scene/catalog.h"
 #include "scene/json.h"
 #include "scene/load.h"
-#include "sim/morton.h"
 #include "sim/simulation.h"
-#include "sim/tier.h"
 
 namespace spherule::codec {
 namespace {
@@ -58,11 +58,11 @@ scene::Scene sceneOf(const std::string& name) {
 
 // One chain with two decoders: one from the start, and one from a resync keyframe in the middle.
 struct Chain {
-    Chain(sim::TierTools& tools, double step)
-        : quantum(step), tier(valueOf(sim::Tier::create(tools, {.quantum = step}))) {}
+    Chain(encode::EncoderContext& tools, double step)
+        : quantum(step), tier(valueOf(encode::FrameEncoder::create(tools, {.quantum = step}))) {}
 
     double quantum;  // m
-    std::unique_ptr<sim::Tier> tier;
+    std::unique_ptr<encode::FrameEncoder> tier;
     std::unique_ptr<codec::Decoder> first, joined;
     double worst = 0;  // error, in quanta
 };
@@ -72,14 +72,14 @@ class CodecError : public testing::TestWithParam<std::string> {
     CodecError()
         : device_(valueOf(compute::openDevice("cpu"))),
           simulation_(valueOf(sim::Simulation::create(*device_, sceneOf(GetParam())))),
-          tools_(valueOf(sim::TierTools::create(*device_, simulation_->count(), source().slotOf != nullptr))) {
-        order_ = sim::mortonOrder(simulation_->snapshot().position);
+          tools_(valueOf(encode::EncoderContext::create(*device_, simulation_->count(), source().slotOf != nullptr))) {
+        order_ = encode::mortonOrder(simulation_->snapshot().position);
         tools_->setOrder(order_);
         for (const v1::Tier tier : tiers)
-            chains_.emplace_back(*tools_, codec::quantumOf(tier, simulation_->radii().smallest));
+            encoder_.emplace_back(*tools_, codec::quantumOf(tier, simulation_->radii().smallest));
     }
 
-    sim::TierSource source() { return simulation_->tierSource(); }
+    encode::PositionSource source() { return simulation_->tierSource(); }
 
     void step(int steps) {
         for (int k = 0; k < steps; ++k)
@@ -106,9 +106,9 @@ class CodecError : public testing::TestWithParam<std::string> {
 
     std::unique_ptr<compute::Device> device_;
     std::unique_ptr<sim::Simulation> simulation_;
-    std::unique_ptr<sim::TierTools> tools_;
+    std::unique_ptr<encode::EncoderContext> tools_;
     std::vector<std::uint32_t> order_;
-    std::vector<Chain> chains_;
+    std::vector<Chain> encoder_;
 };
 
 // Fewer steps for more spheres. With 30 steps between frames, small scenes get through their impacts.
@@ -120,7 +120,7 @@ TEST_P(CodecError, StaysWithinTheStatedBound) {
     for (int frame = 0; frame <= frames; ++frame) {
         if (frame > 0) step(between);
         const sim::State state = simulation_->snapshot();
-        for (Chain& chain : chains_) {
+        for (Chain& chain : encoder_) {
             frame == 0 ? chain.tier->begin(source(), true) : chain.tier->next(source(), true);
             take(chain, chain.first, state);
             if (frame > frames / 2) take(chain, chain.joined, state);
@@ -131,7 +131,7 @@ TEST_P(CodecError, StaysWithinTheStatedBound) {
     }
     // With many spheres some are nearly half way between two grid points. Otherwise the comparison would prove nothing.
     if (spheres < 1000) return;
-    for (const Chain& chain : chains_) EXPECT_GT(chain.worst, 0.499);
+    for (const Chain& chain : encoder_) EXPECT_GT(chain.worst, 0.499);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CodecError, testing::ValuesIn(scene::names()), [](const auto& named) {

@@ -22,8 +22,8 @@ constexpr double edge = 1073741824;
 
 Encoder::Encoder(const std::string& device, std::uint32_t spheres, double quantum, glm::vec3 origin)
     : device_(valueOf(compute::openDevice(device))),
-      tools_(valueOf(sim::TierTools::create(*device_, spheres, true))),
-      tier_(valueOf(sim::Tier::create(*tools_, {.origin = origin, .quantum = quantum}))),
+      tools_(valueOf(encode::EncoderContext::create(*device_, spheres, true))),
+      tier_(valueOf(encode::FrameEncoder::create(*tools_, {.origin = origin, .quantum = quantum}))),
       position_(valueOf(device_->createBuffer("position", spheres * sizeof(glm::vec4), "r"))),
       slotOf_(valueOf(device_->createBuffer("slotOf", spheres * sizeof(std::uint32_t)))),
       slots_(spheres) {
@@ -32,7 +32,7 @@ Encoder::Encoder(const std::string& device, std::uint32_t spheres, double quantu
     device_->upload(*slotOf_, 0, std::as_bytes(std::span(slots_)));
 }
 
-sim::TierSource Encoder::put(const Positions& byId) {
+encode::PositionSource Encoder::put(const Positions& byId) {
     Positions bySlot(byId.size());
     for (std::size_t id = 0; id < byId.size(); ++id) bySlot[slots_[id]] = byId[id];
     device_->upload(*position_, 0, std::as_bytes(std::span(bySlot)));

@@ -10,7 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "compute/device.h"
-#include "sim/tier.h"
+#include "encode/frame_encoder.h"
 
 namespace spherule::codec {
 
@@ -27,13 +27,13 @@ class Encoder {
     Bytes next(const Positions& byId);
     Bytes join();
 
-    [[nodiscard]] sim::Tier& tier() { return *tier_; }
-    [[nodiscard]] sim::TierSource put(const Positions& byId);
+    [[nodiscard]] encode::FrameEncoder& tier() { return *tier_; }
+    [[nodiscard]] encode::PositionSource put(const Positions& byId);
 
   private:
     std::unique_ptr<compute::Device> device_;
-    std::unique_ptr<sim::TierTools> tools_;
-    std::unique_ptr<sim::Tier> tier_;
+    std::unique_ptr<encode::EncoderContext> tools_;
+    std::unique_ptr<encode::FrameEncoder> tier_;
     std::unique_ptr<compute::Buffer> position_, slotOf_;
     std::vector<std::uint32_t> slots_;  // by id
 };

@@ -1,8 +1,8 @@
-#include "quality/auto_quality.h"
+#include "diagnostics/auto_quality.h"
 
 #include <gtest/gtest.h>
 
-namespace spherule::quality {
+namespace spherule::diagnostics {
 namespace {
 
 using scene::Goal;
@@ -111,4 +111,4 @@ TEST(AutoQuality, NeverLeavesItsRange) {
 }
 
 }  // namespace
-}  // namespace spherule::quality
+}  // namespace spherule::diagnostics

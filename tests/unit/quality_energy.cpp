@@ -1,8 +1,8 @@
-#include "quality/energy_watch.h"
+#include "diagnostics/energy_watch.h"
 
 #include <gtest/gtest.h>
 
-namespace spherule::quality {
+namespace spherule::diagnostics {
 namespace {
 
 // Takes a reading with this kinetic energy `times` times; returns the number of messages.
@@ -90,4 +90,4 @@ TEST(EnergyWatch, MeasuresFarFallsByWhatTheyAreMadeOf) {
 }
 
 }  // namespace
-}  // namespace spherule::quality
+}  // namespace spherule::diagnostics

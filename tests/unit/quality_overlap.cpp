@@ -1,10 +1,10 @@
-#include "quality/overlap_watch.h"
+#include "diagnostics/overlap_watch.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace spherule::quality {
+namespace spherule::diagnostics {
 namespace {
 
 TEST(OverlapWatch, TellsOnceUntilThereHasBeenNoneForAWhile) {
@@ -25,4 +25,4 @@ TEST(OverlapWatch, IsSilentOfWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace spherule::quality
+}  // namespace spherule::diagnostics

@@ -1,4 +1,4 @@
-#include "quality/table.h"
+#include "diagnostics/table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "quality/dial.h"
+#include "diagnostics/dial.h"
 #include "scene/load.h"
 
-namespace spherule::quality {
+namespace spherule::diagnostics {
 namespace {
 
 constexpr const char* good = R"({
@@ -142,4 +142,4 @@ TEST(Dial, LeavesOutWhatASceneCannotHave) {
 }
 
 }  // namespace
-}  // namespace spherule::quality
+}  // namespace spherule::diagnostics

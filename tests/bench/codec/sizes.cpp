@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "codec/decoder.h"
+#include "encode/frame_encoder.h"
+#include "encode/morton.h"
 #include "rivals.h"
-#include "sim/morton.h"
-#include "sim/tier.h"
 
 namespace spherule::bench {
 
@@ -51,8 +51,8 @@ struct Ours {
 
 Ours ours(compute::Device& device, const Trajectory& trajectory, double quantum, const Order& order) {
     const std::uint32_t spheres = trajectory.spheres;
-    const auto tools = valueOf(sim::TierTools::create(device, spheres, false));
-    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
+    const auto tools = valueOf(encode::EncoderContext::create(device, spheres, false));
+    const auto tier = valueOf(encode::FrameEncoder::create(*tools, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     tools->setOrder(order);
     codec::Decoder decoder(spheres);
@@ -88,7 +88,7 @@ std::vector<CodecSize> codecSizes(compute::Device& device, const Trajectory& tra
     };
     std::vector<glm::vec4> first;
     for (const glm::vec3& p : trajectory.frames.front()) first.emplace_back(p, 0);
-    const Order order = sim::mortonOrder(first);
+    const Order order = encode::mortonOrder(first);
     Order ids(trajectory.spheres);
     std::iota(ids.begin(), ids.end(), 0U);
     const Ours morton = ours(device, trajectory, quantum, order);

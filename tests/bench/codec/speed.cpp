@@ -12,8 +12,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "codec/decoder.h"
-#include "sim/morton.h"
-#include "sim/tier.h"
+#include "encode/frame_encoder.h"
+#include "encode/morton.h"
 
 namespace spherule::bench {
 
@@ -107,7 +107,7 @@ struct Copies : World {
     Copies(std::uint32_t spheres, const Trajectory& bed) : World(spheres), bed_(bed) {
         std::iota(slotOf.begin(), slotOf.end(), 0U);
         place(0);
-        const std::vector<std::uint32_t> order = sim::mortonOrder(bySlot);
+        const std::vector<std::uint32_t> order = encode::mortonOrder(bySlot);
         for (std::uint32_t slot = 0; slot < spheres; ++slot) slotOf[order[slot]] = slot;
         place(0);
     }
@@ -131,17 +131,17 @@ struct Copies : World {
 
 CodecSpeed timed(compute::Device& device, World& world, double quantum, const std::string& keep) {
     const auto spheres = static_cast<std::uint32_t>(world.slotOf.size());
-    const auto tools = valueOf(sim::TierTools::create(device, spheres, true));
-    const auto tier = valueOf(sim::Tier::create(*tools, {.quantum = quantum}));
+    const auto tools = valueOf(encode::EncoderContext::create(device, spheres, true));
+    const auto tier = valueOf(encode::FrameEncoder::create(*tools, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     const auto slotOf = valueOf(device.createBuffer("slotOf", spheres * sizeof(std::uint32_t)));
     device.upload(*slotOf, 0, std::as_bytes(std::span(world.slotOf)));
     std::vector<glm::vec4> byId(spheres);
     for (std::uint32_t id = 0; id < spheres; ++id) byId[id] = world.bySlot[world.slotOf[id]];
-    const std::vector<std::uint32_t> order = sim::mortonOrder(byId);
+    const std::vector<std::uint32_t> order = encode::mortonOrder(byId);
     tools->setOrder(order);
     write(keep, "order.u32", std::as_bytes(std::span(order)));
-    const sim::TierSource source{.position = position.get(), .slotOf = slotOf.get()};
+    const encode::PositionSource source{.position = position.get(), .slotOf = slotOf.get()};
     const auto put = [&] { device.upload(*position, 0, std::as_bytes(std::span(world.bySlot))); };
 
     put();

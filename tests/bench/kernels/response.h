@@ -39,10 +39,8 @@ void meet(uint other) {
 
 // Keeps the coordinate x between two walls; returns the new coordinate and the new speed.
 vec2 bounce(float x, float v, float low, float high, uint face) {
-    if ((params.closedFaces & (1u << face)) != 0u && x < low)
-        return vec2(low, v < 0.0f ? -params.law.x * v : v);
-    if ((params.closedFaces & (2u << face)) != 0u && x > high)
-        return vec2(high, v > 0.0f ? -params.law.x * v : v);
+    if ((params.closedFaces & (1u << face)) != 0u && x < low) return vec2(low, v < 0.0f ? -params.law.x * v : v);
+    if ((params.closedFaces & (2u << face)) != 0u && x > high) return vec2(high, v > 0.0f ? -params.law.x * v : v);
     return vec2(x, v);
 }
 

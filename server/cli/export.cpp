@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/errors.h"
+#include "cli/exit_codes.h"
+#include "cli/interrupt.h"
+#include "cli/option_values.h"
+#include "cli/options.h"
+#include "cli/progress_line.h"
+#include "core/log.h"
+#include "recording/exporter.h"
+#include "recording/recording.h"
+
+namespace spherule::cli {
+
+namespace {
+
+struct ExportOptions {
+    std::string file;
+    std::string format;
+    std::string out;
+    std::string every, from, to;
+    bool replace = false;
+};
+
+// Times in simulated seconds.
+struct Range {
+    double every = 0;  // 0: every frame
+    double from = -std::numeric_limits<double>::infinity();
+    double to = std::numeric_limits<double>::infinity();
+};
+
+constexpr double sameTime = 1e-6;  // tolerance (s): times are sums of steps
+
+Result<Range> rangeOf(const ExportOptions& options) {
+    Range range;
+    const auto read = [](const std::string& text, const char* option, double& seconds) -> Result<void> {
+        if (text.empty()) return {};
+        const auto given = secondsOf(text, option);
+        if (!given) return tl::unexpected(given.error());
+        seconds = *given;
+        return {};
+    };
+    if (auto done = read(options.every, "--every", range.every); !done) return tl::unexpected(done.error());
+    if (auto done = read(options.from, "--from", range.from); !done) return tl::unexpected(done.error());
+    if (auto done = read(options.to, "--to", range.to); !done) return tl::unexpected(done.error());
+    if (!options.every.empty() && !(range.every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
+    if (range.to < range.from) return fail(ErrorKind::Input, "--to", "is before --from");
+    return range;
+}
+
+recording::MadeExporter exporterFor(const ExportOptions& options) {
+    if (options.format == "vtk" && options.out == "-")
+        return fail(ErrorKind::Input, "--out",
+                    "cannot be standard output: vtk is many files; give a name, or --format xyz");
+    if (options.format == "xyz") return recording::xyzExporter(options.out, options.replace);
+    if (options.format == "csv") return recording::csvExporter(options.out, options.replace);
+    return recording::vtkExporter(options.out, options.replace);
+}
+
+// Moves to the first frame that is not before `from`. Returns false if there is none, or when the export is
+// interrupted.
+Result<bool> enter(recording::Recording& recording, double from, const Interrupt& interrupt) {
+    if (auto done = recording.seek(from); !done) {
+        // After damage, the next readable keyframe is the first usable frame.
+        spdlog::warn("{}", done.error().text());
+        if (!recording.recover(from)) return tl::unexpected(done.error());
+    }
+    while (recording.time() < from - sameTime) {
+        auto more = recording.next();
+        if (!more || !*more) return more;
+        if (interrupt.asked()) return false;
+    }
+    return true;
+}
+
+struct Written {
+    std::uint64_t frames = 0;
+    double error = 0;  // largest error of a coordinate (m)
+};
+
+// With `every`, writes the first frame at or after each multiple of it, counted from the first frame. After an
+// interrupt it stops early and does not finish the export.
+Result<Written> write(recording::Recording& recording, const Range& range, recording::Exporter& exporter,
+                      const Interrupt& interrupt) {
+    Written written;
+    ProgressLine progress;
+    auto more = enter(recording, std::max(range.from, recording.begin()), interrupt);
+    const double first = recording.time();
+    double due = 0;
+    std::optional<double> newest;
+    for (; more && *more && !interrupt.asked(); more = recording.next()) {
+        const double time = recording.time();
+        if (time > range.to + sameTime) break;
+        // A recording of a reset or a pause may have several frames of the same time.
+        if (newest && time <= *newest) continue;
+        if (range.every > 0) {
+            const double at = (time - first + sameTime) / range.every;
+            if (at < due) continue;
+            due = std::floor(at) + 1;
+        }
+        newest = time;
+        const recording::Snapshot snapshot = recording.now();
+        if (auto done = exporter.add(snapshot); !done) return tl::unexpected(done.error());
+        ++written.frames;
+        written.error = std::max(written.error, snapshot.error);
+        progress.show([&] {
+            return fmt::format("{} frames, at {:.2f} s of {:.2f} s ", written.frames, time,
+                               std::min(range.to, recording.end()));
+        });
+    }
+    if (interrupt.asked()) return written;
+    if (!more) {
+        // The frames before the damage are valid, so the export is finished. The damage decides the exit code.
+        if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
+        return fail(ErrorKind::Input, "",
+                    fmt::format("{}; {} frames before it were exported; --from exports the part after it",
+                                more.error().text(), written.frames));
+    }
+    if (auto done = exporter.finish(); !done) return tl::unexpected(done.error());
+    return written;
+}
+
+Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt) {
+    const auto range = rangeOf(options);
+    if (!range) return tl::unexpected(range.error());
+    auto recording = recording::Recording::open(options.file);
+    if (!recording) return tl::unexpected(recording.error());
+    if (!recording->damage().empty())
+        spdlog::warn("{} is exported up to {:g} s: {}", options.file, recording->end(), recording->damage());
+    if (range->from > recording->end() + sameTime || range->to < recording->begin() - sameTime)
+        return fail(ErrorKind::Input, options.file,
+                    fmt::format("has nothing of that time: it goes from {:g} s to {:g} s", recording->begin(),
+                                recording->end()));
+    std::error_code missing;  // set if the output file does not exist yet
+    if (std::filesystem::equivalent(options.file, options.out, missing))
+        return fail(ErrorKind::Input, options.out, "is the recording itself; choose another name");
+    interrupt.finishFirst();
+    auto exporter = exporterFor(options);
+    if (!exporter) return tl::unexpected(exporter.error());
+    const auto written = write(*recording, *range, **exporter, interrupt);
+    if (!written) return tl::unexpected(written.error());
+    if (interrupt.asked()) {
+        spdlog::warn("ended by {} after {} frames: {} was not written", interrupt.name(), written->frames,
+                     (*exporter)->path());
+        return {};
+    }
+    spdlog::info("exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis",
+                 written->frames, (*exporter)->path(), written->error);
+    return {};
+}
+
+}  // namespace
+
+void addExport(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<ExportOptions>();
+    CLI::App* command = app.add_subcommand("export", "convert a recording for other tools");
+    command->add_option("file", options->file, "the recording")->required();
+    command->add_option("--format", options->format, "xyz (OVITO, ASE), vtk (ParaView) or csv")
+        ->required()
+        ->check(CLI::IsMember({"xyz", "vtk", "csv"}));
+    command
+        ->add_option("--out", options->out,
+                     "output file, or - for standard output; for vtk the .pvd file, beside a folder of that name")
+        ->required();
+    command->add_option("--every", options->every, "interval between frames, such as 0.1s [every frame]");
+    command->add_option("--from", options->from, "simulated time of the first frame, such as 1.5s");
+    command->add_option("--to", options->to, "simulated time of the last frame");
+    command->add_flag("--force", options->replace, "replace existing files");
+    command->footer(exitCodesText);
+    command->callback([options, &exitCode] {
+        Interrupt interrupt;
+        const auto done = exportRecording(*options, interrupt);
+        if (!done)
+            exitCode = printError(done.error());
+        else
+            exitCode = interrupt.asked() ? exitBySignal + interrupt.signal() : exitDone;
+    });
+}
+
+}  // namespace spherule::cli

@@ -1,0 +1,285 @@
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/errors.h"
+#include "cli/exit_codes.h"
+#include "cli/interrupt.h"
+#include "cli/option_values.h"
+#include "cli/options.h"
+#include "cli/progress_line.h"
+#include "cli/record_options.h"
+#include "cli/run_report.h"
+#include "cli/state_dump.h"
+#include "compute/device.h"
+#include "core/log.h"
+#include "diagnostics/overlap_watch.h"
+#include "diagnostics/substep_controller.h"
+#include "host/run_recorder.h"
+#include "host/watchdog.h"
+#include "sim/simulation.h"
+
+namespace spherule::cli {
+
+namespace {
+
+struct RunOptions {
+    SceneOptions scene;
+    recording::Options record;
+    std::string duration;
+    std::string every;
+    std::string dump;
+    double watchdog = 0;
+    bool json = false;
+};
+
+using Clock = std::chrono::steady_clock;
+constexpr double mostSteps = 1e12;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Measures a run in stretches. The time of reports between two stretches is not counted. The time of dumps is.
+class Watch {
+  public:
+    Watch(sim::Simulation& simulation, compute::Device& device) : simulation_(simulation), device_(device) { start(); }
+
+    void start() {
+        static_cast<void>(device_.takeTimes());
+        simTime_ = simulation_.time();
+        rebuilds_ = simulation_.counters().rebuilds;
+        impacts_ = simulation_.impacts();
+        began_ = Clock::now();
+    }
+    // Waits for the device.
+    Interval take() {
+        device_.finish();
+        Interval interval{.simSeconds = simulation_.time() - simTime_,
+                          .wallSeconds = secondsSince(began_),
+                          .passSeconds = device_.takeTimes(),
+                          .rebuilds = simulation_.counters().rebuilds - rebuilds_,
+                          .before = impacts_};
+        interval.end = simulation_.statistics();
+        return interval;
+    }
+
+  private:
+    sim::Simulation& simulation_;
+    compute::Device& device_;
+    double simTime_ = 0;
+    std::uint64_t rebuilds_ = 0;
+    sim::Impacts impacts_;
+    Clock::time_point began_;
+};
+
+// Completes a step. Returns false if a signal asks for the end and the step takes longer than `wholeStep`: the step is
+// incomplete then.
+Result<bool> stepUnlessAsked(sim::Simulation& simulation, const Interrupt& interrupt) {
+    constexpr double wholeStep = 0.5;  // s; a shorter step is always completed
+    const auto began = Clock::now();
+    for (;;) {
+        const auto ended = simulation.advance();
+        if (!ended || *ended) return ended;
+        if (interrupt.asked() && secondsSince(began) > wholeStep) return false;
+    }
+}
+
+// Runs `steps`, or fewer after a signal. Calls `every` after each `stride` steps and at the end. `recorder` may be
+// null.
+Result<void> runSteps(sim::Simulation& simulation, host::RunRecorder* recorder, const Interrupt& interrupt,
+                      std::uint64_t steps, std::uint64_t stride, const std::function<Result<void>()>& every) {
+    ProgressLine progress;
+    const auto began = Clock::now();
+    diagnostics::SubstepController controller;
+    const auto record = [recorder](v1::Event::Kind kind, const std::string& text) {
+        return recorder != nullptr ? recorder->addEvent(kind, text) : Result<void>();
+    };
+    std::uint64_t k = 0;
+    for (bool last = false; !last;) {
+        const auto ended = stepUnlessAsked(simulation, interrupt);
+        if (!ended) return tl::unexpected(ended.error());
+        if (*ended) ++k;
+        last = k == steps || interrupt.asked();
+        for (const std::string& notice : simulation.takeNotices()) {
+            spdlog::warn("{}", notice);
+            if (auto done = record(v1::Event::WARNING, notice); !done) return done;
+        }
+        const auto told = controller.stepped(simulation, 0);  // `run` accepts no goal for the wall time
+        if (!told) return tl::unexpected(told.error());
+        if (*told) {
+            spdlog::info("at step {}, {}", simulation.steps(), **told);
+            if (auto done = record(v1::Event::TUNED, **told); !done) return done;
+        }
+        if (simulation.counters().nonFinite)
+            return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
+        if (recorder != nullptr)
+            if (auto done = recorder->stepped(last); !done) return done;
+        progress.show([&] {
+            return fmt::format("{} of {} steps, {:.2f} s simulated, {:.2f} times real time ", k, steps,
+                               simulation.time(), simulation.time() / secondsSince(began));
+        });
+        if (k % stride == 0 || last)
+            if (auto done = every(); !done) return done;
+    }
+    if (k < steps)
+        spdlog::warn("ended early by {}, at step {}, {:g} s simulated", interrupt.name(), simulation.steps(),
+                     simulation.time());
+    return {};
+}
+
+void print(const RunOptions& options, const compute::DeviceInfo& info, sim::Simulation& simulation,
+           const Interval& interval) {
+    if (options.json)
+        fmt::print("{}\n", runJson(info, simulation, interval));
+    else if (options.every.empty() || !options.dump.empty())
+        fmt::print("{}", runText(info, simulation, interval));
+    else
+        fmt::print("{}", runRow(simulation, interval));
+    std::fflush(stdout);
+}
+
+// Duration of the run and interval of reports (s simulated).
+struct Times {
+    double duration = 0;
+    double every = 0;  // 0: one report at the end
+};
+
+// Output files for states.
+struct Outputs {
+    std::optional<Dump> dump;
+    std::unique_ptr<host::RunRecorder> recorder;
+};
+
+Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, Outputs& outputs,
+                      const Interrupt& interrupt, Times times) {
+    const double step = simulation.scene().step;
+    const double every = times.every;
+    const auto steps = static_cast<std::uint64_t>(std::llround(times.duration / step));
+    const auto stride = every > 0 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(every / step)))
+                                  : std::max<std::uint64_t>(1, steps);
+    Watch watch(simulation, device);
+    host::RunRecorder* const recorder = outputs.recorder.get();
+    if (!outputs.dump) {
+        if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
+        diagnostics::OverlapWatch overlap;
+        const auto report = [&]() -> Result<void> {
+            const Interval interval = watch.take();
+            if (const auto told = overlap.check(simulation.steps(), interval.end.deepest())) spdlog::warn("{}", *told);
+            print(options, device.info(), simulation, interval);
+            watch.start();
+            return {};
+        };
+        return steps == 0 ? report() : runSteps(simulation, recorder, interrupt, steps, stride, report);
+    }
+    Dump& dump = *outputs.dump;
+    const auto write = [&] { return dump.write(simulation); };
+    if (auto done = write(); !done) return done;
+    if (steps > 0)
+        if (auto done = runSteps(simulation, recorder, interrupt, steps, stride, write); !done) return done;
+    print(options, device.info(), simulation, watch.take());
+    return {};
+}
+
+Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulation, compute::Device& device) {
+    Outputs outputs;
+    if (!options.dump.empty()) {
+        auto dump = Dump::create(options.dump, options.record.replace);
+        if (!dump) return tl::unexpected(dump.error());
+        outputs.dump.emplace(std::move(*dump));
+    }
+    if (!options.record.path.empty()) {
+        auto recorder = host::RunRecorder::create(options.record, device, simulation);
+        if (!recorder) return tl::unexpected(recorder.error());
+        outputs.recorder = std::move(*recorder);
+    }
+    return outputs;
+}
+
+// Opens the output files and runs the simulation. The recording is finished even if the run has failed.
+Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation, compute::Device& device,
+                          Interrupt& interrupt, Times times) {
+    interrupt.finishFirst();
+    auto outputs = openOutputs(options, simulation, device);
+    if (!outputs) return tl::unexpected(outputs.error());
+    auto done = simulate(options, simulation, device, *outputs, interrupt, times);
+    if (outputs->recorder) {
+        auto finished = outputs->recorder->finish();
+        if (done) done = finished;
+    }
+    if (outputs->dump && done) done = outputs->dump->finish();
+    if (done && outputs->recorder) {
+        const recording::Writer& writer = outputs->recorder->writer();
+        spdlog::info("recorded {} frames in {}, {:.1f} MB", writer.frames(), options.record.path,
+                     1e-6 * static_cast<double>(writer.bytes()));
+    }
+    return done;
+}
+
+Result<void> checkFiles(const RunOptions& options) {
+    const bool dumps = !options.dump.empty();
+    const bool records = !options.record.path.empty();
+    if (options.record.replace && !dumps && !records)
+        return fail(ErrorKind::Input, "--force", "has nothing to replace; give --record or --dump");
+    if (dumps && options.dump == options.record.path)
+        return fail(ErrorKind::Input, "--dump", "is the file of --record; give each its own");
+    constexpr const char* taken = "cannot be standard output, where the report goes; give it a file";
+    if (options.dump == "-") return fail(ErrorKind::Input, "--dump", taken);
+    if (options.record.path == "-") return fail(ErrorKind::Input, "--record", taken);
+    return {};
+}
+
+Result<void> run(const RunOptions& options) {
+    Interrupt interrupt;
+    if (auto done = checkFiles(options); !done) return done;
+    const auto duration = secondsOf(options.duration, "--for");
+    if (!duration) return tl::unexpected(duration.error());
+    const auto every = options.every.empty() ? Result<double>(0.0) : secondsOf(options.every, "--every");
+    if (!every) return tl::unexpected(every.error());
+    if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
+
+    host::Watchdog watchdog{
+        host::Watchdog::Seconds(options.watchdog)};  // outlives the device, whose destructor may hang
+    watchdog.start([](const Error& error) { host::endNow(printError(error)); });
+    auto device = compute::openDevice(options.scene.device);
+    if (!device) return tl::unexpected(device.error());
+    spdlog::info("on {}: {}", (*device)->info().renderer, (*device)->info().reason);
+    auto loaded = scene::load(options.scene.scene, (*device)->info().kind, options.scene.overrides);
+    if (!loaded) return tl::unexpected(loaded.error());
+    if (loaded->quality.goal && loaded->quality.goal->of == scene::Goal::Of::StepTime)
+        return fail(ErrorKind::Input, "quality.auto",
+                    "holds a time per step, so the result would depend on the load of the machine: give `run` an "
+                    "overlap to hold, such as --auto 0.5%, or --substeps");
+    if (!(*duration / loaded->step <= mostSteps))
+        return fail(ErrorKind::Input, "--for",
+                    fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
+    auto simulation = sim::Simulation::create(**device, std::move(*loaded));
+    if (!simulation) return tl::unexpected(simulation.error());
+    return simulateInto(options, **simulation, **device, interrupt, {.duration = *duration, .every = *every});
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "simulate as fast as possible, without the network");
+    options->scene.addTo(*command);
+    command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
+    command->add_option("--every", options->every, "interval of reports, or with --dump of states [once, at the end]");
+    command->add_option("--dump", options->dump, "write states to this CSV file");
+    addRunRecording(*command, options->record);
+    addWatchdog(*command, options->watchdog);
+    command->add_flag("--json", options->json, "print JSON, one line per report");
+    command->footer(exitCodesText);
+    command->callback([options, &exitCode] {
+        const auto done = run(*options);
+        exitCode = done ? exitDone : printError(done.error());
+    });
+}
+
+}  // namespace spherule::cli

@@ -1,0 +1,98 @@
+#include "cli/run_report.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/quality.h"
+
+namespace spherule::cli {
+
+namespace {
+
+double realTimeFactor(const Interval& interval) {
+    return interval.wallSeconds > 0 ? interval.simSeconds / interval.wallSeconds : 0;
+}
+
+nlohmann::ordered_json passesOf(const Interval& interval) {
+    auto passes = nlohmann::ordered_json::object();
+    for (unsigned pass = 0; pass < sim::passCount; ++pass) {
+        const bool known = pass < interval.passSeconds.size();
+        passes[std::string(nameOf(static_cast<sim::Pass>(pass)))] = known ? interval.passSeconds[pass] : 0.0;
+    }
+    return passes;
+}
+
+nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation,
+                                const Interval& interval) {
+    const sim::Statistics& s = interval.end;
+    const sim::Impacts impacts = s.impacts.since(interval.before);
+    const auto ofImpacts = [&impacts](double ratio) { return impacts.count > 0 ? nlohmann::json(ratio) : nullptr; };
+    const sim::State state = simulation.snapshot();
+    return {
+        {"scene", simulation.scene().name},
+        {"device", device.kind},
+        {"renderer", device.renderer},
+        {"quality", scene::nameOf(simulation.scene().quality.model)},
+        {"spheres", simulation.count()},
+        {"steps", simulation.steps()},
+        {"substepsPerStep", simulation.scene().quality.substeps},
+        {"simSeconds", simulation.time()},
+        {"stretchSeconds", interval.simSeconds},
+        {"wallSeconds", interval.wallSeconds},
+        {"realTimeFactor", realTimeFactor(interval)},
+        {"deviceSeconds", std::accumulate(interval.passSeconds.begin(), interval.passSeconds.end(), 0.0)},
+        {"passSeconds", passesOf(interval)},
+        {"rebuilds", interval.rebuilds},
+        {"kineticEnergy", s.kineticEnergy},
+        {"rotationalEnergy", s.rotationalEnergy},
+        {"elasticEnergy", s.elasticEnergy},
+        {"potentialEnergy", s.potentialEnergy},
+        {"pushWork", s.pushWork},
+        {"momentum", {s.momentum.x, s.momentum.y, s.momentum.z}},
+        {"angularMomentum", {s.angularMomentum.x, s.angularMomentum.y, s.angularMomentum.z}},
+        {"contacts", s.contacts},
+        {"overlapMean", s.overlapMean},
+        {"overlapMax", s.overlapMax},
+        {"wallOverlapMax", s.wallOverlapMax},
+        {"speedMax", s.speedMax},
+        {"speedRms", s.speedRms},
+        {"meanHeight", s.meanHeight},
+        {"sleeping", s.sleeping},
+        {"outside", s.outside},
+        {"nonFinite", s.nonFinite},
+        {"impacts", static_cast<std::uint64_t>(impacts.count)},
+        {"restitution", ofImpacts(impacts.restitution())},
+        {"restitutionAsked", ofImpacts(impacts.restitutionAsked())},
+        {"stateHash", fmt::format("{:016x}", sim::hashOf(state))},
+    };
+}
+
+}  // namespace
+
+std::string runJson(const compute::DeviceInfo& device, sim::Simulation& simulation, const Interval& interval) {
+    return reportOf(device, simulation, interval)
+        .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string runText(const compute::DeviceInfo& device, sim::Simulation& simulation, const Interval& interval) {
+    std::string text;
+    const nlohmann::ordered_json report = reportOf(device, simulation, interval);
+    for (const auto& [key, value] : report.items())
+        text += fmt::format("{:<16} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    return text;
+}
+
+const char* const runRowHeader =
+    "   time, s   x real time    asleep   overlap, % of r: mean      max   speed, m/s: rms      max";
+
+std::string runRow(sim::Simulation& simulation, const Interval& interval) {
+    const sim::Statistics& s = interval.end;
+    return fmt::format("{:>10.4g}{:>14.3g}{:>10}{:>25.3f}{:>9.3f}{:>19.4f}{:>9.3f}\n", simulation.time(),
+                       realTimeFactor(interval), s.sleeping, 100 * s.overlapMean, 100 * s.overlapMax, s.speedRms,
+                       s.speedMax);
+}
+
+}  // namespace spherule::cli

@@ -1,0 +1,57 @@
+#include "cli/config_file.h"
+#include "cli/errors.h"
+#include "cli/exit_codes.h"
+#include "cli/options.h"
+#include "cli/record_options.h"
+#include "cli/serve_until_signal.h"
+#include "host/simulation_producer.h"
+
+namespace spherule::cli {
+
+namespace {
+
+struct ServeOptions {
+    SceneOptions scene;
+    recording::LiveOptions recordings;
+    ServerOptions serving;
+    std::string table;
+};
+
+Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, const diagnostics::Table& table,
+                                                  const host::ProducerIo& io) {
+    auto world = host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides);
+    if (!world) return tl::unexpected(world.error());
+    io.board.update([&](host::ServerStatus& report) {
+        report.device = (*world)->device().info();
+        report.scenes = scene::names();
+        report.scene = (*world)->simulation().scene().name;
+        report.spheres = (*world)->simulation().count();
+    });
+    return std::make_unique<host::SimulationProducer>(std::move(*world), io, table, options.recordings);
+}
+
+int serve(const ServeOptions& options) {
+    const Result<diagnostics::Table> table =
+        options.table.empty() ? diagnostics::ownTable() : diagnostics::loadTable(options.table);
+    if (!table) return printError(table.error());
+    return serveUntilSignal([&](const host::ProducerIo& io) { return open(options, *table, io); }, options.serving,
+                            "serves");
+}
+
+}  // namespace
+
+void addServe(CLI::App& app, int& exitCode) {
+    auto options = std::make_shared<ServeOptions>();
+    CLI::App* command = app.add_subcommand("serve", "simulate and show it in a browser");
+    options->scene.addTo(*command);
+    options->serving.addTo(*command);
+    addLiveRecording(*command, options->recordings);
+    command->add_option(
+        "--quality-table", options->table,
+        "a measure.json of `spherule measure`, with errors and costs for the dial [a table in the program]");
+    command->footer(exitCodesText);
+    addSettings(*command);
+    command->callback([options, &exitCode] { exitCode = serve(*options); });
+}
+
+}  // namespace spherule::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+#include "recording/output_file.h"
+#include "sim/simulation.h"
+
+namespace spherule::cli {
+
+// Writes states as text: time,id,x,y,z,vx,vy,vz,radius in SI units, world coordinates. After write() the state is in
+// the file. Without a state there is no file.
+class Dump {
+  public:
+    // See OutputFile::create().
+    static Result<Dump> create(const std::string& path, bool replace);
+    Result<void> write(sim::Simulation& simulation);
+    Result<void> finish() { return file_.close(); }
+
+  private:
+    explicit Dump(recording::OutputFile file) : file_(std::move(file)) {}
+
+    recording::OutputFile file_;
+};
+
+}  // namespace spherule::cli

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "codec/rendition.h"
+#include "compute/device.h"
+#include "encode/frame_encoder.h"
+
+namespace spherule::encode {
+
+// The data that the streams need.
+struct EncoderInput {
+    PositionSource source;
+    std::uint32_t spheres = 0;
+    double smallestRadius = 0;                          // m
+    std::uint32_t epoch = 0;                            // changes when the spheres are replaced
+    std::uint64_t version = 0;                          // changes when the spheres may have moved
+    std::function<std::vector<glm::vec4>()> positions;  // m, in id order; waits for the device
+    std::function<v1::Frame()> head;                    // head of a frame of the present state: step, time, status
+};
+
+// Encodes the frames of each rendition that somebody requests, as a chain: a keyframe, then deltas. Each chain has its
+// own FrameEncoder on the device. Nothing is encoded, copied or kept for other renditions. Used by the producer's
+// thread.
+//
+// The way of a frame, from the device to the socket of a session:
+//
+//   FrameProducer ── update() ──> StreamEncoder ── keyframe, delta or resync ──> FrameEncoder (kernels on the device)
+//                                       |                                             |
+//                                       |<─────────────── poll(): bytes ──────────────+
+//                                       v
+//   net::Publisher::publish() ──> Hub ──> Session::offer() ──> SendQueue: one frame waits, the newest replaces it
+//                                                                  |
+//                              AckWindow, RateController: when     v
+//                              the next frame may be sent ──> WebSocket write ──> client ── Ack ──> AckWindow
+class StreamEncoder {
+  public:
+    using Clock = std::chrono::steady_clock;
+    using Publish = std::function<void(const codec::EncodedFrame&)>;
+    using PublishOrder = std::function<void(codec::SharedMessage)>;
+    using Warn = std::function<void(const std::string&)>;  // sends to viewers and to the log
+
+    StreamEncoder(compute::Device& device, Publish publish, PublishOrder publishOrder, Warn warn);
+
+    // Publishes the frames that have arrived, and starts the frames that are due. A chain without room on the device is
+    // left out and reported. It is tried again after 10 s, or in another epoch.
+    void update(const EncoderInput& input, const std::vector<codec::Subscription>& subscriptions,
+                Clock::time_point now);
+
+    // Creates the chain if it does not exist. Fails if there is no room for it. The next update() must subscribe to it,
+    // or removes it.
+    Result<void> open(const codec::Rendition& rendition, const EncoderInput& input);
+
+    // When to call update() again; nullopt if there is nothing to do before the world or the subscriptions change.
+    [[nodiscard]] std::optional<Clock::time_point> due() const;
+    [[nodiscard]] std::uint64_t framesMade() const { return sequence_; }  // number of frames since the start
+
+  private:
+    // One chain, and its frame that is being encoded.
+    struct Chain {
+        std::unique_ptr<FrameEncoder> frames;
+        std::optional<v1::Frame> inProgress;
+        codec::EncodedFrame::Kind kind = codec::EncodedFrame::Kind::Keyframe;
+        std::uint64_t version = 0;     // version of the world in the newest frame
+        v1::Frame newest;              // head of the newest frame
+        std::uint64_t startedAt = 0;   // order in which frames were started: the oldest is copied first
+        Clock::time_point next{};      // when the next frame is due
+        Clock::time_point keyframe{};  // time of the last keyframe
+        Clock::time_point hash{};      // time of the last frame with a hash
+    };
+
+    Result<void> prepare(const EncoderInput& input);
+    Result<Chain*> chainOf(const codec::Rendition& rendition, const EncoderInput& input);
+    Chain* chainFor(const codec::Subscription& subscription, const EncoderInput& input, Clock::time_point now);
+    void begin(const codec::Subscription& subscription, Chain& chain, const EncoderInput& input, Clock::time_point now);
+    void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const PositionSource& source,
+               Clock::time_point now);
+    void collect(const codec::Rendition& rendition, Chain& chain);
+
+    compute::Device& device_;
+    Publish publish_;
+    PublishOrder publishOrder_;
+    Warn warn_;
+    std::unique_ptr<EncoderContext> context_;
+    bool slots_ = false;
+    std::uint32_t epoch_ = 0;
+    std::uint32_t order_ = 0;
+    std::uint64_t version_ = 0;  // version of the world in the last update()
+    std::map<codec::Rendition, Chain> chains_;
+    std::uint64_t starts_ = 0;
+    Clock::time_point retry_{};       // when to try refused chains again
+    std::uint32_t refusedEpoch_ = 0;  // epoch of the last refused chain
+    std::uint64_t sequence_ = 0;
+};
+
+}  // namespace spherule::encode

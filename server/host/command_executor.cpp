@@ -1,0 +1,213 @@
+#include "host/command_executor.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "host/to_proto.h"
+#include "net/command_rules.h"
+
+namespace spherule::host {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr int commandsPerTurn = 32;
+constexpr auto commandsTime = 20ms;   // for the waiting commands of a turn
+constexpr auto oldestAnswer = 100ms;  // largest age of the answer to a query, while the world runs
+constexpr auto longestHold = 500ms;   // longest wait of a command for a change under way
+constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of the commands that wait for it
+constexpr std::size_t mostStepCommands = 64;
+
+constexpr const char* noMemory = "there is not enough memory for this";
+
+}  // namespace
+
+CommandExecutor::CommandExecutor(SimulationHost& host, Requests& requests, net::Publisher& publisher, Effects& effects)
+    : host_(host), requests_(requests), publisher_(publisher), effects_(effects) {}
+
+void CommandExecutor::serveWaiting() {
+    const auto end = Clock::now() + commandsTime;
+    const auto inTime = [end] { return Clock::now() < end; };
+    while (!held_.empty() && !host_.changing() && inTime()) execute(takeHeld());
+    for (int k = 0; k < commandsPerTurn && inTime(); ++k) {
+        auto request = requests_.tryPop();
+        if (!request) break;
+        serve(std::move(*request));
+    }
+    const auto now = Clock::now();
+    while (host_.changing() && !held_.empty() && now - held_.front().since > longestHold)
+        refuse(takeHeld(), changeInWords() + ": wait until that is done, or cancel it");
+}
+
+void CommandExecutor::serveNext(Clock::duration timeout) {
+    if (auto request = requests_.popFor(timeout)) serve(std::move(*request));
+}
+
+void CommandExecutor::refuseAll(const std::string& reason) {
+    if (change_) refuseChange(reason);
+    while (!held_.empty()) refuse(takeHeld(), reason);
+    refuseSteps(reason);
+}
+
+// Removes and returns the first command that waits for a change.
+Request CommandExecutor::takeHeld() {
+    Request request = std::move(held_.front().request);
+    held_.pop_front();
+    heldBytes_ -= request.bytes;
+    return request;
+}
+
+void CommandExecutor::serve(Request request) {
+    // Commands that wait for the end of a change keep their order.
+    const bool waits = net::rulesOf(request.command).waits_for_change();
+    if (!waits || (!host_.changing() && held_.empty())) return execute(std::move(request));
+    if (heldBytes_ + request.bytes > mostHeldBytes)
+        return refuse(request, "too many commands wait already for the change under way");
+    heldBytes_ += request.bytes;
+    held_.push_back({std::move(request), Clock::now()});
+}
+
+void CommandExecutor::execute(Request request) {
+    const v1::Command& command = request.command;
+    const auto applied = apply(command);
+    if (!applied) {
+        if (change_) refuseChange(fmt::format("session {} has asked for {}", request.session, wordsFor(command)));
+        change_ = Pending{std::move(request), Clock::now()};
+    } else if (command.has_step() && *applied) {
+        effects_.publishChanges();
+        const std::uint32_t count = command.step().count();
+        steps_.push_back({.command = {std::move(request), Clock::now()}, .left = count});
+    } else {
+        // Steps that are held came before this command, so it ends them too. After a long change finish() leaves them:
+        // they came later.
+        if (*applied && net::rulesOf(command).ends_steps()) refuseHeldSteps();
+        finish(request, *applied);
+    }
+}
+
+void CommandExecutor::finish(const Request& request, const Result<sim::Applied>& applied) {
+    const v1::CommandRules& rules = net::rulesOf(request.command);
+    if (applied && rules.changes_world()) effects_.worldChanged();
+    if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done");
+    if (applied) effects_.publishChanges();
+    publisher_.reply(request.session, resultOf(request.command, applied));
+}
+
+// Returns nullopt when a change has begun; its result comes later.
+std::optional<Result<sim::Applied>> CommandExecutor::apply(const v1::Command& command) {
+    if (command.has_step() && steps_.size() >= mostStepCommands)
+        return fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()));
+    try {
+        return dispatch(command, host_, *this);
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorKind::Refused, "", noMemory);
+    } catch (const std::exception& error) {
+        return fail(ErrorKind::Refused, "", error.what());
+    }
+}
+
+Result<void> CommandExecutor::cancel() {
+    if (change_) {
+        host_.cancelChange();
+        refuseChange("cancelled");
+    } else if (!steps_.empty()) {
+        host_.pause();
+        refuseSteps("cancelled");
+    } else {
+        return fail(ErrorKind::Refused, "", "nothing is under way that could be cancelled");
+    }
+    return {};
+}
+
+void CommandExecutor::refuse(const Request& request, const std::string& reason) {
+    publisher_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason)));
+}
+
+// Refuses the change under way and the commands that wait for its end.
+void CommandExecutor::refuseChange(const std::string& reason) {
+    refuse(change_->request, reason);
+    change_.reset();
+    while (!held_.empty()) refuse(takeHeld(), reason);
+}
+
+// Refuses the step commands that are held: a later command has ended them.
+void CommandExecutor::refuseHeldSteps() {
+    std::deque<Pending> others;
+    for (; !held_.empty(); held_.pop_front()) {
+        Pending& pending = held_.front();
+        if (!pending.request.command.has_step()) {
+            others.push_back(std::move(pending));
+            continue;
+        }
+        heldBytes_ -= pending.request.bytes;
+        refuse(pending.request, "none of its steps were done: a later command came before");
+    }
+    held_ = std::move(others);
+}
+
+void CommandExecutor::refuseSteps(std::string_view reason) {
+    for (const Steps& steps : steps_) {
+        const std::uint32_t asked = steps.command.request.command.step().count();
+        refuse(steps.command.request, fmt::format("{} of {} steps were done: {}", asked - steps.left, asked, reason));
+    }
+    steps_.clear();
+}
+
+void CommandExecutor::advanceChange(Clock::duration slice) {
+    std::optional<Result<sim::Applied>> applied;
+    try {
+        applied = host_.advanceChange(slice);
+    } catch (const std::bad_alloc&) {
+        host_.cancelChange();
+        applied = fail(ErrorKind::Refused, "", noMemory);
+    } catch (const std::exception& error) {
+        host_.cancelChange();
+        applied = fail(ErrorKind::Refused, "", error.what());
+    }
+    if (!applied) return;
+    const Request request = std::move(change_->request);
+    change_.reset();
+    finish(request, *applied);
+}
+
+void CommandExecutor::answerQueries() {
+    const auto queries = requests_.takeQueries();
+    if (queries.empty()) return;
+    const auto now = Clock::now();
+    if (!answered_ || now - *answered_ > oldestAnswer) {
+        answer_ = *apply(queries.front().command);
+        answered_ = now;
+    }
+    for (const Request& query : queries) publisher_.reply(query.session, resultOf(query.command, answer_));
+}
+
+void CommandExecutor::countStep() {
+    if (steps_.empty() || --steps_.front().left > 0) return;
+    const Request& request = steps_.front().command.request;
+    publisher_.reply(request.session, resultOf(request.command, host_.applied()));
+    steps_.pop_front();
+}
+
+std::optional<CommandExecutor::Activity> CommandExecutor::activity() const {
+    if (change_) {
+        Progress::Seen seen = host_.changeProgress();
+        return Activity{change_->request, change_->since, std::move(seen.doing), seen.share};
+    }
+    if (steps_.empty()) return std::nullopt;
+    const Steps& steps = steps_.front();
+    const std::uint32_t count = steps.command.request.command.step().count();
+    return Activity{steps.command.request, steps.command.since, "stepping",
+                    static_cast<double>(count - steps.left) / count};
+}
+
+std::string CommandExecutor::changeInWords() const {
+    if (!change_) return "";
+    const Progress::Seen seen = host_.changeProgress();
+    return fmt::format("{} is under way ({}, {:.0f} %)", wordsFor(change_->request.command), seen.doing,
+                       100 * seen.share);
+}
+
+}  // namespace spherule::host

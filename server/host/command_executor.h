@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "host/dispatch.h"
+#include "host/requests.h"
+#include "host/simulation_host.h"
+#include "net/publisher.h"
+
+namespace spherule::host {
+
+// Carries out the commands of sessions on a simulation, and answers each of them once. A command that begins a change
+// is answered at the end of the change, and a step command after its last step. Commands that need the end of a change
+// wait for it, in order. Used by the producer's thread.
+class CommandExecutor : private ProducerCommands {
+  public:
+    using Clock = SimulationHost::Clock;
+
+    // Effects of commands beyond the simulation and the answers.
+    class Effects {
+      public:
+        Effects() = default;
+        virtual ~Effects() = default;
+        Effects(const Effects&) = delete;
+        Effects& operator=(const Effects&) = delete;
+
+        virtual Result<void> startRecording() = 0;
+        virtual Result<void> stopRecording() = 0;
+        virtual void worldChanged() = 0;    // a command has changed the world (changes_world in control.proto)
+        virtual void publishChanges() = 0;  // scene facts, settings or the dial may have changed
+    };
+
+    // All must outlive the executor.
+    CommandExecutor(SimulationHost& host, Requests& requests, net::Publisher& publisher, Effects& effects);
+
+    // Carries out waiting commands for at most about 20 ms. Refuses those that have waited too long for a change.
+    void serveWaiting();
+    // Waits up to `timeout` for a command, and carries it out.
+    void serveNext(Clock::duration timeout);
+    // Gives all waiting queries the same answer. It includes every applied command and every completed step command.
+    void answerQueries();
+    // The next query needs a new answer. Call after each change of the state that is not a step.
+    void discardAnswer() { answered_.reset(); }
+
+    // Does a part of the change under way, for about `slice`, and answers its command at the end.
+    void advanceChange(Clock::duration slice);
+    // Counts a step for the oldest step command, and answers the command after its last step.
+    void countStep();
+    void refuseSteps(std::string_view reason);
+    // Refuses all commands that have no answer yet, except those in the queue of requests.
+    void refuseAll(const std::string& reason);
+
+    // The change or the step command under way.
+    struct Activity {
+        const Request& request;
+        Clock::time_point since;
+        std::string doing;
+        double share = 0;  // 0 to 1
+    };
+    [[nodiscard]] std::optional<Activity> activity() const;
+    // Such as "load box-50k is under way (placing spheres, 34 %)"; empty if there is no change.
+    [[nodiscard]] std::string changeInWords() const;
+
+  private:
+    struct Pending {
+        Request request;
+        Clock::time_point since;
+    };
+    struct Steps {
+        Pending command;
+        std::uint32_t left = 0;
+    };
+
+    void serve(Request request);
+    void execute(Request request);
+    void finish(const Request& request, const Result<sim::Applied>& applied);
+    std::optional<Result<sim::Applied>> apply(const v1::Command& command);
+    Request takeHeld();
+    void refuse(const Request& request, const std::string& reason);
+    void refuseChange(const std::string& reason);
+    void refuseHeldSteps();
+    Result<void> startRecording() override { return effects_.startRecording(); }
+    Result<void> stopRecording() override { return effects_.stopRecording(); }
+    Result<void> cancel() override;
+
+    SimulationHost& host_;
+    Requests& requests_;
+    net::Publisher& publisher_;
+    Effects& effects_;
+    std::optional<Pending> change_;              // command whose change is under way
+    std::deque<Pending> held_;                   // commands that wait for the change to end
+    std::size_t heldBytes_ = 0;                  // memory of these commands
+    std::deque<Steps> steps_;                    // step commands with steps left, in order
+    Result<sim::Applied> answer_;                // to queries; reused while nothing newer is needed
+    std::optional<Clock::time_point> answered_;  // time of answer_; nullopt: a newer one is needed
+};
+
+}  // namespace spherule::host

@@ -1,0 +1,77 @@
+#include "host/dispatch.h"
+
+#include <utility>
+
+#include "host/from_proto.h"
+
+namespace spherule::host {
+
+namespace {
+
+using Outcome = std::optional<Result<sim::Applied>>;
+
+Outcome set(const v1::Set& message, SimulationHost& host) {
+    auto set = setOf(message);
+    if (message.has_speed())
+        if (auto right = checkSpeed(message.speed()); !right) return tl::unexpected(right.error());
+    if (!set) return tl::unexpected(set.error());
+    return host.change(std::move(*set), message.has_speed() ? std::optional(message.speed()) : std::nullopt);
+}
+
+Outcome push(const v1::Push& message, SimulationHost& host) {
+    auto push = pushOf(message);
+    if (!push) return tl::unexpected(push.error());
+    return host.change(*push);
+}
+
+Outcome load(const v1::LoadScene& message, SimulationHost& host) {
+    auto make = makeSceneOf(message, host.device().info().kind, host.overrides());
+    if (!make) return tl::unexpected(make.error());
+    return host.load(std::move(*make));
+}
+
+// The result of a command that is carried out at once.
+Outcome at(const SimulationHost& host, const Result<void>& done = {}) {
+    if (!done) return tl::unexpected(done.error());
+    return host.applied();
+}
+
+}  // namespace
+
+Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerCommands& producer) {
+    switch (command.kind_case()) {
+        case v1::Command::kPause:
+            host.pause();
+            return at(host);
+        case v1::Command::kResume:
+            host.resume();
+            return at(host);
+        case v1::Command::kStep:
+            return at(host, host.step(command.step().count()));
+        case v1::Command::kReset:
+            return host.change(sim::Reset());
+        case v1::Command::kLoad:
+            return load(command.load(), host);
+        case v1::Command::kSet:
+            return set(command.set(), host);
+        case v1::Command::kSpawn:
+            return host.change(spawnOf(command.spawn()));
+        case v1::Command::kPush:
+            return push(command.push(), host);
+        case v1::Command::kQuery:
+            return host.query();
+        case v1::Command::kSeek:
+            return fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that");
+        case v1::Command::kStartRecording:
+            return at(host, producer.startRecording());
+        case v1::Command::kStopRecording:
+            return at(host, producer.stopRecording());
+        case v1::Command::kCancel:
+            return at(host, producer.cancel());
+        case v1::Command::KIND_NOT_SET:
+            break;
+    }
+    return fail(ErrorKind::Refused, "", "this command is not one for a simulation");
+}
+
+}  // namespace spherule::host

@@ -1,0 +1,96 @@
+#include "host/from_proto.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/check.h"
+#include "scene/goal.h"
+#include "scene/quality.h"
+
+namespace spherule::host {
+
+namespace {
+
+Result<std::optional<scene::Model>> modelOf(const v1::Set& message) {
+    if (!message.has_model()) return std::nullopt;
+    if (message.model() <= v1::MODEL_UNSPECIFIED || message.model() > v1::ACCURATE)
+        return fail(ErrorKind::Refused, "model",
+                    fmt::format("is {}, must be FAST, BALANCED or ACCURATE", static_cast<int>(message.model())));
+    return scene::modelOf(message.model());
+}
+
+}  // namespace
+
+Result<sim::Set> setOf(const v1::Set& message) {
+    sim::Set set;
+    if (!message.gravity().empty()) {
+        const auto gravity = scene::vectorOf(message.gravity(), "gravity");
+        if (!gravity) return tl::unexpected(gravity.error());
+        set.gravity = *gravity;
+    }
+    if (message.has_restitution()) set.restitution = message.restitution();
+    if (message.has_friction()) set.friction = message.friction();
+    if (message.has_substeps()) set.substeps = message.substeps();
+    const auto model = modelOf(message);
+    if (!model) return tl::unexpected(model.error());
+    set.model = *model;
+    if (message.has_auto_()) {
+        const auto goal = scene::goalOf(message.auto_(), "auto");
+        if (!goal) return fail(ErrorKind::Refused, goal.error().where, goal.error().message);
+        set.goal.emplace(*goal);
+    }
+    return set;
+}
+
+sim::Spawn spawnOf(const v1::Spawn& message) {
+    const v1::Group& group = message.group();
+    return {.name = group.name(),
+            .colour = group.colour(),
+            .place = [group](const scene::Scene& scene, Progress& progress) {
+                return scene::buildGroup(group, scene, &progress);
+            }};
+}
+
+Result<sim::Push> pushOf(const v1::Push& message) {
+    sim::Push push;
+    const auto impulse = scene::vectorOf(message.impulse(), "impulse");
+    if (!impulse) return tl::unexpected(impulse.error());
+    push.impulse = *impulse;
+    if (message.has_ray()) {
+        const auto origin = scene::vectorOf(message.ray().origin(), "ray.origin");
+        if (!origin) return tl::unexpected(origin.error());
+        const auto direction = scene::vectorOf(message.ray().direction(), "ray.direction");
+        if (!direction) return tl::unexpected(direction.error());
+        push.target = sim::Ray{.origin = *origin, .direction = *direction};
+    } else if (message.target_case() == v1::Push::kSphere) {
+        push.target = message.sphere();
+    } else {
+        return fail(ErrorKind::Refused, "target", "is missing: give a sphere or a ray");
+    }
+    return push;
+}
+
+Result<MakeScene> makeSceneOf(const v1::LoadScene& message, const std::string& deviceKind,
+                              const scene::Overrides& overrides) {
+    if (message.has_scene())
+        return [scene = message.scene(), overrides](Progress& progress) {
+            return scene::build(scene, overrides, &progress).map_error([](Error error) {
+                if (!error.where.empty()) error.where = "scene." + error.where;
+                return error;
+            });
+        };
+    if (message.source_case() != v1::LoadScene::kName)
+        return fail(ErrorKind::Refused, "", "load needs a name or a scene");
+    const auto names = scene::names();
+    if (std::ranges::find(names, message.name()) == names.end())
+        return fail(ErrorKind::Refused, "name",
+                    fmt::format("is {}; known are {}", scene::shown(message.name()), fmt::join(names, ", ")));
+    return [name = message.name(), deviceKind, overrides](Progress& progress) {
+        return scene::load(name, deviceKind, overrides, &progress);
+    };
+}
+
+}  // namespace spherule::host

@@ -1,0 +1,113 @@
+#include "host/metrics.h"
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include <algorithm>
+#include <array>
+
+#include "sim/pass.h"
+
+namespace spherule::host {
+
+struct Metrics::Families {
+    prometheus::Registry registry;
+
+    // Raises the counter to `value`, a total that is counted elsewhere.
+    void counter(const char* name, const char* help, double value, const prometheus::Labels& labels = {}) {
+        auto& metric = prometheus::BuildCounter().Name(name).Help(help).Register(registry).Add(labels);
+        metric.Increment(std::max(0.0, value - metric.Value()));
+    }
+    void gauge(const char* name, const char* help, double value, const prometheus::Labels& labels = {}) {
+        prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add(labels).Set(value);
+    }
+};
+
+Metrics::Metrics() : families_(std::make_unique<Families>()) {}
+Metrics::~Metrics() = default;
+
+std::string Metrics::text(const ServerStatus& live, const net::Counters& net) {
+    Families& to = *families_;
+    const auto count = [](const net::Counters::Count& value) { return static_cast<double>(value.load()); };
+
+    to.gauge("spherule_device_info", "The device, as labels", 1,
+             {{"device", live.device.kind}, {"renderer", live.device.renderer}});
+    to.gauge("spherule_spheres", "Spheres in the scene", live.spheres);
+    to.gauge("spherule_sleeping_spheres", "Spheres asleep, while a viewer watches", live.status.sleeping());
+    to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while a viewer watches", live.status.outside());
+    to.gauge("spherule_non_finite_spheres", "Spheres without finite state", live.status.non_finite());
+    to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", live.status.real_time_factor());
+    to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(live.steps));
+    to.gauge("spherule_simulated_seconds", "Simulated time since the scene began", live.simSeconds);
+    to.gauge("spherule_list_rebuilds", "Rebuilds of the pair lists since the scene last changed", live.rebuilds);
+    to.counter("spherule_states_produced_total", "State frames produced", static_cast<double>(live.framesProduced));
+    for (std::size_t pass = 0; pass < live.passSeconds.size(); ++pass)
+        to.counter("spherule_pass_seconds_total", "Device time per pass", live.passSeconds[pass],
+                   {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
+
+    to.gauge("spherule_recording_active", "1 while a recording is made", live.recording.active() ? 1 : 0);
+    to.gauge("spherule_recording_bytes", "Size of that recording, or of the last",
+             static_cast<double>(live.recording.bytes()));
+    to.counter("spherule_recording_frames_lost_total", "Frames left out of recordings: the disk was too slow",
+               static_cast<double>(live.recordingFramesLost));
+
+    if (live.diagnostics) addDiagnostics(*live.diagnostics);
+
+    to.gauge("spherule_sessions", "Open sessions", count(net.sessions));
+    to.counter("spherule_sessions_accepted_total", "Sessions ever", count(net.accepted));
+    to.counter("spherule_http_requests_total", "HTTP requests answered", count(net.httpRequests));
+    to.counter("spherule_commands_total", "Commands received", count(net.commands));
+    to.counter("spherule_frames_sent_total", "State frames sent, over all sessions", count(net.framesSent));
+    to.counter("spherule_chains_lost_total", "Times that a viewer missed a frame and needed a keyframe",
+               count(net.chainsLost));
+    to.counter("spherule_bytes_sent_total", "Payload bytes sent", count(net.bytesSent));
+    for (std::size_t cause = 0; cause < net.closed.size(); ++cause)
+        to.counter("spherule_sessions_closed_total", "Sessions ended, by cause", count(net.closed[cause]),
+                   {{"cause", std::string(net::closeCauseNames[cause])}});
+    for (std::size_t cause = 0; cause < net.rejected.size(); ++cause)
+        to.counter("spherule_rejected_total", "Connections, requests, handshakes and commands turned away, by cause",
+                   count(net.rejected[cause]), {{"cause", std::string(net::rejectReasonNames[cause])}});
+    return prometheus::TextSerializer().Serialize(to.registry.Collect());
+}
+
+// Figures of the last second. They exist only while a viewer watches, and for 150 s after a request for metrics.
+void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
+    Families& to = *families_;
+    const v1::Statistics& now = diagnostics.statistics();
+    to.gauge("spherule_substeps", "Substeps per step", diagnostics.substeps());
+    to.gauge("spherule_step_seconds", "Wall time per step", diagnostics.step_ms() / 1000);
+    to.gauge("spherule_energy_rises", "1 if energy increased lately without an energy source",
+             diagnostics.energy_rises() ? 1 : 0);
+    constexpr const char* energy = "spherule_energy_joules";
+    constexpr const char* energyHelp = "Mechanical energy; potential energy is 0 at the floor of the bounds";
+    to.gauge(energy, energyHelp, now.kinetic_energy(), {{"kind", "kinetic"}});
+    to.gauge(energy, energyHelp, now.rotational_energy(), {{"kind", "rotational"}});
+    to.gauge(energy, energyHelp, now.elastic_energy(), {{"kind", "elastic"}});
+    to.gauge(energy, energyHelp, now.potential_energy(), {{"kind", "potential"}});
+    to.gauge("spherule_push_work_joules", "Work against gravity when the model fast moves spheres out of walls",
+             now.push_work());
+    const auto vector = [&to](const char* name, const char* help, const auto& values) {
+        constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+        for (int axis = 0; axis < values.size(); ++axis) to.gauge(name, help, values[axis], {{"axis", axes[axis]}});
+    };
+    vector("spherule_momentum_newton_seconds", "Sum of mass times velocity", now.momentum());
+    vector("spherule_angular_momentum_newton_metre_seconds",
+           "Angular momentum about the centre of the bounds, spins included", now.angular_momentum());
+    if (now.has_restitution()) {
+        to.gauge("spherule_restitution_achieved_ratio",
+                 "Speed of separation over speed of approach, of observed impacts between spheres", now.restitution());
+        to.gauge("spherule_restitution_asked_ratio", "Restitution that the materials require for the observed impacts",
+                 now.restitution_asked());
+    }
+    to.gauge("spherule_contacts", "Pairs of spheres that overlap", static_cast<double>(now.contacts()));
+    to.gauge("spherule_overlap_mean_ratio", "Mean overlap of pairs that overlap, over the smaller radius",
+             now.overlap_mean());
+    to.gauge("spherule_overlap_max_ratio", "Largest overlap", now.overlap_max());
+    to.gauge("spherule_wall_overlap_max_ratio", "Deepest sphere in a wall, over its radius", now.wall_overlap_max());
+    to.gauge("spherule_speed_max_metres_per_second", "Speed of the fastest sphere", now.speed_max());
+    to.gauge("spherule_speed_rms_metres_per_second", "Root mean square of the speeds", now.speed_rms());
+}
+
+}  // namespace spherule::host

@@ -1,0 +1,171 @@
+#include "host/playback_producer.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/heartbeat.h"
+#include "core/log.h"
+#include "core/text.h"
+#include "host/to_proto.h"
+
+namespace spherule::host {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto longestWait = 50ms;  // longest wait of a new viewer for a state while paused
+constexpr auto reportEvery = 1s;
+
+}  // namespace
+
+PlaybackProducer::PlaybackProducer(std::unique_ptr<compute::Device> device, Player player, const ProducerIo& io)
+    : device_(std::move(device)),
+      player_(std::move(player)),
+      requests_(io.requests),
+      board_(io.board),
+      publisher_(io.publisher),
+      encoder_(
+          *device_, [this](const codec::EncodedFrame& encoded) { publish(encoded); },
+          [this](codec::SharedMessage order) { publisher_.setOrder(std::move(order)); },
+          [this](const std::string& text) { notify(v1::Event::WARNING, text); }) {}
+
+Result<void> PlaybackProducer::run(const std::stop_token& stop) {
+    v1::ServerMessage timeline;
+    *timeline.mutable_timeline() = player_.timeline();
+    publisher_.retain(codec::share(std::move(timeline)));
+    while (!stop.stop_requested()) {
+        heartbeat::beat("serving viewers");
+        // Serves all requests before a frame is decoded: of several seeks only the last matters.
+        while (auto request = requests_.tryPop()) serve(*request);
+        for (const Request& query : requests_.takeQueries()) serve(query);
+        const auto now = encode::StreamEncoder::Clock::now();
+        if (auto done = advance(now); !done) return done;
+        sendSettings();
+        produce(now);
+        report(now);
+        if (auto request = requests_.popFor(waitTime(encode::StreamEncoder::Clock::now()))) serve(*request);
+    }
+    return {};
+}
+
+encode::StreamEncoder::Clock::duration PlaybackProducer::waitTime(encode::StreamEncoder::Clock::time_point now) const {
+    encode::StreamEncoder::Clock::duration wait = longestWait;
+    for (const auto due : {player_.due(), encoder_.due()})
+        if (due) wait = std::min(wait, std::max(*due - now, encode::StreamEncoder::Clock::duration{}));
+    return wait;
+}
+
+void PlaybackProducer::serve(const Request& request) {
+    publisher_.reply(request.session, resultOf(request.command, player_.apply(request.command, Player::Clock::now())));
+}
+
+Result<void> PlaybackProducer::advance(encode::StreamEncoder::Clock::time_point now) {
+    const Player::Moved moved = player_.advance(now);
+    for (const std::string& damage : moved.damage) notify(v1::Event::WARNING, "Skipped: " + damage);
+    for (const v1::ServerMessage& message : moved.skippedEvents) publisher_.broadcast(codec::share(message));
+    return moved.shown ? show() : Result<void>();
+}
+
+// Uploads the positions of the current frame, and describes the scene if it is another one.
+Result<void> PlaybackProducer::show() {
+    const recording::Recording& recording = player_.recording();
+    const auto cells = recording.cells();
+    const auto order = recording.order();
+    const auto quantum = static_cast<float>(recording.quantum());
+    positions_.resize(cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) positions_[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
+    if (epoch_ == 0 || sceneOffset_ != recording.sceneOffset()) {
+        const std::size_t bytes = positions_.size() * sizeof(glm::vec4);
+        auto made = device_->createBuffer("positions", bytes, "r");
+        if (!made) return tl::unexpected(made.error());
+        buffer_ = std::move(*made);
+        describe();
+    }
+    device_->upload(*buffer_, 0, std::as_bytes(std::span(positions_)));
+    time_ = recording.time();
+    step_ = recording.step();
+    ++version_;
+    return {};
+}
+
+void PlaybackProducer::describe() {
+    v1::ServerMessage message;
+    v1::SceneFacts& facts = *message.mutable_scene();
+    facts = player_.recording().facts();
+    sceneOffset_ = player_.recording().sceneOffset();
+    facts.set_epoch(++epoch_);
+    const auto radii = player_.recording().radii();
+    smallest_ = radii.empty() ? 0 : static_cast<double>(*std::ranges::min_element(radii));
+    board_.update([&](ServerStatus& report) {
+        report.scene = facts.name();
+        report.spheres = facts.count();
+    });
+    publisher_.retain(codec::share(std::move(message)));
+}
+
+void PlaybackProducer::sendSettings() {
+    v1::ServerMessage message;
+    *message.mutable_settings() = player_.settings();
+    std::string bytes = message.SerializeAsString();
+    if (bytes == settings_) return;
+    settings_ = std::move(bytes);
+    nextReport_ = {};
+    publisher_.retain(codec::share(std::move(message)));
+}
+
+void PlaybackProducer::notify(v1::Event::Kind kind, const std::string& text) {
+    spdlog::warn("{}", text);
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(kind);
+    message.mutable_event()->set_step(player_.recording().step());
+    message.mutable_event()->set_text(utf8(text));
+    publisher_.broadcast(codec::share(std::move(message)));
+}
+
+void PlaybackProducer::produce(encode::StreamEncoder::Clock::time_point now) {
+    if (!buffer_) return;
+    encoder_.update({.source = {.position = buffer_.get(), .slotOf = nullptr},
+                     .spheres = static_cast<std::uint32_t>(positions_.size()),
+                     .smallestRadius = smallest_,
+                     .epoch = epoch_,
+                     .version = version_,
+                     .positions = [this] { return positions_; },
+                     .head =
+                         [this, now] {
+                             v1::Frame head;
+                             head.set_step(step_);
+                             head.set_sim_time(time_);
+                             *head.mutable_status() = status(now);
+                             return head;
+                         }},
+                    publisher_.subscriptions(), now);
+}
+
+void PlaybackProducer::publish(const codec::EncodedFrame& encoded) {
+    frameRate_.add(version_, encode::StreamEncoder::Clock::now());
+    publisher_.publish(encoded);
+}
+
+v1::Status PlaybackProducer::status(encode::StreamEncoder::Clock::time_point now) {
+    v1::Status status;
+    if (!player_.paused()) status.set_real_time_factor(player_.speed());
+    status.set_frames_per_second(frameRate_.perSecond(now));
+    status.set_paused(player_.paused());
+    status.set_viewers(publisher_.viewers());
+    return status;
+}
+
+void PlaybackProducer::report(encode::StreamEncoder::Clock::time_point now) {
+    if (now < nextReport_) return;
+    nextReport_ = now + reportEvery;
+    board_.update([&](ServerStatus& report) {
+        report.setState(player_.paused() ? "paused" : "running");
+        report.steps = step_;
+        report.simSeconds = time_;
+        report.framesProduced = encoder_.framesMade();
+        report.status = status(now);
+    });
+}
+
+}  // namespace spherule::host

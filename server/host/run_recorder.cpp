@@ -1,0 +1,122 @@
+#include "host/run_recorder.h"
+
+#include <cmath>
+
+#include "codec/order.h"
+#include "codec/rendition.h"
+#include "core/heartbeat.h"
+#include "encode/morton.h"
+#include "host/to_proto.h"
+#include "sim/pass.h"
+
+namespace spherule::host {
+
+namespace {
+
+constexpr double keyframesEvery = 2;  // s simulated
+constexpr double roundedBy = 1e-6;    // tolerance (frames): times are sums of steps
+constexpr std::uint32_t epoch = 1, order = 1;
+
+}  // namespace
+
+Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Options& options, compute::Device& device,
+                                                         sim::Simulation& simulation) {
+    if (simulation.count() == 0)
+        return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
+    auto context =
+        encode::EncoderContext::create(device, simulation.count(), encode::positionsOf(simulation).slotOf != nullptr);
+    if (!context) return tl::unexpected(context.error());
+    const double quantum = codec::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
+    auto encoder = encode::FrameEncoder::create(**context, {.quantum = quantum});
+    if (!encoder) return tl::unexpected(encoder.error());
+    // The file is created last, so that an existing file is kept if the device has no room.
+    auto writer = recording::Writer::create(options.path, options.replace);
+    if (!writer) return tl::unexpected(writer.error());
+    std::unique_ptr<RunRecorder> recorder(new RunRecorder(options, device, simulation, std::move(*writer)));
+    recorder->context_ = std::move(*context);
+    recorder->encoder_ = std::move(*encoder);
+    recorder->quantum_ = quantum;
+    if (auto done = recorder->begin(); !done) return tl::unexpected(done.error());
+    return recorder;
+}
+
+Result<void> RunRecorder::begin() {
+    v1::ServerMessage welcome;
+    *welcome.mutable_welcome() = welcomeOf(device_.info());
+    // These name the machine and the number of threads. A recording does not depend on them.
+    welcome.mutable_welcome()->clear_renderer();
+    welcome.mutable_welcome()->clear_reason();
+    if (auto done = add(recording::Kind::Other, welcome); !done) return done;
+    if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
+
+    const std::vector<std::uint32_t> ids = encode::mortonOrder(simulation_.snapshot().position);
+    context_->setOrder(ids);
+    v1::ServerMessage message;
+    *message.mutable_order() = codec::orderMessage(epoch, order, ids);
+    if (auto done = add(recording::Kind::Order, message); !done) return done;
+    if (auto done = writeSettings(); !done) return done;
+    keyframe_ = simulation_.time();
+    due_ = 1;
+    return write(recording::Kind::Keyframe);
+}
+
+Result<void> RunRecorder::stepped(bool last) {
+    if (auto done = writeSettings(); !done) return done;
+    const double frames = simulation_.time() * options_.rate + roundedBy;
+    if (frames < due_ && !last) return {};
+    due_ = std::floor(frames) + 1;
+    if (auto done = write(recording::Kind::Delta); !done) return done;
+    if (simulation_.time() - keyframe_ + roundedBy / options_.rate < keyframesEvery) return {};
+    keyframe_ = simulation_.time();
+    return write(recording::Kind::Resync);
+}
+
+Result<void> RunRecorder::addEvent(v1::Event::Kind kind, const std::string& text) {
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(kind);
+    message.mutable_event()->set_text(text);
+    message.mutable_event()->set_step(simulation_.steps());
+    return add(recording::Kind::Other, message);
+}
+
+// Writes the settings if they have changed.
+Result<void> RunRecorder::writeSettings() {
+    const v1::ServerMessage message = settingsMessage(simulation_.scene(), 1, false);
+    std::string bytes = message.SerializeAsString();
+    if (bytes == settings_) return {};
+    settings_ = std::move(bytes);
+    return add(recording::Kind::Settings, message);
+}
+
+Result<void> RunRecorder::write(recording::Kind kind) {
+    device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
+    if (kind == recording::Kind::Keyframe)
+        encoder_->encodeKeyframe(encode::positionsOf(simulation_), true);
+    else if (kind == recording::Kind::Delta)
+        encoder_->encodeDelta(encode::positionsOf(simulation_), true);
+    else
+        encoder_->encodeResync(true);
+    device_.endTimer();
+    const std::vector<std::byte> bytes = encoder_->download();
+    if (auto alive = device_.status(); !alive) return alive;  // the bytes are invalid after a device loss
+
+    v1::ServerMessage message;
+    v1::Frame& frame = *message.mutable_frame();
+    frame.set_sequence(kind == recording::Kind::Resync ? sequence_ : ++sequence_);
+    frame.set_epoch(epoch);
+    frame.set_step(simulation_.steps());
+    frame.set_sim_time(simulation_.time());
+    frame.set_count(simulation_.count());
+    frame.set_tier(options_.tier);
+    frame.set_order(order);
+    frame.set_quantum(quantum_);
+    frame.set_spb(bytes.data(), bytes.size());
+    return add(kind, message);
+}
+
+Result<void> RunRecorder::add(recording::Kind kind, const v1::ServerMessage& message) {
+    const heartbeat::Pause writing;
+    return writer_.add(kind, simulation_.time(), message.SerializeAsString());
+}
+
+}  // namespace spherule::host

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "compute/device.h"
+#include "core/result.h"
+#include "encode/frame_encoder.h"
+#include "recording/options.h"
+#include "recording/writer.h"
+#include "sim/simulation.h"
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::host {
+
+// Records a running simulation. The file does not depend on the clock. Used by the simulation thread.
+class RunRecorder {
+  public:
+    // Begins with the present state. `device`: the device of the simulation. Both must outlive the recorder. Refused if
+    // the device has no room. For errors of the file see OutputFile.
+    static Result<std::unique_ptr<RunRecorder>> create(const recording::Options& options, compute::Device& device,
+                                                       sim::Simulation& simulation);
+
+    // Call after each step. `last`: no step follows, so this one is always recorded.
+    Result<void> stepped(bool last);
+    Result<void> addEvent(v1::Event::Kind kind, const std::string& text);
+    // Call at the end, even if the run has failed.
+    Result<void> finish() { return writer_.finish(); }
+
+    [[nodiscard]] const recording::Writer& writer() const { return writer_; }
+
+  private:
+    RunRecorder(const recording::Options& options, compute::Device& device, sim::Simulation& simulation,
+                recording::Writer writer)
+        : options_(options), device_(device), simulation_(simulation), writer_(std::move(writer)) {}
+
+    Result<void> begin();
+    Result<void> writeSettings();
+    Result<void> write(recording::Kind kind);
+    Result<void> add(recording::Kind kind, const v1::ServerMessage& message);
+
+    recording::Options options_;
+    compute::Device& device_;
+    sim::Simulation& simulation_;
+    recording::Writer writer_;
+    std::unique_ptr<encode::EncoderContext> context_;
+    std::unique_ptr<encode::FrameEncoder> encoder_;
+    double quantum_ = 0;  // m
+    std::uint64_t sequence_ = 0;
+    double due_ = 0;        // number of the next frame, which is due at due_ / rate
+    double keyframe_ = 0;   // time of the last keyframe (s simulated)
+    std::string settings_;  // serialized, as written last
+};
+
+}  // namespace spherule::host

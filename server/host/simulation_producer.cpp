@@ -1,0 +1,361 @@
+#include "host/simulation_producer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/heartbeat.h"
+#include "core/log.h"
+#include "core/text.h"
+#include "host/to_proto.h"
+
+namespace spherule::host {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto longestWait = 50ms;  // longest wait of a new viewer for a state while paused
+// A step up to this long is done as a whole. Commands are served between the substeps of a longer step.
+constexpr auto wholeStep = 100ms;
+constexpr auto sliceOfStep = 20ms;
+constexpr auto sliceOfChange = 5ms;  // at least; as long as the step of the same turn, if there is one
+constexpr auto reportEvery = 1s;
+constexpr auto reportChangeAfter = 250ms;  // a shorter change is not reported
+constexpr auto reportChangeEvery = 200ms;
+constexpr double slowStepMs = 1000;
+constexpr auto measureAfterRead = 150s;  // figures are measured this long after a request for metrics
+
+}  // namespace
+
+SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, const ProducerIo& io,
+                                       diagnostics::Table table, recording::LiveOptions recordings)
+    : owned_(std::move(host)),
+      host_(*owned_),
+      board_(io.board),
+      publisher_(io.publisher),
+      encoder_(
+          host_.device(), [this](const codec::EncodedFrame& encoded) { publish(encoded); },
+          [this](codec::SharedMessage order) {
+              recorder_.setOrder(order);
+              publisher_.setOrder(std::move(order));
+          },
+          [this](const std::string& text) { notify(v1::Event::WARNING, text); }),
+      recorder_(std::move(recordings), welcomeOf(host_.device().info())),
+      sampler_(std::move(table)),
+      commands_(host_, io.requests, publisher_, *this) {}
+
+Result<void> SimulationProducer::run(const std::stop_token& stop) {
+    publishChanges();
+    if (recorder_.startsAtOnce())
+        if (auto room = reserveEncoder(); !room) return room;
+    if (auto done = recorder_.startFromOptions(); !done) return done;
+    const Result<void> done = simulate(stop);
+    const Result<void> finished = finishRecording();
+    return done ? finished : done;
+}
+
+Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
+    Result<void> done;
+    while (done && !stop.stop_requested()) {
+        heartbeat::beat("serving viewers");
+        commands_.serveWaiting();
+        const bool worked = advance(done);
+        if (!done) break;
+        commands_.answerQueries();
+        reportChange();
+        reportWhenStopped();
+        done = report();
+        produce(Clock::now());
+        reportRecording();
+        if (worked) continue;
+        commands_.serveNext(waitTime(Clock::now()));
+    }
+    commands_.refuseAll("the server is stopping");
+    return done;
+}
+
+// Does a part of the step under way and of the change under way. Returns false when there is neither.
+bool SimulationProducer::advance(Result<void>& done) {
+    const auto start = Clock::now();
+    const bool due = host_.running() && host_.scheduler().untilDue(start) == Clock::duration{};
+    if (due) done = advanceStep(start);
+    if (!done || !host_.changing()) return due;
+    commands_.advanceChange(std::max<Clock::duration>(sliceOfChange, Clock::now() - start));
+    return true;
+}
+
+SimulationProducer::Clock::duration SimulationProducer::waitTime(Clock::time_point now) const {
+    Clock::duration wait = longestWait;
+    if (host_.running()) wait = std::min(wait, host_.scheduler().untilDue(now));
+    if (const auto due = encoder_.due()) wait = std::min(wait, std::max(*due - now, Clock::duration{}));
+    return wait;
+}
+
+void SimulationProducer::worldChanged() {
+    reportNotices();
+    substepController_.reset();
+    sampler_.invalidateBaseline();
+    nextReport_ = {};  // measures the energy at the start, before steps change it
+    if (!host_.simulation().midStep()) stepMs_ = 0;
+}
+
+// Sends the scene facts, settings and dial that have changed. Call after any change.
+void SimulationProducer::publishChanges() {
+    commands_.discardAnswer();
+    if (epoch_ != host_.epoch()) {
+        epoch_ = host_.epoch();
+        diagnostics_.reset();
+        retain(host_.facts());
+    }
+    v1::ServerMessage settings = host_.settings();
+    if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
+        settings_ = std::move(bytes);
+        retain(std::move(settings));
+    }
+    if (sampler_.updateDial(host_.simulation(), epoch_)) sendDial();
+    ++version_;
+}
+
+// Advances the step under way, or the next one, until it ends or commands must be served.
+Result<void> SimulationProducer::advanceStep(Clock::time_point now) {
+    const auto slice = host_.simulation().midStep() ? sliceOfStep : wholeStep;
+    const auto ended = host_.advance(now + slice);
+    const auto end = Clock::now();
+    stepMs_ += std::chrono::duration<double, std::milli>(end - now).count();
+    if (!ended) return tl::unexpected(ended.error());
+    if (!*ended) return {};
+    if (std::exchange(reportMissed_, false)) nextReport_ = {};
+    const double wallMs = std::exchange(stepMs_, 0);
+    host_.scheduler().stepped(end);
+    sampler_.addStep(wallMs);
+    ++version_;
+    if (host_.paused()) commands_.discardAnswer();
+    reportNotices();
+    stopAtNonFinite();
+    commands_.countStep();
+    return tune(wallMs);
+}
+
+Result<void> SimulationProducer::tune(double wallMs) {
+    auto message = substepController_.stepped(host_.simulation(), wallMs);
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) return {};
+    notify(v1::Event::TUNED, **message);
+    publishChanges();
+    return {};
+}
+
+void SimulationProducer::stopAtNonFinite() {
+    if (!host_.simulation().counters().nonFinite) return;
+    host_.pause();
+    notify(v1::Event::NON_FINITE,
+           fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
+                       host_.simulation().divergence()));
+    commands_.refuseSteps("a position or velocity became non-finite");
+    host_.simulation().restore();
+    sampler_.invalidateBaseline();
+    publishChanges();
+}
+
+// Makes a report due when the world has stopped, before the frame of this state is produced. The status of that frame
+// then belongs to this state.
+void SimulationProducer::reportWhenStopped() {
+    watched_ = !publisher_.subscriptions().empty();
+    if (host_.running() || !watched_ || host_.simulation().midStep()) return;
+    if (!diagnostics_ || diagnostics_->statistics().step() != host_.simulation().steps()) nextReport_ = {};
+}
+
+void SimulationProducer::produce(Clock::time_point now) {
+    auto subscriptions = publisher_.subscriptions();
+    recorder_.subscribe(subscriptions, now);
+    encoder_.update(encoderInput(now), subscriptions, now);
+}
+
+encode::EncoderInput SimulationProducer::encoderInput(Clock::time_point now) {
+    sim::Simulation& simulation = host_.simulation();
+    return {.source = encode::positionsOf(simulation),
+            .spheres = simulation.count(),
+            .smallestRadius = simulation.radii().smallest,
+            .epoch = epoch_,
+            .version = version_,
+            .positions = [&simulation] { return simulation.snapshot().position; },
+            .head = [this, now] { return head(now); }};
+}
+
+v1::Frame SimulationProducer::head(Clock::time_point now) {
+    v1::Frame head;
+    head.set_step(host_.simulation().steps());
+    head.set_sim_time(host_.simulation().time());
+    *head.mutable_status() = status(now);
+    return head;
+}
+
+void SimulationProducer::publish(const codec::EncodedFrame& encoded) {
+    frameRate_.add(version_, Clock::now());
+    recorder_.publish(encoded);
+    publisher_.publish(encoded);
+}
+
+void SimulationProducer::notify(v1::Event::Kind kind, const std::string& text) {
+    const auto level = kind == v1::Event::TUNED     ? spdlog::level::info
+                       : kind == v1::Event::WARNING ? spdlog::level::warn
+                                                    : spdlog::level::err;
+    spdlog::log(level, "{}", text);
+    v1::ServerMessage message;
+    message.mutable_event()->set_kind(kind);
+    message.mutable_event()->set_step(host_.simulation().steps());
+    message.mutable_event()->set_text(utf8(text));
+    broadcast(std::move(message));
+}
+
+void SimulationProducer::reportNotices() {
+    for (const std::string& notice : host_.simulation().takeNotices()) notify(v1::Event::WARNING, notice);
+}
+
+// Sends to viewers and to the recording.
+void SimulationProducer::broadcast(v1::ServerMessage message) {
+    const auto shared = codec::share(std::move(message));
+    recorder_.broadcast(shared);
+    publisher_.broadcast(shared);
+}
+
+void SimulationProducer::retain(v1::ServerMessage message) {
+    const auto shared = codec::share(std::move(message));
+    recorder_.retain(shared);
+    publisher_.retain(shared);
+}
+
+Result<void> SimulationProducer::reserveEncoder() {
+    return encoder_.open(recorder_.rendition(), encoderInput(Clock::now())).map_error([](Error error) {
+        error.message = "nothing is recorded: " + error.message;
+        return error;
+    });
+}
+
+Result<void> SimulationProducer::startRecording() {
+    if (auto room = reserveEncoder(); !room) return room;
+    return recorder_.start();
+}
+
+void SimulationProducer::reportRecording() {
+    if (!recorder_.canRecord()) return;
+    const auto state = recorder_.changedState(recording::LiveRecorder::Clock::now());
+    if (!state) return;
+    board_.update([&](ServerStatus& report) { report.recording = *state; });
+    if (!state->failure().empty())
+        notify(v1::Event::WARNING, fmt::format("The recording {} has ended: {}.", state->file(), state->failure()));
+    v1::ServerMessage message;
+    *message.mutable_recording() = *state;
+    retain(std::move(message));
+}
+
+// Reports the change or the step command under way to viewers, once it has taken `reportChangeAfter`.
+void SimulationProducer::reportChange() {
+    const auto now = Clock::now();
+    const auto activity = commands_.activity();
+    v1::ServerMessage message;
+    v1::Change& change = *message.mutable_change();
+    if (activity) {
+        if (now - activity->since < reportChangeAfter || now < nextChangeReport_) return;
+        nextChangeReport_ = now + reportChangeEvery;
+        change.set_what(wordsFor(activity->request.command));
+        change.set_session(activity->request.session);
+        change.set_doing(activity->doing);
+        change.set_share(activity->share);
+    } else if (!changeReported_) {
+        return;
+    }
+    changeReported_ = activity.has_value();
+    publisher_.retain(codec::share(std::move(message)));
+}
+
+// Why commands or states may be late, for /healthz; empty if they are not.
+std::string SimulationProducer::slowness() const {
+    if (host_.changing()) return commands_.changeInWords();
+    if (stepMs_ < slowStepMs || !host_.running()) return "";
+    return fmt::format("the step under way has taken {:.1f} s so far, {:.1f} % of it is done", 1e-3 * stepMs_,
+                       100 * host_.simulation().shareOfStep());
+}
+
+void SimulationProducer::sendDial() {
+    v1::ServerMessage message;
+    *message.mutable_dial() = sampler_.dial();
+    retain(std::move(message));
+}
+
+// Finishes the recording, and logs its end: no viewer is notified any more.
+Result<void> SimulationProducer::finishRecording() {
+    const auto last = recorder_.finish();
+    if (!last) return {};
+    if (!last->failure().empty()) return fail(ErrorKind::Refused, last->file(), last->failure());
+    spdlog::info("recorded {:.1f} s in {}, {:.1f} MB", last->duration(), last->file(),
+                 static_cast<double>(last->bytes()) / 1e6);
+    return {};
+}
+
+v1::Status SimulationProducer::status(Clock::time_point now) {
+    v1::Status status;
+    if (host_.running()) {
+        status.set_real_time_factor(host_.scheduler().realTimeFactor(now));
+        status.set_steps_per_second(host_.scheduler().stepsPerSecond(now));
+    }
+    status.set_frames_per_second(frameRate_.perSecond(now));
+    status.set_paused(host_.paused());
+    status.set_viewers(publisher_.viewers());
+    if (diagnostics_) {
+        status.set_sleeping(diagnostics_->statistics().sleeping());
+        status.set_outside(diagnostics_->statistics().outside());
+        status.set_non_finite(diagnostics_->statistics().non_finite());
+    }
+    return status;
+}
+
+void SimulationProducer::sampleDiagnostics(const std::vector<double>& passSeconds) {
+    DiagnosticsSampler::Sample sample = sampler_.sample(host_.simulation(), passSeconds);
+    for (const std::string& alarm : sample.alarms) notify(v1::Event::WARNING, alarm);
+    if (sample.dialChanged) sendDial();
+    diagnostics_ = std::move(sample.diagnostics);
+    v1::ServerMessage message;
+    *message.mutable_diagnostics() = *diagnostics_;
+    broadcast(std::move(message));
+}
+
+// Also checks the device: while paused, no step would show that it is lost.
+Result<void> SimulationProducer::report() {
+    const auto now = Clock::now();
+    if (now < nextReport_) return {};
+    nextReport_ = now + reportEvery;
+    if (auto alive = host_.device().status(); !alive) return alive;
+    const auto times = host_.simulation().passSeconds();
+    passSeconds_.resize(std::max(passSeconds_.size(), times.size()));
+    for (std::size_t pass = 0; pass < times.size(); ++pass) passSeconds_[pass] += times[pass];
+    // Figures are measured only between two steps.
+    reportMissed_ = host_.simulation().midStep();
+    if (!reportMissed_ && (watched_ || board_.readWithin(measureAfterRead))) {
+        sampleDiagnostics(std::exchange(passSeconds_, {}));
+    } else if (!reportMissed_) {
+        passSeconds_.clear();
+        diagnostics_.reset();
+        sampler_.discard();
+    }
+    board_.update([&](ServerStatus& report) {
+        report.setState(host_.paused() ? "paused" : "running");
+        report.slow = slowness();
+        report.scene = host_.simulation().scene().name;
+        report.spheres = host_.simulation().count();
+        report.steps = host_.simulation().steps();
+        report.simSeconds = host_.simulation().time();
+        report.rebuilds = host_.simulation().counters().rebuilds;
+        report.framesProduced = encoder_.framesMade();
+        report.recordingFramesLost = recorder_.framesLost();
+        report.status = status(now);
+        report.diagnostics = diagnostics_;
+        report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));
+        for (std::size_t pass = 0; pass < times.size(); ++pass) report.passSeconds[pass] += times[pass];
+    });
+    return {};
+}
+
+}  // namespace spherule::host

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "diagnostics/substep_controller.h"
+#include "encode/stream_encoder.h"
+#include "host/command_executor.h"
+#include "host/diagnostics_sampler.h"
+#include "host/frame_producer.h"
+#include "host/rate_meter.h"
+#include "host/simulation_host.h"
+#include "recording/live_recorder.h"
+
+namespace spherule::host {
+
+// Produces the frames of a simulation: carries out commands, steps the simulation and encodes its states. It waits for
+// a command, for the next step or for the device to end one. It never waits for the network, for the disk or for the
+// copy of a state.
+class SimulationProducer : public FrameProducer, private CommandExecutor::Effects {
+  public:
+    SimulationProducer(std::unique_ptr<SimulationHost> host, const ProducerIo& io, diagnostics::Table table,
+                       recording::LiveOptions recordings);
+
+    // Runs until stopped, until the device is lost, or until the recording of the options fails.
+    Result<void> run(const std::stop_token& stop) override;
+
+  private:
+    using Clock = StepScheduler::Clock;
+
+    // Runs until stopped, or until the device is lost.
+    Result<void> simulate(const std::stop_token& stop);
+    bool advance(Result<void>& done);
+    Result<void> advanceStep(Clock::time_point now);
+    void reportChange();
+    [[nodiscard]] std::string slowness() const;
+    void worldChanged() override;
+    void publishChanges() override;
+    void retain(v1::ServerMessage message);
+    void broadcast(v1::ServerMessage message);
+    Result<void> tune(double wallMs);
+    void notify(v1::Event::Kind kind, const std::string& text);
+    void reportNotices();
+    void stopAtNonFinite();
+    void reportWhenStopped();
+    Result<void> reserveEncoder();
+    Result<void> startRecording() override;
+    Result<void> stopRecording() override { return recorder_.stop(); }
+    void produce(Clock::time_point now);
+    encode::EncoderInput encoderInput(Clock::time_point now);
+    v1::Frame head(Clock::time_point now);
+    void publish(const codec::EncodedFrame& encoded);
+    Result<void> report();
+    void reportRecording();
+    Result<void> finishRecording();
+    void sampleDiagnostics(const std::vector<double>& passSeconds);
+    void sendDial();
+    [[nodiscard]] v1::Status status(Clock::time_point now);
+    [[nodiscard]] Clock::duration waitTime(Clock::time_point now) const;
+
+    std::unique_ptr<SimulationHost> owned_;
+    SimulationHost& host_;
+    StatusBoard& board_;
+    net::Publisher& publisher_;
+    encode::StreamEncoder encoder_;
+    recording::LiveRecorder recorder_;
+    RateMeter frameRate_;
+    Clock::time_point nextReport_{};
+    diagnostics::SubstepController substepController_;
+    DiagnosticsSampler sampler_;
+    CommandExecutor commands_;
+    std::optional<v1::Diagnostics> diagnostics_;  // diagnostics of the last report; nullopt if nobody watched
+    std::uint64_t version_ = 0;                   // version of the world, as viewers see it
+    std::uint32_t epoch_ = 0;
+    std::string settings_;  // serialized, as sent last
+    bool watched_ = false;
+    std::vector<double> passSeconds_;  // device time (s) since the last sampleDiagnostics(), by sim::Pass
+    bool reportMissed_ = false;        // a report was due in the middle of a step
+    double stepMs_ = 0;                // wall time of the step under way (ms)
+    bool changeReported_ = false;
+    Clock::time_point nextChangeReport_{};
+};
+
+}  // namespace spherule::host

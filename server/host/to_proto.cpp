@@ -1,0 +1,176 @@
+#include "host/to_proto.h"
+
+#include <cstring>
+#include <string>
+
+#include "core/text.h"
+#include "net/command_rules.h"
+#include "scene/goal.h"
+#include "scene/quality.h"
+
+namespace spherule::host {
+
+namespace {
+
+template <class Repeated>
+void set(Repeated* target, const glm::dvec3& v) {
+    for (int axis = 0; axis < 3; ++axis) target->Add(v[axis]);
+}
+
+void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
+    for (const scene::Obstacle& obstacle : scene.obstacles) {
+        v1::Obstacle& message = *facts.add_obstacles();
+        message.set_colour(obstacle.colour);
+        if (const auto* plane = std::get_if<scene::Plane>(&obstacle.shape)) {
+            set(message.mutable_plane()->mutable_point(), plane->point);
+            set(message.mutable_plane()->mutable_normal(), plane->normal);
+        } else {
+            const auto& box = std::get<scene::Box>(obstacle.shape);
+            set(message.mutable_box()->mutable_min(), box.min);
+            set(message.mutable_box()->mutable_max(), box.max);
+        }
+    }
+}
+
+void setSpheres(v1::SceneFacts& facts, const scene::Scene& scene, bool radiiDiffer) {
+    for (const scene::Group& group : scene.groups) {
+        v1::GroupFacts& message = *facts.add_groups();
+        message.set_name(group.name);
+        message.set_first(group.first);
+        message.set_count(group.count);
+        message.set_colour(group.colour);
+    }
+    facts.set_count(static_cast<std::uint32_t>(scene.spheres.size()));
+    if (!radiiDiffer) {
+        facts.set_radius(scene.spheres.empty() ? 0.0F : scene.spheres.front().radius);
+        return;
+    }
+    std::string radii(scene.spheres.size() * sizeof(float), '\0');
+    for (std::size_t id = 0; id < scene.spheres.size(); ++id)
+        std::memcpy(&radii[id * sizeof(float)], &scene.spheres[id].radius, sizeof(float));
+    facts.set_radii(std::move(radii));
+}
+
+}  // namespace
+
+v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch) {
+    const scene::Scene& scene = simulation.scene();
+    const sim::Plan& plan = simulation.plan();
+    v1::ServerMessage message;
+    v1::SceneFacts& facts = *message.mutable_scene();
+    facts.set_epoch(epoch);
+    facts.set_name(scene.name);
+    facts.set_description(scene.description);
+    set(facts.mutable_bounds_min(), scene.bounds.min);
+    set(facts.mutable_bounds_max(), scene.bounds.max);
+    for (int face = 0; face < 6; ++face)
+        if (scene.bounds.open[static_cast<std::size_t>(face)]) facts.add_open(static_cast<v1::Face>(face + v1::X_MIN));
+    setObstacles(facts, scene);
+    setSpheres(facts, scene, plan.features.has(sim::Feature::Radii));
+    set(facts.mutable_camera()->mutable_eye(), scene.camera.eye);
+    set(facts.mutable_camera()->mutable_target(), scene.camera.target);
+    facts.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
+    facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
+    if (plan.features.has(sim::Feature::Contacts))
+        for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);
+    return message;
+}
+
+v1::Welcome welcomeOf(const compute::DeviceInfo& device) {
+    v1::Welcome welcome;
+    welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
+    welcome.set_device(device.kind);
+    welcome.set_renderer(device.renderer);
+    welcome.set_reason(device.reason);
+    return welcome;
+}
+
+v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused) {
+    v1::ServerMessage message;
+    v1::Settings& settings = *message.mutable_settings();
+    set(settings.mutable_gravity(), scene.gravity);
+    settings.set_restitution(scene.materials.front().restitution);
+    settings.set_substeps(scene.quality.substeps);
+    settings.set_speed(speed);
+    settings.set_paused(paused);
+    settings.set_step(scene.step);
+    settings.set_model(scene::messageOf(scene.quality.model));
+    settings.set_friction(scene.materials.front().friction);
+    if (scene.quality.goal) *settings.mutable_auto_() = scene::messageOf(*scene.quality.goal);
+    return message;
+}
+
+v1::Statistics statisticsMessage(const sim::Statistics& s) {
+    v1::Statistics message;
+    message.set_step(s.step);
+    message.set_sim_time(s.time);
+    message.set_spheres(s.spheres);
+    message.set_kinetic_energy(s.kineticEnergy);
+    message.set_rotational_energy(s.rotationalEnergy);
+    message.set_elastic_energy(s.elasticEnergy);
+    message.set_potential_energy(s.potentialEnergy);
+    message.set_push_work(s.pushWork);
+    set(message.mutable_momentum(), s.momentum);
+    set(message.mutable_angular_momentum(), s.angularMomentum);
+    message.set_contacts(s.contacts);
+    message.set_overlap_mean(s.overlapMean);
+    message.set_overlap_max(s.overlapMax);
+    message.set_wall_overlap_max(s.wallOverlapMax);
+    message.set_speed_max(s.speedMax);
+    message.set_speed_rms(s.speedRms);
+    message.set_mean_height(s.meanHeight);
+    message.set_sleeping(s.sleeping);
+    message.set_outside(s.outside);
+    message.set_non_finite(s.nonFinite);
+    if (s.impacts.count > 0) {
+        message.set_impacts(static_cast<std::uint64_t>(s.impacts.count));
+        message.set_restitution(s.impacts.restitution());
+        message.set_restitution_asked(s.impacts.restitutionAsked());
+    }
+    return message;
+}
+
+namespace {
+
+v1::Applied appliedMessage(const sim::Applied& applied) {
+    v1::Applied message;
+    message.set_step(applied.step);
+    if (applied.sphere) message.set_sphere(*applied.sphere);
+    if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
+    return message;
+}
+
+// The path from the Command to the field that `where` begins with; empty if the command's message has no such field.
+std::string fieldOf(const v1::Command& command, std::string_view where) {
+    const auto& kinds = *v1::Command::descriptor()->oneof_decl(0);
+    const auto* const kind = command.GetReflection()->GetOneofFieldDescriptor(command, &kinds);
+    const std::string_view root = where.substr(0, where.find_first_of(".["));
+    for (int k = 0; kind != nullptr && k < kind->message_type()->field_count(); ++k)
+        if (kind->message_type()->field(k)->json_name() == root)
+            return std::string(kind->json_name()).append(".").append(where);
+    return "";
+}
+
+}  // namespace
+
+v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied>& applied) {
+    v1::CommandResult result;
+    result.set_id(command.id());
+    if (applied) {
+        *result.mutable_applied() = appliedMessage(*applied);
+    } else {
+        std::string field = fieldOf(command, applied.error().where);
+        result.mutable_refused()->set_reason(utf8(field.empty() ? applied.error().text() : applied.error().message));
+        result.mutable_refused()->set_field(std::move(field));
+    }
+    return result;
+}
+
+std::string wordsFor(const v1::Command& command) {
+    const std::string& name = net::nameOf(command);
+    if (!command.has_load()) return name;
+    const v1::LoadScene& load = command.load();
+    return name + " " + utf8(load.has_scene() ? load.scene().name() : load.name());
+}
+
+}  // namespace spherule::host
