@@ -50,7 +50,7 @@ int ctl(const CtlOptions& options) {
     if (!authorities) return printError(authorities.error());
     target.authorities = std::move(*authorities);
     const auto asks = [](const v1::Person& holder) {
-        fmt::print(stderr, "{} (session {}) has the controls; asking for them\n", withoutControls(holder.client()),
+        fmt::print(stderr, "{} (session {}) has control; asking for it\n", withoutControls(holder.client()),
                    holder.session());
     };
     Result<v1::CommandResult> result;
@@ -82,7 +82,7 @@ void addCtl(CLI::App& app, int& exitCode) {
                         "file with certificate authorities (PEM) to trust, in place of the system's");
     command
         ->add_option("--timeout", options->timeoutSeconds,
-                     "longest wait (s) for the answer, for progress, or for the controls")
+                     "longest wait (s) for the answer, for progress, or for control")
         ->capture_default_str();
     // Numbers such as -1.6 are words of the command, not options.
     command->positionals_at_end();

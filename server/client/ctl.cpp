@@ -70,7 +70,7 @@ class Conversation {
         request.mutable_ask_control();
         if (auto sent = send(request); !sent) return sent;
         return receiveUntil([&](const auto&) { return !status.needsLock(); },
-                            "the controls were not handed over in time", false);
+                            "control was not handed over in time", false);
     }
 
     void end() { client_->close(); }

@@ -7,7 +7,7 @@
 
 namespace spherule {
 
-// The kind of an error determines the exit code of a command (see app/exit_codes.h).
+// The kind of an error determines the exit code of a command (see cli/exit_codes.h).
 enum class ErrorKind {
     Input,       // invalid scene, command line, file or message
     NoDevice,    // no compute device

@@ -51,7 +51,7 @@ void Session::onCommand(v1::Command command, std::size_t cost) {
             return refuse(id, RejectReason::ControlsHeld,
                           state_.controlLock.state().holder().client() + " (session " +
                               std::to_string(state_.controlLock.state().holder().session()) +
-                              ") has the controls: ask for them");
+                              ") has control: ask for it");
     }
     if (const auto reason = state_.handlers.submit(id_, std::move(command), cost))
         refuse(id, RejectReason::CommandQueue, *reason);

@@ -82,7 +82,7 @@ class Overlay:
         paths = {probe: self.container[probe]["httpGet"]["path"]
                  for probe in ("startupProbe", "readinessProbe", "livenessProbe")}
         self.assertEqual(paths, {"startupProbe": "/readyz", "readinessProbe": "/readyz", "livenessProbe": "/healthz"})
-        site = read("server/app/site.cpp")
+        site = read("server/host/http_routes.cpp")
         for path in paths.values():
             self.assertIn(f'path == "{path}"', site)
 

@@ -17,18 +17,18 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint8_t binaryFrame = 0x82;
 
-std::unique_ptr<app::Runtime> serve() {
-    auto runtime = app::Runtime::start(
-        [](const app::Stage& stage) -> Result<std::unique_ptr<app::Show>> {
-            auto world = app::World::open("cpu:1", "box-4k", {});
-            if (!world) return tl::unexpected(world.error());
-            return std::make_unique<app::SimLoop>(std::move(*world), stage, diagnostics::ownTable(),
-                                                  app::TapeOptions());
+std::unique_ptr<host::Host> serve() {
+    auto server = host::Host::start(
+        [](const host::ProducerIo& io) -> Result<std::unique_ptr<host::FrameProducer>> {
+            auto host = host::SimulationHost::open("cpu:1", "box-4k", {});
+            if (!host) return tl::unexpected(host.error());
+            return std::make_unique<host::SimulationProducer>(std::move(*host), io, diagnostics::ownTable(),
+                                                              recording::LiveOptions());
         },
-        quickOptions(), app::Watchdog::Seconds(0));
-    if (!runtime) throw std::runtime_error(runtime.error().text());
-    EXPECT_TRUE(eventually([&] { return (*runtime)->opened(); }));
-    return std::move(*runtime);
+        quickOptions(), host::Watchdog::Seconds(0), [](const Error&) { return 1; });
+    if (!server) throw std::runtime_error(server.error().text());
+    EXPECT_TRUE(eventually([&] { return (*server)->opened(); }));
+    return std::move(*server);
 }
 
 // Each viewer sends a query every 10 ms, the command limit of one session, while `run` is true.
@@ -106,9 +106,9 @@ T medianOf(std::vector<T> values) {
 
 // The simulation runs without pauses, so an answer takes about one step, with or without queries.
 TEST(Queries, OfFortyViewersDelayNoCommand) {
-    const auto runtime = serve();
-    Viewers viewers(runtime->port(), 40);
-    Controller controller(runtime->port());
+    const auto host = serve();
+    Viewers viewers(host->port(), 40);
+    Controller controller(host->port());
     (void)controller.give(R"("set":{"speed":100,"substeps":120})");
     std::vector<double> ratios;
     for (int round = 0; round < 5; ++round) {
@@ -121,12 +121,12 @@ TEST(Queries, OfFortyViewersDelayNoCommand) {
                          std::chrono::duration<double>(medianOf(times[0])));
     }
     EXPECT_LE(medianOf(ratios), 1.5) << testing::PrintToString(ratios);
-    EXPECT_TRUE(runtime->drain());
+    EXPECT_TRUE(host->drain());
 }
 
 TEST(Queries, SeeEarlierCommands) {
-    const auto runtime = serve();
-    Controller controller(runtime->port());
+    const auto host = serve();
+    Controller controller(host->port());
     (void)controller.give(R"("pause":{})");
     const auto paused = controller.give(R"("query":{})").statistics();
     EXPECT_EQ(paused.spheres(), 4000U);
@@ -138,7 +138,7 @@ TEST(Queries, SeeEarlierCommands) {
     }
     (void)controller.give(R"("push":{"sphere":0,"impulse":[0,0,5]})");
     EXPECT_GT(controller.give(R"("query":{})").statistics().momentum(2), 4);
-    EXPECT_TRUE(runtime->drain());
+    EXPECT_TRUE(host->drain());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "core/memory.h"
 
-namespace spherule::host {
+namespace spherule::encode {
 namespace {
 
 using namespace std::chrono_literals;
@@ -24,9 +24,9 @@ class Watched : public testing::Test {
         : encoder_(
               *device_, [this](const codec::EncodedFrame& encoded) { encoded_.push_back(encoded); },
               [this](auto order) { orders_.push_back(std::move(order)); },
-              [this](const std::string& text) { complaints_.push_back(text); }) {
+              [this](const std::string& text) { warnings_.push_back(text); }) {
         position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
-        state_.position.resize(spheres);
+        positions_.resize(spheres);
     }
 
     [[nodiscard]] EncoderInput encoderInput() const {
@@ -35,7 +35,7 @@ class Watched : public testing::Test {
                 .smallestRadius = 0.05,
                 .epoch = epoch_,
                 .version = version_,
-                .positions = [this] { return state_; },
+                .positions = [this] { return positions_; },
                 .head = [] { return v1::Frame(); }};
     }
 
@@ -45,7 +45,7 @@ class Watched : public testing::Test {
         version_ += steps;
         now_ += later;
         encoded_.clear();
-        encoder_.serve(encoderInput(), subscriptions, now_);
+        encoder_.update(encoderInput(), subscriptions, now_);
         std::string kinds;
         for (const codec::EncodedFrame& encoded : encoded_)
             kinds += encoded.kind == Kind::Keyframe ? 'K' : encoded.kind == Kind::Resync ? 'J' : 'D';
@@ -54,10 +54,10 @@ class Watched : public testing::Test {
 
     std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
     std::unique_ptr<compute::Buffer> position_;
-    sim::State state_;
+    std::vector<glm::vec4> positions_;
     std::vector<codec::EncodedFrame> encoded_;
     std::vector<codec::SharedMessage> orders_;
-    std::vector<std::string> complaints_;
+    std::vector<std::string> warnings_;
     StreamEncoder encoder_;
     std::uint32_t count_ = spheres;
     std::uint32_t epoch_ = 1;
@@ -141,9 +141,9 @@ TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
     EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "");
     const Result<void> refused = encoder_.open(normal, encoderInput());
     memory::setLimit(0);
-    ASSERT_EQ(complaints_.size(), 1U) << "not again and again";
-    EXPECT_NE(complaints_[0].find("Viewers of NORMAL at 30/s get no frames: "), std::string::npos) << complaints_[0];
-    EXPECT_NE(complaints_[0].find("MiB more of memory are needed"), std::string::npos) << complaints_[0];
+    ASSERT_EQ(warnings_.size(), 1U) << "not again and again";
+    EXPECT_NE(warnings_[0].find("Viewers of NORMAL at 30/s get no frames: "), std::string::npos) << warnings_[0];
+    EXPECT_NE(warnings_[0].find("MiB more of memory are needed"), std::string::npos) << warnings_[0];
     EXPECT_TRUE(orders_.empty());
     EXPECT_EQ(memory::claimed().held, before);
     ASSERT_FALSE(refused) << "a recording would be refused";
@@ -154,4 +154,4 @@ TEST_F(Watched, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
 }
 
 }  // namespace
-}  // namespace spherule::host
+}  // namespace spherule::encode

@@ -7,10 +7,11 @@
 
 #include "cli/options.h"
 #include "host/player.h"
+
 #include "recording/record.h"
 #include "recording_support.h"
 
-namespace spherule::host {
+namespace spherule::cli {
 namespace {
 
 // Writes a film in which each two frames have the same time, as when the simulation was paused.
@@ -44,8 +45,8 @@ TEST(Export, OfFramesOfOneTimeHasOne) {
 TEST(Player, OfFramesOfOneTimeShowsOne) {
     const recording::TemporaryFolder folder;
     doubled(folder / "film.sph");
-    Player::Clock::time_point now{};
-    Player player(recording::Recording::open(folder / "film.sph").value(), "film.sph", false, now);
+    host::Player::Clock::time_point now{};
+    host::Player player(recording::Recording::open(folder / "film.sph").value(), "film.sph", false, now);
     player.advance(now);
     v1::Command step;
     step.mutable_step()->set_count(1);
@@ -57,4 +58,4 @@ TEST(Player, OfFramesOfOneTimeShowsOne) {
 }
 
 }  // namespace
-}  // namespace spherule::host
+}  // namespace spherule::cli

@@ -12,18 +12,18 @@ namespace {
 TEST(DiagnosticsSampler, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
     const auto device = compute::openDevice("cpu").value();
     auto simulation = sim::Simulation::create(*device, scene::load("box-4k", "cpu", {}).value()).value();
-    DiagnosticsSampler observer(diagnostics::ownTable());
-    observer.refresh(*simulation, 1);
+    DiagnosticsSampler sampler(diagnostics::ownTable());
+    sampler.updateDial(*simulation, 1);
     const auto step = [&](int count) {
         for (int k = 0; k < count; ++k) {
             ASSERT_TRUE(simulation->step());
-            observer.stepped(1);
+            sampler.addStep(1);
         }
     };
     step(34);
-    const auto squeezed = observer.look(*simulation, {});
+    const auto squeezed = sampler.sample(*simulation, {});
     step(4);
-    const auto expanded = observer.look(*simulation, {});
+    const auto expanded = sampler.sample(*simulation, {});
     const auto energyOf = [](const DiagnosticsSampler::Sample& sample) {
         return sample.diagnostics.statistics().kinetic_energy() + sample.diagnostics.statistics().potential_energy();
     };

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "fake_publisher.h"
 #include "recording_support.h"
 
 namespace spherule::host {
@@ -14,15 +15,15 @@ namespace {
 using namespace std::chrono_literals;
 
 // A SimulationProducer with one sphere that lies on the floor, and a viewer that takes frames.
-class Looping : public testing::Test {
+class PausedSimulation : public testing::Test, private FakePublisher {
   protected:
-    Looping() {
+    PausedSimulation() {
         recording::writeFile(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
             "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
         thread_ = std::jthread([this](const std::stop_token& stop) {
-            SimulationProducer loop(SimulationHost::open("cpu:1", folder_ / "one.json", {}).value(),
-                                    {requests_, board_, outlets()}, diagnostics::ownTable(), recording::LiveOptions());
-            EXPECT_TRUE(loop.run(stop));
+            SimulationProducer producer(SimulationHost::open("cpu:1", folder_ / "one.json", {}).value(),
+                                        {requests_, board_, *this}, diagnostics::ownTable(), recording::LiveOptions());
+            EXPECT_TRUE(producer.run(stop));
         });
     }
 
@@ -48,22 +49,14 @@ class Looping : public testing::Test {
     }
 
   private:
-    net::Publisher outlets() {
-        return {.retain = [](const codec::SharedMessage&) {},
-                .broadcast = [](const codec::SharedMessage&) {},
-                .order = [](const codec::SharedMessage&) {},
-                .frame =
-                    [this](const codec::EncodedFrame& encoded) {
-                        const std::scoped_lock lock(mutex_);
-                        frames_.push_back(encoded.message->content().frame());
-                        changed_.notify_all();
-                    },
-                .reply = [](std::uint64_t, const v1::CommandResult&) {},
-                .viewers = [] { return 1U; },
-                .subscriptions =
-                    [] {
-                        return std::vector<codec::Subscription>{{.rendition = {v1::NORMAL, 60}}};
-                    }};
+    void publish(const codec::EncodedFrame& encoded) override {
+        const std::scoped_lock lock(mutex_);
+        frames_.push_back(encoded.message->content().frame());
+        changed_.notify_all();
+    }
+    [[nodiscard]] std::uint32_t viewers() const override { return 1; }
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions() override {
+        return {{.rendition = {v1::NORMAL, 60}}};
     }
 
     recording::TemporaryFolder folder_;
@@ -75,7 +68,7 @@ class Looping : public testing::Test {
     std::jthread thread_;
 };
 
-TEST_F(Looping, AFrameOfAPausedWorldTellsHowManySleepInIt) {
+TEST_F(PausedSimulation, AFrameOfAPausedWorldTellsHowManySleepInIt) {
     v1::Command reset;
     reset.mutable_reset();
     v1::Command fast;

@@ -9,6 +9,7 @@
 
 #include "codec/order.h"
 #include "codec_support.h"
+#include "fake_publisher.h"
 #include "recording/record.h"
 #include "recording_support.h"
 
@@ -46,38 +47,31 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
 }
 
 // Plays a recording in a loop until the scene has changed `changes` times. Keeps the messages that a viewer receives.
-class ProducerIo {
+class Playback : private FakePublisher {
   public:
     std::vector<v1::SceneFacts> scenes;
     std::vector<v1::Frame> frames;
 
     void play(const std::string& path, std::size_t changes) {
+        changes_ = changes;
         Player player(std::move(*recording::Recording::open(path)), "film.sph", true, Player::Clock::now());
-        PlaybackProducer loop(std::move(*compute::openDevice("cpu:1")), std::move(player),
-                              {requests_, board_, outlets(changes)});
-        EXPECT_TRUE(loop.run(stop_.get_token()));
+        PlaybackProducer producer(std::move(*compute::openDevice("cpu:1")), std::move(player),
+                                  {requests_, board_, *this});
+        EXPECT_TRUE(producer.run(stop_.get_token()));
     }
 
   private:
-    net::Publisher outlets(std::size_t changes) {
-        return {
-            .retain =
-                [this, changes](const codec::SharedMessage& message) {
-                    if (message->content().has_scene()) scenes.push_back(message->content().scene());
-                    if (scenes.size() > changes) stop_.request_stop();
-                },
-            .broadcast = [](const codec::SharedMessage&) {},
-            .order = [](const codec::SharedMessage&) {},
-            .frame =
-                [this](const codec::EncodedFrame& encoded) { frames.push_back(encoded.message->content().frame()); },
-            .reply = [](std::uint64_t, const v1::CommandResult&) {},
-            .viewers = [] { return 1U; },
-            .subscriptions =
-                [] {
-                    return std::vector<codec::Subscription>{{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
-                }};
+    void retain(codec::SharedMessage message) override {
+        if (message->content().has_scene()) scenes.push_back(message->content().scene());
+        if (scenes.size() > changes_) stop_.request_stop();
+    }
+    void publish(const codec::EncodedFrame& encoded) override { frames.push_back(encoded.message->content().frame()); }
+    [[nodiscard]] std::uint32_t viewers() const override { return 1; }
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions() override {
+        return {{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
     }
 
+    std::size_t changes_ = 0;
     Requests requests_;
     StatusBoard board_;
     std::stop_source stop_;
@@ -89,23 +83,23 @@ TEST(PlaybackProducer, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
         const std::string path = folder / "film.sph";
         recording::writeFile(
             path, recording::fileHead() + sceneOf(2, 1, 0) + sceneOf(5, second, 0.1) + sceneOf(3, second, 0.2));
-        ProducerIo io;
-        io.play(path, 6);
-        ASSERT_EQ(io.scenes.size(), 7U);
+        Playback playback;
+        playback.play(path, 6);
+        ASSERT_EQ(playback.scenes.size(), 7U);
         // When the thread is delayed, it continues with the scene that is then due.
         const std::vector<std::uint32_t> counts = {2, 5, 3};
         std::size_t next = 0;
-        for (std::size_t k = 0; k < io.scenes.size(); ++k) {
-            EXPECT_EQ(io.scenes[k].epoch(), k + 1);
-            const auto place = std::ranges::find(counts, io.scenes[k].count()) - counts.begin();
-            ASSERT_LT(place, 3) << io.scenes[k].count();
-            EXPECT_TRUE(k == 0 ? place == 0 : io.scenes[k].count() != io.scenes[k - 1].count());
+        for (std::size_t k = 0; k < playback.scenes.size(); ++k) {
+            EXPECT_EQ(playback.scenes[k].epoch(), k + 1);
+            const auto place = std::ranges::find(counts, playback.scenes[k].count()) - counts.begin();
+            ASSERT_LT(place, 3) << playback.scenes[k].count();
+            EXPECT_TRUE(k == 0 ? place == 0 : playback.scenes[k].count() != playback.scenes[k - 1].count());
             next += static_cast<std::size_t>(place) == k % 3 ? 1 : 0;
         }
         EXPECT_GT(next, 0U);
-        ASSERT_FALSE(io.frames.empty());
-        for (const v1::Frame& frame : io.frames)
-            EXPECT_EQ(frame.count(), io.scenes.at(frame.epoch() - 1).count()) << "of epoch " << frame.epoch();
+        ASSERT_FALSE(playback.frames.empty());
+        for (const v1::Frame& frame : playback.frames)
+            EXPECT_EQ(frame.count(), playback.scenes.at(frame.epoch() - 1).count()) << "of epoch " << frame.epoch();
     }
 }
 

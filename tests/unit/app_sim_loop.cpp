@@ -9,15 +9,17 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include "fake_publisher.h"
+
 namespace spherule::host {
 namespace {
 
 // A SimulationProducer without a network. Queues commands of sessions, and keeps the answers in order.
-class Desk {
+class Desk : private FakePublisher {
   public:
     explicit Desk(const std::string& scene = "two-spheres")
-        : loop_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, outlets()},
-                diagnostics::ownTable(), recording::LiveOptions()) {}
+        : producer_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, *this},
+                    diagnostics::ownTable(), recording::LiveOptions()) {}
 
     // Queues a command; returns its id, which counts from 1.
     std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
@@ -31,7 +33,7 @@ class Desk {
     // Runs until `enough` returns true. It is called after each answer and each retained message.
     void run(std::function<bool()> enough) {
         enough_ = std::move(enough);
-        EXPECT_TRUE(loop_.run(stop_.get_token()));
+        EXPECT_TRUE(producer_.run(stop_.get_token()));
     }
     // Runs until all commands have an answer.
     void run() {
@@ -59,22 +61,13 @@ class Desk {
     void look() {
         if (enough_ && enough_()) stop_.request_stop();
     }
-    net::Publisher outlets() {
-        return {.retain =
-                    [this](const codec::SharedMessage& message) {
-                        if (message->content().has_change()) changes.push_back(message->content().change());
-                        look();
-                    },
-                .broadcast = [](const codec::SharedMessage&) {},
-                .order = [](const codec::SharedMessage&) {},
-                .frame = [](const codec::EncodedFrame&) {},
-                .reply =
-                    [this](std::uint64_t, v1::CommandResult result) {
-                        answers.push_back(std::move(result));
-                        look();
-                    },
-                .viewers = [] { return 0U; },
-                .subscriptions = [] { return std::vector<codec::Subscription>(); }};
+    void retain(codec::SharedMessage message) override {
+        if (message->content().has_change()) changes.push_back(message->content().change());
+        look();
+    }
+    void reply(net::SessionId, v1::CommandResult result) override {
+        answers.push_back(std::move(result));
+        look();
     }
 
     Requests requests_;
@@ -82,7 +75,7 @@ class Desk {
     std::stop_source stop_;
     std::function<bool()> enough_;
     std::uint64_t given_ = 0;
-    SimulationProducer loop_;
+    SimulationProducer producer_;
 };
 
 // 1,000 spheres almost in one point. It takes hundreds of sweeps to push them apart.

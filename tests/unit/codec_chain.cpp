@@ -104,10 +104,10 @@ TEST_F(CodecChain, ReadsBackFramesOfAnyLength) {
         static Positions positions;
         if (k % 4 == 0) positions = positionsAt(large.next());
         const auto source = encoder.put(positions);
-        k == 0 ? encoder.tier().begin(source) : encoder.tier().next(source, k % 2 == 1);
-        const auto frame = encoder.tier().poll();
+        k == 0 ? encoder.frames().encodeKeyframe(source) : encoder.frames().encodeDelta(source, k % 2 == 1);
+        const auto frame = encoder.frames().poll();
         ASSERT_TRUE(frame) << "on the CPU device read-backs complete at once";
-        EXPECT_EQ(*frame, encoder.tier().download());
+        EXPECT_EQ(*frame, encoder.frames().download());
         const auto head = far.apply(*frame);
         ASSERT_TRUE(head) << head.error().text();
         EXPECT_EQ(head->hash.has_value(), k % 2 == 1);

@@ -113,16 +113,16 @@ class Chain {
     }
     bool hashed() { return draw(random_, 4) == 0; }
     Bytes begin() {
-        encoder_.tier().begin(encoder_.put(positions()), hashed());
-        return last_ = encoder_.tier().download();
+        encoder_.frames().encodeKeyframe(encoder_.put(positions()), hashed());
+        return last_ = encoder_.frames().download();
     }
     Bytes next() {
-        encoder_.tier().next(encoder_.put(positions()), hashed());
-        return last_ = encoder_.tier().download();
+        encoder_.frames().encodeDelta(encoder_.put(positions()), hashed());
+        return last_ = encoder_.frames().download();
     }
     Bytes join() {
-        encoder_.tier().join(hashed());
-        return last_ = encoder_.tier().download();
+        encoder_.frames().encodeResync(hashed());
+        return last_ = encoder_.frames().download();
     }
     // Returns the next frame; if the chain is lost, soon a keyframe.
     Bytes frame() {

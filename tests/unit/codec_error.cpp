@@ -58,11 +58,11 @@ scene::Scene sceneOf(const std::string& name) {
 
 // One chain with two decoders: one from the start, and one from a resync keyframe in the middle.
 struct Chain {
-    Chain(encode::EncoderContext& tools, double step)
-        : quantum(step), tier(valueOf(encode::FrameEncoder::create(tools, {.quantum = step}))) {}
+    Chain(encode::EncoderContext& context, double step)
+        : quantum(step), frames(valueOf(encode::FrameEncoder::create(context, {.quantum = step}))) {}
 
     double quantum;  // m
-    std::unique_ptr<encode::FrameEncoder> tier;
+    std::unique_ptr<encode::FrameEncoder> frames;
     std::unique_ptr<codec::Decoder> first, joined;
     double worst = 0;  // error, in quanta
 };
@@ -72,14 +72,15 @@ class CodecError : public testing::TestWithParam<std::string> {
     CodecError()
         : device_(valueOf(compute::openDevice("cpu"))),
           simulation_(valueOf(sim::Simulation::create(*device_, sceneOf(GetParam())))),
-          tools_(valueOf(encode::EncoderContext::create(*device_, simulation_->count(), source().slotOf != nullptr))) {
+          context_(
+              valueOf(encode::EncoderContext::create(*device_, simulation_->count(), source().slotOf != nullptr))) {
         order_ = encode::mortonOrder(simulation_->snapshot().position);
-        tools_->setOrder(order_);
+        context_->setOrder(order_);
         for (const v1::Tier tier : tiers)
-            encoder_.emplace_back(*tools_, codec::quantumOf(tier, simulation_->radii().smallest));
+            encoder_.emplace_back(*context_, codec::quantumOf(tier, simulation_->radii().smallest));
     }
 
-    encode::PositionSource source() { return simulation_->tierSource(); }
+    encode::PositionSource source() { return encode::positionsOf(*simulation_); }
 
     void step(int steps) {
         for (int k = 0; k < steps; ++k)
@@ -88,7 +89,7 @@ class CodecError : public testing::TestWithParam<std::string> {
 
     void take(Chain& chain, std::unique_ptr<codec::Decoder>& decoder, const sim::State& state) {
         if (!decoder) decoder = std::make_unique<codec::Decoder>(simulation_->count());
-        const auto head = decoder->apply(chain.tier->download());
+        const auto head = decoder->apply(chain.frames->download());
         ASSERT_TRUE(head) << head.error().text();
         const auto cells = decoder->newest();
         std::size_t beyond = 0;
@@ -106,7 +107,7 @@ class CodecError : public testing::TestWithParam<std::string> {
 
     std::unique_ptr<compute::Device> device_;
     std::unique_ptr<sim::Simulation> simulation_;
-    std::unique_ptr<encode::EncoderContext> tools_;
+    std::unique_ptr<encode::EncoderContext> context_;
     std::vector<std::uint32_t> order_;
     std::vector<Chain> encoder_;
 };
@@ -121,11 +122,11 @@ TEST_P(CodecError, StaysWithinTheStatedBound) {
         if (frame > 0) step(between);
         const sim::State state = simulation_->snapshot();
         for (Chain& chain : encoder_) {
-            frame == 0 ? chain.tier->begin(source(), true) : chain.tier->next(source(), true);
+            frame == 0 ? chain.frames->encodeKeyframe(source(), true) : chain.frames->encodeDelta(source(), true);
             take(chain, chain.first, state);
             if (frame > frames / 2) take(chain, chain.joined, state);
             if (frame != frames / 2) continue;
-            chain.tier->join(true);
+            chain.frames->encodeResync(true);
             take(chain, chain.joined, state);
         }
     }

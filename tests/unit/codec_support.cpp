@@ -22,8 +22,8 @@ constexpr double edge = 1073741824;
 
 Encoder::Encoder(const std::string& device, std::uint32_t spheres, double quantum, glm::vec3 origin)
     : device_(valueOf(compute::openDevice(device))),
-      tools_(valueOf(encode::EncoderContext::create(*device_, spheres, true))),
-      tier_(valueOf(encode::FrameEncoder::create(*tools_, {.origin = origin, .quantum = quantum}))),
+      context_(valueOf(encode::EncoderContext::create(*device_, spheres, true))),
+      encoder_(valueOf(encode::FrameEncoder::create(*context_, {.origin = origin, .quantum = quantum}))),
       position_(valueOf(device_->createBuffer("position", spheres * sizeof(glm::vec4), "r"))),
       slotOf_(valueOf(device_->createBuffer("slotOf", spheres * sizeof(std::uint32_t)))),
       slots_(spheres) {
@@ -40,18 +40,18 @@ encode::PositionSource Encoder::put(const Positions& byId) {
 }
 
 Bytes Encoder::begin(const Positions& byId) {
-    tier_->begin(put(byId), true);
-    return tier_->download();
+    encoder_->encodeKeyframe(put(byId), true);
+    return encoder_->download();
 }
 
 Bytes Encoder::next(const Positions& byId) {
-    tier_->next(put(byId), true);
-    return tier_->download();
+    encoder_->encodeDelta(put(byId), true);
+    return encoder_->download();
 }
 
 Bytes Encoder::join() {
-    tier_->join(true);
-    return tier_->download();
+    encoder_->encodeResync(true);
+    return encoder_->download();
 }
 
 glm::ivec3 onGrid(glm::vec4 position, double quantum, glm::vec3 origin) {

@@ -22,18 +22,18 @@ class Encoder {
   public:
     Encoder(const std::string& device, std::uint32_t spheres, double quantum = 1, glm::vec3 origin = {});
 
-    void setOrder(const std::vector<std::uint32_t>& order) { tools_->setOrder(order); }
+    void setOrder(const std::vector<std::uint32_t>& order) { context_->setOrder(order); }
     Bytes begin(const Positions& byId);
     Bytes next(const Positions& byId);
     Bytes join();
 
-    [[nodiscard]] encode::FrameEncoder& tier() { return *tier_; }
+    [[nodiscard]] encode::FrameEncoder& frames() { return *encoder_; }
     [[nodiscard]] encode::PositionSource put(const Positions& byId);
 
   private:
     std::unique_ptr<compute::Device> device_;
-    std::unique_ptr<encode::EncoderContext> tools_;
-    std::unique_ptr<encode::FrameEncoder> tier_;
+    std::unique_ptr<encode::EncoderContext> context_;
+    std::unique_ptr<encode::FrameEncoder> encoder_;
     std::unique_ptr<compute::Buffer> position_, slotOf_;
     std::vector<std::uint32_t> slots_;  // by id
 };

@@ -8,7 +8,7 @@ namespace {
 // Takes a reading with this kinetic energy `times` times; returns the number of messages.
 int read(EnergyWatch& watch, double joules, int times = 1) {
     int said = 0;
-    for (int k = 0; k < times; ++k) said += watch.take({.step = 7, .kinetic = joules, .potential = 0}) ? 1 : 0;
+    for (int k = 0; k < times; ++k) said += watch.check({.step = 7, .kinetic = joules, .potential = 0}) ? 1 : 0;
     return said;
 }
 
@@ -22,7 +22,7 @@ TEST(EnergyWatch, IsSilentWhileEnergyFallsOrStays) {
 TEST(EnergyWatch, TellsOfARiseOnceWithBothFigures) {
     EnergyWatch watch;
     read(watch, 100, 3);
-    const auto told = watch.take({.step = 42, .kinetic = 60, .potential = 42});
+    const auto told = watch.check({.step = 42, .kinetic = 60, .potential = 42});
     ASSERT_TRUE(told);
     EXPECT_EQ(told->find("at step 42, mechanical energy has risen by 2 J to 102 J"), 0U) << *told;
     EXPECT_TRUE(watch.alarmed());
@@ -62,14 +62,14 @@ TEST(EnergyWatch, IsNotFooledByWhatContactsHoldForAMoment) {
 
 TEST(EnergyWatch, CountsWhatTheSpringsOfSoftSpheresHold) {
     EnergyWatch watch;
-    EXPECT_FALSE(watch.take({.kinetic = 60, .elastic = 40})) << "in the middle of an impact";
-    EXPECT_FALSE(watch.take({.kinetic = 100}));
-    EXPECT_TRUE(watch.take({.kinetic = 100, .elastic = 10}));
+    EXPECT_FALSE(watch.check({.kinetic = 60, .elastic = 40})) << "in the middle of an impact";
+    EXPECT_FALSE(watch.check({.kinetic = 100}));
+    EXPECT_TRUE(watch.check({.kinetic = 100, .elastic = 10}));
 }
 
 TEST(EnergyWatch, OfASqueezedBedReadsSeveralBeforeItTells) {
     EnergyWatch watch;
-    EXPECT_FALSE(watch.take({.kinetic = 60, .soft = true}));
+    EXPECT_FALSE(watch.check({.kinetic = 60, .soft = true}));
     EXPECT_EQ(read(watch, 70), 0) << "it expands";
     EXPECT_EQ(read(watch, 70, 3), 0);
     EXPECT_EQ(read(watch, 80), 1);
@@ -78,15 +78,15 @@ TEST(EnergyWatch, OfASqueezedBedReadsSeveralBeforeItTells) {
 TEST(EnergyWatch, StartsAnewAfterACommand) {
     EnergyWatch watch;
     read(watch, 100, 10);
-    watch.disturbed();
+    watch.invalidateBaseline();
     EXPECT_EQ(read(watch, 500, 10), 0);
     EXPECT_FALSE(watch.alarmed());
 }
 
 TEST(EnergyWatch, MeasuresFarFallsByWhatTheyAreMadeOf) {
     EnergyWatch watch;
-    watch.take({.step = 1, .kinetic = 1000, .potential = -999});
-    EXPECT_FALSE(watch.take({.step = 2, .kinetic = 2000, .potential = -1998.5})) << "half a joule of 4000 is rounding";
+    watch.check({.step = 1, .kinetic = 1000, .potential = -999});
+    EXPECT_FALSE(watch.check({.step = 2, .kinetic = 2000, .potential = -1998.5})) << "half a joule of 4000 is rounding";
 }
 
 }  // namespace

@@ -9,19 +9,19 @@ namespace {
 
 TEST(OverlapWatch, TellsOnceUntilThereHasBeenNoneForAWhile) {
     OverlapWatch watch;
-    EXPECT_FALSE(watch.take(1, 0.5));
-    const auto told = watch.take(2, 0.7);
+    EXPECT_FALSE(watch.check(1, 0.5));
+    const auto told = watch.check(2, 0.7);
     ASSERT_TRUE(told);
     EXPECT_EQ(told->find("at step 2, spheres are in each other, or in a wall, by up to 0.7 radii"), 0U) << *told;
-    EXPECT_FALSE(watch.take(3, 1.9));
-    for (int k = 0; k < 9; ++k) EXPECT_FALSE(watch.take(4, 0.1));
-    EXPECT_FALSE(watch.take(5, 0.6)) << "not quiet for long enough";
-    for (int k = 0; k < 10; ++k) EXPECT_FALSE(watch.take(6, 0.1));
-    EXPECT_TRUE(watch.take(7, 0.6));
+    EXPECT_FALSE(watch.check(3, 1.9));
+    for (int k = 0; k < 9; ++k) EXPECT_FALSE(watch.check(4, 0.1));
+    EXPECT_FALSE(watch.check(5, 0.6)) << "not quiet for long enough";
+    for (int k = 0; k < 10; ++k) EXPECT_FALSE(watch.check(6, 0.1));
+    EXPECT_TRUE(watch.check(7, 0.6));
 }
 
 TEST(OverlapWatch, IsSilentOfWhatIsNoNumber) {
-    EXPECT_FALSE(OverlapWatch().take(1, std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_FALSE(OverlapWatch().check(1, std::numeric_limits<double>::quiet_NaN()));
 }
 
 }  // namespace

@@ -51,10 +51,10 @@ struct Ours {
 
 Ours ours(compute::Device& device, const Trajectory& trajectory, double quantum, const Order& order) {
     const std::uint32_t spheres = trajectory.spheres;
-    const auto tools = valueOf(encode::EncoderContext::create(device, spheres, false));
-    const auto tier = valueOf(encode::FrameEncoder::create(*tools, {.quantum = quantum}));
+    const auto context = valueOf(encode::EncoderContext::create(device, spheres, false));
+    const auto frames = valueOf(encode::FrameEncoder::create(*context, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
-    tools->setOrder(order);
+    context->setOrder(order);
     codec::Decoder decoder(spheres);
     std::size_t bytes = 0;
     for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
@@ -63,17 +63,17 @@ Ours ours(compute::Device& device, const Trajectory& trajectory, double quantum,
         for (const glm::vec3& p : metres) positions.emplace_back(p, 0);
         device.upload(*position, 0, std::as_bytes(std::span(positions)));
         if (k == 0)
-            tier->begin({.position = position.get()});
+            frames->encodeKeyframe({.position = position.get()});
         else
-            tier->next({.position = position.get()});
-        const auto made = tier->download();
+            frames->encodeDelta({.position = position.get()});
+        const auto made = frames->download();
         (void)valueOf(decoder.apply(made));
         if (!std::ranges::equal(decoder.newest(), inOrder(cellsOf(metres, quantum), order)))
             throw std::runtime_error("a decoded frame differs from what was encoded");
         if (k >= warmUp) bytes += made.size();
     }
-    tier->join();
-    const std::size_t keyframe = tier->download().size();
+    frames->encodeResync();
+    const std::size_t keyframe = frames->download().size();
     return {.frame = static_cast<double>(bytes) / static_cast<double>(trajectory.frames.size() - warmUp) / spheres,
             .keyframe = static_cast<double>(keyframe) / spheres};
 }

@@ -131,23 +131,23 @@ struct Copies : World {
 
 CodecSpeed timed(compute::Device& device, World& world, double quantum, const std::string& keep) {
     const auto spheres = static_cast<std::uint32_t>(world.slotOf.size());
-    const auto tools = valueOf(encode::EncoderContext::create(device, spheres, true));
-    const auto tier = valueOf(encode::FrameEncoder::create(*tools, {.quantum = quantum}));
+    const auto context = valueOf(encode::EncoderContext::create(device, spheres, true));
+    const auto frames = valueOf(encode::FrameEncoder::create(*context, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     const auto slotOf = valueOf(device.createBuffer("slotOf", spheres * sizeof(std::uint32_t)));
     device.upload(*slotOf, 0, std::as_bytes(std::span(world.slotOf)));
     std::vector<glm::vec4> byId(spheres);
     for (std::uint32_t id = 0; id < spheres; ++id) byId[id] = world.bySlot[world.slotOf[id]];
     const std::vector<std::uint32_t> order = encode::mortonOrder(byId);
-    tools->setOrder(order);
+    context->setOrder(order);
     write(keep, "order.u32", std::as_bytes(std::span(order)));
     const encode::PositionSource source{.position = position.get(), .slotOf = slotOf.get()};
     const auto put = [&] { device.upload(*position, 0, std::as_bytes(std::span(world.bySlot))); };
 
     put();
-    tier->begin(source);
+    frames->encodeKeyframe(source);
     codec::Decoder decoder(spheres);
-    const auto keyframeMade = tier->download();
+    const auto keyframeMade = frames->download();
     (void)valueOf(decoder.apply(keyframeMade));
     write(keep, "frame-0.spb", keyframeMade);
     std::vector<double> encode, keyframe, hash, decode;
@@ -156,14 +156,14 @@ CodecSpeed timed(compute::Device& device, World& world, double quantum, const st
         world.move();
         put();
         const bool hashed = round % 3 == 2;
-        (hashed ? hash : encode).push_back(milliseconds(device, [&] { tier->next(source, hashed); }));
-        const auto frame = tier->download();
+        (hashed ? hash : encode).push_back(milliseconds(device, [&] { frames->encodeDelta(source, hashed); }));
+        const auto frame = frames->download();
         write(keep, fmt::format("frame-{}.spb", round + 1), frame);
         const double took = milliseconds(device, [&] { (void)valueOf(decoder.apply(frame)); });
         if (!hashed) decode.push_back(took);
         speed.bytes = static_cast<double>(frame.size()) / spheres;
     }
-    for (int round = 0; round < 5; ++round) keyframe.push_back(milliseconds(device, [&] { tier->join(); }));
+    for (int round = 0; round < 5; ++round) keyframe.push_back(milliseconds(device, [&] { frames->encodeResync(); }));
     speed.fastest = std::ranges::min(encode);
     speed.encode = median(encode);
     speed.keyframe = median(keyframe);
