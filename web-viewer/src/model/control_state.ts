@@ -7,9 +7,9 @@ import type { DisplayName } from "./names";
 export type ControlState =
   | { kind: "everybody" } // every client may
   | { kind: "watching" } // this page is a viewer, and may not
-  | { kind: "free" } // no client holds the control; the next command takes it
-  | { kind: "mine"; asking: DisplayName[] } // this page holds the control; `asking`: longest wait first
-  | { kind: "taken"; holder: DisplayName; asked: boolean }; // `asked`: this page has asked for the control
+  | { kind: "free" } // no client has control; the next command takes it
+  | { kind: "mine"; asking: DisplayName[] } // this page has control; `asking`: longest wait first
+  | { kind: "taken"; holder: DisplayName; asked: boolean }; // `asked`: this page has asked for control
 
 /** The server's reports from which the control state follows. */
 export interface ControlInfo {

@@ -24,7 +24,7 @@ export interface Swatch {
   figure: string;
 }
 
-/** What a legend shows: a bar with the texts of its ends, or swatches and lines of text. */
+/** The content of a legend: a bar with the texts of its ends, or swatches and lines of text. */
 export type LegendContent = { bar: Ramp; low: string; high: string } | { swatches: Swatch[]; notes: string[] };
 
 /** A per-sphere quantity that the page shows: by a colour mode with its legend, and in the inspector. */

@@ -1,4 +1,4 @@
-// The names that the expressions of model/quantities.ts use: these, those of position.glsl, and `position` (m).
+// The expressions of model/quantities.ts may use these inputs, position.glsl, and `position`: the centre (m).
 in vec4 a_group;                // sRGB
 
 uniform int u_mode;             // index of model/quantities.ts
