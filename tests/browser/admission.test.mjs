@@ -47,7 +47,7 @@ test("a page of a server without tokens never mentions tokens", async () => {
   for (const id of ["token-prompt", "role", "control", "forget-token", "refusal"]) {
     assert.equal(await page.isVisible(control(id)), false, id);
   }
-  await controlIs(page, "everybody");
+  await controlIs(page, "unrestricted");
   await page.click(control("pause"));
   await when(page, () => spherule.reports.at(-1)?.outcome.case === "applied");
   assert.deepEqual(page.faults, []);

@@ -1,6 +1,6 @@
-import { modeList } from "./colour/modes";
 import { withoutToken } from "./connection/admission";
 import { loadViewRequest } from "./connection/view_request";
+import { modes } from "./model/quantities";
 import { createTestApi } from "./test_api";
 import type { Choices } from "./ui/panel";
 import { Viewer } from "./viewer";
@@ -24,7 +24,7 @@ function start(): void {
   if (!canvas || !container) throw new Error("The page has no canvas.");
   const clean = withoutToken(location.href);
   if (clean !== undefined) history.replaceState(history.state, "", clean);
-  const mode = chosen("colour", modeList);
+  const mode = chosen("colour", modes);
   const choices: Choices = {
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,

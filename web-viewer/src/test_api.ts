@@ -57,7 +57,8 @@ export function createTestApi(viewer: Viewer): TestApi {
     positions(ids) {
       const { facts, newest: state } = session;
       if (!state || !facts) return undefined;
-      return { step: state.step, quantum: state.quantum, positions: ids.map((id) => positionOf(facts, state, id)) };
+      const { quantum } = state.columns.position;
+      return { step: state.step, quantum, positions: ids.map((id) => positionOf(facts, state, id)) };
     },
     at: (x, y) => viewer.sphereAt(x, y),
     project: (point) => project(camera.last, point),

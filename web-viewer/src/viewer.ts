@@ -2,7 +2,6 @@ import { Camera } from "./camera/camera";
 import { listen } from "./camera/gestures";
 import { pick, rayThrough } from "./camera/ray";
 import { DrawClock, sharedNow } from "./clock";
-import { AutoRange } from "./colour/range";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
 import type { Report } from "./connection/commands";
@@ -10,13 +9,11 @@ import { Link } from "./connection/link";
 import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
 import { ViewSubscription } from "./connection/view_subscription";
-import { highSpeed } from "./model/positions";
+import { sentence } from "./format";
+import { ColourRanges } from "./model/colour_ranges";
 import { Session } from "./model/session";
-import type { Shown } from "./model/states";
 import { markFirst } from "./perf_marks";
 import { Canvas } from "./renderer/canvas";
-import { colouringFor } from "./renderer/draw_state";
-import { sentence } from "./ui/format";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
 import { longStay } from "./ui/toasts";
@@ -35,13 +32,12 @@ export class Viewer {
   private readonly commands: Commands;
   private readonly link: Link;
   private readonly admission: Admission;
-  private readonly speeds = new AutoRange(0.1);
+  private readonly ranges = new ColourRanges();
   private readonly clock = new DrawClock();
   private readonly subscription: ViewSubscription;
   private tokenNote = ""; // message of the next token dialog
   private lastReport = 0; // ms: when the worker was last given the draw rate
   private drawn = ""; // identifies the image on the canvas
-  private measured = -1; // sequence number of the state whose speeds the range knows
 
   constructor(
     element: HTMLCanvasElement,
@@ -67,7 +63,7 @@ export class Viewer {
       (report) => this.report(report),
       () => this.page.steering.blocked(),
     );
-    this.page = new Page(container, this.session, this.commands, this.speeds, choices, {
+    this.page = new Page(container, this.session, this.commands, this.ranges, choices, {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
@@ -116,7 +112,7 @@ export class Viewer {
   }
 
   private createSession(): Session {
-    return new Session((state) => this.link.recycle(state.positions), {
+    return new Session((state) => this.link.recycle(state), {
       linkChanged: (change) => this.admission.linkChanged(change),
       welcomed: (welcome) => {
         this.admission.welcomed();
@@ -126,7 +122,7 @@ export class Viewer {
         const same = facts.name === before?.name;
         this.camera.look(facts, same);
         this.canvas.setFacts(facts);
-        if (!same) this.speeds.reset();
+        if (!same) this.ranges.reset();
         if (!same || facts.count < before.count) this.page.inspector.select(undefined);
         this.page.panel.setFacts(facts);
         this.drawn = "";
@@ -151,12 +147,13 @@ export class Viewer {
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
     const shown = session.states.shown(wall);
-    this.updateSpeeds(shown, now);
+    this.ranges.update(shown, now);
     camera.insets = this.page.insets();
     camera.advance(this.clock.elapsed);
     const state = {
       view: camera.view(),
-      ...colouringFor(choices.mode, session.facts, this.speeds.high),
+      mode: choices.mode,
+      range: this.ranges.of(choices.mode, session.facts),
       selected: this.page.inspector.selected,
       dim: session.staleness(wall),
     };
@@ -184,12 +181,6 @@ export class Viewer {
     if (now - this.lastReport < reportPeriod) return;
     this.lastReport = now;
     this.link.reportDrawRate(this.clock.drawRate);
-  }
-
-  private updateSpeeds(shown: Shown | undefined, now: number): void {
-    if (!shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
-    this.measured = shown.to.sequence;
-    this.speeds.update(highSpeed(shown.from, shown.to), now);
   }
 
   private listenToGestures(element: HTMLCanvasElement): void {

@@ -9,17 +9,19 @@ import { test } from "node:test";
 const allowed: Record<string, string[]> = {
   gen: [],
   clock: [],
+  columns: ["gen"],
+  format: [],
   perf_marks: ["clock"],
   codec: [],
-  connection: ["clock", "codec", "gen"],
+  connection: ["clock", "codec", "columns", "gen"],
   colour: ["gen"],
-  model: ["clock", "colour", "connection", "gen", "perf_marks"],
+  model: ["clock", "colour", "connection", "format", "gen", "perf_marks"],
   camera: ["model"],
-  renderer: ["camera", "colour", "gen", "model"],
-  ui: ["camera", "clock", "colour", "connection", "gen", "model", "renderer"],
-  viewer: ["camera", "clock", "colour", "connection", "model", "perf_marks", "renderer", "ui"],
+  renderer: ["camera", "colour", "columns", "gen", "model"],
+  ui: ["camera", "clock", "colour", "connection", "format", "gen", "model", "renderer"],
+  viewer: ["camera", "clock", "connection", "format", "model", "perf_marks", "renderer", "ui"],
   test_api: ["camera", "clock", "connection", "model", "viewer"],
-  main: ["colour", "connection", "test_api", "ui", "viewer"],
+  main: ["connection", "model", "test_api", "ui", "viewer"],
 };
 
 const maxColumns = 120;

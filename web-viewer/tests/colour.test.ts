@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { groupColour } from "../src/colour/groups";
-import { modeFor } from "../src/colour/modes";
 import { AutoRange, niceAbove } from "../src/colour/range";
 import { rampColour, speedRamp } from "../src/colour/ramp";
 import { css, hexToRgb } from "../src/colour/rgb";
+import { defaultMode } from "../src/model/quantities";
 
 test("values are rounded up to 1, 2, 3 or 5 times a power of ten", () => {
   const cases = [[0.9, 1], [1, 1], [1.1, 2], [2.5, 3], [4, 5], [7, 10], [0.031, 0.05], [1234, 2000]] as const;
@@ -60,9 +60,9 @@ test("colours are parsed from six hexadecimal digits only", () => {
 });
 
 test("a scene whose groups have colours is coloured by group, others by speed", () => {
-  assert.equal(modeFor([{ own: true }, { own: true }]), "group");
-  assert.equal(modeFor([{ own: true }]), "speed");
-  assert.equal(modeFor([{ own: false }, { own: false }]), "speed");
+  assert.equal(defaultMode([{ own: true }, { own: true }]), "group");
+  assert.equal(defaultMode([{ own: true }]), "speed");
+  assert.equal(defaultMode([{ own: false }, { own: false }]), "speed");
 });
 
 test("a group keeps its own colour; others get different ones", () => {

@@ -32,8 +32,8 @@ function namesFor(...people: ReturnType<typeof person>[]): string[] {
 }
 
 test("without a report about control, every client may send commands", () => {
-  assert.deepEqual(controlStateOf({ welcome: undefined, control: undefined }), { kind: "everybody" });
-  assert.deepEqual(seen(undefined), { kind: "everybody" });
+  assert.deepEqual(controlStateOf({ welcome: undefined, control: undefined }), { kind: "unrestricted" });
+  assert.deepEqual(seen(undefined), { kind: "unrestricted" });
   assert.equal(blockedReasonOf(seen(undefined)), "");
 });
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bytes, bytesPerSecond, clockTime, count, figure, length, recordingTime } from "../src/ui/format";
+import { bytes, bytesPerSecond, clockTime, count, figure, length, recordingTime } from "../src/format";
 
 test("figures are formatted with few digits", () => {
   assert.equal(count(1234567), "1\u202f234\u202f567");

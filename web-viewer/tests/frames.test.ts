@@ -4,7 +4,7 @@ import path from "node:path";
 import { test } from "node:test";
 import { BufferPool } from "../src/connection/buffer_pool";
 import { Frames } from "../src/connection/frames";
-import { positionOffsets } from "../src/connection/order";
+import { idsOf, scatter } from "../src/connection/order";
 import { Tier } from "../src/gen/spherule/v1/frame_pb";
 import type { Frame } from "../src/gen/spherule/v1/frame_pb";
 import { frameOf, keyframe, orderOf, still } from "./support/chain";
@@ -27,7 +27,7 @@ function begun(buffers = new BufferPool()): Frames {
 function positionsOf(frames: Frames, frame: Frame): Float32Array {
   const decoded = frames.decode(frame);
   assert.ok(decoded.kind === "state", decoded.kind);
-  return decoded.positions;
+  return decoded.columns.position.values;
 }
 
 test("a frame is decoded to metres in id order", () => {
@@ -128,14 +128,25 @@ test("a malformed frame ends the chain, and a keyframe restores it", () => {
 });
 
 test("an order that is no permutation of the ids is refused", () => {
-  const refused = (ids: number[], reason: RegExp) => assert.throws(() => positionOffsets(orderOf(ids).ids, 3), reason);
-  assert.deepEqual([...positionOffsets(orderOf([2, 0, 1]).ids, 3)], [6, 0, 3]);
+  const refused = (ids: number[], reason: RegExp) => assert.throws(() => idsOf(orderOf(ids).ids, 3), reason);
+  assert.deepEqual([...idsOf(orderOf([2, 0, 1]).ids, 3)], [2, 0, 1]);
   refused([0, 1], /order: has 6 bytes, expected 9 for 3 spheres/);
   refused([0, 1, 2, 3], /order: has 12 bytes, expected 9 for 3 spheres/);
   refused([0, 3, 1], /order: sphere 1 has id 3, but there are only 3 spheres/);
   refused([0, 1, 0x010002], /order: sphere 2 has id 65538/);
   refused([2, 0, 2], /order: id 2 occurs twice/);
-  assert.throws(() => positionOffsets(new Uint8Array(8), 3), /order: has 8 bytes/);
+  assert.throws(() => idsOf(new Uint8Array(8), 3), /order: has 8 bytes/);
+});
+
+test("values are scattered from frame order to id order", () => {
+  const units = Int32Array.of(1, 2, 3, 4, 5, 6);
+  const scattered = (components: number): number[] => {
+    const values = new Float32Array(2 * components);
+    scatter(units, Uint32Array.of(1, 0), components, 0.5, values);
+    return [...values];
+  };
+  assert.deepEqual(scattered(3), [2, 2.5, 3, 0.5, 1, 1.5]);
+  assert.deepEqual(scattered(1), [2, 0.5]);
 });
 
 test("after a refused order, frames are ignored until a valid order arrives", () => {

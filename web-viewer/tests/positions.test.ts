@@ -2,8 +2,9 @@ import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { highOf } from "../src/model/colour_ranges";
 import { factsOf, radiusOf } from "../src/model/facts";
-import { highSpeed, leastSpeed, positionOf, speedOf } from "../src/model/positions";
+import { leastSpeed, positionOf, speedOf } from "../src/model/positions";
 import type { State } from "../src/model/states";
 
 const facts = factsOf(
@@ -18,8 +19,8 @@ const facts = factsOf(
 );
 
 function state(simTime: number, metres: number[]): State {
-  const positions = Float32Array.from(metres);
-  return { sequence: 1, epoch: 3, step: 1, simTime, count: metres.length / 3, positions, quantum: 0.25 };
+  const position = { values: Float32Array.from(metres), quantum: 0.25 };
+  return { sequence: 1, epoch: 3, step: 1, simTime, count: metres.length / 3, columns: { position } };
 }
 
 test("a position is relative to the centre of the bounds", () => {
@@ -49,5 +50,6 @@ test("the least speed is one quantum in the time between two states", () => {
 test("the high speed ignores the fastest spheres", () => {
   const many = Array.from({ length: 64 }, (_, id) => [0, 0, id === 63 ? 1000 : id]).flat();
   const from = state(2, many.map(() => 0));
-  assert.equal(highSpeed(from, state(2.5, many)), 122);
+  const to = state(2.5, many);
+  assert.equal(highOf((id) => speedOf(from, to, id), 64), 122);
 });

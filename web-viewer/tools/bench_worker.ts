@@ -1,5 +1,6 @@
 // Decodes the frames at the given addresses in several rounds, as the page's worker does. Replies with the times in ms.
 import { Decoder } from "../src/codec/decoder";
+import { columnFormats } from "../src/columns";
 import { scatter } from "../src/connection/order";
 
 const fetched = async (address: string): Promise<ArrayBuffer> => (await fetch(address)).arrayBuffer();
@@ -8,16 +9,17 @@ onmessage = async ({ data }: MessageEvent<{ frames: string[]; order: string; rou
   const frames = await Promise.all(data.frames.map(async (address) => new Uint8Array(await fetched(address))));
   // One frame per second has a hash. Its check is not timed.
   for (const frame of frames) frame[3] = (frame[3] as number) & ~2;
-  const offsets = new Uint32Array(await fetched(data.order)).map((id) => 3 * id);
-  const decoder = new Decoder(offsets.length);
-  const metres = new Float32Array(3 * offsets.length);
+  const ids = new Uint32Array(await fetched(data.order));
+  const decoder = new Decoder(ids.length);
+  const { components } = columnFormats.position;
+  const metres = new Float32Array(components * ids.length);
   const times: Record<string, number[]> = { keyframe: [], delta: [], metres: [] };
   for (let round = 0; round <= data.rounds; round++) {
     for (const frame of frames) {
       const begin = performance.now();
       const { keyframe } = decoder.apply(frame);
       const decoded = performance.now();
-      scatter(decoder.newest, offsets, 0.001, metres);
+      scatter(decoder.newest, ids, components, 0.001, metres);
       const done = performance.now();
       if (round === 0) continue; // warm-up: the engine compiles the code
       times[keyframe ? "keyframe" : "delta"]?.push(decoded - begin);

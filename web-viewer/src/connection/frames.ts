@@ -1,25 +1,27 @@
 import { Decoder } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
+import { columnFormats, columnNames, valuesPerSphere } from "../columns";
+import type { Columns } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
 import type { BufferPool } from "./buffer_pool";
-import { positionOffsets, scatter } from "./order";
+import { idsOf, scatter } from "./order";
 
 /**
- * The result of decoding a frame. `state`: its positions. `foreign`: the frame is of another epoch or order, and is
+ * The result of decoding a frame. `state`: its columns. `foreign`: the frame is of another epoch or order, and is
  * ignored. `behind`: the chain is lost, and decoding needs a keyframe.
  */
-export type Decoded = { kind: "state"; positions: Float32Array } | { kind: "foreign" } | { kind: "behind" };
+export type Decoded = { kind: "state"; columns: Columns } | { kind: "foreign" } | { kind: "behind" };
 
 /**
- * Decodes frames to positions (m) in id order, relative to the centre of the bounds. Decodes one chain at a time; a
- * keyframe starts a chain.
+ * Decodes frames to columns in id order. Decodes one chain at a time; a keyframe starts a chain. A frame is a keyframe
+ * if all its columns are.
  */
 export class Frames {
   private epoch: number | undefined;
   private count = 0;
   private order: number | undefined;
-  private offsets: Uint32Array = new Uint32Array(0);
-  private decoder: Decoder | undefined;
+  private ids: Uint32Array = new Uint32Array(0);
+  private decoders: Decoder[] = []; // one per column
   private chain: string | undefined; // undefined: lost, or not yet started
 
   constructor(private readonly buffers: BufferPool) {}
@@ -43,15 +45,17 @@ export class Frames {
   setOrder(order: Order): void {
     if (order.epoch !== this.epoch) return;
     this.order = undefined;
-    this.offsets = positionOffsets(order.ids, this.count);
+    this.ids = idsOf(order.ids, this.count);
     this.order = order.number;
   }
 
   /** Throws an Error that says what is wrong with a malformed frame; the chain is then lost. */
   decode(frame: Frame): Decoded {
     if (frame.epoch !== this.epoch || frame.order !== this.order) return { kind: "foreign" };
-    const chain = `${frame.epoch} ${frame.order} ${frame.tier} ${frame.quantum}`;
-    if (chain !== this.chain && !isKeyframe(frame.spb)) {
+    const encoded = columnNames.map((name) => columnFormats[name].encoded(frame));
+    const quanta = encoded.map(({ quantum }) => quantum);
+    const chain = [frame.epoch, frame.order, frame.tier, ...quanta].join(" ");
+    if (chain !== this.chain && !encoded.every(({ spb }) => isKeyframe(spb))) {
       this.chain = undefined;
       return { kind: "behind" };
     }
@@ -59,12 +63,27 @@ export class Frames {
     if (frame.count !== this.count) {
       throw new Error(`frame ${frame.sequence}: has ${frame.count} spheres, expected ${this.count}`);
     }
-    if (!(frame.quantum > 0 && frame.quantum < Infinity)) throw new Error(`frame ${frame.sequence}: has no quantum`);
-    if (this.decoder?.spheres !== this.count) this.decoder = new Decoder(this.count);
-    this.decoder.apply(frame.spb);
+    if (!quanta.every((quantum) => quantum > 0 && quantum < Infinity)) {
+      throw new Error(`frame ${frame.sequence}: has no quantum`);
+    }
+    if (this.decoders[0]?.spheres !== this.count) this.decoders = columnNames.map(() => new Decoder(this.count));
+    encoded.forEach(({ spb }, k) => this.decoders[k]?.apply(spb));
     this.chain = chain;
-    const positions = new Float32Array(this.buffers.acquire(12 * this.count), 0, 3 * this.count);
-    scatter(this.decoder.newest, this.offsets, frame.quantum, positions);
-    return { kind: "state", positions };
+    return { kind: "state", columns: this.columnsOf(quanta) };
+  }
+
+  /** The columns of the frame that has just been decoded. */
+  private columnsOf(quanta: number[]): Columns {
+    const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * valuesPerSphere * this.count);
+    let at = 0;
+    const filled = columnNames.map((name, k) => {
+      const { components } = columnFormats[name];
+      const values = new Float32Array(buffer, at, components * this.count);
+      const quantum = quanta[k] as number;
+      scatter((this.decoders[k] as Decoder).newest, this.ids, components, quantum, values);
+      at += values.byteLength;
+      return [name, { values, quantum }];
+    });
+    return Object.fromEntries(filled) as Columns;
   }
 }

@@ -1,7 +1,8 @@
 import { create } from "@bufbuild/protobuf";
+import { bufferOf } from "../columns";
 import { CommandSchema } from "../gen/spherule/v1/control_pb";
 import type { Command, CommandResult } from "../gen/spherule/v1/control_pb";
-import type { ControlMessage, FromWorker, LinkState, ToWorker, ViewRequest } from "./messages";
+import type { ControlMessage, FromWorker, LinkState, State, ToWorker, ViewRequest } from "./messages";
 
 export type CommandKind = Command["kind"];
 
@@ -62,8 +63,8 @@ export class Link {
   }
 
   /** Returns the buffer of a state that is no longer needed to the decoder. */
-  recycle(positions: Float32Array): void {
-    const buffer = positions.buffer as ArrayBuffer;
+  recycle(state: State): void {
+    const buffer = bufferOf(state.columns);
     if (buffer.byteLength > 0) this.post({ kind: "recycle", buffer }, [buffer]);
   }
 

@@ -1,3 +1,4 @@
+import type { Columns } from "../columns";
 import type {
   Change,
   ClientMessage,
@@ -43,8 +44,7 @@ export interface State {
   step: number;
   simTime: number; // s
   count: number;
-  positions: Float32Array; // x y z per sphere, in id order; m, relative to the centre of the bounds
-  quantum: number; // m; a position is off by at most half of it on each axis
+  columns: Columns;
 }
 
 export interface Received extends State {

@@ -1,4 +1,5 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
+import type { Columns } from "../columns";
 import type { AckSchema } from "../gen/spherule/v1/control_pb";
 import type { Frame } from "../gen/spherule/v1/frame_pb";
 import type { Frames } from "./frames";
@@ -46,7 +47,7 @@ export class Stream {
         this.keyframe.cancel();
         this.reported = false;
         this.ack(frame.sequence, decodeMs, false);
-        this.events.decoded(received(frame, decoded.positions, arrival, bytes, decodeMs));
+        this.events.decoded(received(frame, decoded.columns, arrival, bytes, decodeMs));
         return;
       }
       // The server counts every frame without an ack as in flight, so ignored frames are acknowledged too.
@@ -72,20 +73,19 @@ export class Stream {
 
 function received(
   frame: Frame,
-  positions: Float32Array,
+  columns: Columns,
   arrival: number,
   bytes: number,
   decodeMs: number,
 ): Received {
-  const { sequence, epoch, step, simTime, count, quantum, status, stampUs } = frame;
+  const { sequence, epoch, step, simTime, count, status, stampUs } = frame;
   return {
     sequence: Number(sequence),
     epoch,
     step: Number(step),
     simTime,
     count,
-    positions,
-    quantum,
+    columns,
     arrival,
     ready: Number(stampUs) / 1000,
     bytes,

@@ -2,6 +2,7 @@ import { create, toBinary } from "@bufbuild/protobuf";
 import { AckSchema, ClientMessageSchema, HelloSchema, ViewSchema } from "../gen/spherule/v1/control_pb";
 import type { ClientMessage } from "../gen/spherule/v1/control_pb";
 import { sharedNow } from "../clock";
+import { bufferOf } from "../columns";
 import { BufferPool } from "./buffer_pool";
 import { Frames } from "./frames";
 import type { FromWorker, ToWorker, ViewRequest } from "./messages";
@@ -22,7 +23,7 @@ const buffers = new BufferPool();
 const frames = new Frames(buffers);
 const stream = new Stream(frames, {
   ack: (ack) => void send({ case: "ack", value: create(AckSchema, ack) }),
-  decoded: (frame) => page.postMessage({ kind: "frame", frame }, [frame.positions.buffer as ArrayBuffer]),
+  decoded: (frame) => page.postMessage({ kind: "frame", frame }, [bufferOf(frame.columns)]),
   malformed: (reason) => page.postMessage({ kind: "unreadable", reason }),
   lost: (count) => page.postMessage({ kind: "lost", count }),
 });

@@ -5,11 +5,11 @@ import type { DisplayName } from "./names";
 
 /** Whether this page may send commands. */
 export type ControlState =
-  | { kind: "everybody" } // every client may
+  | { kind: "unrestricted" } // every client may
   | { kind: "watching" } // this page is a viewer, and may not
-  | { kind: "free" } // no client holds the control; the next command takes it
-  | { kind: "mine"; asking: DisplayName[] } // this page holds the control; `asking`: longest wait first
-  | { kind: "taken"; holder: DisplayName; asked: boolean }; // `asked`: this page has asked for the control
+  | { kind: "free" } // no client has control; the next command takes it
+  | { kind: "mine"; asking: DisplayName[] } // this page has control; `asking`: longest wait first
+  | { kind: "taken"; holder: DisplayName; asked: boolean }; // `asked`: this page has asked for control
 
 /** The server's reports from which the control state follows. */
 export interface ControlInfo {
@@ -19,7 +19,7 @@ export interface ControlInfo {
 
 export function controlStateOf({ welcome, control }: ControlInfo): ControlState {
   if (welcome?.role === Role.VIEWER) return { kind: "watching" };
-  if (!welcome || !control) return { kind: "everybody" };
+  if (!welcome || !control) return { kind: "unrestricted" };
   const { holder, asking } = control;
   const me = welcome.session;
   if (!holder) return { kind: "free" };

@@ -5,11 +5,8 @@ import type { Shown, State } from "./states";
 export function positionOf(facts: Facts, state: State, id: number): Vec3 {
   const at = 3 * id;
   const { origin } = facts;
-  return [
-    origin[0] + (state.positions[at] ?? 0),
-    origin[1] + (state.positions[at + 1] ?? 0),
-    origin[2] + (state.positions[at + 2] ?? 0),
-  ];
+  const { values } = state.columns.position;
+  return [origin[0] + (values[at] ?? 0), origin[1] + (values[at + 1] ?? 0), origin[2] + (values[at + 2] ?? 0)];
 }
 
 /** The position at which a sphere is drawn (m). */
@@ -24,25 +21,16 @@ export function speedOf(from: State, to: State, id: number): number {
   const time = to.simTime - from.simTime;
   if (!(time > 0)) return 0;
   const at = 3 * id;
-  const dx = (to.positions[at] ?? 0) - (from.positions[at] ?? 0);
-  const dy = (to.positions[at + 1] ?? 0) - (from.positions[at + 1] ?? 0);
-  const dz = (to.positions[at + 2] ?? 0) - (from.positions[at + 2] ?? 0);
+  const { values: a } = from.columns.position;
+  const { values: b } = to.columns.position;
+  const dx = (b[at] ?? 0) - (a[at] ?? 0);
+  const dy = (b[at + 1] ?? 0) - (a[at + 1] ?? 0);
+  const dz = (b[at + 2] ?? 0) - (a[at + 2] ?? 0);
   return Math.hypot(dx, dy, dz) / time;
 }
 
 /** The smallest speed that quantised states can show (m/s). */
 export function leastSpeed(from: State, to: State): number {
   const time = to.simTime - from.simTime;
-  return time > 0 ? Math.max(from.quantum, to.quantum) / time : 0;
-}
-
-/** The 98th percentile of speed (m/s), from at most `samples` spheres spread over the ids. */
-export function highSpeed(from: State, to: State, samples = 2048): number {
-  const count = Math.min(from.count, to.count);
-  if (count === 0) return 0;
-  const speeds = new Float64Array(Math.min(samples, count));
-  for (let i = 0; i < speeds.length; i++) {
-    speeds[i] = speedOf(from, to, Math.floor((i * count) / speeds.length));
-  }
-  return speeds.sort()[Math.floor(0.98 * (speeds.length - 1))] ?? 0;
+  return time > 0 ? Math.max(from.columns.position.quantum, to.columns.position.quantum) / time : 0;
 }

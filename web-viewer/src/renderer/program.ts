@@ -1,12 +1,26 @@
+import { columnFormats, columnNames } from "../columns";
+import type { ColumnName } from "../columns";
+
 /** A linked program, with its uniforms by name. */
 export interface Program {
   use(): void;
   at(uniform: string): WebGLUniformLocation | null;
 }
 
+/** The inputs of a column: its values in the two states that are interpolated. */
+type ColumnInput = `a_${ColumnName}${"From" | "To"}`;
+
+const columnInputs = columnNames.flatMap((name): ColumnInput[] => [`a_${name}From`, `a_${name}To`]);
+
 /** Attribute slots are the same in all programs, so that programs can share vertex arrays. */
-const attributes = ["a_from", "a_to", "a_radius", "a_group", "a_position", "a_normal", "a_colour"] as const;
+const attributes = [...columnInputs, "a_radius", "a_group", "a_position", "a_normal", "a_colour"] as const;
 export type Attribute = (typeof attributes)[number];
+
+/** GLSL declarations of the inputs of all columns. */
+export const columnDeclarations = columnNames
+  .map((name) => [name, columnFormats[name].components] as const)
+  .map(([name, size]) => `in ${size === 1 ? "float" : `vec${size}`} a_${name}From, a_${name}To;`)
+  .join("\n");
 
 export function slot(attribute: Attribute): number {
   return attributes.indexOf(attribute);

@@ -1,9 +1,9 @@
-import { modes } from "../colour/modes";
 import type { Facts } from "../model/facts";
+import { modes, quantityOf } from "../model/quantities";
 import type { Shown } from "../model/states";
 import type { DrawState } from "./draw_state";
 import type { Environment } from "./environment";
-import { program } from "./program";
+import { columnDeclarations, program } from "./program";
 import type { Program } from "./program";
 import type { RenderQuality } from "./render_quality";
 import type { ShadowMap } from "./shadow_map";
@@ -20,6 +20,19 @@ import solidFragment from "./shaders/solid.frag.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
 import sphereFragment from "./shaders/spheres.frag.glsl";
 import sphereVertex from "./shaders/spheres.vert.glsl";
+
+/** GLSL: the colour of a sphere in each mode. */
+const colourNow = [
+  "vec3 colourNow(vec3 position) {",
+  "switch (u_mode) {",
+  ...modes.map((mode, index) => {
+    const { glsl, scale } = quantityOf(mode);
+    return `case ${index}: return ${scale ? `scaled(${glsl})` : glsl};`;
+  }),
+  "}",
+  "return vec3(0.0);",
+  "}",
+].join("\n");
 
 /** Draws the scene: background, floor, obstacles, spheres, then translucent surfaces and lines. */
 export class ScenePass {
@@ -38,7 +51,7 @@ export class ScenePass {
     this.background = program(gl, [screen], [frame, light, background]);
     this.floor = program(gl, [solidVertex], [frame, light, floorFragment], soft);
     this.solids = program(gl, [solidVertex], [frame, light, solidFragment], soft);
-    const sphereVertexParts = [frame, position, colour, sphereVertex];
+    const sphereVertexParts = [frame, columnDeclarations, position, colour, colourNow, sphereVertex];
     this.spheres = program(gl, sphereVertexParts, [frame, light, sphereFragment], [...soft, ...coverage]);
     this.lines = program(gl, [solidVertex], [frame, light, lineFragment]);
   }
@@ -88,8 +101,9 @@ export class ScenePass {
     spheres.use();
     shadow.bind(spheres, 0);
     const time = shown.to.simTime - shown.from.simTime;
-    gl.uniform1i(spheres.at("u_mode"), modes[state.mode]);
-    gl.uniform3fv(spheres.at("u_ramp"), state.ramp.flat());
+    const { scale } = quantityOf(state.mode);
+    gl.uniform1i(spheres.at("u_mode"), modes.indexOf(state.mode));
+    if (scale) gl.uniform3fv(spheres.at("u_ramp"), scale.ramp.flat());
     gl.uniform2fv(spheres.at("u_range"), state.range);
     gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
     gl.uniform3fv(spheres.at("u_cellCentre"), facts.origin);

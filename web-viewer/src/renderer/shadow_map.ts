@@ -1,6 +1,6 @@
 import type { Light } from "./light";
 import type { Mesh } from "./mesh";
-import { program } from "./program";
+import { columnDeclarations, program } from "./program";
 import type { Program } from "./program";
 import type { SphereData } from "./spheres";
 import { texture } from "./scene_target";
@@ -21,7 +21,7 @@ export class ShadowMap {
     private readonly gl: WebGL2RenderingContext,
     private readonly size: number,
   ) {
-    this.spheres = program(gl, [position, shadowVertex], [shadowFragment]);
+    this.spheres = program(gl, [columnDeclarations, position, shadowVertex], [shadowFragment]);
     this.solids = program(gl, [solidVertex], [emptyFragment]);
     this.texture = texture(gl, gl.DEPTH_COMPONENT24, size, size, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);

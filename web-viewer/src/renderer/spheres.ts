@@ -1,3 +1,4 @@
+import { bufferOf, columnFormats, columnNames, valuesPerSphere } from "../columns";
 import type { Facts } from "../model/facts";
 import { capacity } from "../model/playout";
 import type { Shown, State } from "../model/states";
@@ -52,13 +53,18 @@ export class SphereData {
     const { gl } = this;
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.count ?? 0);
     gl.bindVertexArray(this.array);
-    for (const [name, state] of [
-      ["a_from", shown.from],
-      ["a_to", shown.to],
+    for (const [end, state] of [
+      ["From", shown.from],
+      ["To", shown.to],
     ] as const) {
       gl.bindBuffer(gl.ARRAY_BUFFER, this.resident(state));
-      this.perInstance(name);
-      gl.vertexAttribPointer(slot(name), 3, gl.FLOAT, false, 12, 0);
+      for (const name of columnNames) {
+        const { components } = columnFormats[name];
+        const input = `a_${name}${end}` as const;
+        this.perInstance(input);
+        const { BYTES_PER_ELEMENT: bytes, byteOffset } = state.columns[name].values;
+        gl.vertexAttribPointer(slot(input), components, gl.FLOAT, false, bytes * components, byteOffset);
+      }
     }
     gl.bindVertexArray(null);
   }
@@ -81,7 +87,8 @@ export class SphereData {
     if (!found) {
       found = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
       this.gl.bindBuffer(this.gl.ARRAY_BUFFER, found.buffer);
-      this.gl.bufferData(this.gl.ARRAY_BUFFER, state.positions, this.gl.STREAM_DRAW);
+      const values = new Float32Array(bufferOf(state.columns), 0, valuesPerSphere * state.count);
+      this.gl.bufferData(this.gl.ARRAY_BUFFER, values, this.gl.STREAM_DRAW);
       found.state = state;
     }
     found.used = this.turn;

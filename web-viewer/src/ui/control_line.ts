@@ -21,7 +21,7 @@ export class ControlLine {
     "aria-label": "Control of the simulation",
     "aria-live": "polite",
     "data-testid": "control",
-    "data-state": "everybody",
+    "data-state": "unrestricted",
   });
 
   constructor(private readonly actions: ControlActions) {}

@@ -1,6 +1,6 @@
 import type { Dial, DialPosition, Settings, Statistics } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
-import { count, figure } from "./format";
+import { count, figure } from "../format";
 
 /** The contact models. */
 export const models = [

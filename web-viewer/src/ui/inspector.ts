@@ -1,11 +1,11 @@
-import { groupOf, radiusOf } from "../model/facts";
+import { count, vector } from "../format";
 import type { Facts } from "../model/facts";
-import { leastSpeed, shownPosition, speedOf } from "../model/positions";
+import { shownPosition } from "../model/positions";
+import { modes, quantityOf } from "../model/quantities";
 import type { Shown } from "../model/states";
 import { h, setText } from "./dom";
-import { count, figure, length, vector } from "./format";
 
-/** Shows the selected sphere: position, speed, radius and group. */
+/** Shows the selected sphere: its position and its quantities. */
 export class Inspector {
   selected: number | undefined;
   private readonly name = h("h2", { "data-testid": "inspected" });
@@ -31,17 +31,8 @@ export class Inspector {
     const known = facts && shown && id !== undefined && id < shown.to.count;
     this.element.hidden = !known;
     if (!known) return;
-    const group = groupOf(facts, id);
-    const least = leastSpeed(shown.from, shown.to);
-    const speed = speedOf(shown.from, shown.to, id);
+    const lines = modes.flatMap((mode) => quantityOf(mode).describe?.(facts, shown, id) ?? []);
     setText(this.name, `Sphere ${count(id)}`);
-    setText(
-      this.text,
-      [
-        `at ${vector(shownPosition(facts, shown, id), 3)} m`,
-        speed < least ? `under ${figure(least)} m/s` : `${figure(speed)} m/s`,
-        `radius ${length(radiusOf(facts, id))}${group ? `, ${group.name}` : ""}`,
-      ].join("\n"),
-    );
+    setText(this.text, [`at ${vector(shownPosition(facts, shown, id), 3)} m`, ...lines].join("\n"));
   }
 }

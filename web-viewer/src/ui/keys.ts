@@ -1,4 +1,6 @@
 import type { Camera } from "../camera/camera";
+import { modes, quantityOf } from "../model/quantities";
+import type { Mode } from "../model/quantities";
 
 export interface Key {
   keys: string[]; // as KeyboardEvent.key, letters in lower case
@@ -35,7 +37,7 @@ export interface KeyActions {
   step(count: number): void;
   reset(): void;
   panel(): void;
-  colour(index: number): void;
+  colour(mode: Mode): void;
   push(): void;
   lock(): void;
   drop(): void;
@@ -49,7 +51,8 @@ const nudge = 40; // px of the drag that corresponds to one press of an arrow ke
 /** The keys of the page. `playing`: the server plays a recording. The help shows the same list. */
 export function keysFor(actions: KeyActions, playing: boolean): Key[] {
   const { camera } = actions;
-  const colours = Object.fromEntries(["1", "2", "3", "4", "5"].map((key, i) => [key, i]));
+  const colours = Object.fromEntries(modes.map((mode, i) => [String(i + 1), mode]));
+  const colourNames = modes.map((mode) => quantityOf(mode).label.toLowerCase()).join(", ");
   const arrows: Record<string, [number, number]> = {
     ArrowLeft: [nudge, 0],
     ArrowRight: [-nudge, 0],
@@ -74,7 +77,7 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     one(".", playing ? "one frame" : "one step", () => actions.step(1)),
     one("r", playing ? "go to the beginning" : "reset the scene", actions.reset),
     ...(playing ? [] : [one("d", "drop spheres", actions.drop), one("p", "push mode", actions.push)]),
-    ...each("1 – 5", "colour by speed, radius, id, grid cell, group", colours, actions.colour),
+    ...each(`1 – ${modes.length}`, `colour by ${colourNames}`, colours, actions.colour),
     one("l", "lock the colour range", actions.lock),
     one("f", "reset the view", () => camera.reset()),
     one("x", "look along x", () => camera.along(0, 0)),

@@ -1,10 +1,10 @@
 import type { Camera } from "../camera/camera";
 import type { Insets } from "../camera/view";
-import { modeList } from "../colour/modes";
-import type { AutoRange } from "../colour/range";
 import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
 import type { Recording } from "../gen/spherule/v1/control_pb";
+import type { ColourRanges } from "../model/colour_ranges";
+import { modes } from "../model/quantities";
 import type { Session } from "../model/session";
 import type { Shown } from "../model/states";
 import type { ThemeName } from "../renderer/theme";
@@ -61,7 +61,7 @@ export class Page {
     private readonly container: HTMLElement,
     private readonly session: Session,
     private readonly commands: Commands,
-    speeds: AutoRange,
+    ranges: ColourRanges,
     private readonly choices: Choices,
     actions: PageActions,
   ) {
@@ -71,8 +71,8 @@ export class Page {
     };
     this.panel = new Panel(commands, choices, { ...actions, themeChanged });
     this.header = new Header(session, actions.retry);
-    this.legend = new Legend(speeds, () => {
-      this.panel.colourBy(modeList[(modeList.indexOf(choices.mode) + 1) % modeList.length] ?? "speed");
+    this.legend = new Legend(ranges, () => {
+      this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
     });
     this.status = new StatusLine(session);
     const shared = {
@@ -85,13 +85,13 @@ export class Page {
     const keyActions: KeyActions = {
       ...shared,
       camera: actions.camera,
-      colour: (index) => this.panel.colourBy(modeList[index] ?? choices.mode),
+      colour: (mode) => this.panel.colourBy(mode),
       push: () => {
         if (this.steering.blocked()) return;
         choices.push = !choices.push;
         this.panel.refresh();
       },
-      lock: () => this.legend.toggleLock(),
+      lock: () => ranges.toggleLock(),
       drop: () => this.panel.dropNow(),
       deselect: () => {
         this.inspector.select(undefined);

@@ -1,11 +1,11 @@
 import GUI from "lil-gui";
 import type { Controller, OptionController } from "lil-gui";
-import { modeFor, modeList, modeNames } from "../colour/modes";
-import type { Mode } from "../colour/modes";
 import type { Commands } from "../connection/commands";
 import type { ViewRequest } from "../connection/messages";
 import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Facts } from "../model/facts";
+import { defaultMode, modes, quantityOf } from "../model/quantities";
+import type { Mode } from "../model/quantities";
 import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
@@ -129,7 +129,7 @@ export class Panel {
       const [low, high] = facts.radiusRange;
       this.drop.radius = Number(((low + high) / 2 || 0.05).toPrecision(3));
       this.choices.impulse = impulseFor(this.drop.radius);
-      if (!this.choices.modeChosen) this.choices.mode = modeFor(facts.groups);
+      if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.groups);
     }
     this.refresh();
   }
@@ -255,7 +255,7 @@ export class Panel {
   private addLook(): void {
     const { actions, choices } = this;
     const folder = this.gui.addFolder("Look");
-    const names = Object.fromEntries(modeList.map((mode) => [modeNames[mode], mode]));
+    const names = Object.fromEntries(modes.map((mode) => [quantityOf(mode).label, mode]));
     const mode = tag("colour", folder.add(choices, "mode", names).name("Colour by"));
     mode.onChange((value: Mode) => this.colourBy(value));
     const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));

@@ -9,7 +9,7 @@ import type { Toasts } from "./toasts";
 
 /** Follows whether this page may send commands, and updates the page accordingly. */
 export class Steering {
-  state: ControlState = { kind: "everybody" };
+  state: ControlState = { kind: "unrestricted" };
   blockedReason = ""; // why this page may not send commands; empty if it may
   private readonly line: ControlLine;
   private info: ControlInfo = { welcome: undefined, control: undefined }; // from which the state was derived

@@ -1,6 +1,7 @@
-in vec4 a_group;
+// The expressions of model/quantities.ts may use these inputs, position.glsl, and `position`: the centre (m).
+in vec4 a_group;                // sRGB
 
-uniform int u_mode;             // numbers of colour/modes.ts
+uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
@@ -13,6 +14,9 @@ vec3 rampAt(float at) {
     int index = min(int(scaled), 4);
     return mix(u_ramp[index], u_ramp[index + 1], scaled - float(index));
 }
+
+// The colour of a value on the scale.
+vec3 scaled(float value) { return rampAt((value - u_range.x) / max(u_range.y - u_range.x, 1e-12)); }
 
 uint scrambled(uint x) {
     x ^= x >> 16; x *= 0x7feb352du;
@@ -29,16 +33,4 @@ vec3 cellColour(vec3 position) {
     float hue = float(hash & 1023u) * (6.2831853 / 1024.0);
     float lightness = 0.60 + 0.10 * float((cell.x + cell.y + cell.z) & 1);
     return vec3(lightness) + 0.17 * vec3(cos(hue), cos(hue - 2.0944), cos(hue + 2.0944));
-}
-
-vec3 colourNow(vec3 position, float radius) {
-    float span = max(u_range.y - u_range.x, 1e-12);
-    if (u_mode == 0) {
-        float speed = length(a_to - a_from) * u_inverseTime;
-        return rampAt((speed - u_range.x) / span);
-    }
-    if (u_mode == 1) return rampAt((radius - u_range.x) / span);
-    if (u_mode == 2) return rampAt((float(gl_InstanceID) - u_range.x) / span);
-    if (u_mode == 3) return cellColour(position);
-    return a_group.rgb;
 }

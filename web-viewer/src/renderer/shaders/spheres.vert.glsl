@@ -17,7 +17,7 @@ void main() {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);    // the eye is inside
         return;
     }
-    vec3 colour = colourNow(centre, radius);
+    vec3 colour = colourNow(centre);
     float tint = 0.94 + 0.12 * float(scrambled(uint(gl_InstanceID)) & 255u) / 255.0;
     v_colour = vec4(colour * colour * tint, gl_InstanceID == u_selected ? 1.0 : 0.0);
     vec3 axis = to / far;

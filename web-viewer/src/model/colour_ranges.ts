@@ -1,0 +1,69 @@
+import { AutoRange } from "../colour/range";
+import type { Facts } from "./facts";
+import { modes, quantityOf } from "./quantities";
+import type { Mode, Range } from "./quantities";
+import type { Shown } from "./states";
+
+interface Automatic {
+  range: AutoRange;
+  value(shown: Shown, id: number): number;
+}
+
+/** The range of values that the scale of each mode covers. */
+export class ColourRanges {
+  private readonly automatic = new Map<Mode, Automatic>();
+  private measured = -1; // sequence number of the newest state whose values the automatic ranges know
+
+  constructor() {
+    for (const mode of modes) {
+      const { scale } = quantityOf(mode);
+      if (scale && "value" in scale) {
+        this.automatic.set(mode, { range: new AutoRange(scale.least), value: scale.value });
+      }
+    }
+  }
+
+  isAutomatic(mode: Mode): boolean {
+    return this.automatic.has(mode);
+  }
+
+  /** The range of a mode; 0 to 1 if there is no scale, or no scene yet. */
+  of(mode: Mode, facts: Facts | undefined): Range {
+    const { scale } = quantityOf(mode);
+    if (facts && scale && "range" in scale) return scale.range(facts);
+    return [0, this.automatic.get(mode)?.range.high ?? 1];
+  }
+
+  /** Adapts the automatic ranges to the values that are shown. `now`: ms. */
+  update(shown: Shown | undefined, now: number): void {
+    if (!shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
+    this.measured = shown.to.sequence;
+    const count = Math.min(shown.from.count, shown.to.count);
+    for (const { range, value } of this.automatic.values()) {
+      range.update(highOf((id) => value(shown, id), count), now);
+    }
+  }
+
+  /** Resets the automatic ranges for another scene. */
+  reset(): void {
+    for (const { range } of this.automatic.values()) range.reset();
+  }
+
+  /** Whether the automatic ranges do not change. */
+  get locked(): boolean {
+    return [...this.automatic.values()].every(({ range }) => range.locked);
+  }
+
+  toggleLock(): void {
+    const locked = !this.locked;
+    for (const { range } of this.automatic.values()) range.locked = locked;
+  }
+}
+
+/** The 98th percentile of the values of `count` spheres, from at most `samples` of them, spread over the ids. */
+export function highOf(value: (id: number) => number, count: number, samples = 2048): number {
+  if (count === 0) return 0;
+  const values = new Float64Array(Math.min(samples, count));
+  for (let i = 0; i < values.length; i++) values[i] = value(Math.floor((i * count) / values.length));
+  return values.sort()[Math.floor(0.98 * (values.length - 1))] ?? 0;
+}

@@ -1,0 +1,108 @@
+import { idRamp, radiusRamp, speedRamp } from "../colour/ramp";
+import type { Ramp } from "../colour/ramp";
+import type { Rgb } from "../colour/rgb";
+import { count, figure, length } from "../format";
+import { groupOf, radiusOf } from "./facts";
+import type { Facts } from "./facts";
+import { leastSpeed, speedOf } from "./positions";
+import type { Shown } from "./states";
+
+export type Range = [number, number];
+
+/**
+ * A colour scale. Its range is constant in a scene, or automatic: then it begins at 0, and its end follows the values
+ * that are shown, but is at least `least`.
+ */
+export type Scale = { ramp: Ramp } & (
+  | { range(facts: Facts): Range }
+  | { value(shown: Shown, id: number): number; least: number }
+);
+
+export interface Swatch {
+  colour: Rgb;
+  name: string;
+  figure: string;
+}
+
+/** The content of a legend: a bar with the texts of its ends, or swatches and lines of text. */
+export type LegendContent = { bar: Ramp; low: string; high: string } | { swatches: Swatch[]; notes: string[] };
+
+/** A per-sphere quantity that the page shows: by a colour mode with its legend, and in the inspector. */
+export interface Quantity {
+  label: string; // of the colour mode
+  /** GLSL expression: the value (float) if there is a scale, else the colour (vec3, sRGB). See shaders/colour.glsl. */
+  glsl: string;
+  scale?: Scale;
+  legend(facts: Facts, range: Range): LegendContent;
+  /** A line of the inspector. */
+  describe?(facts: Facts, shown: Shown, id: number): string;
+}
+
+const groupsShown = 6; // in the legend
+
+/** All quantities, in the order of the colour modes and of the inspector's lines. */
+export const quantities = {
+  speed: {
+    label: "Speed",
+    glsl: "length(a_positionTo - a_positionFrom) * u_inverseTime",
+    scale: { ramp: speedRamp, value: ({ from, to }, id) => speedOf(from, to, id), least: 0.1 },
+    legend: (_, [, high]) => ({ bar: speedRamp, low: "0", high: `${figure(high)} m/s` }),
+    describe: (_, { from, to }, id) => {
+      const least = leastSpeed(from, to);
+      const speed = speedOf(from, to, id);
+      return speed < least ? `under ${figure(least)} m/s` : `${figure(speed)} m/s`;
+    },
+  },
+  radius: {
+    label: "Radius",
+    glsl: "a_radius",
+    scale: { ramp: radiusRamp, range: (facts) => facts.radiusRange },
+    legend: (_, [low, high]) => {
+      if (low < high) return { bar: radiusRamp, low: length(low), high: length(high) };
+      return { swatches: [{ colour: radiusRamp[0], name: `all ${length(low)}`, figure: "" }], notes: [] };
+    },
+    describe: (facts, _, id) => {
+      const group = groupOf(facts, id);
+      return `radius ${length(radiusOf(facts, id))}${group ? `, ${group.name}` : ""}`;
+    },
+  },
+  id: {
+    label: "Id",
+    glsl: "float(gl_InstanceID)",
+    scale: { ramp: idRamp, range: (facts) => [0, Math.max(0, facts.count - 1)] },
+    legend: (_, [low, high]) => ({ bar: idRamp, low: count(low), high: count(high) }),
+  },
+  cell: {
+    label: "Grid cell",
+    glsl: "cellColour(position)",
+    legend: ({ cellSize, cells }) => {
+      if (cellSize <= 0) return { swatches: [], notes: ["this scene has no grid"] };
+      const notes = [`one colour per cell of ${length(cellSize)}`, `${cells.map(count).join(" × ")} cells`];
+      return { swatches: [], notes };
+    },
+  },
+  group: {
+    label: "Group",
+    glsl: "a_group.rgb",
+    legend: ({ groups }) => {
+      const shown = groups.slice(0, groupsShown);
+      const more = groups.length - shown.length;
+      const swatches = shown.map((group) => ({ colour: group.colour, name: group.name, figure: count(group.count) }));
+      return { swatches, notes: more > 0 ? [`and ${more} more`] : [] };
+    },
+  },
+} satisfies Record<string, Quantity>;
+
+/** A colour mode. */
+export type Mode = keyof typeof quantities;
+
+export const modes = Object.keys(quantities) as Mode[];
+
+export function quantityOf(mode: Mode): Quantity {
+  return quantities[mode];
+}
+
+/** The default mode of a scene: "group" if at least two of its groups have a colour of their own, else "speed". */
+export function defaultMode(groups: readonly { own: boolean }[]): Mode {
+  return groups.filter((group) => group.own).length > 1 ? "group" : "speed";
+}

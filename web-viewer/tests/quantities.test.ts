@@ -1,0 +1,63 @@
+import { create } from "@bufbuild/protobuf";
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { radiusRamp, speedRamp } from "../src/colour/ramp";
+import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { ColourRanges } from "../src/model/colour_ranges";
+import { factsOf } from "../src/model/facts";
+import type { Facts } from "../src/model/facts";
+import { modes, quantityOf } from "../src/model/quantities";
+import type { LegendContent, Mode } from "../src/model/quantities";
+import type { State } from "../src/model/states";
+
+const groups = Array.from({ length: 8 }, (_, k) => ({ name: `g${k}`, first: k, count: 1 }));
+
+function facts(fields = {}): Facts {
+  return factsOf(create(SceneFactsSchema, { epoch: 1, count: 8, radius: 0.25, groups, ...fields }));
+}
+
+function legendOf(mode: Mode, of: Facts): LegendContent {
+  return quantityOf(mode).legend(of, new ColourRanges().of(mode, of));
+}
+
+function state(sequence: number, simTime: number, x: number): State {
+  const position = { values: Float32Array.of(x, 0, 0), quantum: 0.01 };
+  return { sequence, epoch: 1, step: sequence, simTime, count: 1, columns: { position } };
+}
+
+test("only the range of speeds is automatic", () => {
+  const ranges = new ColourRanges();
+  assert.deepEqual(modes.filter((mode) => ranges.isAutomatic(mode)), ["speed"]);
+  assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
+  assert.deepEqual(ranges.of("id", facts()), [0, 7]);
+});
+
+test("automatic ranges follow the values shown, unless they are locked", () => {
+  const ranges = new ColourRanges();
+  const shown = { from: state(1, 0, 0), to: state(2, 0.5, 2), mix: 1, moving: false };
+  ranges.toggleLock();
+  ranges.update(shown, 0);
+  assert.deepEqual([ranges.locked, ranges.of("speed", undefined)], [true, [0, 0.1]]);
+  ranges.toggleLock();
+  ranges.update({ ...shown, to: state(3, 0.5, 2) }, 0);
+  assert.deepEqual([ranges.locked, ranges.of("speed", undefined)], [false, [0, 5]]);
+  ranges.reset();
+  assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
+});
+
+test("a legend has a bar with its ends, or swatches and notes", () => {
+  assert.deepEqual(legendOf("speed", facts()), { bar: speedRamp, low: "0", high: "0.1 m/s" });
+  const one = { colour: radiusRamp[0], name: "all 25 cm", figure: "" };
+  assert.deepEqual(legendOf("radius", facts()), { swatches: [one], notes: [] });
+  const radii = new Uint8Array(new Float32Array([0.5, 0.25]).buffer);
+  const range = { bar: radiusRamp, low: "25 cm", high: "50 cm" };
+  assert.deepEqual(legendOf("radius", facts({ radius: 0, count: 2, radii })), range);
+  assert.deepEqual(legendOf("cell", facts()), { swatches: [], notes: ["this scene has no grid"] });
+});
+
+test("the legend of groups lists six of them, and counts the others", () => {
+  const legend = legendOf("group", facts());
+  assert.ok("swatches" in legend);
+  assert.deepEqual(legend.swatches.map(({ name }) => name), ["g0", "g1", "g2", "g3", "g4", "g5"]);
+  assert.deepEqual(legend.notes, ["and 2 more"]);
+});
