@@ -3,7 +3,8 @@
 #include "cli/errors.h"
 #include "cli/exit_codes.h"
 #include "cli/options.h"
-#include "encode/frame_encoder.h"
+#include "codec/columns.h"
+#include "encode/column_encoder.h"
 #include "sim/plan.h"
 
 namespace spherule::cli {
@@ -23,10 +24,11 @@ int plan(const PlanOptions& options) {
     const auto plan = sim::planFor(*loaded, sim::featuresOf(*loaded),
                                    static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiiOf(*loaded));
     const encode::EncoderBytes encoder = encode::encoderBytes(plan.spheres);
-    const std::array more = {sim::MemoryPart{"device: order, if watched", encoder.contextArrays},
-                             sim::MemoryPart{"host: order, if watched", encoder.order},
-                             sim::MemoryPart{"device: each tier that is watched", encoder.encoderArrays},
-                             sim::MemoryPart{"host: each tier that is watched", encoder.frames}};
+    const std::array more = {
+        sim::MemoryPart{"device: order, if watched", encoder.contextArrays},
+        sim::MemoryPart{"host: order, if watched", encoder.order},
+        sim::MemoryPart{"device: each tier that is watched", codec::columnCount * encoder.encoderArrays},
+        sim::MemoryPart{"host: each tier that is watched", codec::columnCount * encoder.frames}};
     fmt::print("{}\n", options.json ? sim::planJson(*loaded, plan, more) : sim::planText(*loaded, plan, more));
     return exitDone;
 }

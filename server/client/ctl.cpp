@@ -69,8 +69,8 @@ class Conversation {
         v1::ClientMessage request;
         request.mutable_ask_control();
         if (auto sent = send(request); !sent) return sent;
-        return receiveUntil([&](const auto&) { return !status.needsLock(); },
-                            "control was not handed over in time", false);
+        return receiveUntil([&](const auto&) { return !status.needsLock(); }, "control was not handed over in time",
+                            false);
     }
 
     void end() { client_->close(); }

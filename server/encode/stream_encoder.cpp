@@ -97,10 +97,10 @@ Result<StreamEncoder::Chain*> StreamEncoder::chainOf(const codec::Rendition& ren
     if (const auto known = chains_.find(rendition); known != chains_.end()) return &known->second;
     if (input.epoch != epoch_)
         if (auto done = prepare(input); !done) return tl::unexpected(done.error());
-    auto tier = FrameEncoder::create(*context_, {.quantum = codec::quantumOf(rendition.tier, input.smallestRadius)});
-    if (!tier) return tl::unexpected(tier.error());
+    auto frames = FrameEncoder::create(*context_, rendition.tier, input.smallestRadius);
+    if (!frames) return tl::unexpected(frames.error());
     Chain& chain = chains_[rendition];
-    chain.frames = std::move(*tier);
+    chain.frames = std::move(*frames);
     return &chain;
 }
 
@@ -124,11 +124,10 @@ void StreamEncoder::begin(const codec::Subscription& subscription, Chain& chain,
     chain.newest.set_order(order_);
     chain.newest.set_count(input.spheres);
     chain.newest.set_tier(subscription.rendition.tier);
-    chain.newest.set_quantum(codec::quantumOf(subscription.rendition.tier, input.smallestRadius));
     start(chain, begun ? Delta : Keyframe, chain.newest, input.source, now);
 }
 
-void StreamEncoder::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const PositionSource& source,
+void StreamEncoder::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const FrameSource& source,
                           Clock::time_point now) {
     const bool hash = now - chain.hash >= hashEvery;
     if (hash) chain.hash = now;
@@ -153,15 +152,13 @@ void StreamEncoder::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Fram
 
 void StreamEncoder::collect(const codec::Rendition& rendition, Chain& chain) {
     if (!chain.inProgress) return;
-    const auto bytes = chain.frames->poll();
-    if (!bytes) return;
+    if (!chain.frames->poll(*chain.inProgress)) return;
     v1::ServerMessage message;
     v1::Frame& made = *message.mutable_frame();
     made = std::move(*chain.inProgress);
     chain.inProgress.reset();
     made.set_sequence(++sequence_);
     made.set_stamp_us(microsecondsNow());
-    made.set_spb(bytes->data(), bytes->size());
     publish_({rendition, chain.kind, chain.frames->number(), codec::share(std::move(message))});
 }
 

@@ -17,7 +17,7 @@ namespace spherule::encode {
 
 // The data that the streams need.
 struct EncoderInput {
-    PositionSource source;
+    FrameSource source;
     std::uint32_t spheres = 0;
     double smallestRadius = 0;                          // m
     std::uint32_t epoch = 0;                            // changes when the spheres are replaced
@@ -80,7 +80,7 @@ class StreamEncoder {
     Result<Chain*> chainOf(const codec::Rendition& rendition, const EncoderInput& input);
     Chain* chainFor(const codec::Subscription& subscription, const EncoderInput& input, Clock::time_point now);
     void begin(const codec::Subscription& subscription, Chain& chain, const EncoderInput& input, Clock::time_point now);
-    void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const PositionSource& source,
+    void start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Frame head, const FrameSource& source,
                Clock::time_point now);
     void collect(const codec::Rendition& rendition, Chain& chain);
 

@@ -67,22 +67,25 @@ Result<void> PlaybackProducer::advance(encode::StreamEncoder::Clock::time_point 
     return moved.shown ? show() : Result<void>();
 }
 
-// Uploads the positions of the current frame, and describes the scene if it is another one.
+// Uploads the columns of the current frame, and describes the scene if it is another one.
 Result<void> PlaybackProducer::show() {
     const recording::Recording& recording = player_.recording();
-    const auto cells = recording.cells();
+    const bool anotherScene = epoch_ == 0 || sceneOffset_ != recording.sceneOffset();
     const auto order = recording.order();
-    const auto quantum = static_cast<float>(recording.quantum());
-    positions_.resize(cells.size());
-    for (std::size_t k = 0; k < cells.size(); ++k) positions_[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
-    if (epoch_ == 0 || sceneOffset_ != recording.sceneOffset()) {
-        const std::size_t bytes = positions_.size() * sizeof(glm::vec4);
-        auto made = device_->createBuffer("positions", bytes, "r");
-        if (!made) return tl::unexpected(made.error());
-        buffer_ = std::move(*made);
-        describe();
+    for (std::size_t column = 0; column < codec::columnCount; ++column) {
+        const auto cells = recording.cells(column);
+        const auto quantum = static_cast<float>(recording.quantum(column));
+        std::vector<glm::vec4>& values = values_[column];
+        values.resize(cells.size());
+        for (std::size_t k = 0; k < cells.size(); ++k) values[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
+        if (anotherScene) {
+            auto made = device_->createBuffer(codec::columns[column].name, values.size() * sizeof(glm::vec4), "r");
+            if (!made) return tl::unexpected(made.error());
+            buffers_[column] = std::move(*made);
+        }
+        device_->upload(*buffers_[column], 0, std::as_bytes(std::span(values)));
     }
-    device_->upload(*buffer_, 0, std::as_bytes(std::span(positions_)));
+    if (anotherScene) describe();
     time_ = recording.time();
     step_ = recording.step();
     ++version_;
@@ -124,13 +127,15 @@ void PlaybackProducer::notify(v1::Event::Kind kind, const std::string& text) {
 }
 
 void PlaybackProducer::produce(encode::StreamEncoder::Clock::time_point now) {
-    if (!buffer_) return;
-    encoder_.update({.source = {.position = buffer_.get(), .slotOf = nullptr},
-                     .spheres = static_cast<std::uint32_t>(positions_.size()),
+    if (buffers_[0] == nullptr) return;
+    encode::FrameSource source;
+    for (std::size_t column = 0; column < codec::columnCount; ++column) source.columns[column] = buffers_[column].get();
+    encoder_.update({.source = source,
+                     .spheres = static_cast<std::uint32_t>(values_[0].size()),
                      .smallestRadius = smallest_,
                      .epoch = epoch_,
                      .version = version_,
-                     .positions = [this] { return positions_; },
+                     .positions = [this] { return values_[0]; },
                      .head =
                          [this, now] {
                              v1::Frame head;

@@ -41,12 +41,12 @@ class PlaybackProducer : public FrameProducer {
     net::Publisher& publisher_;
     encode::StreamEncoder encoder_;
     RateMeter frameRate_;
-    std::vector<glm::vec4> positions_;         // m, of the current frame, by id; w = 0
-    std::unique_ptr<compute::Buffer> buffer_;  // the same on the device
-    double time_ = 0;                          // of the current frame (s)
-    std::uint64_t step_ = 0;                   // of the current frame
-    std::uint64_t sceneOffset_ = 0;            // offset of the scene facts in the recording (bytes)
-    std::uint32_t epoch_ = 0;                  // epoch that was sent to viewers
+    codec::PerColumn<std::vector<glm::vec4>> values_;             // of the current frame, by id; w = 0
+    codec::PerColumn<std::unique_ptr<compute::Buffer>> buffers_;  // the same on the device
+    double time_ = 0;                                             // of the current frame (s)
+    std::uint64_t step_ = 0;                                      // of the current frame
+    std::uint64_t sceneOffset_ = 0;                               // offset of the scene facts in the recording (bytes)
+    std::uint32_t epoch_ = 0;                                     // epoch that was sent to viewers
     std::uint64_t version_ = 0;
     double smallest_ = 0;   // smallest radius (m)
     std::string settings_;  // serialized, as sent last

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "codec/order.h"
-#include "codec/rendition.h"
 #include "core/heartbeat.h"
 #include "encode/morton.h"
 #include "host/to_proto.h"
@@ -24,10 +23,10 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
     if (simulation.count() == 0)
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
     auto context =
-        encode::EncoderContext::create(device, simulation.count(), encode::positionsOf(simulation).slotOf != nullptr);
+        encode::EncoderContext::create(device, simulation.count(), encode::sourceOf(simulation).slotOf != nullptr);
     if (!context) return tl::unexpected(context.error());
-    const double quantum = codec::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
-    auto encoder = encode::FrameEncoder::create(**context, {.quantum = quantum});
+    const double smallestRadius = sim::radiiOf(simulation.scene()).smallest;
+    auto encoder = encode::FrameEncoder::create(**context, options.tier, smallestRadius);
     if (!encoder) return tl::unexpected(encoder.error());
     // The file is created last, so that an existing file is kept if the device has no room.
     auto writer = recording::Writer::create(options.path, options.replace);
@@ -35,7 +34,6 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
     std::unique_ptr<RunRecorder> recorder(new RunRecorder(options, device, simulation, std::move(*writer)));
     recorder->context_ = std::move(*context);
     recorder->encoder_ = std::move(*encoder);
-    recorder->quantum_ = quantum;
     if (auto done = recorder->begin(); !done) return tl::unexpected(done.error());
     return recorder;
 }
@@ -91,17 +89,16 @@ Result<void> RunRecorder::writeSettings() {
 Result<void> RunRecorder::write(recording::Kind kind) {
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
     if (kind == recording::Kind::Keyframe)
-        encoder_->encodeKeyframe(encode::positionsOf(simulation_), true);
+        encoder_->encodeKeyframe(encode::sourceOf(simulation_), true);
     else if (kind == recording::Kind::Delta)
-        encoder_->encodeDelta(encode::positionsOf(simulation_), true);
+        encoder_->encodeDelta(encode::sourceOf(simulation_), true);
     else
         encoder_->encodeResync(true);
     device_.endTimer();
-    const std::vector<std::byte> bytes = encoder_->download();
-    if (auto alive = device_.status(); !alive) return alive;  // the bytes are invalid after a device loss
-
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
+    encoder_->download(frame);
+    if (auto alive = device_.status(); !alive) return alive;  // the bytes are invalid after a device loss
     frame.set_sequence(kind == recording::Kind::Resync ? sequence_ : ++sequence_);
     frame.set_epoch(epoch);
     frame.set_step(simulation_.steps());
@@ -109,8 +106,6 @@ Result<void> RunRecorder::write(recording::Kind kind) {
     frame.set_count(simulation_.count());
     frame.set_tier(options_.tier);
     frame.set_order(order);
-    frame.set_quantum(quantum_);
-    frame.set_spb(bytes.data(), bytes.size());
     return add(kind, message);
 }
 

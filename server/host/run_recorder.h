@@ -46,7 +46,6 @@ class RunRecorder {
     recording::Writer writer_;
     std::unique_ptr<encode::EncoderContext> context_;
     std::unique_ptr<encode::FrameEncoder> encoder_;
-    double quantum_ = 0;  // m
     std::uint64_t sequence_ = 0;
     double due_ = 0;        // number of the next frame, which is due at due_ / rate
     double keyframe_ = 0;   // time of the last keyframe (s simulated)

@@ -175,7 +175,7 @@ void SimulationProducer::produce(Clock::time_point now) {
 
 encode::EncoderInput SimulationProducer::encoderInput(Clock::time_point now) {
     sim::Simulation& simulation = host_.simulation();
-    return {.source = encode::positionsOf(simulation),
+    return {.source = encode::sourceOf(simulation),
             .spheres = simulation.count(),
             .smallestRadius = simulation.radii().smallest,
             .epoch = epoch_,

@@ -35,7 +35,7 @@ Result<Recording> Recording::open(const std::string& path) {
                     "has no frames" + (recording.damage().empty() ? "" : ": " + recording.damage()));
     // Read the first frame now, so that open() reports its errors.
     if (auto right = recording.startAt(first->offset); !right) return tl::unexpected(right.error());
-    recording.decoder_.reset();
+    recording.dropDecoders();
     recording.offset_ = first->offset;
     return recording;
 }
@@ -46,7 +46,7 @@ tl::unexpected<Error> Recording::bad(std::uint64_t offset, const std::string& wh
 
 // Moves to the keyframe at this offset.
 Result<void> Recording::startAt(std::uint64_t offset) {
-    decoder_.reset();
+    dropDecoders();
     table_.reset();
     order_.reset();
     skippedEvents_.clear();
@@ -76,7 +76,7 @@ Result<void> Recording::seek(double time) {
         if (from == nullptr || entry.time <= time + sameTime) from = &entry;
     }
     if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
-    const bool forward = decoder_ && !decoder_->wantsKeyframe() && time >= time_ && from->offset < offset_;
+    const bool forward = decoded() && !decoders_[0]->wantsKeyframe() && time >= time_ && from->offset < offset_;
     if (!forward)
         if (auto done = startAt(from->offset); !done) return done;
     return advanceTo(time);
@@ -143,7 +143,7 @@ Result<bool> Recording::process(const Record& record, std::uint64_t offset) {
     if (!message.ParseFromString(record.payload)) return bad(offset, "it is no message");
     if (!holds(record.kind, message)) return bad(offset, "its message is of another kind");
     if (record.kind == Kind::Scene || record.kind == Kind::Order) {
-        decoder_.reset();
+        dropDecoders();
         table_.reset();
         if (record.kind == Kind::Scene) {
             facts_ = std::move(*message.mutable_scene());
@@ -157,15 +157,15 @@ Result<bool> Recording::process(const Record& record, std::uint64_t offset) {
         return false;
     }
     if (auto done = decode(message.frame(), offset); !done) {
-        decoder_.reset();
+        dropDecoders();
         return tl::unexpected(done.error());
     }
     time_ = record.time;
     return true;
 }
 
-// Builds table_ and decoder_ for a new scene or order.
-Result<void> Recording::ensureDecoder(std::uint64_t offset) {
+// Builds table_ and decoders_ for a new scene or order.
+Result<void> Recording::ensureDecoders(std::uint64_t offset) {
     if (!table_) {
         if (!order_) return bad(offset, "no order comes before it");
         auto table = SphereTable::from(facts_, *order_);
@@ -173,33 +173,37 @@ Result<void> Recording::ensureDecoder(std::uint64_t offset) {
         table_ = std::move(*table);
         order_.reset();
     }
-    if (!decoder_) decoder_ = std::make_unique<codec::Decoder>(table_->spheres());
+    if (decoded()) return {};
+    for (auto& decoder : decoders_) decoder = std::make_unique<codec::Decoder>(table_->spheres());
     return {};
 }
 
 Result<void> Recording::decode(const v1::Frame& frame, std::uint64_t offset) {
-    if (auto done = ensureDecoder(offset); !done) return done;
+    if (auto done = ensureDecoders(offset); !done) return done;
     if (frame.epoch() != table_->epoch || frame.order() != table_->order)
         return bad(offset, "its frame is of other spheres than scene and order before it");
-    if (!(frame.quantum() > 0) || !std::isfinite(frame.quantum())) return bad(offset, "its frame has no quantum");
-    const auto done = decoder_->apply(std::as_bytes(std::span(frame.spb())));
-    if (!done) return bad(offset, done.error().text());
-    quantum_ = frame.quantum();
+    for (std::size_t column = 0; column < codec::columnCount; ++column) {
+        const codec::EncodedColumn encoded = codec::columns[column].read(frame);
+        if (!(encoded.quantum > 0) || !std::isfinite(encoded.quantum)) return bad(offset, "its frame has no quantum");
+        const auto done = decoders_[column]->apply(std::as_bytes(std::span(encoded.spb)));
+        if (!done) return bad(offset, done.error().text());
+        quanta_[column] = encoded.quantum;
+    }
     step_ = frame.step();
     return {};
 }
 
 Snapshot Recording::now() {
-    if (table_ && decoder_) {
+    if (table_ && decoded()) {
         const glm::dvec3 centre = 0.5 * (table_->low + table_->high);
-        const auto cells = decoder_->newest();
+        const auto cells = decoders_[0]->newest();
         positions_.resize(cells.size());
         for (std::size_t k = 0; k < cells.size(); ++k)
-            positions_[table_->ids[k]] = centre + quantum_ * glm::dvec3(cells[k]);
+            positions_[table_->ids[k]] = centre + quanta_[0] * glm::dvec3(cells[k]);
     }
     return {.time = time_,
             .step = step_,
-            .error = quantum_ / 2,
+            .error = quanta_[0] / 2,
             .positions = positions_,
             .radii = table_ ? std::span<const float>(table_->radii) : std::span<const float>(),
             .low = table_ ? table_->low : glm::dvec3(),

@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "codec/columns.h"
 #include "codec/decoder.h"
 #include "core/result.h"
 #include "recording/index.h"
@@ -59,15 +60,14 @@ class Recording {
     // Time of the next frame (s); nullopt at the end.
     [[nodiscard]] Result<std::optional<double>> nextTime() const;
     // Returns true when now() has positions. False after an error, until a keyframe has been read.
-    [[nodiscard]] bool shows() const { return table_ && decoder_ && !decoder_->wantsKeyframe(); }
+    [[nodiscard]] bool shows() const { return table_ && decoded() && !decoders_[0]->wantsKeyframe(); }
     // Offset in the file of the current scene facts. Another offset means another scene, even with the same epoch.
     [[nodiscard]] std::uint64_t sceneOffset() const { return sceneOffset_; }
-    [[nodiscard]] std::span<const glm::ivec3> cells() const {
-        return decoder_->newest();
-    }  // grid positions, in codec order
+    // The values of a column (see codec/columns.h): quantum(column) * cells(column), in codec order.
+    [[nodiscard]] std::span<const glm::ivec3> cells(std::size_t column) const { return decoders_[column]->newest(); }
+    [[nodiscard]] double quantum(std::size_t column) const { return quanta_[column]; }
     [[nodiscard]] std::span<const std::uint32_t> order() const { return table_->ids; }  // ids, in codec order
     [[nodiscard]] std::span<const float> radii() const { return table_->radii; }        // by id, m
-    [[nodiscard]] double quantum() const { return quantum_; }                           // m
 
     // Returns and clears the events that next() and seek() skipped since the last call, newest last; at most 64.
     std::vector<v1::ServerMessage> takeSkippedEvents() { return std::exchange(skippedEvents_, {}); }
@@ -80,7 +80,9 @@ class Recording {
     void collectEvent(const Record& record);
     Result<bool> process(const Record& record, std::uint64_t offset);
     Result<void> decode(const v1::Frame& frame, std::uint64_t offset);
-    Result<void> ensureDecoder(std::uint64_t offset);
+    Result<void> ensureDecoders(std::uint64_t offset);
+    void dropDecoders() { decoders_ = {}; }
+    [[nodiscard]] bool decoded() const { return decoders_[0] != nullptr; }
     [[nodiscard]] tl::unexpected<Error> bad(std::uint64_t offset, const std::string& what) const;
 
     RecordFile file_;
@@ -90,10 +92,10 @@ class Recording {
     std::uint64_t sceneOffset_ = 0;   // bytes
     std::optional<v1::Order> order_;  // until table_ is built from it
     std::optional<SphereTable> table_;
-    std::unique_ptr<codec::Decoder> decoder_;
+    codec::PerColumn<std::unique_ptr<codec::Decoder>> decoders_;  // all or none
     double time_ = 0;
     std::uint64_t step_ = 0;
-    double quantum_ = 0;
+    codec::PerColumn<double> quanta_{};
     std::vector<glm::dvec3> positions_;  // filled by now()
     v1::Settings settings_;
     std::vector<v1::ServerMessage> skippedEvents_;

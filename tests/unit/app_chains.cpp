@@ -30,7 +30,7 @@ class Watched : public testing::Test {
     }
 
     [[nodiscard]] EncoderInput encoderInput() const {
-        return {.source = {.position = position_.get(), .slotOf = nullptr},
+        return {.source = {.columns = {position_.get()}, .slotOf = nullptr},
                 .spheres = count_,
                 .smallestRadius = 0.05,
                 .epoch = epoch_,

@@ -23,7 +23,8 @@ MODULES = {
     "client": {"net", "core"},
     "host": {"net", "recording", "encode", "diagnostics", "codec", "sim", "scene", "compute", "core"},
     "cli": {
-        "host", "client", "measure", "net", "recording", "encode", "diagnostics", "sim", "scene", "compute", "core",
+        "host", "client", "measure", "net", "recording", "encode", "codec", "diagnostics", "sim", "scene", "compute",
+        "core",
     },
 }
 # Quoted includes outside of server/: messages, files embedded at build time, layout of the kernels' data.

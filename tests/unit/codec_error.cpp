@@ -20,7 +20,7 @@
 #include "codec/decoder.h"
 #include "codec/rendition.h"
 #include "compute/device.h"
-#include "encode/frame_encoder.h"
+#include "encode/column_encoder.h"
 #include "encode/morton.h"
 #include "scene/catalog.h"
 #include "scene/json.h"
@@ -59,10 +59,10 @@ scene::Scene sceneOf(const std::string& name) {
 // One chain with two decoders: one from the start, and one from a resync keyframe in the middle.
 struct Chain {
     Chain(encode::EncoderContext& context, double step)
-        : quantum(step), frames(valueOf(encode::FrameEncoder::create(context, {.quantum = step}))) {}
+        : quantum(step), frames(valueOf(encode::ColumnEncoder::create(context, {.quantum = step}))) {}
 
     double quantum;  // m
-    std::unique_ptr<encode::FrameEncoder> frames;
+    std::unique_ptr<encode::ColumnEncoder> frames;
     std::unique_ptr<codec::Decoder> first, joined;
     double worst = 0;  // error, in quanta
 };
@@ -80,7 +80,9 @@ class CodecError : public testing::TestWithParam<std::string> {
             encoder_.emplace_back(*context_, codec::quantumOf(tier, simulation_->radii().smallest));
     }
 
-    encode::PositionSource source() { return encode::positionsOf(*simulation_); }
+    encode::ColumnSource source() {
+        return {simulation_->buffer(sim::Array::Position), simulation_->buffer(sim::Array::SlotOf)};
+    }
 
     void step(int steps) {
         for (int k = 0; k < steps; ++k)

@@ -23,7 +23,7 @@ constexpr double edge = 1073741824;
 Encoder::Encoder(const std::string& device, std::uint32_t spheres, double quantum, glm::vec3 origin)
     : device_(valueOf(compute::openDevice(device))),
       context_(valueOf(encode::EncoderContext::create(*device_, spheres, true))),
-      encoder_(valueOf(encode::FrameEncoder::create(*context_, {.origin = origin, .quantum = quantum}))),
+      encoder_(valueOf(encode::ColumnEncoder::create(*context_, {.origin = origin, .quantum = quantum}))),
       position_(valueOf(device_->createBuffer("position", spheres * sizeof(glm::vec4), "r"))),
       slotOf_(valueOf(device_->createBuffer("slotOf", spheres * sizeof(std::uint32_t)))),
       slots_(spheres) {
@@ -32,11 +32,11 @@ Encoder::Encoder(const std::string& device, std::uint32_t spheres, double quantu
     device_->upload(*slotOf_, 0, std::as_bytes(std::span(slots_)));
 }
 
-encode::PositionSource Encoder::put(const Positions& byId) {
+encode::ColumnSource Encoder::put(const Positions& byId) {
     Positions bySlot(byId.size());
     for (std::size_t id = 0; id < byId.size(); ++id) bySlot[slots_[id]] = byId[id];
     device_->upload(*position_, 0, std::as_bytes(std::span(bySlot)));
-    return {.position = position_.get(), .slotOf = slotOf_.get()};
+    return {.values = position_.get(), .slotOf = slotOf_.get()};
 }
 
 Bytes Encoder::begin(const Positions& byId) {

@@ -10,7 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "compute/device.h"
-#include "encode/frame_encoder.h"
+#include "encode/column_encoder.h"
 
 namespace spherule::codec {
 
@@ -27,13 +27,13 @@ class Encoder {
     Bytes next(const Positions& byId);
     Bytes join();
 
-    [[nodiscard]] encode::FrameEncoder& frames() { return *encoder_; }
-    [[nodiscard]] encode::PositionSource put(const Positions& byId);
+    [[nodiscard]] encode::ColumnEncoder& frames() { return *encoder_; }
+    [[nodiscard]] encode::ColumnSource put(const Positions& byId);
 
   private:
     std::unique_ptr<compute::Device> device_;
     std::unique_ptr<encode::EncoderContext> context_;
-    std::unique_ptr<encode::FrameEncoder> encoder_;
+    std::unique_ptr<encode::ColumnEncoder> encoder_;
     std::unique_ptr<compute::Buffer> position_, slotOf_;
     std::vector<std::uint32_t> slots_;  // by id
 };

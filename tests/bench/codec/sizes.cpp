@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "codec/decoder.h"
-#include "encode/frame_encoder.h"
+#include "encode/column_encoder.h"
 #include "encode/morton.h"
 #include "rivals.h"
 
@@ -52,7 +52,7 @@ struct Ours {
 Ours ours(compute::Device& device, const Trajectory& trajectory, double quantum, const Order& order) {
     const std::uint32_t spheres = trajectory.spheres;
     const auto context = valueOf(encode::EncoderContext::create(device, spheres, false));
-    const auto frames = valueOf(encode::FrameEncoder::create(*context, {.quantum = quantum}));
+    const auto frames = valueOf(encode::ColumnEncoder::create(*context, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     context->setOrder(order);
     codec::Decoder decoder(spheres);

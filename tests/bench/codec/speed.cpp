@@ -12,7 +12,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "codec/decoder.h"
-#include "encode/frame_encoder.h"
+#include "encode/column_encoder.h"
 #include "encode/morton.h"
 
 namespace spherule::bench {
@@ -132,7 +132,7 @@ struct Copies : World {
 CodecSpeed timed(compute::Device& device, World& world, double quantum, const std::string& keep) {
     const auto spheres = static_cast<std::uint32_t>(world.slotOf.size());
     const auto context = valueOf(encode::EncoderContext::create(device, spheres, true));
-    const auto frames = valueOf(encode::FrameEncoder::create(*context, {.quantum = quantum}));
+    const auto frames = valueOf(encode::ColumnEncoder::create(*context, {.quantum = quantum}));
     const auto position = valueOf(device.createBuffer("position", spheres * sizeof(glm::vec4), "r"));
     const auto slotOf = valueOf(device.createBuffer("slotOf", spheres * sizeof(std::uint32_t)));
     device.upload(*slotOf, 0, std::as_bytes(std::span(world.slotOf)));
@@ -141,7 +141,7 @@ CodecSpeed timed(compute::Device& device, World& world, double quantum, const st
     const std::vector<std::uint32_t> order = encode::mortonOrder(byId);
     context->setOrder(order);
     write(keep, "order.u32", std::as_bytes(std::span(order)));
-    const encode::PositionSource source{.position = position.get(), .slotOf = slotOf.get()};
+    const encode::ColumnSource source{.values = position.get(), .slotOf = slotOf.get()};
     const auto put = [&] { device.upload(*position, 0, std::as_bytes(std::span(world.bySlot))); };
 
     put();
