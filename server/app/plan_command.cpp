@@ -19,7 +19,7 @@ int plan(const PlanOptions& options) {
     const auto loaded = scene::load(options.scene, options.kind, options.overrides);
     if (!loaded) return report(loaded.error());
     const auto plan = sim::planFor(*loaded, sim::featuresOf(*loaded),
-                                   static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiiOf(*loaded));
+                                   static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiusStatsOf(*loaded));
     fmt::print("{}\n", options.json ? sim::planJson(*loaded, plan) : sim::planText(*loaded, plan));
     return exitDone;
 }

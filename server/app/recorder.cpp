@@ -25,7 +25,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordOptions& options,
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
     auto tools = sim::TierTools::create(device, simulation.count(), simulation.tierSource().slotOf != nullptr);
     if (!tools) return tl::unexpected(tools.error());
-    const double quantum = codec::quantumOf(options.tier, sim::radiiOf(simulation.scene()).smallest);
+    const double quantum = codec::quantumOf(options.tier, sim::radiusStatsOf(simulation.scene()).smallest);
     auto tier = sim::Tier::create(**tools, {.quantum = quantum});
     if (!tier) return tl::unexpected(tier.error());
     // The file is created last, so that an existing file is kept if the device has no room.

@@ -314,7 +314,7 @@ void SimLoop::stopAtNonFinite() {
         fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
                     world_.simulation().divergence()));
     refuseSteps("a position or velocity became non-finite");
-    world_.simulation().restore();
+    world_.simulation().rollback();
     observer_.disturbed();
     announce();
 }

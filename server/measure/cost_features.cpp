@@ -33,7 +33,7 @@ double medianOf(std::vector<double> values) {
 // Returns the state in which the scene comes to rest under the model `balanced`.
 Result<sim::State> settled(Bench& bench, const scene::Scene& scene) {
     scene::Scene quick = scene;
-    quick.quality = {.model = scene::Model::Balanced, .substeps = 8, .pinned = true};
+    quick.quality = {.model = scene::Model::Balanced, .substeps = 8, .substepsFixed = true};
     auto opened = bench.openAsIs(quick);
     if (!opened) return tl::unexpected(opened.error());
     if (auto done = bench.run(**opened, bench.quick() ? 1 : 2); !done) return tl::unexpected(done.error());
@@ -47,7 +47,7 @@ Result<World> open(Bench& bench, scene::Scene scene, sim::State state, const Cha
         state.velocity[id] = glm::vec4(0, 0, 0, std::abs(state.velocity[id].w));
     }
     auto opened = bench.openBySubstep(std::move(scene));
-    if (opened) (*opened)->put(state);
+    if (opened) (*opened)->upload(state);
     return opened;
 }
 

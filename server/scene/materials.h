@@ -22,7 +22,7 @@ std::uint8_t materialNamed(Check& check, const std::string& name, const std::vec
 
 // The law between two materials: the smaller restitution and the geometric mean of the other values. A MaterialPair
 // replaces them.
-struct PairLaw {
+struct ContactParameters {
     double restitution = 0;
     double friction = 0;
     double rollingResistance = 0;
@@ -32,8 +32,8 @@ struct PairLaw {
 bool hasWalls(const Scene& scene);  // some face of the bounds is closed
 
 // Returns the laws that can act: between materials of spheres, and between these and materials of walls and obstacles.
-std::vector<PairLaw> actingLaws(const Scene& scene);
+std::vector<ContactParameters> actingContactParameters(const Scene& scene);
 
-PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);
+ContactParameters contactParametersBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);
 
 }  // namespace spherule::scene

@@ -3,7 +3,7 @@
 
 #include "scene/quality.h"
 #include "scene/stiffness.h"
-#include "sim/need.h"
+#include "sim/memory_needs.h"
 #include "sim/plan.h"
 
 namespace spherule::sim {
@@ -87,7 +87,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan) {
         text += fmt::format("{:<16}{:>14}{:>16.1f}\n", nameOf(spec.array), spec.bytes, perSphere(plan, spec.bytes));
     text += fmt::format("{:<16}{:>14}{:>16.1f}\n", "all", plan.bytes(), perSphere(plan, plan.bytes()));
     text += fmt::format("\n{:<36}{:>14}{:>16}\n", "memory", "bytes", "bytes/sphere");
-    for (const Need::Part& part : needOf(plan).parts())
+    for (const MemoryNeeds::Part& part : memoryNeedsOf(plan).parts())
         text += fmt::format("{:<36}{:>14}{:>16.1f}\n", part.name, part.bytes, perSphere(plan, part.bytes));
     text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "invocations", "when");
     for (const Row& row : rowsOf(plan))
@@ -127,7 +127,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan) {
     json["bytes"] = plan.bytes();
     json["bytesPerSphere"] = perSphere(plan, plan.bytes());
     json["memory"] = nlohmann::ordered_json::array();
-    for (const Need::Part& part : needOf(plan).parts())
+    for (const MemoryNeeds::Part& part : memoryNeedsOf(plan).parts())
         json["memory"].push_back({{"name", part.name}, {"bytes", part.bytes}});
     json["passes"] = nlohmann::ordered_json::array();
     for (const Row& row : rowsOf(plan))

@@ -12,9 +12,9 @@ const Module moduleBalanced{
         [](PlanBuilder& plan) {
             if (plan.has(Feature::Contacts)) plan.arrays({Array::Touching});
             plan.overPairs(Stage::Solve, Pass::Positions, "solve_positions.comp");
-            if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallPositions, "walls_positions.comp");
+            if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallPositions, "walls_positions.comp");
             plan.overPairs(Stage::Solve, Pass::Velocities, "solve_velocities.comp");
-            if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
+            if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
         },
 };
 

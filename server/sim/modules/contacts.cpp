@@ -39,7 +39,7 @@ void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
     p.levels = static_cast<std::uint32_t>(grid.levels.size());
     for (std::size_t k = 0; k < grid.levels.size(); ++k) {
         const Level& level = grid.levels[k];
-        p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.crowd, 0);
+        p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.sampleThreshold, 0);
         p.levelCells[k] = glm::uvec4(level.cells, level.first);
     }
     p.margin = grid.margin;

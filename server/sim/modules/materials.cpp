@@ -7,8 +7,8 @@ namespace spherule::sim {
 
 namespace {
 
-bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::PairLaw&)) {
-    return std::ranges::any_of(scene::actingLaws(scene), holds);
+bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::ContactParameters&)) {
+    return std::ranges::any_of(scene::actingContactParameters(scene), holds);
 }
 
 }  // namespace
@@ -18,7 +18,7 @@ const Module moduleRestitution{
     .feature = Feature::Restitution,
     .required =
         [](const scene::Scene& scene, const Features& /*others*/) {
-            return anyContact(scene, [](const auto& law) { return law.restitution > 0; });
+            return anyContact(scene, [](const auto& contact) { return contact.restitution > 0; });
         },
 };
 
@@ -48,7 +48,7 @@ const Module moduleFriction{
     .feature = Feature::Friction,
     .required =
         [](const scene::Scene& scene, const Features& /*others*/) {
-            return anyContact(scene, [](const auto& law) { return law.friction > 0; });
+            return anyContact(scene, [](const auto& contact) { return contact.friction > 0; });
         },
     .declare =
         [](PlanBuilder& plan) {
@@ -58,7 +58,7 @@ const Module moduleFriction{
                 plan.arrays({Array::NormalImpulses});
                 plan.overPairs(Stage::Friction, Pass::Friction, "solve_friction.comp");
             }
-            if (plan.obstructed()) {
+            if (plan.hasSurfaces()) {
                 plan.arrays({Array::WallImpulse});
                 plan.overSpheres(Stage::Friction, Pass::WallFriction, "walls_friction.comp");
             }
@@ -70,8 +70,8 @@ const Module moduleRolling{
     .feature = Feature::Rolling,
     .required =
         [](const scene::Scene& scene, const Features& others) {
-            return others.has(Feature::Friction) && anyContact(scene, [](const scene::PairLaw& law) {
-                       return law.rollingResistance > 0 || law.spinningResistance > 0;
+            return others.has(Feature::Friction) && anyContact(scene, [](const scene::ContactParameters& contact) {
+                       return contact.rollingResistance > 0 || contact.spinningResistance > 0;
                    });
         },
 };

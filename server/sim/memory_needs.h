@@ -13,14 +13,14 @@
 // allocated.
 namespace spherule::sim {
 
-struct Need {
+struct MemoryNeeds {
     struct Part {
         std::string_view name;
         std::uint64_t bytes = 0;
     };
-    std::uint64_t arrays = 0;  // the plan's arrays on the device; host memory if the device has none of its own
-    std::vector<Part> host;    // host memory, as long as the simulation exists
-    std::uint64_t work = 0;    // host memory in addition, while it is made or executes the command that copies most
+    std::uint64_t arrays = 0;     // the plan's arrays on the device; host memory if the device has none of its own
+    std::vector<Part> host;       // host memory, as long as the simulation exists
+    std::uint64_t temporary = 0;  // host memory in addition, while it is made or executes the command that copies most
     // The order: allocated with the first viewer or recording. Tiers: each tier that is watched or recorded.
     // `...Arrays` on the device, the others on the host.
     std::uint64_t orderArrays = 0, order = 0;
@@ -30,7 +30,7 @@ struct Need {
     [[nodiscard]] std::vector<Part> parts() const;  // all of it, with names for users
 };
 
-Need needOf(const Plan& plan);
+MemoryNeeds memoryNeedsOf(const Plan& plan);
 
 // Returns the host memory (bytes) of the plan's arrays on `device`.
 std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan);

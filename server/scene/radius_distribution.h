@@ -13,7 +13,7 @@ constexpr double smallestRadius = 1e-6;  // m
 constexpr double largestRadius = 1e6;    // m
 
 // A validated law of radii: always the same, uniform in min..max, or normal cut to min..max.
-struct Radii {
+struct RadiusDistribution {
     struct Bell {
         double mean = 0;
         double deviation = 0;
@@ -30,6 +30,6 @@ struct Radii {
 // Reads a single radius (m).
 double readRadius(Check& check, double value, std::string_view field);
 
-Radii readRadii(Check& check, const v1::Radius& message, std::string_view field);
+RadiusDistribution readRadiusDistribution(Check& check, const v1::Radius& message, std::string_view field);
 
 }  // namespace spherule::scene
