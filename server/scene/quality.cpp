@@ -116,11 +116,11 @@ Result<void> fitSubsteps(Scene& scene) {
         quality.substeps = static_cast<std::uint32_t>(wanted);
         return {};
     }
-    if (const std::uint32_t most = maxSubsteps(scene); quality.substeps < 1 || quality.substeps > most)
+    if (const std::uint32_t most = maxSubstepsFor(scene); quality.substeps < 1 || quality.substeps > most)
         return fail(ErrorKind::Input, field,
                     fmt::format("is {}, must be 1 to {} for the {} spheres of this scene", quality.substeps, most,
                                 scene.spheres.size()));
-    const std::uint32_t fewest = minSubsteps(scene, quality.model);
+    const std::uint32_t fewest = minSubstepsFor(scene, quality.model);
     if (quality.substeps >= fewest) return {};
     if (quality.target) {
         quality.substeps = fewest;  // with a target, the number of substeps may change
@@ -133,7 +133,7 @@ Result<void> fitSubsteps(Scene& scene) {
                 fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest));
 }
 
-std::uint32_t maxSubsteps(const Scene& scene) {
+std::uint32_t maxSubstepsFor(const Scene& scene) {
     // Per step: about ten seconds on one processor.
     constexpr double mostSphereSubsteps = 2e8;
     // The launches of a substep take as long as this number of spheres.
@@ -148,7 +148,7 @@ std::uint32_t maxSubsteps(const Scene& scene) {
 
 std::uint32_t maxRaisedSubsteps(const Scene& scene) {
     constexpr double timesAsked = 256;
-    const double most = std::min<double>(timesAsked * scene.quality.substeps, maxSubsteps(scene));
+    const double most = std::min<double>(timesAsked * scene.quality.substeps, maxSubstepsFor(scene));
     return std::max(scene.quality.substeps, static_cast<std::uint32_t>(most));
 }
 
@@ -173,7 +173,7 @@ Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
     return {};
 }
 
-std::uint32_t minSubsteps(const Scene& scene, Model model) {
+std::uint32_t minSubstepsFor(const Scene& scene, Model model) {
     if (model != Model::Accurate) return 1;
     double fewest = 0;
     if (followsHertz(scene)) {
@@ -197,7 +197,7 @@ SubstepRange substepRange(const Scene& scene, Model model) {
     constexpr double fewer = 2;  // factor; with fewer substeps, piles are squeezed
     constexpr double more = 8;
     const double own = defaultSubsteps(withFreeSubsteps(scene, model));
-    const double least = minSubsteps(scene, model);
+    const double least = minSubstepsFor(scene, model);
     const double fewest = std::clamp<double>(std::floor(own / fewer), least, maxSubsteps);
     return {.fewest = static_cast<std::uint32_t>(fewest),
             .most = static_cast<std::uint32_t>(std::clamp<double>(own * more, fewest, maxSubsteps))};

@@ -25,11 +25,11 @@ Result<void> fitSubsteps(Scene& scene);
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model);
 
 // Returns the fewest substeps with which the model works.
-std::uint32_t minSubsteps(const Scene& scene, Model model);
+std::uint32_t minSubstepsFor(const Scene& scene, Model model);
 
 // Returns the most substeps allowed for the scene with its model. With more, a step would delay everything else for too
 // long.
-std::uint32_t maxSubsteps(const Scene& scene);
+std::uint32_t maxSubstepsFor(const Scene& scene);
 
 // Returns the most substeps that the simulation uses while a sphere is very fast.
 std::uint32_t maxRaisedSubsteps(const Scene& scene);

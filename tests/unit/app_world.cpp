@@ -214,7 +214,7 @@ TEST(World, SpheresInOnePointArePushedApartInPieces) {
 
 TEST(World, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
     const auto world = open("box-4k");
-    const std::uint32_t most = scene::maxSubsteps(world->simulation().scene());
+    const std::uint32_t most = scene::maxSubstepsFor(world->simulation().scene());
     const Error refused = refusalOf(*world, R"({"set":{"substeps":1000000}})");
     EXPECT_NE(refused.message.find(fmt::format("1 to {}", most)), std::string::npos) << refused.text();
     refusalOf(*world, fmt::format(R"({{"set":{{"substeps":{}}}}})", most + 1));
@@ -228,9 +228,9 @@ TEST(World, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     scene.bounds = {.min = glm::dvec3(-10), .max = glm::dvec3(10)};
     for (const std::size_t spheres : {1, 1000, 100'000, 1'000'000}) {
         scene.spheres.assign(spheres, {.radius = 0.05F});
-        const double work = static_cast<double>(scene::maxSubsteps(scene)) * static_cast<double>(spheres);
+        const double work = static_cast<double>(scene::maxSubstepsFor(scene)) * static_cast<double>(spheres);
         EXPECT_LE(work, 2e8) << spheres;
-        EXPECT_GE(scene::maxSubsteps(scene), 64U) << spheres;
+        EXPECT_GE(scene::maxSubstepsFor(scene), 64U) << spheres;
     }
 }
 

@@ -106,11 +106,11 @@ TEST(SceneQuality, AModelIsOfUseWithinARange) {
     const Scene stiff = sceneWith(R"("materials": [{"young": 1e7}])", {.model = Model::Accurate});
     Scene fewest = stiff;
     fewest.quality.substepsFixed = true;
-    fewest.quality.substeps = minSubsteps(stiff, Model::Accurate);
+    fewest.quality.substeps = minSubstepsFor(stiff, Model::Accurate);
     EXPECT_TRUE(fitSubsteps(fewest));
     --fewest.quality.substeps;
     EXPECT_FALSE(fitSubsteps(fewest));
-    EXPECT_GE(substepRange(stiff, Model::Accurate).fewest, minSubsteps(stiff, Model::Accurate));
+    EXPECT_GE(substepRange(stiff, Model::Accurate).fewest, minSubstepsFor(stiff, Model::Accurate));
     EXPECT_EQ(substepsFor(scene, Model::Balanced), 8U);
     EXPECT_FALSE(substepsFor(sceneWith(halfKnown), Model::Accurate));
 }

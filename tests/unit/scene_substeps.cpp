@@ -100,7 +100,7 @@ TEST(SceneSubsteps, OfKnownMaterialsAreCheckedAsASceneIsBuilt) {
 TEST(SceneSubsteps, SpringsAreNotSoSoftThatSpheresPassThroughEachOther) {
     Scene softest = sceneOf(R"("model": "ACCURATE", "overlap": 0.5)");
     const std::uint32_t fewest = softest.quality.substeps;
-    EXPECT_EQ(minSubsteps(sceneOf(accurate), Model::Accurate), fewest) << "whatever overlap is asked for";
+    EXPECT_EQ(minSubstepsFor(sceneOf(accurate), Model::Accurate), fewest) << "whatever overlap is asked for";
     softest.quality.substepsFixed = true;
     EXPECT_EQ(refusalBy(softest), "accepted");
     softest.quality.substeps = fewest - 1;

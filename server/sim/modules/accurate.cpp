@@ -27,6 +27,7 @@ const Module moduleAccurate{
                    const Features& /*others*/) { return scene.quality.model == scene::Model::Accurate; },
     .declare = declareForces,
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.maxWallHistory = from.plan.maxWallHistory; },
+    .cost = {.reason = "the table has columns for the models"},
 };
 
 // The part of a position that float32 cannot hold. The substeps of `accurate` are so short that without it a slow
@@ -35,6 +36,7 @@ const Module moduleLowBits{
     .feature = Feature::LowBits,
     .required = [](const scene::Scene& /*scene*/, const Features& others) { return others.has(Feature::Accurate); },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::PositionLow}); },
+    .cost = {.reason = "part of `accurate`"},
 };
 
 }  // namespace spherule::sim

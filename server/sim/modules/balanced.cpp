@@ -16,6 +16,7 @@ const Module moduleBalanced{
             plan.overPairs(Stage::Solve, Pass::Velocities, "solve_velocities.comp");
             if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
         },
+    .cost = {.reason = "the table has columns for the models"},
 };
 
 // The velocity before the substep. Impacts and sleep are detected by it.
@@ -27,6 +28,7 @@ const Module moduleVelocityBefore{
             return others.has(Feature::Sleep) || (others.has(Feature::Balanced) && impacts);
         },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::VelocityBefore}); },
+    .cost = {.reason = "part of `balanced` and of sleep"},
 };
 
 }  // namespace spherule::sim

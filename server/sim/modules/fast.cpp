@@ -14,6 +14,7 @@ const Module moduleFast{
             if (plan.has(Feature::Gravity)) plan.arrays({Array::WallWork});
             plan.overSpheres(Stage::Solve, Pass::WallImpulses, "walls_impulses.comp");
         },
+    .cost = {.reason = "the table has columns for the models"},
 };
 
 }  // namespace spherule::sim

@@ -89,6 +89,14 @@ struct ParameterSource {
     double substep;  // s
 };
 
+// How `spherule measure` finds the cost of a feature: it compares a bed of equal spheres at rest with and without it.
+struct CostComparison {
+    std::string_view row{};                    // its name in the table; empty if the table has no row
+    void (*without)(scene::Scene&) = nullptr;  // changes the scene of the bed; nullptr: not at all
+    void (*with)(scene::Scene&) = nullptr;
+    std::string_view reason{};  // why the table has no row
+};
+
 // An optional feature and its contributions to the plan and the parameters.
 struct Module {
     Feature feature;
@@ -96,6 +104,7 @@ struct Module {
     bool (*required)(const scene::Scene& scene, const Features& others);
     void (*declare)(PlanBuilder& plan) = nullptr;
     void (*upload)(const ParameterSource& from, layout::Parameters& parameters) = nullptr;
+    CostComparison cost{};  // with a row or a reason
 };
 
 // One per feature, defined in sim/modules/.

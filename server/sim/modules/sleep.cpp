@@ -51,6 +51,12 @@ const Module moduleSleep{
         },
     .declare = declareSleep,
     .upload = uploadSleep,
+    .cost = {.row = "sleep, nobody asleep",
+             .with =
+                 [](scene::Scene& scene) {
+                     scene.sleep.enabled = true;
+                     scene.sleep.time = 1e6;
+                 }},
 };
 
 }  // namespace spherule::sim

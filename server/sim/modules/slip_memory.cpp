@@ -21,6 +21,7 @@ const Module moduleSlipMemory{
             plan.onRebuild(Stage::CarrySlip, Pass::SlipMemory, "slip_carry.comp", LAUNCH_GROUPS);
             plan.onRebuild(Stage::RestoreSlip, Pass::SlipMemory, "slip_restore.comp", LAUNCH_GROUPS);
         },
+    .cost = {.reason = "part of friction in `accurate`"},
 };
 
 }  // namespace spherule::sim
