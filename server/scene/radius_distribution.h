@@ -12,7 +12,7 @@ namespace spherule::scene {
 constexpr double smallestRadius = 1e-6;  // m
 constexpr double largestRadius = 1e6;    // m
 
-// A validated law of radii: always the same, uniform in min..max, or normal cut to min..max.
+// A validated distribution of radii: always the same, uniform in min..max, or normal cut to min..max.
 struct RadiusDistribution {
     struct Bell {
         double mean = 0;
@@ -23,7 +23,7 @@ struct RadiusDistribution {
     double max = 0;  // m
     std::optional<Bell> bell;
 
-    // A constant law draws no random number.
+    // A constant distribution draws no random number.
     [[nodiscard]] float draw(Random& random) const;
 };
 

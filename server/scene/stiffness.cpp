@@ -235,19 +235,19 @@ double springModulus(const Scene& scene) {
 }
 
 Stiffness stiffnessBetween(const Scene& scene, std::uint8_t a, std::uint8_t b, double springModulus) {
-    Stiffness law;
-    law.damping = dampingRatio(contactParametersBetween(scene, a, b).restitution);
+    Stiffness stiffness;
+    stiffness.damping = dampingRatio(contactParametersBetween(scene, a, b).restitution);
     if (springModulus > 0) {
-        law.normal = springModulus;
-        law.tangential = tangentialShare * law.normal;
-        return law;
+        stiffness.normal = springModulus;
+        stiffness.tangential = tangentialShare * stiffness.normal;
+        return stiffness;
     }
     const auto shear = [](const Material& m) { return (2 - m.poisson) / shearModulus(m); };
     const Material& first = scene.materials[a];
     const Material& second = scene.materials[b];
-    law.normal = 1 / (compliance(first) + compliance(second));
-    law.tangential = 1 / (shear(first) + shear(second));
-    return law;
+    stiffness.normal = 1 / (compliance(first) + compliance(second));
+    stiffness.tangential = 1 / (shear(first) + shear(second));
+    return stiffness;
 }
 
 std::optional<TooSoft> tooSoft(const Scene& scene) {
@@ -297,8 +297,9 @@ ContactTime contactTimeOf(const Scene& scene) {
         for (const std::uint8_t b : met) {
             const Stiffness law = stiffnessBetween(scene, a, b, modulus);
             const double contact =
-                followsHertz(scene) ? 2.87 * std::pow(mass * mass / (r / 2 * law.normal * law.normal * time.speed), 0.2)
-                                    : pi * std::sqrt(mass / (law.normal * r));
+                followsHertz(scene)
+                    ? 2.87 * std::pow(mass * mass / (r / 2 * stiffness.normal * stiffness.normal * time.speed), 0.2)
+                    : pi * std::sqrt(mass / (stiffness.normal * r));
             time.contact = std::min(time.contact, contact);
         }
         if (!followsHertz(scene)) continue;

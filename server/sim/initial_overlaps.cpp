@@ -44,8 +44,8 @@ double maxSafeOverlap(const scene::Scene& scene) {
 }
 
 InitialOverlapResolver::InitialOverlapResolver(compute::Device& device, const scene::Scene& scene, const State& state,
-                                               double most)
-    : maxOverlap_(most),
+                                               double maxOverlap)
+    : maxOverlap_(maxOverlap),
       preparation_(std::make_unique<Preparation>(device, SceneAndState{withoutForces(scene), atRest(state)})) {}
 
 InitialOverlapResolver::~InitialOverlapResolver() = default;

@@ -21,16 +21,16 @@ class Simulation;
 double maxSafeOverlap(const scene::Scene& scene);
 
 // Pushes spheres apart by moving them, within the walls and without gravity or friction. Ends when no overlap is larger
-// than `most` (a fraction of the smaller radius), or after many sweeps. No simulated time passes. Needs memory for a
-// simulation of its own. Used by the thread that owns the device.
+// than `maxOverlap` (a fraction of the smaller radius), or after many sweeps. No simulated time passes. Needs memory
+// for a simulation of its own. Used by the thread that owns the device.
 class InitialOverlapResolver {
   public:
-    InitialOverlapResolver(compute::Device& device, const scene::Scene& scene, const State& state, double most);
+    InitialOverlapResolver(compute::Device& device, const scene::Scene& scene, const State& state, double maxOverlap);
     ~InitialOverlapResolver();
     InitialOverlapResolver(const InitialOverlapResolver&) = delete;
     InitialOverlapResolver& operator=(const InitialOverlapResolver&) = delete;
 
-    // Does one sweep, or one piece of the preparation. Returns true once the relaxation has ended. Do not call it again
+    // Does one sweep, or one piece of the preparation. Returns true once it has ended. Do not call it again
     // after that or after an error.
     Result<bool> advance();
 
@@ -45,7 +45,7 @@ class InitialOverlapResolver {
     std::unique_ptr<Preparation> preparation_;  // of simulation_, until that exists
     std::unique_ptr<Simulation> simulation_;
     std::uint32_t sweeps_ = 0;
-    bool measured_ = false;  // overlaps checked since the last sweep
+    bool measured_ = false;  // overlaps were measured since the last sweep
     double overlap_ = 0;
 };
 

@@ -46,7 +46,8 @@ class Preparation {
     Preparation& operator=(const Preparation&) = delete;
 
     // Does one piece of about the length of a substep, or waits up to `maxWait` for the thread that builds. Returns
-    // true once all is done and Simulation may take the preparation. Do not call it again after that or after an error.
+    // true once all is done and Simulation may adopt the preparation. Do not call it again after that or after an
+    // error.
     Result<bool> advance(std::chrono::milliseconds maxWait = std::chrono::milliseconds(0));
     // Does all remaining pieces.
     Result<void> finish();

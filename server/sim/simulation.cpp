@@ -68,7 +68,7 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
 }
 
 // Takes the results of a preparation that is done. Cannot fail.
-void Simulation::take(Preparation& preparation) {
+void Simulation::install(Preparation& preparation) {
     scene_ = std::move(preparation.built_.scene);
     radii_ = preparation.radii_;
     pipeline_ = std::move(preparation.pipeline_);

@@ -101,10 +101,10 @@ class Simulation {
   private:
     explicit Simulation(compute::Device& device) : device_(device) {}
 
-    // What adopt() resets in addition to arrays and kernels. All spheres wake in each case.
+    // The data that adopt() resets in addition to arrays and kernels. All spheres wake in each case.
     enum class ResetScope : std::uint8_t { Nothing, Spheres, World };
 
-    void take(Preparation& preparation);
+    void install(Preparation& preparation);
     // `copies`: the claim for copies made for the preparation, in addition to the preparation's own claim.
     Outcome prepare(ResetScope scope, memory::Claim copies, Preparation::Build build);
     Outcome prepare(ResetScope scope, memory::Claim copies, SceneAndState built);
