@@ -295,7 +295,7 @@ ContactTime contactTimeOf(const Scene& scene) {
         const double r = extremes.smallest;
         const double mass = 4.0 / 3 * pi * r * r * r * material.density / 2;
         for (const std::uint8_t b : met) {
-            const Stiffness law = stiffnessBetween(scene, a, b, modulus);
+            const Stiffness stiffness = stiffnessBetween(scene, a, b, modulus);
             const double contact =
                 followsHertz(scene)
                     ? 2.87 * std::pow(mass * mass / (r / 2 * stiffness.normal * stiffness.normal * time.speed), 0.2)
