@@ -80,7 +80,7 @@ Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan) 
                                arraysOnHost(device, plan) + need.onHost() - alreadyHeld + need.temporary);
 }
 
-void settle(memory::Claim& claim, const compute::Device& device, const Plan& plan) {
+void settleClaim(memory::Claim& claim, const compute::Device& device, const Plan& plan) {
     const MemoryNeeds need = memoryNeedsOf(plan);
     claim.settle(arraysOnHost(device, plan) + need.onHost(), need.temporary);
 }

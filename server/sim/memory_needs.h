@@ -40,7 +40,7 @@ Result<memory::Claim> claimForState(std::size_t spheres);
 // Claims memory for the simulation of a scene that is in memory already.
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan);
 // Updates the claim once the simulation is made: its memory is held, and the memory for its commands is promised.
-void settle(memory::Claim& claim, const compute::Device& device, const Plan& plan);
+void settleClaim(memory::Claim& claim, const compute::Device& device, const Plan& plan);
 
 // Return the memory (bytes) for copies in addition to the memory of `plan`: to give its spheres other arrays, and to
 // add spheres.
