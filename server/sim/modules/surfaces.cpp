@@ -39,12 +39,13 @@ const Module modulePlanes{
     .required = hasAny<scene::Plane>,
     .declare = declareObstacles,
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.planes = count<scene::Plane>(from.scene); },
-    .cost = {.row = "a plane",
-             .with =
-                 [](scene::Scene& scene) {
-                     const glm::dvec3 below = scene.bounds.min - glm::dvec3(1);
-                     scene.obstacles.push_back({.shape = scene::Plane{.point = below, .normal = {0, 0, 1}}});
-                 }},
+    .cost =
+        {.row = "a plane",
+         .with =
+             [](scene::Scene& scene) {
+                 const glm::dvec3 below = scene.bounds.min - glm::dvec3(1);
+                 scene.obstacles.push_back({.shape = scene::Plane{.point = below, .normal = {0, 0, 1}}, .colour = ""});
+             }},
 };
 
 const Module moduleBoxes{
@@ -57,7 +58,7 @@ const Module moduleBoxes{
                  [](scene::Scene& scene) {
                      const glm::dvec3 corner = scene.bounds.min;
                      const scene::Box box{.min = corner - glm::dvec3(2), .max = corner - glm::dvec3(1)};
-                     scene.obstacles.push_back({.shape = box});
+                     scene.obstacles.push_back({.shape = box, .colour = ""});
                  }},
 };
 
