@@ -1,4 +1,4 @@
-// Gives each touching pair its physical normal speed, pair after pair. Restitution works on running velocities that
+// Gives each touching pair its physical normal speed, pair after pair. Restitution works on bounce velocities that
 // start from the velocities before the substep: an impact passes from pair to pair as in Newton's cradle. The position
 // pass may have added separation speed. It is cut to the speed that the impact, or the pair's own separation,
 // justifies. `phase` is the level and the colour of the groups.

@@ -87,7 +87,8 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     }
 }
 
-// `sampleRound` selects the share of the pairs of an overfull cell that is visited. Successive rounds visit all shares in turn.
+// `sampleRound` selects the share of the pairs of an overfull cell that is visited. Successive rounds visit all shares
+// in turn.
 void visitGroupNumber(uint group, uint sampleRound) {
     uint level = levelOfGroup(group);
     uvec4 cells = cellsOf(level);
