@@ -2,9 +2,10 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 
 BUFFER(writeonly, uint, cellStart)
 
-KERNEL(params.cells.w + 1u) {
+KERNEL(allCells() + 1u) {
     cellStart[invocation] = 0u;
 }

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/id_and_material.h"
 
 BUFFER(readonly, uint, cellStart)
@@ -15,7 +16,8 @@ void sink(uint first, uint root, uint count) {
     uint key = idOf(idAndMaterial[moving]);
     uint hole = root;
     for (uint child = 2u * hole + 1u; child < count; child = 2u * hole + 1u) {
-        if (child + 1u < count && idOf(idAndMaterial[cellOrder[first + child + 1u]]) > idOf(idAndMaterial[cellOrder[first + child]]))
+        if (child + 1u < count &&
+            idOf(idAndMaterial[cellOrder[first + child + 1u]]) > idOf(idAndMaterial[cellOrder[first + child]]))
             child = child + 1u;
         if (idOf(idAndMaterial[cellOrder[first + child]]) <= key) break;
         cellOrder[first + hole] = cellOrder[first + child];
@@ -24,7 +26,7 @@ void sink(uint first, uint root, uint count) {
     cellOrder[first + hole] = moving;
 }
 
-KERNEL(params.cells.w) {
+KERNEL(allCells()) {
     uint first = cellStart[invocation];
     uint count = cellStart[invocation + 1u] - first;
     if (count < 2u) return;

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 
@@ -20,10 +21,10 @@ uint upper(uint at, uint count) {
 }
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == 0u) return;  // no pairs
+    uvec4 range = groupRange[invocation];
+    if (listedPairs(range) == 0u) return;  // no pairs
     uvec4 cells = cellsOf(levelOfGroup(invocation));
-    uint first = cells.w / 8u;
+    uint first = firstCell(cells) / 8u;
     uint gx = cells.x / 2u;
     uint gy = cells.y / 2u;
     uint gz = cells.z / 2u;
@@ -34,15 +35,16 @@ KERNEL(params.groups * 8u) {
     uint east = upper(x, gx);
     uint y = lower(row / gz, gy);
     uint below = lower(row % gz, gz);
-    bool stirs = false;
-    for (uint k = 0u; k < 3u && !stirs; ++k) {
+    bool anyActive = false;
+    for (uint k = 0u; k < 3u && !anyActive; ++k) {
         uint z = below;
-        for (uint j = 0u; j < 3u && !stirs; ++j) {
+        for (uint j = 0u; j < 3u && !anyActive; ++j) {
             uint start = first + (y * gz + z) * gx;
-            stirs = activeGroup[start + west] == substep || activeGroup[start + x] == substep || activeGroup[start + east] == substep;
+            anyActive = activeGroup[start + west] == substep || activeGroup[start + x] == substep ||
+                        activeGroup[start + east] == substep;
             z = upper(z, gz);
         }
         y = upper(y, gy);
     }
-    groupRange[invocation] = uvec4(mine.x, mine.y, 0u, stirs ? 1u : 0u);
+    groupRange[invocation] = uvec4(firstPair(range), listedPairs(range), 0u, anyActive ? 1u : 0u);
 }

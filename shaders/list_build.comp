@@ -4,6 +4,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/outside.h"
@@ -23,7 +24,7 @@ void visitPair(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
-    float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + params.margin;
+    float reach = radiusSum(pa, pb) + params.margin;
     if (!(dot3(d, d) < reach * reach) || lost(pa) || lost(pb)) return;
     if (base != UNLISTED) {
         pairs[base + found] = uvec2(a, b);
@@ -41,7 +42,7 @@ KERNEL(params.groups * 8u) {
     uint sampleRound = counters[COUNTER_REBUILDS];
     visitGroupNumber(invocation, sampleRound);
     uint count = found;
-    if (crowded) {
+    if (sampled) {
         // Each new list takes another share of the pairs. The group therefore asks for a new list in each substep.
         atomicAdd(counters[COUNTER_SAMPLED], 1u);
         atomicOr(counters[COUNTER_REBUILD], 1u);

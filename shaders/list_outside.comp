@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/outside.h"
@@ -37,12 +38,12 @@ KERNEL(MOST_OUTSIDE) {
     uint fastest = mine;
     for (uint k = 0u; k < count; ++k) {
         uint other = cellOrder[k];
-        if (HAS(SLEEP)) rests = rests || velocity[other].w < 0.0f;
+        if (HAS(SLEEP)) rests = rests || isAsleep(velocity[other]);
         if (other == mine) continue;
         if (faster(other, fastest)) fastest = other;
         vec4 q = position[other];
         vec3 d = vec3(p) - vec3(q);
-        float touch = HAS(RADII) ? p.w + q.w : 2.0f * params.radius;
+        float touch = radiusSum(p, q);
         float reach = touch + params.margin;
         float squared = dot3(d, d);
         if (squared < reach * reach) {

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/outside.h"

@@ -5,6 +5,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/outside.h"
@@ -16,10 +17,10 @@ BUFFER(coherent, uint, activeGroup)
 BUFFER(readonly, vec4, position)
 
 KERNEL(params.spheres) {
-    if (velocity[invocation].w < 0.0f) return;
-    vec4 sphere = listReference[invocation];
+    if (isAsleep(velocity[invocation])) return;
+    vec4 reference = listReference[invocation];
     uint levels = HAS(LEVELS) ? params.levels : 1u;
-    if (sphere.w > 0.0f && beyondStrip(vec3(sphere))) return;
-    for (uint level = levelOf(position[invocation].w); level < levels; ++level)
-        atomicExchange(activeGroup[groupAt(vec3(sphere), level)], counters[COUNTER_SUBSTEPS]);
+    if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
+    for (uint level = levelOf(storedRadius(position[invocation])); level < levels; ++level)
+        atomicExchange(activeGroup[groupAt(vec3(reference), level)], counters[COUNTER_SUBSTEPS]);
 }

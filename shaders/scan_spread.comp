@@ -7,10 +7,10 @@ BUFFER(readonly, uint, sums)
 
 KERNEL((phase + SCAN_BLOCK - 1u) / SCAN_BLOCK) {
     uint end = min(phase, (invocation + 1u) * SCAN_BLOCK);
-    uint running = sums[invocation];
+    uint total = sums[invocation];
     for (uint k = invocation * SCAN_BLOCK; k < end; ++k) {
         uint value = values[k];
-        values[k] = running;
-        running += value;
+        values[k] = total;
+        total += value;
     }
 }

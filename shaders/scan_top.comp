@@ -5,10 +5,10 @@
 BUFFER(restrict, uint, sums)
 
 KERNEL(1u) {
-    uint running = 0u;
+    uint total = 0u;
     for (uint k = 0u; k < phase; ++k) {
         uint value = sums[k];
-        sums[k] = running;
-        running += value;
+        sums[k] = total;
+        total += value;
     }
 }

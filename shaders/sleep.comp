@@ -12,6 +12,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/outside.h"
 
@@ -23,29 +24,29 @@ BUFFER(coherent, uint, counters)
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
-    if (v.w < 0.0f) return;
+    if (isAsleep(v)) return;
     vec4 u = velocityBefore[invocation];
     float squared = dot3(vec3(v), vec3(v));
-    float spent = squared < params.wakeSpeed * params.wakeSpeed ? max(u.w, 0.0f) + params.substep : 0.0f;
-    bool asleep = spent >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
+    float quietTime = squared < params.wakeSpeed * params.wakeSpeed ? max(restTime(u), 0.0f) + params.substep : 0.0f;
+    bool fallsAsleep = quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
     if (HAS(GRAVITY)) {
         vec3 pull = vec3(params.gravity) * params.substep;
-        vec3 carried = vec3(v) - vec3(u) - pull;
-        asleep = asleep && dot3(carried, carried) > 0.25f * dot3(pull, pull);
+        vec3 contactChange = vec3(v) - vec3(u) - pull;
+        fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > 0.25f * dot3(pull, pull);
     }
     if (HAS(FRICTION)) {
         vec3 spin = vec3(angularVelocity[invocation]) *
-                    (HAS(RADII) ? position[invocation].w : params.radius);
-        float omega = params.sleepSpeed * min(spent / params.sleepTime, 4.0f);
-        asleep = asleep && dot3(spin, spin) < omega * omega;
+                    radiusOf(position[invocation]);
+        float maxSpin = params.sleepSpeed * min(quietTime / params.sleepTime, 4.0f);
+        fallsAsleep = fallsAsleep && dot3(spin, spin) < maxSpin * maxSpin;
     }
-    if (!asleep) {
-        velocityBefore[invocation] = vec4(vec3(u), spent);
+    if (!fallsAsleep) {
+        velocityBefore[invocation] = vec4(vec3(u), quietTime);
         return;
     }
     if (beyond(vec3(position[invocation])) > 0.0f) atomicOr(counters[COUNTER_REBUILD], 1u);
     // The velocity before the substep is zero too: neighbours bounce off a sphere at rest.
     velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    velocity[invocation] = vec4(0.0f, 0.0f, 0.0f, -v.w);
+    velocity[invocation] = sleepToggled(withXyz(v, vec3(0.0f, 0.0f, 0.0f)));
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
@@ -16,16 +17,16 @@ BUFFER(writeonly, vec4, carriedSlip)
 #include "shared/slip_owner.h"
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED) return;
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
-        vec4 one = tangentialSlip[k];
-        if (one.w == 0.0f) continue;
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range)) return;
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
+        vec4 stored = tangentialSlip[k];
+        if (!hasSlip(stored)) continue;
         uvec2 pair = pairs[k];
         bool first = firstKeepsSlip(pair.x, pair.y);
         uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
-        float other = float(idOf(idAndMaterial[first ? pair.y : pair.x]));  // ids are below 2^24: exact
-        vec3 slip = first ? vec3(one) : -vec3(one);
-        carriedSlip[atomicAdd(carriedOffsets[owner], 1u)] = vec4(slip, other);
+        float partner = float(idOf(idAndMaterial[first ? pair.y : pair.x]));  // ids are below 2^24: exact
+        vec3 slip = first ? vec3(stored) : -vec3(stored);
+        carriedSlip[atomicAdd(carriedOffsets[owner], 1u)] = vec4(slip, partner);
     }
 }

@@ -2,6 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
@@ -14,10 +15,10 @@ BUFFER(coherent, uint, carriedOffsets)  // by id
 #include "shared/slip_owner.h"
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED) return;
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
-        if (tangentialSlip[k].w == 0.0f) continue;
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range)) return;
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
+        if (!hasSlip(tangentialSlip[k])) continue;
         uvec2 pair = pairs[k];
         atomicAdd(carriedOffsets[idOf(idAndMaterial[firstKeepsSlip(pair.x, pair.y) ? pair.x : pair.y])], 1u);
     }

@@ -2,6 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
@@ -15,16 +16,17 @@ BUFFER(readonly, vec4, carriedSlip)
 #include "shared/slip_owner.h"
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED) return;
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range)) return;
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
         uvec2 pair = pairs[k];
         bool first = firstKeepsSlip(pair.x, pair.y);
         uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
-        float other = float(idOf(idAndMaterial[first ? pair.y : pair.x]));
+        float partner = float(idOf(idAndMaterial[first ? pair.y : pair.x]));
         vec4 found = vec4(0.0f, 0.0f, 0.0f, 0.0f);
         for (uint at = owner == 0u ? 0u : carriedOffsets[owner - 1u]; at < carriedOffsets[owner]; ++at)
-            if (carriedSlip[at].w == other) found = vec4(first ? vec3(carriedSlip[at]) : -vec3(carriedSlip[at]), 1.0f);
+            if (partnerOf(carriedSlip[at]) == partner)
+                found = vec4(first ? vec3(carriedSlip[at]) : -vec3(carriedSlip[at]), 1.0f);
         tangentialSlip[k] = found;
     }
 }

@@ -5,6 +5,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/id_and_material.h"
@@ -34,7 +35,7 @@ PRIVATE(bool, listed)     // the pair keeps its displacement; an unlisted pair b
 
 // `lever` is the distance over the sum of the radii. The centres share the distance to the point of contact in
 // proportion to the radii.
-void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 law) {
+void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever, Spring spring, vec4 contact) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     vec4 sa = angularVelocity[a];
@@ -42,24 +43,25 @@ void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever
     vec3 difference = vec3(va) - vec3(vb);
     vec3 slip = difference - n * dot3(difference, n) - cross3(vec3(sa) * ra + vec3(sb) * rb, n) * lever;
     displacement = rotateToPlane(displacement, n);
-    float mobility = (va.w + vb.w) * (1.0f + 2.5f * lever * lever);
-    vec3 impulse = tangentialImpulse(slip, slip, mobility, spring, law.y);
-    vec3 twist = cross3(n, impulse) * (2.5f * lever);
+    float slipPerImpulse = (awakeInverseMass(va) + awakeInverseMass(vb)) * (1.0f + 2.5f * lever * lever);
+    vec3 impulse = tangentialImpulse(slip, slip, slipPerImpulse, spring, frictionOf(contact));
+    vec3 slipMoment = cross3(n, impulse) * (2.5f * lever);
     vec3 moment = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(ROLLING)) {
-        float c = 2.5f * (va.w / (ra * ra) + vb.w / (rb * rb));
-        float most = ra * rb / (ra + rb) * spring.impulse;
+        float c = 2.5f * (awakeInverseMass(va) / (ra * ra) + awakeInverseMass(vb) / (rb * rb));
+        float maxMoment = ra * rb / (ra + rb) * spring.impulse;
         vec3 omega = vec3(sa) - vec3(sb);
         float about = dot3(omega, n);
-        moment = (rollingMoment(omega - n * about, c, law.z * most) + spinningMoment(n, about, c, law.w * most)) * 2.5f;
+        moment = (rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment) +
+                  spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment)) * 2.5f;
     }
     // Compilers may factor these differently on each device.
-    precise vec3 changeA = moment * (va.w / (ra * ra)) - twist * (va.w / ra);
-    precise vec3 changeB = moment * (-vb.w / (rb * rb)) - twist * (vb.w / rb);
-    addDeltaVelocity(a, impulse * va.w);
-    addDeltaVelocity(b, impulse * -vb.w);
-    addDeltaOmega(a, changeA);
-    addDeltaOmega(b, changeB);
+    precise vec3 deltaOmegaA = moment * (awakeInverseMass(va) / (ra * ra)) - slipMoment * (awakeInverseMass(va) / ra);
+    precise vec3 deltaOmegaB = moment * (-awakeInverseMass(vb) / (rb * rb)) - slipMoment * (awakeInverseMass(vb) / rb);
+    addDeltaVelocity(a, impulse * awakeInverseMass(va));
+    addDeltaVelocity(b, impulse * -awakeInverseMass(vb));
+    addDeltaOmega(a, deltaOmegaA);
+    addDeltaOmega(b, deltaOmegaB);
 }
 
 void visitPair(uint a, uint b) {
@@ -68,37 +70,38 @@ void visitPair(uint a, uint b) {
     vec3 d = vec3(pa) - vec3(pb);
     d = d + (vec3(positionLow[a]) - vec3(positionLow[b]));
     float squared = dot3(d, d);
-    float ra = HAS(RADII) ? pa.w : params.radius;
-    float rb = HAS(RADII) ? pb.w : params.radius;
+    float ra = radiusOf(pa);
+    float rb = radiusOf(pb);
     float reach = ra + rb;
     touches = squared < reach * reach;
     if (!touches) return;
     if (!listed) displacement = vec3(0.0f, 0.0f, 0.0f);
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    float inverse = va.w + vb.w;
+    float inverseMassSum = awakeInverseMass(va) + awakeInverseMass(vb);
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
     float speed = dot3(vec3(va) - vec3(vb), n);
-    Spring spring = springOf(reach - normal.w, speed, speed, ra * rb / reach, inverse, stiffnessOf(a, b));
+    Spring spring = springOf(reach - distanceOf(normal), speed, speed, ra * rb / reach, inverseMassSum,
+                             stiffnessOf(a, b));
     vec3 impulse = n * spring.impulse;
-    addDeltaVelocity(a, impulse * va.w);
-    addDeltaVelocity(b, impulse * -vb.w);
-    if (HAS(FRICTION)) applySpringFriction(a, b, n, ra, rb, normal.w / reach, spring, contactOf(a, b));
+    addDeltaVelocity(a, impulse * awakeInverseMass(va));
+    addDeltaVelocity(b, impulse * -awakeInverseMass(vb));
+    if (HAS(FRICTION)) applySpringFriction(a, b, n, ra, rb, distanceOf(normal) / reach, spring, contactOf(a, b));
 }
 
 #include "shared/group.h"
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = groupRange[group];
-    listed = mine.y != UNLISTED;
+    uvec4 range = groupRange[group];
+    listed = hasList(range);
     if (!listed) {
-        visitGroupNumber(group, mine.x);
+        visitGroupNumber(group, unlistedRound(range));
         return;
     }
     uint touched = 0u;
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
         uvec2 pair = pairs[k];
         if (HAS(FRICTION)) displacement = vec3(tangentialSlip[k]);
         visitPair(pair.x, pair.y);
@@ -106,9 +109,9 @@ KERNEL(groupsOfPhase()) {
         if (HAS(FRICTION)) {
             if (touches)
                 tangentialSlip[k] = vec4(displacement, 1.0f);
-            else if (tangentialSlip[k].w != 0.0f)
+            else if (hasSlip(tangentialSlip[k]))
                 tangentialSlip[k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
         }
     }
-    groupRange[group] = uvec4(mine.x, mine.y, touched, mine.w);
+    groupRange[group] = withTouching(range, touched);
 }

@@ -4,6 +4,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/id_and_material.h"
@@ -23,20 +24,20 @@ BUFFER(readonly, ContactParams, contactParams)
 #include "shared/friction_pair.h"
 
 KERNEL(groupsOfPhase()) {
-    uvec4 mine = groupRange[groupOfPhase(invocation)];
-    if (HAS(SLEEP) && mine.w == 0u) return;
+    uvec4 range = groupRange[groupOfPhase(invocation)];
+    if (HAS(SLEEP) && !isActive(range)) return;
     // Groups without lists store no impulses: they have no friction.
-    if (mine.y == UNLISTED) return;
-    for (uint k = mine.x; k < mine.x + mine.z; ++k) {
-        float pressing = normalImpulses[k];
-        if (!(pressing > 0.0f)) continue;
+    if (!hasList(range)) return;
+    for (uint k = firstPair(range); k < firstPair(range) + touchingPairs(range); ++k) {
+        float normalImpulse = normalImpulses[k];
+        if (!(normalImpulse > 0.0f)) continue;
         uint a = touching[k].x;
         uint b = touching[k].y;
         vec4 pa = position[a];
         vec4 pb = position[b];
         vec3 d = vec3(pa) - vec3(pb);
         vec3 n = vec3(normalAndDistance(d, dot3(d, d), a, b));
-        applyPairFriction(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, pressing,
+        applyPairFriction(a, b, n, radiusOf(pa), radiusOf(pb), normalImpulse,
                 contactOf(a, b));
     }
 }

@@ -4,6 +4,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/id_and_material.h"
@@ -28,15 +29,15 @@ BUFFER(readonly, ContactParams, contactParams)
 void visitPair(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    if (HAS(SLEEP) && va.w < 0.0f && vb.w < 0.0f) return;
+    if (HAS(SLEEP) && isAsleep(va) && isAsleep(vb)) return;
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
-    float reach = HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius;
+    float reach = radiusSum(pa, pb);
     if (HAS(SLEEP)) {
-        float far = reach + wakeGap();
-        if (!(squared < far * far)) return;
+        float wakeReach = reach + wakeGap();
+        if (!(squared < wakeReach * wakeReach)) return;
         wake(a, b, va, vb);
     }
     if (!(squared < reach * reach)) return;
@@ -44,37 +45,37 @@ void visitPair(uint a, uint b) {
         va = velocity[a];
         vb = velocity[b];
     }
-    float ma = mobility(va.w);
-    float mb = mobility(vb.w);
+    float ma = effectiveInverseMass(va);
+    float mb = effectiveInverseMass(vb);
     if (ma + mb == 0.0f) return;
-    float inverse = 1.0f / (ma + mb);
+    float effectiveMass = 1.0f / (ma + mb);
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
-    vec3 push = n * ((reach - normal.w) * inverse);
-    if (ma > 0.0f) position[a] = vec4(vec3(pa) + push * ma, pa.w);
-    if (mb > 0.0f) position[b] = vec4(vec3(pb) - push * mb, pb.w);
+    vec3 push = n * ((reach - distanceOf(normal)) * effectiveMass);
+    if (ma > 0.0f) position[a] = withXyz(pa, vec3(pa) + push * ma);
+    if (mb > 0.0f) position[b] = withXyz(pb, vec3(pb) - push * mb);
     float speed = dot3(vec3(va) - vec3(vb), n);
     if (speed >= 0.0f) return;
-    vec4 law = contactOf(a, b);
+    vec4 contact = contactOf(a, b);
     // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce.
-    float e = HAS(RESTITUTION) && speed < -params.deadBand ? law.x : 0.0f;
-    float load = -(1.0f + e) * speed * inverse;
-    vec3 impulse = n * load;
-    if (ma > 0.0f) velocity[a] = vec4(vec3(va) + impulse * ma, va.w);
-    if (mb > 0.0f) velocity[b] = vec4(vec3(vb) - impulse * mb, vb.w);
+    float e = HAS(RESTITUTION) && speed < -params.deadBand ? restitutionOf(contact) : 0.0f;
+    float normalImpulse = -(1.0f + e) * speed * effectiveMass;
+    vec3 impulse = n * normalImpulse;
+    if (ma > 0.0f) velocity[a] = withXyz(va, vec3(va) + impulse * ma);
+    if (mb > 0.0f) velocity[b] = withXyz(vb, vec3(vb) - impulse * mb);
     if (HAS(FRICTION))
-        applyPairFriction(a, b, n, HAS(RADII) ? pa.w : params.radius, HAS(RADII) ? pb.w : params.radius, load, law);
+        applyPairFriction(a, b, n, radiusOf(pa), radiusOf(pb), normalImpulse, contact);
 }
 
 #include "shared/group.h"
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = groupRange[group];
-    if (HAS(SLEEP) && mine.w == 0u) return;
-    if (mine.y == UNLISTED) {
-        visitGroupNumber(group, mine.x);
+    uvec4 range = groupRange[group];
+    if (HAS(SLEEP) && !isActive(range)) return;
+    if (!hasList(range)) {
+        visitGroupNumber(group, unlistedRound(range));
         return;
     }
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) visitPair(pairs[k].x, pairs[k].y);
 }

@@ -7,6 +7,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/contact.h"
@@ -27,21 +28,21 @@ BUFFER(readonly, vec4, velocityBefore)
 // approach, but adds no separation speed.
 #define DEEP 0.25f
 
-PRIVATE(float, load)  // impulse of the push of the last pair (N s)
+PRIVATE(float, normalImpulse)  // impulse of the push of the last pair (N s)
 
 // Returns true if the pair overlaps and at least one of its spheres can move.
 bool separate(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
-    if (HAS(SLEEP) && va.w < 0.0f && vb.w < 0.0f) return false;
+    if (HAS(SLEEP) && isAsleep(va) && isAsleep(vb)) return false;
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
-    float reach = HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius;
+    float reach = radiusSum(pa, pb);
     if (HAS(SLEEP)) {
-        float far = reach + wakeGap();
-        if (!(squared < far * far)) return false;
+        float wakeReach = reach + wakeGap();
+        if (!(squared < wakeReach * wakeReach)) return false;
         wake(a, b, va, vb);
     }
     if (!(squared < reach * reach)) return false;
@@ -49,28 +50,28 @@ bool separate(uint a, uint b) {
         va = velocity[a];
         vb = velocity[b];
     }
-    float ma = mobility(va.w);
-    float mb = mobility(vb.w);
+    float ma = effectiveInverseMass(va);
+    float mb = effectiveInverseMass(vb);
     if (ma + mb == 0.0f) return false;
     // A sleeper stays, but the other sphere does not get its share of the push. Otherwise, if both have borne an
     // overlap under load, the sphere that falls asleep last would be thrown out by all of it.
-    float inverse = 1.0f / (abs(va.w) + abs(vb.w));
+    float effectiveMass = 1.0f / (inverseMassOf(va) + inverseMassOf(vb));
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
-    float depth = reach - normal.w;
-    vec3 push = n * (depth * inverse);
-    load = depth * params.perSubstep;
-    if (depth > DEEP * (HAS(RADII) ? min(pa.w, pb.w) : params.radius))
-        load = min(load, max(-dot3(vec3(va) - vec3(vb), n), 0.0f));
-    load = load * inverse;
-    vec3 kick = n * load;
+    float depth = reach - distanceOf(normal);
+    vec3 push = n * (depth * effectiveMass);
+    normalImpulse = depth * params.perSubstep;
+    if (depth > DEEP * smallerRadius(pa, pb))
+        normalImpulse = min(normalImpulse, max(-dot3(vec3(va) - vec3(vb), n), 0.0f));
+    normalImpulse = normalImpulse * effectiveMass;
+    vec3 impulse = n * normalImpulse;
     if (ma > 0.0f) {
-        position[a] = vec4(vec3(pa) + push * ma, pa.w);
-        velocity[a] = vec4(vec3(va) + kick * ma, va.w);
+        position[a] = withXyz(pa, vec3(pa) + push * ma);
+        velocity[a] = withXyz(va, vec3(va) + impulse * ma);
     }
     if (mb > 0.0f) {
-        position[b] = vec4(vec3(pb) - push * mb, pb.w);
-        velocity[b] = vec4(vec3(vb) - kick * mb, vb.w);
+        position[b] = withXyz(pb, vec3(pb) - push * mb);
+        velocity[b] = withXyz(vb, vec3(vb) - impulse * mb);
     }
     return true;
 }
@@ -83,20 +84,20 @@ void visitPair(uint a, uint b) {
 
 KERNEL(groupsOfPhase()) {
     uint group = groupOfPhase(invocation);
-    uvec4 mine = groupRange[group];
-    if (HAS(SLEEP) && mine.w == 0u) return;
-    if (mine.y == UNLISTED) {
-        visitGroupNumber(group, mine.x);
+    uvec4 range = groupRange[group];
+    if (HAS(SLEEP) && !isActive(range)) return;
+    if (!hasList(range)) {
+        visitGroupNumber(group, unlistedRound(range));
         return;
     }
     uint touched = 0u;
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
         uvec2 pair = pairs[k];
         if (separate(pair.x, pair.y)) {
-            touching[mine.x + touched] = pair;
-            if (HAS(FRICTION)) normalImpulses[mine.x + touched] = load;
+            touching[firstPair(range) + touched] = pair;
+            if (HAS(FRICTION)) normalImpulses[firstPair(range) + touched] = normalImpulse;
             touched = touched + 1u;
         }
     }
-    groupRange[group] = uvec4(mine.x, mine.y, touched, mine.w);
+    groupRange[group] = withTouching(range, touched);
 }

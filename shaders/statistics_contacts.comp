@@ -2,6 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 
@@ -19,10 +20,10 @@ void visitPair(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
-    float reach = HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius;
+    float reach = radiusSum(pa, pb);
     float squared = dot3(d, d);
     if (!(squared < reach * reach)) return;
-    float overlap = (reach - sqrt(squared)) / (HAS(RADII) ? min(pa.w, pb.w) : params.radius);
+    float overlap = (reach - sqrt(squared)) / smallerRadius(pa, pb);
     contacts = contacts + 1.0f;
     sum = sum + overlap;
     largest = max(largest, overlap);
@@ -34,11 +35,12 @@ KERNEL(params.groups * 8u) {
     contacts = 0.0f;
     sum = 0.0f;
     largest = 0.0f;
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED) {
-        visitGroupNumber(invocation, mine.x);
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range)) {
+        visitGroupNumber(invocation, unlistedRound(range));
     } else {
-        for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+        for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k)
+            visitPair(pairs[k].x, pairs[k].y);
     }
     overlaps[invocation] = vec4(contacts, sum, largest, 0.0f);
 }

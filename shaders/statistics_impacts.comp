@@ -4,6 +4,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/contact.h"
@@ -29,7 +30,7 @@ void visitPair(uint a, uint b) {
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
-    float reach = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) * (1.0f + TOUCH_TOLERANCE);
+    float reach = radiusSum(pa, pb) * (1.0f + TOUCH_TOLERANCE);
     if (!(squared < reach * reach)) return;
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
     float approach = dot3(vec3(velocityBeforeSolve[b]) - vec3(velocityBeforeSolve[a]), n);
@@ -37,13 +38,13 @@ void visitPair(uint a, uint b) {
     float parting = dot3(vec3(velocity[a]) - vec3(velocity[b]), n);
     // A pair that still approaches as before has not met yet: it is only within the tolerance.
     if (!(parting > -0.5f * approach)) return;
-    sum = sum + vec4(1.0f, approach, parting, contactOf(a, b).x * approach);
+    sum = sum + vec4(1.0f, approach, parting, restitutionOf(contactOf(a, b)) * approach);
 }
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED || (HAS(SLEEP) && mine.w == 0u)) return;
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range) || (HAS(SLEEP) && !isActive(range))) return;
     sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) visitPair(pairs[k].x, pairs[k].y);
     if (sum.x > 0.0f) impacts[invocation] = impacts[invocation] + sum;
 }

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 
@@ -32,13 +33,14 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     if (!(overlap > 0.0f)) return;
     displacement = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) {
-        uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
-        for (uint k = first; k < first + params.wallContacts; ++k)
-            if (wallSlip[k].w == float(surface + 1u)) displacement = vec3(wallSlip[k]);
+        uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
+        for (uint k = first; k < first + params.maxWallHistory; ++k)
+            if (isSlipAt(wallSlip[k], surface)) displacement = vec3(wallSlip[k]);
     }
-    float radius = HAS(RADII) ? position[wallSphere].w : params.radius;
+    float radius = radiusOf(position[wallSphere]);
     float speed = dot3(vec3(velocity[wallSphere]), normal);
-    springs += springEnergy(overlapWithSpeed(overlap, speed), radius, contactParams[wallContactIndex(wallMaterial)].stiffness, displacement);
+    springs += springEnergy(overlapWithSpeed(overlap, speed), radius,
+                            contactParams[wallContactIndex(wallMaterial)].stiffness, displacement);
 }
 
 #include "shared/walls.h"
@@ -61,7 +63,7 @@ KERNEL(params.statisticBlocks) {
     float overlap = 0.0f;
     springs = 0.0f;
     uint sleeping = 0u;
-    uint left = 0u;
+    uint outsideCount = 0u;
     uint nonFinite = 0u;
     for (uint k = invocation * STATISTIC_BLOCK; k < end; ++k) {
         vec3 x = vec3(position[k]);
@@ -70,14 +72,14 @@ KERNEL(params.statisticBlocks) {
             nonFinite += 1u;
             continue;
         }
-        float mass = 1.0f / abs(v.w);
+        float mass = 1.0f / inverseMassOf(v);
         float squared = dot3(vec3(v), vec3(v));
         energy += 0.5f * mass * squared;
         momentum = momentum + vec3(v) * mass;
         angular = angular + cross3(x, vec3(v)) * mass;
         if (HAS(FRICTION)) {
             vec3 spin = vec3(angularVelocity[k]);
-            float r = HAS(RADII) ? position[k].w : params.radius;
+            float r = radiusOf(position[k]);
             float inertia = 0.4f * mass * r * r;
             angular = angular + spin * inertia;
             rotation += 0.5f * inertia * dot3(spin, spin);
@@ -86,9 +88,9 @@ KERNEL(params.statisticBlocks) {
         height += x.z;
         squares += squared;
         fastest = max(fastest, squared);
-        if (v.w < 0.0f) sleeping += 1u;
-        if (outside(x)) left += 1u;
-        float radius = HAS(RADII) ? position[k].w : params.radius;
+        if (isAsleep(v)) sleeping += 1u;
+        if (outside(x)) outsideCount += 1u;
+        float radius = radiusOf(position[k]);
         wallPoint = x;
         wallSphere = k;
         deepest = 0.0f;
@@ -104,6 +106,6 @@ KERNEL(params.statisticBlocks) {
     sphereSums[invocation].wallOverlapMax = overlap;
     sphereSums[invocation].wallSprings = springs;
     sphereSums[invocation].sleeping = sleeping;
-    sphereSums[invocation].outside = left;
+    sphereSums[invocation].outside = outsideCount;
     sphereSums[invocation].nonFinite = nonFinite;
 }

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/contact.h"
@@ -28,21 +29,22 @@ float energyOf(uint a, uint b) {
     vec3 d = vec3(pa) - vec3(pb);
     d = d + (vec3(positionLow[a]) - vec3(positionLow[b]));
     float squared = dot3(d, d);
-    float ra = HAS(RADII) ? pa.w : params.radius;
-    float rb = HAS(RADII) ? pb.w : params.radius;
+    float ra = radiusOf(pa);
+    float rb = radiusOf(pb);
     float reach = ra + rb;
     if (!(squared < reach * reach)) return 0.0f;
     vec4 normal = normalAndDistance(d, squared, a, b);
     float speed = dot3(vec3(velocity[a]) - vec3(velocity[b]), vec3(normal));
-    return springEnergy(overlapWithSpeed(reach - normal.w, speed), ra * rb / reach, stiffnessOf(a, b), displacement);
+    return springEnergy(overlapWithSpeed(reach - distanceOf(normal), speed), ra * rb / reach, stiffnessOf(a, b),
+                        displacement);
 }
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED) return;
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range)) return;
     float energy = 0.0f;
     displacement = vec3(0.0f, 0.0f, 0.0f);
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) {
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
         uvec2 pair = pairs[k];
         if (HAS(FRICTION)) displacement = vec3(tangentialSlip[k]);
         energy += energyOf(pair.x, pair.y);

@@ -4,6 +4,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
 #include "shared/wake.h"
@@ -17,30 +18,30 @@ BUFFER(readonly, uvec2, pairs)
 BUFFER(coherent, uint, wakeFlags)
 
 // Flags the sleeper if the mover was within its wake gap when the substep began.
-void leave(uint sleeper, uint mover) {
+void flagIfLeft(uint sleeper, uint mover) {
     vec4 u = velocityBefore[mover];
     if (!canWake(u)) return;
     vec4 pa = position[sleeper];
     vec4 pb = position[mover];
     vec3 d = vec3(pb) - vec3(u) * params.substep - vec3(pa);
-    float far = (HAS(RADII) ? pa.w + pb.w : 2.0f * params.radius) + wakeGap();
-    if (dot3(d, d) < far * far) atomicOr(wakeFlags[sleeper], 1u);
+    float wakeReach = radiusSum(pa, pb) + wakeGap();
+    if (dot3(d, d) < wakeReach * wakeReach) atomicOr(wakeFlags[sleeper], 1u);
 }
 
 void visitPair(uint a, uint b) {
-    bool aSleeps = velocity[a].w < 0.0f;
-    bool bSleeps = velocity[b].w < 0.0f;
+    bool aSleeps = isAsleep(velocity[a]);
+    bool bSleeps = isAsleep(velocity[b]);
     if (aSleeps == bSleeps) return;
-    leave(aSleeps ? a : b, aSleeps ? b : a);
+    flagIfLeft(aSleeps ? a : b, aSleeps ? b : a);
 }
 
 #include "shared/group.h"
 
 KERNEL(params.groups * 8u) {
-    uvec4 mine = groupRange[invocation];
-    if (mine.y == UNLISTED) {
-        visitGroupNumber(invocation, mine.x);
+    uvec4 range = groupRange[invocation];
+    if (!hasList(range)) {
+        visitGroupNumber(invocation, unlistedRound(range));
         return;
     }
-    for (uint k = mine.x; k < mine.x + mine.y; ++k) visitPair(pairs[k].x, pairs[k].y);
+    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) visitPair(pairs[k].x, pairs[k].y);
 }

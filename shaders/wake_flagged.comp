@@ -2,6 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, uint, wakeFlags)
@@ -10,5 +11,5 @@ KERNEL(params.spheres) {
     if (wakeFlags[invocation] == 0u) return;
     wakeFlags[invocation] = 0u;
     vec4 v = velocity[invocation];
-    velocity[invocation] = vec4(vec3(v), abs(v.w));
+    velocity[invocation] = vec4(vec3(v), inverseMassOf(v));
 }

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/friction.h"
@@ -16,111 +17,113 @@ BUFFER(restrict, vec4, deltaOmega)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(restrict, vec4, wallSlip)  // by id, params.wallContacts each: displacement (m); w: surface + 1
+BUFFER(restrict, vec4, wallSlip)  // by id, params.maxWallHistory each: displacement (m); w: surface + 1
 BUFFER(coherent, uint, counters)
 
-#define NO_PLACE 0xffffffffu
+#define NO_ENTRY 0xffffffffu
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, residual)   // of the position beyond float32 (m)
-PRIVATE(vec3, moving)     // velocity (m/s)
+PRIVATE(vec3, sphereVelocity)  // m/s
 PRIVATE(vec3, omega)      // rad/s
-PRIVATE(vec3, push)       // of all walls together (N s)
+PRIVATE(vec3, impulseSum) // of all walls together (N s)
 PRIVATE(vec3, torque)     // times the substep (N s m)
 PRIVATE(vec3, displacement)
-PRIVATE(float, inverseMass)
-PRIVATE(uint, seen)       // one bit for each remembered wall that the sphere still touches
+PRIVATE(float, sphereInverseMass)
+PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere still touches
 
 #include "shared/wall_contact_params.h"
 #include "shared/deltas.h"
 #include "shared/spring.h"
 
-// The index of the displacement at this surface in `wallSlip`: its present entry, or a free one. NO_PLACE if there is
+// The index of the displacement at this surface in `wallSlip`: its present entry, or a free one. NO_ENTRY if there is
 // none.
-uint placeOf(uint surface) {
-    uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
-    uint empty = NO_PLACE;
-    for (uint k = 0u; k < params.wallContacts; ++k) {
-        float owner = wallSlip[first + k].w;
-        if (owner == float(surface + 1u)) return first + k;
-        if (owner == 0.0f && empty == NO_PLACE) empty = first + k;
+uint slipEntry(uint surface) {
+    uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
+    uint freeEntry = NO_ENTRY;
+    for (uint k = 0u; k < params.maxWallHistory; ++k) {
+        vec4 stored = wallSlip[first + k];
+        if (isSlipAt(stored, surface)) return first + k;
+        if (!hasSlip(stored) && freeEntry == NO_ENTRY) freeEntry = first + k;
     }
-    return empty;
+    return freeEntry;
 }
 
 // `fall` is the velocity that gravity has added since the middle of the last motion (m/s). `arm` is the distance from
 // the centre to the wall (m).
-void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 law) {
-    uint place = placeOf(surface);
-    bool known = place != NO_PLACE && wallSlip[place].w != 0.0f;
-    displacement = known ? rotateToPlane(vec3(wallSlip[place]), n) : vec3(0.0f, 0.0f, 0.0f);
-    vec3 slip = moving - n * dot3(moving, n) - cross3(omega, n) * arm;
+void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 contact) {
+    uint entry = slipEntry(surface);
+    bool known = entry != NO_ENTRY && hasSlip(wallSlip[entry]);
+    displacement = known ? rotateToPlane(vec3(wallSlip[entry]), n) : vec3(0.0f, 0.0f, 0.0f);
+    vec3 slip = sphereVelocity - n * dot3(sphereVelocity, n) - cross3(omega, n) * arm;
     vec3 path = slip;
     if (HAS(GRAVITY)) path = slip - (fall - n * dot3(fall, n));
     float lever = arm / wallRadius;
-    vec3 impulse = tangentialImpulse(path, slip, inverseMass * (1.0f + 2.5f * lever * lever), spring, law.y);
-    push = push + impulse;
+    vec3 impulse = tangentialImpulse(path, slip, sphereInverseMass * (1.0f + 2.5f * lever * lever), spring,
+                                     frictionOf(contact));
+    impulseSum = impulseSum + impulse;
     torque = torque - cross3(n, impulse) * arm;
     if (HAS(ROLLING)) {
-        float c = 2.5f * inverseMass / (wallRadius * wallRadius);
+        float c = 2.5f * sphereInverseMass / (wallRadius * wallRadius);
         float about = dot3(omega, n);
-        float most = wallRadius * spring.impulse;
-        torque = torque + rollingMoment(omega - n * about, c, law.z * most) +
-                 spinningMoment(n, about, c, law.w * most);
+        float maxMoment = wallRadius * spring.impulse;
+        torque = torque + rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment) +
+                 spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
     }
-    if (place == NO_PLACE) {
-        atomicAdd(counters[COUNTER_FORGOTTEN], 1u);
+    if (entry == NO_ENTRY) {
+        atomicAdd(counters[COUNTER_DROPPED_WALLS], 1u);
         return;
     }
-    wallSlip[place] = vec4(displacement, float(surface + 1u));
-    seen = seen | (1u << (place - idOf(idAndMaterial[wallSphere]) * params.wallContacts));
+    wallSlip[entry] = vec4(displacement, float(surface + 1u));
+    touchedWalls = touchedWalls | (1u << (entry - idOf(idAndMaterial[wallSphere]) * params.maxWallHistory));
 }
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float overlap = depth - dot3(residual, normal);
     if (!(overlap > 0.0f)) return;
     uint index = wallContactIndex(wallMaterial);
-    float speed = dot3(moving, normal);
+    float speed = dot3(sphereVelocity, normal);
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = vec3(params.gravity) * (0.5f * params.substep);
-    Spring spring =
-        springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, inverseMass, contactParams[index].stiffness);
-    push = push + normal * spring.impulse;
-    if (HAS(FRICTION)) applySpringFriction(normal, surface, fall, wallRadius - overlap, spring, contactParams[index].contact);
+    Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, sphereInverseMass,
+                             contactParams[index].stiffness);
+    impulseSum = impulseSum + normal * spring.impulse;
+    if (HAS(FRICTION))
+        applySpringFriction(normal, surface, fall, wallRadius - overlap, spring, contactParams[index].contact);
 }
 
 #include "shared/walls.h"
 
-void forget() {
-    uint first = idOf(idAndMaterial[wallSphere]) * params.wallContacts;
-    for (uint k = 0u; k < params.wallContacts; ++k)
-        if ((seen & (1u << k)) == 0u && wallSlip[first + k].w != 0.0f)
+void clearUntouchedSlip() {
+    uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
+    for (uint k = 0u; k < params.maxWallHistory; ++k)
+        if ((touchedWalls & (1u << k)) == 0u && hasSlip(wallSlip[first + k]))
             wallSlip[first + k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
     wallSphere = invocation;
-    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallRadius = radiusOf(x);
     wallPoint = vec3(x);
     vec4 spin = vec4(0.0f, 0.0f, 0.0f, 0.0f);  // w: 1 while any wall is remembered
     if (HAS(FRICTION)) spin = angularVelocity[invocation];
-    if (spin.w == 0.0f && clearOfWalls(wallPoint, wallRadius)) return;
+    if (!remembersWall(spin) && clearOfWalls(wallPoint, wallRadius)) return;
     residual = vec3(positionLow[invocation]);
     vec4 v = velocity[invocation];
-    inverseMass = v.w;
-    moving = vec3(v);
-    push = vec3(0.0f, 0.0f, 0.0f);
+    sphereInverseMass = awakeInverseMass(v);
+    sphereVelocity = vec3(v);
+    impulseSum = vec3(0.0f, 0.0f, 0.0f);
     torque = vec3(0.0f, 0.0f, 0.0f);
     omega = vec3(spin);
-    seen = 0u;
+    touchedWalls = 0u;
     visitWalls(wallRadius);
-    addDeltaVelocity(invocation, push * inverseMass);
+    addDeltaVelocity(invocation, impulseSum * sphereInverseMass);
     if (HAS(FRICTION)) {
-        addDeltaOmega(invocation, torque * (2.5f * inverseMass / (wallRadius * wallRadius)));
-        angularVelocity[invocation] = vec4(omega, seen != 0u ? 1.0f : 0.0f);
-        if (spin.w != 0.0f) forget();
+        addDeltaOmega(invocation, torque * (2.5f * sphereInverseMass / (wallRadius * wallRadius)));
+        angularVelocity[invocation] = vec4(omega, touchedWalls != 0u ? 1.0f : 0.0f);
+        if (remembersWall(spin)) clearUntouchedSlip();
     }
 }

@@ -2,6 +2,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/friction.h"
@@ -24,8 +25,9 @@ PRIVATE(vec3, omega)           // rad/s
 #include "shared/friction_wall.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    float pressing = dot3(vec3(wallImpulse[wallSphere]), normal);
-    if (pressing > 0.0f) applyWallFriction(normal, wallRadius, pressing, contactParams[wallContactIndex(wallMaterial)].contact);
+    float normalImpulse = dot3(vec3(wallImpulse[wallSphere]), normal);
+    if (normalImpulse > 0.0f)
+        applyWallFriction(normal, wallRadius, normalImpulse, contactParams[wallContactIndex(wallMaterial)].contact);
 }
 
 #include "shared/walls.h"
@@ -33,14 +35,14 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
     wallSphere = invocation;
-    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallRadius = radiusOf(x);
     wallPoint = vec3(x);
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
-    if (HAS(SLEEP) && v.w < 0.0f) return;
+    if (HAS(SLEEP) && isAsleep(v)) return;
     solvedVelocity = vec3(v);
     omega = vec3(angularVelocity[invocation]);
     visitWalls(wallRadius);
-    velocity[invocation] = vec4(solvedVelocity, v.w);
+    velocity[invocation] = withXyz(v, solvedVelocity);
     angularVelocity[invocation] = vec4(omega, 0.0f);
 }

@@ -4,6 +4,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 #include "shared/friction.h"
@@ -21,7 +22,7 @@ PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, solvedVelocity)  // m/s
 PRIVATE(vec3, omega)           // rad/s
-PRIVATE(bool, met)
+PRIVATE(bool, touched)
 
 #include "shared/wall_contact_params.h"
 #include "shared/friction_wall.h"
@@ -36,16 +37,16 @@ float impactChange(float speed, float pull, float depth, float restitution) {
 }
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    met = true;
-    vec4 law = contactParams[wallContactIndex(wallMaterial)].contact;
+    touched = true;
+    vec4 contact = contactParams[wallContactIndex(wallMaterial)].contact;
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
     float speed = dot3(solvedVelocity, normal);
     if (speed >= 0.0f) return;
     float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
-    float load = impactChange(speed, pull, push, law.x);
-    solvedVelocity = solvedVelocity + normal * load;
-    if (HAS(FRICTION)) applyWallFriction(normal, wallRadius, load, law);
+    float speedChange = impactChange(speed, pull, push, restitutionOf(contact));
+    solvedVelocity = solvedVelocity + normal * speedChange;
+    if (HAS(FRICTION)) applyWallFriction(normal, wallRadius, speedChange, contact);
 }
 
 #include "shared/walls.h"
@@ -53,21 +54,21 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
     wallSphere = invocation;
-    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallRadius = radiusOf(x);
     wallPoint = vec3(x);
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
-    if (HAS(SLEEP) && v.w < 0.0f) return;
+    if (HAS(SLEEP) && isAsleep(v)) return;
     solvedVelocity = vec3(v);
-    met = false;
+    touched = false;
     if (HAS(FRICTION)) omega = vec3(angularVelocity[invocation]);
     visitWalls(wallRadius);
-    if (!met) return;
-    position[invocation] = vec4(wallPoint, x.w);
-    velocity[invocation] = vec4(solvedVelocity, v.w);
+    if (!touched) return;
+    position[invocation] = withXyz(x, wallPoint);
+    velocity[invocation] = withXyz(v, solvedVelocity);
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(omega, 0.0f);
     if (HAS(GRAVITY)) {
         uint id = idOf(idAndMaterial[invocation]);
-        wallWork[id] = wallWork[id] - dot3(vec3(params.gravity), wallPoint - vec3(x)) / abs(v.w);
+        wallWork[id] = wallWork[id] - dot3(vec3(params.gravity), wallPoint - vec3(x)) / inverseMassOf(v);
     }
 }

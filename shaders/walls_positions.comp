@@ -1,9 +1,10 @@
-// Pushes spheres out of walls and obstacles. With restitution, the running velocity bounces at once, with the speed at
+// Pushes spheres out of walls and obstacles. With restitution, the bounce velocity changes at once, with the speed at
 // the moment of impact. This speed is sqrt(v0^2 + 2 g gap), from the gap before the substep. With the speed at the end
 // of the substep, a bounce of e = 0.8 would gain or lose percents of its height.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 
@@ -18,17 +19,17 @@ BUFFER(writeonly, vec4, wallImpulse)  // sum of the pushes (m/s)
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)  // position, updated by each push (m)
-PRIVATE(vec3, running)    // velocity before the substep, then after the bounces (m/s)
+PRIVATE(vec3, bounceVelocity)  // velocity before the substep, then after the bounces (m/s)
 PRIVATE(vec3, solvedVelocity)  // velocity with the pushes (m/s)
 PRIVATE(vec3, pushes)
-PRIVATE(bool, met)
+PRIVATE(bool, touched)
 
 #include "shared/wall_contact_params.h"
 
 // Static friction by position: undoes the motion along the wall by gravity, which friction would have prevented.
 // (walls_velocities.comp handles velocities. Between spheres this is left out: in a pile, it would increase the jitter
 // by the pushes more than it would stop the slow drift.)
-void hold(vec3 n, float most) {
+void holdByFriction(vec3 n, float most) {
     float h = params.substep;
     vec3 along = (vec3(params.gravity) - n * dot3(vec3(params.gravity), n)) * (0.5f * h * h);
     float squared = dot3(along, along);
@@ -36,16 +37,16 @@ void hold(vec3 n, float most) {
 }
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    met = true;
-    vec4 law = contactParams[wallContactIndex(wallMaterial)].contact;
+    touched = true;
+    vec4 contact = contactParams[wallContactIndex(wallMaterial)].contact;
     if (HAS(RESTITUTION)) {
         float h = params.substep;
-        float start = dot3(running, normal);
+        float startSpeed = dot3(bounceVelocity, normal);
         float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
-        precise float gap = max(-depth - (start * h + 0.5f * pull * h * h), 0.0f);
-        float impact = sqrt(max(start * start - 2.0f * pull * gap, 0.0f));
-        float after = law.x * impact;
-        if (depth > 0.0f || start < 0.0f) running = running + normal * (after - start);
+        precise float gap = max(-depth - (startSpeed * h + 0.5f * pull * h * h), 0.0f);
+        float impact = sqrt(max(startSpeed * startSpeed - 2.0f * pull * gap, 0.0f));
+        float bounceSpeed = restitutionOf(contact) * impact;
+        if (depth > 0.0f || startSpeed < 0.0f) bounceVelocity = bounceVelocity + normal * (bounceSpeed - startSpeed);
     }
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
@@ -55,7 +56,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     solvedVelocity = solvedVelocity + normal * (stopped - speed);
     if (HAS(FRICTION)) {
         pushes = pushes + normal * (stopped - speed);
-        if (HAS(GRAVITY)) hold(normal, law.y * push);
+        if (HAS(GRAVITY)) holdByFriction(normal, frictionOf(contact) * push);
     }
 }
 
@@ -64,25 +65,25 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
     wallSphere = invocation;
-    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallRadius = radiusOf(x);
     wallPoint = vec3(x);
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
-    if (HAS(SLEEP) && v.w < 0.0f) return;
+    if (HAS(SLEEP) && isAsleep(v)) return;
     solvedVelocity = vec3(v);
-    met = false;
+    touched = false;
     vec4 u = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     if (HAS(RESTITUTION)) {
         u = velocityBefore[invocation];
-        running = vec3(u);
+        bounceVelocity = vec3(u);
     }
     if (HAS(FRICTION)) {
         pushes = vec3(0.0f, 0.0f, 0.0f);
     }
     visitWalls(wallRadius);
     if (HAS(FRICTION)) wallImpulse[invocation] = vec4(pushes, 0.0f);
-    if (!met) return;
-    position[invocation] = vec4(wallPoint, x.w);
-    velocity[invocation] = vec4(solvedVelocity, v.w);
-    if (HAS(RESTITUTION)) velocityBefore[invocation] = vec4(running, u.w);
+    if (!touched) return;
+    position[invocation] = withXyz(x, wallPoint);
+    velocity[invocation] = withXyz(v, solvedVelocity);
+    if (HAS(RESTITUTION)) velocityBefore[invocation] = withXyz(u, bounceVelocity);
 }

@@ -3,6 +3,7 @@
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
+#include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/id_and_material.h"
 
@@ -17,24 +18,24 @@ BUFFER(restrict, vec4, wallImpulse)
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
 PRIVATE(vec3, wallPoint)
-PRIVATE(vec3, running)
+PRIVATE(vec3, bounceVelocity)
 PRIVATE(vec3, solvedVelocity)
 PRIVATE(vec3, pushes)
 
 #include "shared/wall_contact_params.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    vec4 law = contactParams[wallContactIndex(wallMaterial)].contact;
+    vec4 contact = contactParams[wallContactIndex(wallMaterial)].contact;
     float speed = dot3(solvedVelocity, normal);
-    precise float wanted = max(speed, 0.0f);
+    precise float target = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {
         // The speed is negative if neighbours have pushed the sphere at the wall since its bounce.
-        float start = dot3(running, normal);
-        wanted = start < 0.0f ? -law.x * start : start;
-        running = running + normal * (wanted - start);
+        float startSpeed = dot3(bounceVelocity, normal);
+        target = startSpeed < 0.0f ? -restitutionOf(contact) * startSpeed : startSpeed;
+        bounceVelocity = bounceVelocity + normal * (target - startSpeed);
     }
-    solvedVelocity = solvedVelocity + normal * (wanted - speed);
-    if (HAS(FRICTION)) pushes = pushes + normal * (wanted - speed);
+    solvedVelocity = solvedVelocity + normal * (target - speed);
+    if (HAS(FRICTION)) pushes = pushes + normal * (target - speed);
 }
 
 #include "shared/walls.h"
@@ -42,15 +43,15 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
     wallSphere = invocation;
-    wallRadius = HAS(RADII) ? x.w : params.radius;
+    wallRadius = radiusOf(x);
     wallPoint = vec3(x);
     if (clearOfWalls(wallPoint, wallRadius)) return;
     vec4 v = velocity[invocation];
-    if (HAS(SLEEP) && v.w < 0.0f) return;
+    if (HAS(SLEEP) && isAsleep(v)) return;
     solvedVelocity = vec3(v);
-    if (HAS(RESTITUTION)) running = vec3(velocityBefore[invocation]);
+    if (HAS(RESTITUTION)) bounceVelocity = vec3(velocityBefore[invocation]);
     if (HAS(FRICTION)) pushes = vec3(wallImpulse[invocation]);
     visitWalls(wallRadius);
-    velocity[invocation] = vec4(solvedVelocity, v.w);
+    velocity[invocation] = withXyz(v, solvedVelocity);
     if (HAS(FRICTION)) wallImpulse[invocation] = vec4(pushes, 0.0f);
 }

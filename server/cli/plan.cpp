@@ -22,7 +22,7 @@ int plan(const PlanOptions& options) {
     const auto loaded = scene::load(options.scene, options.kind, options.overrides);
     if (!loaded) return printError(loaded.error());
     const auto plan = sim::planFor(*loaded, sim::featuresOf(*loaded),
-                                   static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiiOf(*loaded));
+                                   static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiusStatsOf(*loaded));
     const encode::EncoderBytes encoder = encode::encoderBytes(plan.spheres);
     const std::array more = {
         sim::MemoryPart{"device: order, if watched", encoder.contextArrays},

@@ -49,7 +49,7 @@ v1::Dial dialFor(const Table& table, const scene::Scene& scene) {
             missing.set_reason(own.error().text());
             continue;
         }
-        const std::uint32_t fewest = scene::fewestSubsteps(scene, model);
+        const std::uint32_t fewest = scene::minSubstepsFor(scene, model);
         std::uint32_t last = 0;
         for (const Rung& rung : table.rungs) {
             if (rung.model != model) continue;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "scene/check.h"
-#include "scene/goal.h"
 #include "scene/quality.h"
+#include "scene/quality_target.h"
 
 namespace spherule::host {
 
@@ -38,9 +38,9 @@ Result<sim::Set> setOf(const v1::Set& message) {
     if (!model) return tl::unexpected(model.error());
     set.model = *model;
     if (message.has_auto_()) {
-        const auto goal = scene::goalOf(message.auto_(), "auto");
+        const auto goal = scene::qualityTargetOf(message.auto_(), "auto");
         if (!goal) return fail(ErrorKind::Refused, goal.error().where, goal.error().message);
-        set.goal.emplace(*goal);
+        set.target.emplace(*goal);
     }
     return set;
 }

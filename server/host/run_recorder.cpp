@@ -25,7 +25,7 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
     auto context =
         encode::EncoderContext::create(device, simulation.count(), encode::sourceOf(simulation).slotOf != nullptr);
     if (!context) return tl::unexpected(context.error());
-    const double smallestRadius = sim::radiiOf(simulation.scene()).smallest;
+    const double smallestRadius = sim::radiusStatsOf(simulation.scene()).smallest;
     auto encoder = encode::FrameEncoder::create(**context, options.tier, smallestRadius);
     if (!encoder) return tl::unexpected(encoder.error());
     // The file is created last, so that an existing file is kept if the device has no room.

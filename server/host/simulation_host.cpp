@@ -12,10 +12,10 @@ namespace {
 
 // Builds a scene and its spheres, on a thread that does not own the device.
 sim::Preparation::Build builderOf(MakeScene make) {
-    return [make = std::move(make)](Progress& progress) -> Result<sim::Built> {
+    return [make = std::move(make)](Progress& progress) -> Result<sim::SceneAndState> {
         auto scene = make(progress);
         if (!scene) return tl::unexpected(scene.error());
-        return sim::builtOf(std::move(*scene));
+        return sim::withInitialState(std::move(*scene));
     };
 }
 

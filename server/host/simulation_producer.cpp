@@ -154,7 +154,7 @@ void SimulationProducer::stopAtNonFinite() {
            fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
                        host_.simulation().divergence()));
     commands_.refuseSteps("a position or velocity became non-finite");
-    host_.simulation().restore();
+    host_.simulation().rollback();
     sampler_.invalidateBaseline();
     publishChanges();
 }

@@ -10,13 +10,13 @@ namespace {
 
 Result<void> fit(scene::Scene& scene, const Rung& rung) {
     scene.quality.model = rung.model;
-    scene.quality.pinned = false;
+    scene.quality.substepsFixed = false;
     if (auto fits = scene::checkModel(scene); !fits) return fits;
     if (auto fits = scene::fitSubsteps(scene); !fits) return fits;
     if (rung.factor == 1) return {};
     const double wanted = rung.factor * scene.quality.substeps;
     if (wanted < 1) return fail(ErrorKind::Refused, "", "less than one substep a step");
-    scene.quality.pinned = true;
+    scene.quality.substepsFixed = true;
     scene.quality.substeps = static_cast<std::uint32_t>(std::lround(wanted));
     return scene::fitSubsteps(scene);
 }
@@ -41,7 +41,7 @@ Result<std::unique_ptr<sim::Simulation>> Bench::openBySubstep(scene::Scene scene
     if (auto fits = fit(scene, outcome_.rung); !fits) return tl::unexpected(fits.error());
     scene.step /= scene.quality.substeps;
     scene.quality.substeps = 1;
-    scene.quality.pinned = true;
+    scene.quality.substepsFixed = true;
     return openAsIs(std::move(scene));
 }
 

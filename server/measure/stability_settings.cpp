@@ -23,7 +23,7 @@ Result<void> substeps(Bench& bench) {
     for (const double substep : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
         scene::Scene scene = heap(64);
         scene.step = substep;
-        scene.quality = {.model = bench.model(), .substeps = 1, .pinned = true};
+        scene.quality = {.model = bench.model(), .substeps = 1, .substepsFixed = true};
         if (const auto fits = scene::fitSubsteps(scene); !fits) {
             Figure refused = plain(fmt::format("substeps of {:g} s", substep), 0, "of the energy");
             refused.verdict = "refused: " + fits.error().text();

@@ -12,7 +12,7 @@
 #include "scene/materials.h"
 #include "scene/occupancy.h"
 #include "scene/quality.h"
-#include "scene/radii.h"
+#include "scene/radius_distribution.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
 
@@ -29,7 +29,8 @@ double smallestRadiusOf(const std::vector<Sphere>& spheres) {
 // readGroup() reports them.
 double largestRadiusOf(const v1::Group& group) {
     Check check;
-    return group.has_radius() ? std::max(smallestRadius, readRadii(check, group.radius(), "").max) : smallestRadius;
+    return group.has_radius() ? std::max(smallestRadius, readRadiusDistribution(check, group.radius(), "").max)
+                              : smallestRadius;
 }
 
 void append(Check& check, std::vector<Sphere>& all, std::vector<Sphere> spheres) {

@@ -138,7 +138,7 @@ std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesys
         return {};
     }
     const std::vector<std::string_view> names = columns->names();
-    const Radii radii = columns->radius ? Radii{} : requiredRadii(check, input);
+    const RadiusDistribution radii = columns->radius ? RadiusDistribution{} : requiredRadii(check, input);
     std::vector<Sphere> spheres;
     while (check.ok() && reader.nextLine()) {
         const auto row = reader.row(names);

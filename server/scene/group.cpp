@@ -113,7 +113,8 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     SourceInput input{.field = source,
                       .room = context.room,
                       .random = Random(context.seed.value_or(seedOf(message)), context.stream)};
-    if (message.has_radius()) input.radii = readRadii(check, message.radius(), at(context.field, "radius"));
+    if (message.has_radius())
+        input.radii = readRadiusDistribution(check, message.radius(), at(context.field, "radius"));
     input.velocity = check.vectorOr(message.velocity(), {}, at(context.field, "velocity"));
     input.spin = check.vectorOr(message.spin(), {}, at(context.field, "spin"));
     const std::uint8_t material =

@@ -21,7 +21,7 @@ std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, d
     return std::nullopt;
 }
 
-Radii requiredRadii(Check& check, const SourceInput& input) {
+RadiusDistribution requiredRadii(Check& check, const SourceInput& input) {
     if (input.radii) return *input.radii;
     const std::size_t end = input.field.rfind('.');
     const std::string group = end == std::string::npos ? "" : input.field.substr(0, end);

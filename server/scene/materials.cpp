@@ -101,38 +101,38 @@ std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::Repeat
     return pairs;
 }
 
-PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b) {
+ContactParameters contactParametersBetween(const Scene& scene, std::uint8_t a, std::uint8_t b) {
     const Material& first = scene.materials[a];
     const Material& second = scene.materials[b];
-    PairLaw law{.restitution = std::min(first.restitution, second.restitution),
-                .friction = std::sqrt(first.friction * second.friction),
-                .rollingResistance = std::sqrt(first.rollingResistance * second.rollingResistance),
-                .spinningResistance = std::sqrt(first.spinningResistance * second.spinningResistance)};
+    ContactParameters contact{.restitution = std::min(first.restitution, second.restitution),
+                              .friction = std::sqrt(first.friction * second.friction),
+                              .rollingResistance = std::sqrt(first.rollingResistance * second.rollingResistance),
+                              .spinningResistance = std::sqrt(first.spinningResistance * second.spinningResistance)};
     for (const MaterialPair& pair : scene.pairs) {
         if (std::minmax(pair.a, pair.b) != std::minmax(a, b)) continue;
-        law.restitution = pair.restitution.value_or(law.restitution);
-        law.friction = pair.friction.value_or(law.friction);
-        law.rollingResistance = pair.rollingResistance.value_or(law.rollingResistance);
-        law.spinningResistance = pair.spinningResistance.value_or(law.spinningResistance);
+        contact.restitution = pair.restitution.value_or(contact.restitution);
+        contact.friction = pair.friction.value_or(contact.friction);
+        contact.rollingResistance = pair.rollingResistance.value_or(contact.rollingResistance);
+        contact.spinningResistance = pair.spinningResistance.value_or(contact.spinningResistance);
     }
-    return law;
+    return contact;
 }
 
 bool hasWalls(const Scene& scene) {
     return !std::ranges::all_of(scene.bounds.open, [](bool face) { return face; });
 }
 
-std::vector<PairLaw> actingLaws(const Scene& scene) {
+std::vector<ContactParameters> actingContactParameters(const Scene& scene) {
     std::set<std::uint8_t> spheres;
     for (const Sphere& sphere : scene.spheres) spheres.insert(sphere.material);
     std::set<std::uint8_t> surfaces;
     if (hasWalls(scene)) surfaces.insert(scene.bounds.material);
     for (const Obstacle& obstacle : scene.obstacles) surfaces.insert(obstacle.material);
     if (scene.sphereContacts) surfaces.insert(spheres.begin(), spheres.end());
-    std::vector<PairLaw> laws;
+    std::vector<ContactParameters> contacts;
     for (const std::uint8_t a : spheres)
-        for (const std::uint8_t b : surfaces) laws.push_back(lawBetween(scene, a, b));
-    return laws;
+        for (const std::uint8_t b : surfaces) contacts.push_back(contactParametersBetween(scene, a, b));
+    return contacts;
 }
 
 }  // namespace spherule::scene

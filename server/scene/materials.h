@@ -20,9 +20,9 @@ std::vector<MaterialPair> readPairs(Check& check, const google::protobuf::Repeat
 std::uint8_t materialNamed(Check& check, const std::string& name, const std::vector<Material>& materials,
                            std::string_view field);
 
-// The law between two materials: the smaller restitution and the geometric mean of the other values. A MaterialPair
-// replaces them.
-struct PairLaw {
+// The parameters of contacts between two materials: the smaller restitution and the geometric mean of the other values.
+// A MaterialPair replaces them.
+struct ContactParameters {
     double restitution = 0;
     double friction = 0;
     double rollingResistance = 0;
@@ -31,9 +31,10 @@ struct PairLaw {
 
 bool hasWalls(const Scene& scene);  // some face of the bounds is closed
 
-// Returns the laws that can act: between materials of spheres, and between these and materials of walls and obstacles.
-std::vector<PairLaw> actingLaws(const Scene& scene);
+// Returns the parameters of all contacts that can occur: between materials of spheres, and between these and materials
+// of walls and obstacles.
+std::vector<ContactParameters> actingContactParameters(const Scene& scene);
 
-PairLaw lawBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);
+ContactParameters contactParametersBetween(const Scene& scene, std::uint8_t a, std::uint8_t b);
 
 }  // namespace spherule::scene

@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/goal.h"
 #include "scene/load.h"
+#include "scene/quality_target.h"
 #include "scene/stiffness.h"
 
 namespace spherule::scene {
@@ -54,11 +54,11 @@ Result<void> checkYoung(const Scene& scene) {
                     scene.materials[soft->material].young, std::ceil(soft->smallestYoung / digit) * digit));
 }
 
-// Returns the scene with the model, and without pinned substeps.
-Scene unpinned(const Scene& scene, Model model) {
+// Returns the scene with the model, and with substeps that the model chooses.
+Scene withFreeSubsteps(const Scene& scene, Model model) {
     Scene free = scene;
     free.quality.model = model;
-    free.quality.pinned = false;
+    free.quality.substepsFixed = false;
     return free;
 }
 
@@ -106,7 +106,7 @@ Result<void> fitSubsteps(Scene& scene) {
     Quality& quality = scene.quality;
     constexpr const char* field = "quality.substeps";
     if (auto fits = checkYoung(scene); !fits) return fits;
-    if (!quality.pinned) {
+    if (!quality.substepsFixed) {
         const double wanted = defaultSubsteps(scene);
         if (!(wanted <= maxSubsteps))
             return fail(ErrorKind::Input, field,
@@ -116,14 +116,14 @@ Result<void> fitSubsteps(Scene& scene) {
         quality.substeps = static_cast<std::uint32_t>(wanted);
         return {};
     }
-    if (const std::uint32_t most = mostSubsteps(scene); quality.substeps < 1 || quality.substeps > most)
+    if (const std::uint32_t most = maxSubstepsFor(scene); quality.substeps < 1 || quality.substeps > most)
         return fail(ErrorKind::Input, field,
                     fmt::format("is {}, must be 1 to {} for the {} spheres of this scene", quality.substeps, most,
                                 scene.spheres.size()));
-    const std::uint32_t fewest = fewestSubsteps(scene, quality.model);
+    const std::uint32_t fewest = minSubstepsFor(scene, quality.model);
     if (quality.substeps >= fewest) return {};
-    if (quality.goal) {
-        quality.substeps = fewest;  // with a goal, the number of substeps may change
+    if (quality.target) {
+        quality.substeps = fewest;  // with a target, the number of substeps may change
         return {};
     }
     const std::string reason =
@@ -133,31 +133,31 @@ Result<void> fitSubsteps(Scene& scene) {
                 fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest));
 }
 
-std::uint32_t mostSubsteps(const Scene& scene) {
+std::uint32_t maxSubstepsFor(const Scene& scene) {
     // Per step: about ten seconds on one processor.
     constexpr double mostSphereSubsteps = 2e8;
     // The launches of a substep take as long as this number of spheres.
     constexpr double launches = 1e4;
     constexpr double timesOwn = 8;  // the largest factor that the dial offers
-    // Only the springs of `accurate` depend on whether substeps are pinned; others need no copy of the scene.
-    const bool copied = scene.quality.model == Model::Accurate && scene.quality.pinned;
-    const double own = copied ? defaultSubsteps(unpinned(scene, Model::Accurate)) : defaultSubsteps(scene);
+    // Only the springs of `accurate` depend on whether substeps are fixed; others need no copy of the scene.
+    const bool copied = scene.quality.model == Model::Accurate && scene.quality.substepsFixed;
+    const double own = copied ? defaultSubsteps(withFreeSubsteps(scene, Model::Accurate)) : defaultSubsteps(scene);
     const double bySize = mostSphereSubsteps / (static_cast<double>(scene.spheres.size()) + launches);
     return static_cast<std::uint32_t>(std::clamp<double>(std::max(timesOwn * own, bySize), 1, maxSubsteps));
 }
 
-std::uint32_t mostRaised(const Scene& scene) {
+std::uint32_t maxRaisedSubsteps(const Scene& scene) {
     constexpr double timesAsked = 256;
-    const double most = std::min<double>(timesAsked * scene.quality.substeps, mostSubsteps(scene));
+    const double most = std::min<double>(timesAsked * scene.quality.substeps, maxSubstepsFor(scene));
     return std::max(scene.quality.substeps, static_cast<std::uint32_t>(most));
 }
 
-double mostSpeed(const Scene& scene, double radius) {
-    return farMotion * radius * mostRaised(scene) / scene.step;
+double maxSpeed(const Scene& scene, double radius) {
+    return safeMotion * radius * maxRaisedSubsteps(scene) / scene.step;
 }
 
 Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
-    const double radiiPerSecond = mostSpeed(scene, 1);
+    const double radiiPerSecond = maxSpeed(scene, 1);
     for (std::size_t id = first; id < scene.spheres.size(); ++id) {
         const Sphere& sphere = scene.spheres[id];
         const double speed = glm::length(glm::dvec3(sphere.velocity));
@@ -173,13 +173,13 @@ Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
     return {};
 }
 
-std::uint32_t fewestSubsteps(const Scene& scene, Model model) {
+std::uint32_t minSubstepsFor(const Scene& scene, Model model) {
     if (model != Model::Accurate) return 1;
     double fewest = 0;
     if (followsHertz(scene)) {
         fewest = fewestPerContact * scene.step / contactTimeOf(scene).contact;
     } else {
-        Scene soft = unpinned(scene, model);
+        Scene soft = withFreeSubsteps(scene, model);
         soft.quality.overlap = softest;
         fewest = scene.step / contactTimeOf(soft).substep;
     }
@@ -187,7 +187,7 @@ std::uint32_t fewestSubsteps(const Scene& scene, Model model) {
 }
 
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {
-    Scene free = unpinned(scene, model);
+    Scene free = withFreeSubsteps(scene, model);
     if (auto fits = checkModel(free); !fits) return tl::unexpected(fits.error());
     if (auto fits = fitSubsteps(free); !fits) return tl::unexpected(fits.error());
     return free.quality.substeps;
@@ -196,8 +196,8 @@ Result<std::uint32_t> substepsFor(const Scene& scene, Model model) {
 SubstepRange substepRange(const Scene& scene, Model model) {
     constexpr double fewer = 2;  // factor; with fewer substeps, piles are squeezed
     constexpr double more = 8;
-    const double own = defaultSubsteps(unpinned(scene, model));
-    const double least = fewestSubsteps(scene, model);
+    const double own = defaultSubsteps(withFreeSubsteps(scene, model));
+    const double least = minSubstepsFor(scene, model);
     const double fewest = std::clamp<double>(std::floor(own / fewer), least, maxSubsteps);
     return {.fewest = static_cast<std::uint32_t>(fewest),
             .most = static_cast<std::uint32_t>(std::clamp<double>(own * more, fewest, maxSubsteps))};
@@ -212,17 +212,17 @@ void readQuality(Check& check, const v1::Quality& message, const Overrides& over
         quality.model = modelOf(message.model());
     }
     quality.model = overrides.model.value_or(quality.model);
-    if (auto goal = goalOf(message.auto_(), "quality.auto")) {
+    if (auto target = qualityTargetOf(message.auto_(), "quality.auto")) {
         // A model or substeps that the caller requests stay.
         const bool asked = overrides.model || overrides.substeps;
-        quality.goal = overrides.goal || asked ? overrides.goal : *goal;
+        quality.target = overrides.target || asked ? overrides.target : *target;
     } else {
-        check.refuse(goal.error().where, goal.error().message);
+        check.refuse(target.error().where, target.error().message);
     }
     if (message.has_overlap()) quality.overlap = check.within(message.overlap(), 1e-6, 0.5, "quality.overlap");
     if (const auto fits = checkModel(scene); !fits) check.refuse(fits.error().where, fits.error().message);
     if (!check.ok()) return;
-    quality.pinned = overrides.substeps || message.has_substeps();
+    quality.substepsFixed = overrides.substeps || message.has_substeps();
     quality.substeps = overrides.substeps.value_or(message.substeps());
     if (const auto fits = fitSubsteps(scene); !fits) check.refuse(fits.error().where, fits.error().message);
     if (!check.ok()) return;

@@ -18,31 +18,31 @@ v1::Model messageOf(Model model);
 // Returns an error if the materials lack a value that the model needs.
 Result<void> checkModel(const Scene& scene);
 
-// Chooses the substeps, unless they are pinned. Returns an error if the model cannot work with them.
+// Chooses the substeps, unless they are fixed. Returns an error if the model cannot work with them.
 Result<void> fitSubsteps(Scene& scene);
 
 // Returns the substeps that the model would choose for the scene, or why the scene cannot use the model.
 Result<std::uint32_t> substepsFor(const Scene& scene, Model model);
 
 // Returns the fewest substeps with which the model works.
-std::uint32_t fewestSubsteps(const Scene& scene, Model model);
+std::uint32_t minSubstepsFor(const Scene& scene, Model model);
 
 // Returns the most substeps allowed for the scene with its model. With more, a step would delay everything else for too
 // long.
-std::uint32_t mostSubsteps(const Scene& scene);
+std::uint32_t maxSubstepsFor(const Scene& scene);
 
 // Returns the most substeps that the simulation uses while a sphere is very fast.
-std::uint32_t mostRaised(const Scene& scene);
+std::uint32_t maxRaisedSubsteps(const Scene& scene);
 
 // In a substep a sphere should move less than this share of its radius. If it moves farther, it may pass through an
 // object that it should hit.
-constexpr double farMotion = 0.5;
+constexpr double safeMotion = 0.5;
 
-// Returns the largest speed (m/s) of a sphere of this radius (m) that the scene can compute, with mostRaised()
+// Returns the largest speed (m/s) of a sphere of this radius (m) that the scene can compute, with maxRaisedSubsteps()
 // substeps.
-double mostSpeed(const Scene& scene, double radius);
+double maxSpeed(const Scene& scene, double radius);
 
-// Refuses spheres from id `first` on whose initial speed exceeds mostSpeed().
+// Refuses spheres from id `first` on whose initial speed exceeds maxSpeed().
 Result<void> checkSpeeds(const Scene& scene, std::size_t first = 0);
 
 // The range of substeps in which the model is useful for the scene, by measurement.

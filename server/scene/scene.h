@@ -44,20 +44,20 @@ struct MaterialPair {
 
 enum class Model : std::uint8_t { Fast, Balanced, Accurate };
 
-// The goal for moving substeps while a scene runs: the longest time of a step, or the largest overlap of spheres.
-struct Goal {
-    enum class Of : std::uint8_t { StepTime, Overlap } of = Of::StepTime;
-    double most = 0;  // wall ms per step; mean overlap over the radius
+// The target for moving substeps while a scene runs: the longest time of a step, or the largest overlap of spheres.
+struct QualityTarget {
+    enum class Kind : std::uint8_t { StepTime, Overlap } kind = Kind::StepTime;
+    double max = 0;  // wall ms per step; mean overlap over the radius
 
-    bool operator==(const Goal&) const = default;
+    bool operator==(const QualityTarget&) const = default;
 };
 
 struct Quality {
     Model model = Model::Balanced;
     std::uint32_t substeps = 1;  // per step
-    bool pinned = true;          // substeps are requested, not chosen
+    bool substepsFixed = true;   // substeps are requested, not chosen by the model
     double overlap = 0.1;        // of the radius: target of `accurate` when it chooses stiffness and substeps
-    std::optional<Goal> goal{};  // nullopt: substeps stay the same
+    std::optional<QualityTarget> target{};  // nullopt: substeps stay the same
 };
 
 struct Group {

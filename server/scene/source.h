@@ -9,7 +9,7 @@
 #include "core/memory.h"
 #include "scene/check.h"
 #include "scene/occupancy.h"
-#include "scene/radii.h"
+#include "scene/radius_distribution.h"
 #include "scene/random.h"
 #include "spherule/v1/scene.pb.h"
 
@@ -18,11 +18,11 @@ namespace spherule::scene {
 // The input of a group's source. A source returns spheres with position, velocity, spin and radius. readGroup() sets
 // the material, and checks that each sphere has a place in the scene.
 struct SourceInput {
-    std::string field;             // field of the source: "groups[2].lattice"
-    std::optional<Radii> radii{};  // of the group
-    glm::vec3 velocity{};          // m/s, of the group
-    glm::vec3 spin{};              // rad/s, of the group
-    std::size_t room = 0;          // spheres that the scene may still take
+    std::string field;                          // field of the source: "groups[2].lattice"
+    std::optional<RadiusDistribution> radii{};  // of the group
+    glm::vec3 velocity{};                       // m/s, of the group
+    glm::vec3 spin{};                           // rad/s, of the group
+    std::size_t room = 0;                       // spheres that the scene may still take
     Random random;
 };
 
@@ -32,7 +32,7 @@ std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, d
                                        std::size_t besides = 0);
 
 // Returns the group's radii. Refuses if it has none.
-Radii requiredRadii(Check& check, const SourceInput& input);
+RadiusDistribution requiredRadii(Check& check, const SourceInput& input);
 
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
 

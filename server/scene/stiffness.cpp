@@ -83,7 +83,7 @@ Extremes extremesOf(const Scene& scene) {
     return found;
 }
 
-bool obstructed(const Scene& scene) {
+bool hasSurfaces(const Scene& scene) {
     return hasWalls(scene) || !scene.obstacles.empty();
 }
 
@@ -91,7 +91,8 @@ bool obstructed(const Scene& scene) {
 bool surfacesRub(const Scene& scene) {
     const std::set<std::uint8_t> used = materialsOfSpheres(scene);
     return std::ranges::any_of(materialsOfSurfaces(scene), [&](std::uint8_t b) {
-        return std::ranges::any_of(used, [&](std::uint8_t a) { return lawBetween(scene, a, b).friction > 0; });
+        return std::ranges::any_of(used,
+                                   [&](std::uint8_t a) { return contactParametersBetween(scene, a, b).friction > 0; });
     });
 }
 
@@ -131,7 +132,7 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
     if (scene.spheres.empty()) return fastest;
-    const bool stopped = obstructed(scene);
+    const bool stopped = hasSurfaces(scene);
     glm::dvec3 common(0);
     if (!stopped || !surfacesRub(scene)) common = alongSurfaces(scene, 0.5 * (extremes.slowest + extremes.fastest));
     double speed = 0;
@@ -156,7 +157,7 @@ constexpr double solid = 0.6;  // share of a pile's volume
 // Returns the pressure (Pa) of all spheres, spread over the ground; 0 if there is no ground.
 double pressureOfPile(const Scene& scene, const Extremes& extremes) {
     const double g = glm::length(scene.gravity);
-    if (!(g > 0) || !obstructed(scene)) return 0;
+    if (!(g > 0) || !hasSurfaces(scene)) return 0;
     const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
     const glm::dvec3 down = glm::abs(scene.gravity) / g;
     const double across = extent.x * extent.y * extent.z / glm::dot(extent, down);
@@ -176,7 +177,8 @@ double modulusForOverlap(const Scene& scene) {
 
 double substepsPerContact(const Scene& scene) {
     double strongest = dampedEnough;
-    for (const PairLaw& law : actingLaws(scene)) strongest = std::max(strongest, dampingRatio(law.restitution));
+    for (const ContactParameters& contact : actingContactParameters(scene))
+        strongest = std::max(strongest, dampingRatio(contact.restitution));
     return contactShare * strongest / dampedEnough;
 }
 
@@ -229,23 +231,23 @@ double dampingRatio(double restitution) {
 
 double springModulus(const Scene& scene) {
     if (followsHertz(scene)) return 0;
-    return scene.quality.pinned ? modulusForSubstep(scene) : modulusForOverlap(scene);
+    return scene.quality.substepsFixed ? modulusForSubstep(scene) : modulusForOverlap(scene);
 }
 
 Stiffness stiffnessBetween(const Scene& scene, std::uint8_t a, std::uint8_t b, double springModulus) {
-    Stiffness law;
-    law.damping = dampingRatio(lawBetween(scene, a, b).restitution);
+    Stiffness stiffness;
+    stiffness.damping = dampingRatio(contactParametersBetween(scene, a, b).restitution);
     if (springModulus > 0) {
-        law.normal = springModulus;
-        law.tangential = tangentialShare * law.normal;
-        return law;
+        stiffness.normal = springModulus;
+        stiffness.tangential = tangentialShare * stiffness.normal;
+        return stiffness;
     }
     const auto shear = [](const Material& m) { return (2 - m.poisson) / shearModulus(m); };
     const Material& first = scene.materials[a];
     const Material& second = scene.materials[b];
-    law.normal = 1 / (compliance(first) + compliance(second));
-    law.tangential = 1 / (shear(first) + shear(second));
-    return law;
+    stiffness.normal = 1 / (compliance(first) + compliance(second));
+    stiffness.tangential = 1 / (shear(first) + shear(second));
+    return stiffness;
 }
 
 std::optional<TooSoft> tooSoft(const Scene& scene) {
@@ -253,7 +255,7 @@ std::optional<TooSoft> tooSoft(const Scene& scene) {
     const Extremes extremes = extremesOf(scene);
     const Meetings fastest = meetingsOf(scene, extremes);
     const double pressure = pressureOfPile(scene, extremes);
-    const double g = obstructed(scene) ? glm::length(scene.gravity) : 0;
+    const double g = hasSurfaces(scene) ? glm::length(scene.gravity) : 0;
     std::optional<TooSoft> worst;
     const auto look = [&](std::uint8_t a, std::uint8_t b, bool wall) {
         const double density = scene.materials[a].density;
@@ -293,10 +295,11 @@ ContactTime contactTimeOf(const Scene& scene) {
         const double r = extremes.smallest;
         const double mass = 4.0 / 3 * pi * r * r * r * material.density / 2;
         for (const std::uint8_t b : met) {
-            const Stiffness law = stiffnessBetween(scene, a, b, modulus);
+            const Stiffness stiffness = stiffnessBetween(scene, a, b, modulus);
             const double contact =
-                followsHertz(scene) ? 2.87 * std::pow(mass * mass / (r / 2 * law.normal * law.normal * time.speed), 0.2)
-                                    : pi * std::sqrt(mass / (law.normal * r));
+                followsHertz(scene)
+                    ? 2.87 * std::pow(mass * mass / (r / 2 * stiffness.normal * stiffness.normal * time.speed), 0.2)
+                    : pi * std::sqrt(mass / (stiffness.normal * r));
             time.contact = std::min(time.contact, contact);
         }
         if (!followsHertz(scene)) continue;

@@ -18,7 +18,7 @@ struct Stiffness {
 bool followsHertz(const Scene& scene);
 
 // Returns the effective modulus of all linear springs (Pa); 0 with Hertz's law, which uses the moduli of the materials.
-// With pinned substeps it is the largest that they allow: a contact of the smallest spheres then takes 70 of them.
+// With fixed substeps it is the largest that they allow: a contact of the smallest spheres then takes 70 of them.
 // Otherwise the fastest impact reaches the wanted overlap (m* v^2 = k d^2), and the weight of all spheres reaches a
 // fifth of it.
 double springModulus(const Scene& scene);

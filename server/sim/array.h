@@ -23,7 +23,7 @@ constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 enum class Extent : std::uint8_t {
     Sphere,
     SphereEnd,
-    WallContact,  // each wall contact that a sphere remembers
+    RememberedWall,  // each wall contact that a sphere remembers
     CellEnd,
     Group,  // of 2 x 2 x 2 cells
     Pair,   // each listed pair; the array grows and keeps its content when the lists need room

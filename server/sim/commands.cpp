@@ -8,7 +8,7 @@
 #include "scene/materials.h"
 #include "scene/quality.h"
 #include "sim/commands.h"
-#include "sim/need.h"
+#include "sim/memory_needs.h"
 #include "sim/parameters.h"
 #include "sim/picking.h"
 #include "sim/simulation.h"
@@ -17,8 +17,8 @@ namespace spherule::sim {
 
 namespace {
 
-constexpr double mostGravity = 1e6;  // m/s^2
-constexpr double farthest = 1e9;     // m
+constexpr double maxGravity = 1e6;   // m/s^2
+constexpr double maxDistance = 1e9;  // m
 
 tl::unexpected<Error> refusal(const Error& error) {
     // The command names a field of the quality without its prefix.
@@ -29,9 +29,9 @@ tl::unexpected<Error> refusal(const Error& error) {
 
 Result<void> setGravity(scene::Scene& scene, const Set& set) {
     if (!set.gravity) return {};
-    if (!(glm::length(*set.gravity) <= mostGravity))
+    if (!(glm::length(*set.gravity) <= maxGravity))
         return fail(ErrorKind::Refused, "gravity",
-                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), mostGravity));
+                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), maxGravity));
     scene.gravity = *set.gravity;
     return {};
 }
@@ -58,38 +58,38 @@ Result<void> setFriction(scene::Scene& scene, const Set& set) {
                         &scene::MaterialPair::friction);
 }
 
-// Unpins the substeps, so that fitSubsteps() chooses them for the new model. setSubsteps() runs later: substeps in the
+// Frees the substeps, so that fitSubsteps() chooses them for the new model. setSubsteps() runs later: substeps in the
 // same command take precedence.
 Result<void> setModel(scene::Scene& scene, const Set& set) {
     if (!set.model) return {};
     scene.quality.model = *set.model;
-    scene.quality.pinned = false;
-    scene.quality.goal.reset();
+    scene.quality.substepsFixed = false;
+    scene.quality.target.reset();
     if (auto fits = scene::checkModel(scene); !fits) return refusal(fits.error());
     return {};
 }
 
 Result<void> setSubsteps(scene::Scene& scene, const Set& set) {
     if (!set.substeps) return {};
-    scene.quality.pinned = true;
+    scene.quality.substepsFixed = true;
     scene.quality.substeps = *set.substeps;
-    scene.quality.goal.reset();
+    scene.quality.target.reset();
     return {};
 }
 
-Result<void> setGoal(scene::Scene& scene, const Set& set) {
-    if (set.goal) scene.quality.goal = *set.goal;
+Result<void> setTarget(scene::Scene& scene, const Set& set) {
+    if (set.target) scene.quality.target = *set.target;
     return {};
 }
 
 // Returns the scene with the spheres of the group added, and the states of all spheres. `state`: the states of the
 // present spheres.
-Result<Built> withGroup(const Spawn& spawn, scene::Scene scene, State state, Progress& progress) {
+Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State state, Progress& progress) {
     const glm::dvec3 centre = scene.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 now = glm::dvec3(state.position[id]);
         // A sphere without a finite position, or very far away, keeps its initial position.
-        if (glm::dot(now, now) < farthest * farthest) scene.spheres[id].position = now + centre;
+        if (glm::dot(now, now) < maxDistance * maxDistance) scene.spheres[id].position = now + centre;
     }
     auto added = spawn.place(scene, progress);
     if (!added) return tl::unexpected(added.error());
@@ -103,7 +103,7 @@ Result<Built> withGroup(const Spawn& spawn, scene::Scene scene, State state, Pro
     if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());
     if (auto fits = scene::checkSpeeds(scene, scene.spheres.size() - added->size()); !fits)
         return tl::unexpected(fits.error());
-    return Built{std::move(scene), std::move(state)};
+    return SceneAndState{std::move(scene), std::move(state)};
 }
 
 }  // namespace
@@ -141,9 +141,9 @@ Result<Applied> Simulation::apply(const Command& command) {
 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& set) {
     const bool disturbs = set.gravity || set.restitution || set.friction || set.model;
-    if (!disturbs && !set.substeps && !set.goal) return {};
+    if (!disturbs && !set.substeps && !set.target) return {};
     scene::Scene changed = simulation_.scene_;
-    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
+    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setTarget})
         if (auto done = part(changed, set); !done) return tl::unexpected(done.error());
     return simulation_.change(std::move(changed), disturbs);
 }
@@ -151,7 +151,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& se
 // Features do not depend on the number of substeps, so the command needs no preparation.
 Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
     scene::Scene changed = scene_;
-    changed.quality.pinned = true;
+    changed.quality.substepsFixed = true;
     changed.quality.substeps = substeps;
     auto outcome = change(std::move(changed), false);
     if (!outcome) return tl::unexpected(outcome.error());
@@ -165,7 +165,7 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
     features.set(Feature::Levels, plan().features.has(Feature::Levels));  // levels depend on the spheres alone
     if (features == plan().features) {
         scene_ = std::move(changed);
-        mostSubsteps_ = scene::mostRaised(scene_);
+        maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
         writeConstants(*pipeline_, scene_);
         useSubsteps(scene_.quality.substeps);
         // A change of the substeps alone wakes no sphere.
@@ -176,14 +176,14 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
     if (!copies) return tl::unexpected(copies.error());
     auto state = liveState();
     if (!state) return tl::unexpected(state.error());
-    return prepare(Anew::Nothing, std::move(*copies), Built{std::move(changed), std::move(*state)});
+    return prepare(ResetScope::Nothing, std::move(*copies), SceneAndState{std::move(changed), std::move(*state)});
 }
 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Reset& /*reset*/) {
     auto copies = memory::Claim::make("", "the scene as it began", copiesToChange(simulation_.plan()));
     if (!copies) return tl::unexpected(copies.error());
     const scene::Scene& initial = simulation_.initial_;
-    return simulation_.prepare(Anew::World, std::move(*copies), Built{initial, stateOf(initial)});
+    return simulation_.prepare(ResetScope::World, std::move(*copies), SceneAndState{initial, stateOf(initial)});
 }
 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& spawn) {
@@ -193,7 +193,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& 
     auto live = simulation_.liveState();
     if (!live) return tl::unexpected(live.error());
     return simulation_.prepare(
-        Anew::Spheres, std::move(*copies),
+        ResetScope::Spheres, std::move(*copies),
         [spawn, scene = simulation_.scene_, state = std::move(*live)](Progress& progress) mutable {
             return withGroup(spawn, std::move(scene), std::move(state), progress);
         });
@@ -205,10 +205,10 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& p
     if (auto slow = checkPush(*id, push.impulse); !slow) return tl::unexpected(slow.error());
     Pipeline& pipeline = *simulation_.pipeline_;
     const scene::Scene& scene = simulation_.scene_;
-    pipeline.kick(*id, glm::vec3(push.impulse));
+    pipeline.applyImpulse(*id, glm::vec3(push.impulse));
     const double speed = glm::length(glm::dvec3(pipeline.velocityOf(*id)));
     const double moved = speed * scene.step / simulation_.substeps_ / static_cast<double>(scene.spheres[*id].radius);
-    if (moved > static_cast<double>(FAR_MOTION)) simulation_.fitToMotion(moved);
+    if (moved > static_cast<double>(SAFE_MOTION)) simulation_.limitMotionPerSubstep(moved);
     return Outcome{.applied = {.sphere = *id}};
 }
 
@@ -238,7 +238,7 @@ Result<void> Simulation::CommandHandler::checkPush(std::uint32_t id, const glm::
     const double radius = static_cast<double>(scene.spheres[id].radius);
     // A sphere that is already faster may still be slowed down.
     const double most =
-        std::max(scene::farMotion * radius * simulation_.mostSubsteps_ / scene.step, glm::length(velocity));
+        std::max(scene::safeMotion * radius * simulation_.maxSubsteps_ / scene.step, glm::length(velocity));
     if (glm::length(velocity + change) <= most) return {};
     // The share of the impulse that gives the sphere the largest speed allowed.
     const double b = glm::dot(velocity, change);

@@ -11,12 +11,12 @@ constexpr std::uint64_t cellsPerSphere = 2;
 constexpr std::uint64_t fewestCells = 4096;
 constexpr std::uint32_t mostPerAxis = 1U << 16U;
 // A crowd has many times more spheres in a cell than fit without overlap: a heap under load must never count as one.
-constexpr double crowdInFull = 4;
-constexpr double smallestCrowd = 64;
+constexpr double thresholdInFull = 4;
+constexpr double smallestThreshold = 64;
 
 std::uint32_t cellsAlong(double extent, double cellSize) {
-    const double wanted = std::ceil(extent / cellSize / 4) * 4;
-    return static_cast<std::uint32_t>(std::clamp(wanted, 4.0, static_cast<double>(mostPerAxis)));
+    const double needed = std::ceil(extent / cellSize / 4) * 4;
+    return static_cast<std::uint32_t>(std::clamp(needed, 4.0, static_cast<double>(mostPerAxis)));
 }
 
 Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint64_t budget) {
@@ -45,7 +45,7 @@ double fullCell(const SizeClass& one, double cellSize) {
 
 }  // namespace
 
-Grid gridFor(glm::dvec3 extent, const Radii& radii) {
+Grid gridFor(glm::dvec3 extent, const RadiusStats& radii) {
     Grid grid;
     const double margin = marginInRadii * (radii.classes.size() > 1 ? radii.listing : radii.mean);
     grid.margin = static_cast<float>(margin);
@@ -55,8 +55,8 @@ Grid gridFor(glm::dvec3 extent, const Radii& radii) {
         Level level = levelFor(extent, one.largest, margin, budget);
         level.spheres = one.spheres;
         if (!grid.levels.empty()) level.first = grid.all();
-        const double crowd = std::ceil(crowdInFull * fullCell(one, static_cast<double>(level.cellSize)));
-        level.crowd = static_cast<float>(std::clamp(crowd, smallestCrowd, 1e6));
+        const double sampleThreshold = std::ceil(thresholdInFull * fullCell(one, static_cast<double>(level.cellSize)));
+        level.sampleThreshold = static_cast<float>(std::clamp(sampleThreshold, smallestThreshold, 1e6));
         grid.levels.push_back(level);
     }
     return grid;

@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "sim/sizes.h"
+#include "sim/radius_stats.h"
 
 namespace spherule::sim {
 
@@ -16,7 +16,7 @@ struct Level {
     glm::uvec3 cells{0};      // per axis, multiples of 4
     std::uint32_t first = 0;  // index of its first cell among the cells of all levels
     std::uint32_t spheres = 0;
-    float crowd = 0;  // a cell with more spheres than this has spheres that overlap deeply
+    float sampleThreshold = 0;  // a cell with more spheres than this has spheres that overlap deeply
 
     [[nodiscard]] std::uint32_t all() const { return cells.x * cells.y * cells.z; }
 };
@@ -32,6 +32,6 @@ struct Grid {
 
 // Returns cells as wide as the largest sphere plus the margin. They cover the domain, but there are at most about two
 // per sphere. In larger domains distant places share cells, which costs more tests and finds the same contacts.
-Grid gridFor(glm::dvec3 extent, const Radii& radii);
+Grid gridFor(glm::dvec3 extent, const RadiusStats& radii);
 
 }  // namespace spherule::sim

@@ -17,21 +17,23 @@ double springModulusOf(const scene::Scene& scene) {
     return scene.quality.model == scene::Model::Accurate ? scene::springModulus(scene) : 0;
 }
 
-layout::ContactParams lawFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, double springModulus) {
-    const scene::PairLaw contact = scene::lawBetween(scene, a, b);
-    layout::ContactParams law{.contact = glm::vec4(contact.restitution, contact.friction, contact.rollingResistance,
-                                                   contact.spinningResistance),
-                              .stiffness = {}};
+layout::ContactParams contactParamsFor(const scene::Scene& scene, std::uint8_t a, std::uint8_t b,
+                                       double springModulus) {
+    const scene::ContactParameters contact = scene::contactParametersBetween(scene, a, b);
+    layout::ContactParams params{.contact = glm::vec4(contact.restitution, contact.friction, contact.rollingResistance,
+                                                      contact.spinningResistance),
+                                 .stiffness = {}};
     if (scene.quality.model == scene::Model::Accurate) {
         const scene::Stiffness stiffness = scene::stiffnessBetween(scene, a, b, springModulus);
-        law.stiffness = glm::vec4(stiffness.normal, stiffness.damping, stiffness.tangential, 0);
+        params.stiffness = glm::vec4(stiffness.normal, stiffness.damping, stiffness.tangential, 0);
     }
-    return law;
+    return params;
 }
 
 }  // namespace
 
-layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii, double substep) {
+layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const RadiusStats& radii,
+                                 double substep) {
     layout::Parameters p{};
     const glm::dvec3 centre = scene.bounds.centre();
     p.wallMin = glm::vec4(glm::vec3(scene.bounds.min - centre), 0);
@@ -46,10 +48,10 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.materials = static_cast<std::uint32_t>(scene.materials.size());
     p.material = scene.spheres.empty() ? 0U : scene.spheres.front().material;
     p.wallMaterial = scene.bounds.material;
-    const layout::ContactParams law = lawFor(scene, static_cast<std::uint8_t>(p.material),
-                                             static_cast<std::uint8_t>(p.material), springModulusOf(scene));
-    p.law = law.contact;
-    p.stiffness = law.stiffness;
+    const layout::ContactParams sphereContact = contactParamsFor(
+        scene, static_cast<std::uint8_t>(p.material), static_cast<std::uint8_t>(p.material), springModulusOf(scene));
+    p.contact = sphereContact.contact;
+    p.stiffness = sphereContact.stiffness;
     p.statisticBlocks = blocksOf(plan.spheres, STATISTIC_BLOCK);
     const ParameterSource source{scene, plan, radii, substep};
     for (const Module* module : modules())
@@ -57,14 +59,15 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     return p;
 }
 
-std::vector<layout::ContactParams> lawsFor(const scene::Scene& scene) {
-    std::vector<layout::ContactParams> laws;
+std::vector<layout::ContactParams> contactParamsTable(const scene::Scene& scene) {
+    std::vector<layout::ContactParams> table;
     const std::size_t count = scene.materials.size();
     const double modulus = springModulusOf(scene);
     for (std::size_t a = 0; a < count; ++a)
         for (std::size_t b = 0; b < count; ++b)
-            laws.push_back(lawFor(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), modulus));
-    return laws;
+            table.push_back(
+                contactParamsFor(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), modulus));
+    return table;
 }
 
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
@@ -90,7 +93,7 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
     if (pipeline.plan().has(Array::Obstacles)) pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
     if (pipeline.plan().has(Array::ContactParams))
-        pipeline.write<layout::ContactParams>(Array::ContactParams, lawsFor(scene));
+        pipeline.write<layout::ContactParams>(Array::ContactParams, contactParamsTable(scene));
 }
 
 }  // namespace spherule::sim

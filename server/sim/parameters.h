@@ -10,10 +10,10 @@
 namespace spherule::sim {
 
 // Returns the uniform block for a scene and its plan, with substeps of `substep` seconds.
-layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const Radii& radii, double substep);
+layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, const RadiusStats& radii, double substep);
 
 // Returns the contact parameters for all pairs of materials, row by row.
-std::vector<layout::ContactParams> lawsFor(const scene::Scene& scene);
+std::vector<layout::ContactParams> contactParamsTable(const scene::Scene& scene);
 
 // Returns the obstacles: planes first, then boxes. Positions are relative to the bounds' centre.
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);

@@ -11,8 +11,8 @@ enum class Pass : std::uint8_t {
     Integrate,
     Grid,
     Lists,
-    History,   // of `accurate`
-    Impulses,  // of `fast`
+    SlipMemory,  // of `accurate`
+    Impulses,    // of `fast`
     WallImpulses,
     Positions,  // of `balanced`
     WallPositions,

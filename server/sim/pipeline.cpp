@@ -17,7 +17,7 @@ namespace spherule::sim {
 namespace {
 
 constexpr std::uint32_t workgroup = 64;
-constexpr std::uint32_t mostGroupsPerAxis = 32768;
+constexpr std::uint32_t maxGroupsPerAxis = 32768;
 constexpr std::uint32_t idBits = 24;  // of a word of idAndMaterial
 constexpr std::uint32_t idMask = (1U << idBits) - 1;
 static_assert(scene::maxSpheres <= idMask);
@@ -26,12 +26,12 @@ static_assert(scene::maxMaterials <= 1U << (32 - idBits));
 // Returns groups x, y, z for `invocations`, as the kernels index them, and `invocations`.
 glm::uvec4 groupsFor(std::uint32_t invocations) {
     const std::uint32_t groups = (invocations + workgroup - 1) / workgroup;
-    const std::uint32_t x = std::min(groups, mostGroupsPerAxis);
+    const std::uint32_t x = std::min(groups, maxGroupsPerAxis);
     return {x, x == 0 ? 1 : (groups + x - 1) / x, 1, invocations};
 }
 
 // Adds the memory of the whole scene to a refusal, because the device refuses a single array.
-Error withNeed(Error error, const Plan& plan) {
+Error withTotalMemory(Error error, const Plan& plan) {
     if (error.kind == ErrorKind::Refused)
         error.message +=
             fmt::format(" (the scene needs {:.1f} MiB in all)", static_cast<double>(plan.bytes()) / (1 << 20));
@@ -109,7 +109,7 @@ double Pipeline::shareMade() const {
     return all > 0 ? static_cast<double>(arraysMade_ + kernels_.size()) / static_cast<double>(all) : 1;
 }
 
-void Pipeline::adopt(Array array, std::unique_ptr<compute::Buffer> made) {
+void Pipeline::setBuffer(Array array, std::unique_ptr<compute::Buffer> made) {
     const auto index = static_cast<std::size_t>(array);
     owned_[index] = std::move(made);
     buffers_[index] = owned_[index].get();
@@ -128,16 +128,16 @@ Result<void> Pipeline::makeSmallArrays() {
 
 Result<void> Pipeline::makeArray(const ArraySpec& spec) {
     auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
-    if (!made) return tl::unexpected(withNeed(made.error(), plan_));
-    adopt(spec.array, std::move(*made));
+    if (!made) return tl::unexpected(withTotalMemory(made.error(), plan_));
+    setBuffer(spec.array, std::move(*made));
     ++arraysMade_;
-    if (spec.array == Array::DispatchSizes) fillLaunches();
+    if (spec.array == Array::DispatchSizes) writeDispatchSizes();
     return {};
 }
 
-void Pipeline::fillLaunches() {
+void Pipeline::writeDispatchSizes() {
     std::vector<glm::uvec4> rows;
-    for (const std::uint32_t invocations : plan_.fullLaunches) rows.push_back(groupsFor(invocations));
+    for (const std::uint32_t invocations : plan_.dispatchSizes) rows.push_back(groupsFor(invocations));
     write<glm::uvec4>(Array::DispatchSizes, rows);
 }
 
@@ -152,8 +152,8 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
 Result<void> Pipeline::bindAll() {
     for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_), {&plan_.statistics, &statistics_}})
         for (const LaunchSpec& spec : *launches) {
-            const auto place = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
-            const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(place)];
+            const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
+            const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
             auto arrays = arraysFor(spec, kernel);
             if (!arrays) return tl::unexpected(arrays.error());
             bound->push_back({.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)});
@@ -210,7 +210,7 @@ glm::vec4 Pipeline::velocityOf(std::uint32_t id) {
     return velocity;
 }
 
-void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
+void Pipeline::applyImpulse(std::uint32_t id, glm::vec3 impulse) {
     const std::uint32_t slot = slotOf(id);
     glm::vec4 velocity = velocityOf(id);
     velocity.w = std::abs(velocity.w);
@@ -218,8 +218,8 @@ void Pipeline::kick(std::uint32_t id, glm::vec3 impulse) {
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
     if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must also wake the sleepers that the sphere touches.
-    constexpr glm::vec4 crept(0, 0, 0, MOVED_AWAY);
-    write<glm::vec4>(Array::VelocityBefore, std::span<const glm::vec4>(&crept, 1), slot);
+    constexpr glm::vec4 movedAway(0, 0, 0, MOVED_AWAY);
+    write<glm::vec4>(Array::VelocityBefore, std::span<const glm::vec4>(&movedAway, 1), slot);
 }
 
 void Pipeline::wakeAll() {
@@ -260,7 +260,7 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
     for (ArraySpec& spec : plan_.arrays) {
         if (!growsWithPairs(spec.array)) continue;
         spec.bytes = (*next)->bytes();
-        adopt(spec.array, std::move(*next++));
+        setBuffer(spec.array, std::move(*next++));
     }
     plan_.pairCapacity = capacity;
     const std::uint32_t rebuild = 1;
@@ -270,7 +270,7 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
 }
 
 void Pipeline::substep(bool observed) {
-    run(substep_, observed ? Which::ObservedSubstep : Which::Substep);
+    run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);
     listsPending_ = false;
     impactsPending_ = impactsPending_ || observed;
 }
@@ -287,24 +287,24 @@ void Pipeline::runStatistics() {
     if (listsPending_) {
         // Reading statistics must not change the simulation: the next lists of a crowd depend on these two counters.
         const auto before = read<std::uint32_t>(Array::Counters);
-        run(substep_, Which::Rebuild);
+        run(substep_, LaunchSet::Rebuild);
         for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
             write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
         listsPending_ = false;
     }
-    run(statistics_, Which::Substep);
+    run(statistics_, LaunchSet::Substep);
 }
 
-void Pipeline::run(const std::vector<BoundLaunch>& launches, Which which) {
-    const auto left = [which](const LaunchSpec& spec) {
-        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::History;
-        return which == Which::Rebuild ? !rebuild : spec.observing && which != Which::ObservedSubstep;
+void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
+    const auto skipped = [set](const LaunchSpec& spec) {
+        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::SlipMemory;
+        return set == LaunchSet::Rebuild ? !rebuild : spec.observing && set != LaunchSet::ObservedSubstep;
     };
     std::optional<Pass> timed;
     std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};
     for (const BoundLaunch& one : launches) {
         const LaunchSpec& spec = *one.spec;
-        if (left(spec)) continue;
+        if (skipped(spec)) continue;
         if (timed != spec.pass) {
             if (timed) device_.endTimer();
             device_.beginTimer(static_cast<unsigned>(spec.pass));

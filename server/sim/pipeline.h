@@ -69,7 +69,7 @@ class Pipeline {
     }
 
     // Wakes a sphere and gives it an impulse (N s). Waits for the device.
-    void kick(std::uint32_t id, glm::vec3 impulse);
+    void applyImpulse(std::uint32_t id, glm::vec3 impulse);
     [[nodiscard]] glm::vec4 velocityOf(std::uint32_t id);  // waits for the device
 
     // Wakes all spheres. Waits for the device.
@@ -85,10 +85,10 @@ class Pipeline {
     Result<void> makeSmallArrays();
     Result<void> makeArray(const ArraySpec& spec);
     Result<void> makeKernel(std::string_view file);
-    void fillLaunches();
+    void writeDispatchSizes();
     void copy(compute::Buffer& from, compute::Buffer& to);
     std::uint32_t slotOf(std::uint32_t id);
-    void adopt(Array array, std::unique_ptr<compute::Buffer> made);
+    void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
     // A launch of the plan, its kernel, and the arrays to bind by slot.
     struct BoundLaunch {
         const LaunchSpec* spec = nullptr;
@@ -96,8 +96,8 @@ class Pipeline {
         std::vector<Array> arrays;
     };
     Result<void> bindAll();
-    enum class Which : std::uint8_t { Substep, ObservedSubstep, Rebuild };
-    void run(const std::vector<BoundLaunch>& launches, Which which);
+    enum class LaunchSet : std::uint8_t { Substep, ObservedSubstep, Rebuild };
+    void run(const std::vector<BoundLaunch>& launches, LaunchSet set);
 
     compute::Device& device_;
     Plan plan_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 5 within the margin
 constexpr std::uint32_t fewestPairs = 1024;
-constexpr std::uint32_t mostWallContacts = 8;
+constexpr std::uint32_t wallHistoryLimit = 8;
 
 std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& scene) {
     const std::uint64_t n = plan.spheres;
@@ -23,8 +23,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
             return n;
         case Extent::SphereEnd:
             return n + 1;
-        case Extent::WallContact:
-            return n * plan.wallContacts;
+        case Extent::RememberedWall:
+            return n * plan.maxWallHistory;
         case Extent::CellEnd:
             return std::uint64_t{cells} + 1;
         case Extent::Group:
@@ -91,7 +91,7 @@ std::uint64_t Plan::bytes() const {
                            [](std::uint64_t sum, const ArraySpec& spec) { return sum + spec.bytes; });
 }
 
-Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const Radii& radii,
+Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity) {
     Plan plan;
     plan.features = features;
@@ -101,11 +101,11 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
         plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii);
         plan.features.set(Feature::Levels, plan.grid.levels.size() > 1);
         plan.pairCapacity = pairCapacity != 0 ? pairCapacity : std::max(fewestPairs, pairsPerSphere * spheres);
-        plan.fullLaunches = launchTable(plan);
+        plan.dispatchSizes = launchTable(plan);
     }
-    if (features.has(Feature::Accurate) && features.obstructed())
-        plan.wallContacts =
-            std::min<std::uint32_t>(mostWallContacts, 6 + static_cast<std::uint32_t>(scene.obstacles.size()));
+    if (features.has(Feature::Accurate) && features.hasSurfaces())
+        plan.maxWallHistory =
+            std::min<std::uint32_t>(wallHistoryLimit, 6 + static_cast<std::uint32_t>(scene.obstacles.size()));
     PlanBuilder builder(plan, scene);
     builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});
     builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");

@@ -12,7 +12,7 @@
 #include "sim/features.h"
 #include "sim/grid.h"
 #include "sim/pass.h"
-#include "sim/sizes.h"
+#include "sim/radius_stats.h"
 
 namespace spherule::sim {
 
@@ -50,11 +50,11 @@ struct Plan {
     std::uint32_t spheres = 0;
     Grid grid;
     std::uint32_t pairCapacity = 0;
-    std::uint32_t wallContacts = 0;           // remembered by each sphere
-    std::vector<ArraySpec> arrays;            // in the order of sim/arrays.def
-    std::vector<LaunchSpec> substep;          // in order
-    std::vector<LaunchSpec> statistics;       // on demand
-    std::vector<std::uint32_t> fullLaunches;  // invocations per row of the launch table
+    std::uint32_t maxWallHistory = 0;          // remembered by each sphere
+    std::vector<ArraySpec> arrays;             // in the order of sim/arrays.def
+    std::vector<LaunchSpec> substep;           // in order
+    std::vector<LaunchSpec> statistics;        // on demand
+    std::vector<std::uint32_t> dispatchSizes;  // invocations per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;
     [[nodiscard]] std::uint64_t bytesOf(Array array) const;
@@ -71,7 +71,7 @@ constexpr std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
 
 // `scene` may lack its spheres. `spheres`, `radii`: number and radii of the spheres to simulate. `pairCapacity` 0: the
 // default.
-Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const Radii& radii,
+Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity = 0);
 
 // A part of the memory of a scene, with its name for users.

@@ -3,7 +3,7 @@
 
 #include "scene/quality.h"
 #include "scene/stiffness.h"
-#include "sim/need.h"
+#include "sim/memory_needs.h"
 #include "sim/plan.h"
 
 namespace spherule::sim {
@@ -67,7 +67,7 @@ std::string whenOf(const Row& row) {
 }
 
 std::vector<MemoryPart> memoryOf(const Plan& plan, std::span<const MemoryPart> more) {
-    std::vector<MemoryPart> parts = needOf(plan).parts();
+    std::vector<MemoryPart> parts = memoryNeedsOf(plan).parts();
     parts.insert(parts.end(), more.begin(), more.end());
     return parts;
 }

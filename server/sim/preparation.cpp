@@ -9,25 +9,25 @@
 
 #include "core/heartbeat.h"
 #include "core/log.h"
-#include "sim/need.h"
+#include "sim/memory_needs.h"
 #include "sim/parameters.h"
 #include "sim/statistics.h"
 
 namespace spherule::sim {
 
-Result<Built> builtOf(scene::Scene scene) {
+Result<SceneAndState> withInitialState(scene::Scene scene) {
     const auto room = claimForState(scene.spheres.size());
     if (!room) return tl::unexpected(room.error());
     State state = stateOf(scene);
-    return Built{std::move(scene), std::move(state)};
+    return SceneAndState{std::move(scene), std::move(state)};
 }
 
-Preparation::Preparation(compute::Device& device, Built built, memory::Claim copies)
+Preparation::Preparation(compute::Device& device, SceneAndState built, memory::Claim copies)
     : device_(device), copies_(std::move(copies)), stage_(Stage::Planning), built_(std::move(built)) {}
 
 Preparation::Preparation(compute::Device& device, Build build, memory::Claim copies)
     : device_(device), copies_(std::move(copies)) {
-    std::packaged_task<Result<Built>()> task([this, build = std::move(build)]() -> Result<Built> {
+    std::packaged_task<Result<SceneAndState>()> task([this, build = std::move(build)]() -> Result<SceneAndState> {
         try {
             return build(progress_);
         } catch (const std::bad_alloc&) {
@@ -44,35 +44,35 @@ Preparation::~Preparation() {
     progress_.cancel();
 }
 
-Result<bool> Preparation::advance(std::chrono::milliseconds patience) {
-    if (auto done = doStage(patience); !done) return tl::unexpected(done.error());
+Result<bool> Preparation::advance(std::chrono::milliseconds maxWait) {
+    if (auto done = doStage(maxWait); !done) return tl::unexpected(done.error());
     return stage_ == Stage::Done;
 }
 
 Result<void> Preparation::finish() {
-    constexpr std::chrono::milliseconds patience(10);
+    constexpr std::chrono::milliseconds maxWait(10);
     for (;;) {
-        const auto done = advance(patience);
+        const auto done = advance(maxWait);
         if (!done) return tl::unexpected(done.error());
         if (*done) return {};
     }
 }
 
-Result<void> Preparation::doStage(std::chrono::milliseconds patience) {
+Result<void> Preparation::doStage(std::chrono::milliseconds maxWait) {
     switch (stage_) {
         case Stage::Building:
-            return awaitBuilt(patience);
+            return awaitBuilt(maxWait);
         case Stage::Planning:
             return makePlan();
-        case Stage::Making:
+        case Stage::Allocating:
             return makeNext();
         case Stage::Uploading:
             upload();
             return {};
-        case Stage::Looking:
-            return look();
-        case Stage::Parting:
-            return part();
+        case Stage::MeasuringOverlaps:
+            return measureOverlaps();
+        case Stage::ResolvingOverlaps:
+            return resolveOverlaps();
         case Stage::Done:
             return {};
     }
@@ -80,10 +80,10 @@ Result<void> Preparation::doStage(std::chrono::milliseconds patience) {
 }
 
 // The waiting thread sends a heartbeat whenever the building thread has made progress.
-Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
-    if (building_.wait_for(patience) != std::future_status::ready) {
+Result<void> Preparation::awaitBuilt(std::chrono::milliseconds maxWait) {
+    if (building_.wait_for(maxWait) != std::future_status::ready) {
         const Progress::Seen seen = progress_.seen();
-        if (seen.marks != std::exchange(marks_, seen.marks)) heartbeat::beat(seen.doing);
+        if (seen.marks != std::exchange(seenMarks_, seen.marks)) heartbeat::beat(seen.doing);
         return {};
     }
     auto built = building_.get();
@@ -96,13 +96,13 @@ Result<void> Preparation::awaitBuilt(std::chrono::milliseconds patience) {
 // Claims all memory before any of it is allocated.
 Result<void> Preparation::makePlan() {
     progress_.at("planning", 0);
-    radii_ = radiiOf(built_.scene);
+    radii_ = radiusStatsOf(built_.scene);
     Plan plan = planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
     auto claim = claimFor(device_, plan);
     if (!claim) return tl::unexpected(claim.error());
     claim_ = std::move(*claim);
     pipeline_ = std::make_unique<Pipeline>(device_, std::move(plan));
-    stage_ = Stage::Making;
+    stage_ = Stage::Allocating;
     return {};
 }
 
@@ -113,9 +113,9 @@ Result<void> Preparation::makeNext() {
     if (*more) return {};
     // The arrays are allocated now, no longer promised.
     const Plan& plan = pipeline_->plan();
-    const Need need = needOf(plan);
-    const std::uint64_t there = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
-    claim_.settle(arraysOnHost(device_, plan), need.onHost() - there + need.work);
+    const MemoryNeeds need = memoryNeedsOf(plan);
+    const std::uint64_t alreadyHeld = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
+    claim_.settle(arraysOnHost(device_, plan), need.onHost() - alreadyHeld + need.temporary);
     stage_ = Stage::Uploading;
     return {};
 }
@@ -127,32 +127,32 @@ void Preparation::upload() {
     writeConstants(*pipeline_, built_.scene);
     pipeline_->setParameters(
         parametersFor(built_.scene, pipeline_->plan(), radii_, built_.scene.step / built_.scene.quality.substeps));
-    tolerated_ = deepestBearable(built_.scene);
-    stage_ = std::isfinite(tolerated_) ? Stage::Looking : Stage::Done;
+    maxOverlap_ = maxSafeOverlap(built_.scene);
+    stage_ = std::isfinite(maxOverlap_) ? Stage::MeasuringOverlaps : Stage::Done;
 }
 
 // Measures the deepest overlap: spheres that begin deep in each other would fly apart.
-Result<void> Preparation::look() {
+Result<void> Preparation::measureOverlaps() {
     progress_.at("looking for overlaps", 0);
     const double deepest = measure(*pipeline_, built_.scene).deepest();
     stage_ = Stage::Done;
-    if (!(deepest > tolerated_)) return {};
+    if (!(deepest > maxOverlap_)) return {};
     spdlog::info("spheres are in each other by up to {:.2g} radii; pushing them apart first", deepest);
-    parted_ = Parted{.before = deepest};
-    relaxation_ = std::make_unique<Relaxation>(device_, built_.scene, built_.state, tolerated_);
-    stage_ = Stage::Parting;
+    resolvedOverlaps_ = ResolvedOverlaps{.before = deepest};
+    resolver_ = std::make_unique<InitialOverlapResolver>(device_, built_.scene, built_.state, maxOverlap_);
+    stage_ = Stage::ResolvingOverlaps;
     return {};
 }
 
-Result<void> Preparation::part() {
-    progress_.at("pushing spheres apart", relaxation_->share());
-    const auto done = relaxation_->advance();
+Result<void> Preparation::resolveOverlaps() {
+    progress_.at("pushing spheres apart", resolver_->share());
+    const auto done = resolver_->advance();
     if (!done) return tl::unexpected(done.error());
     if (!*done) return {};
-    parted_->after = relaxation_->overlap();
-    parted_->sweeps = relaxation_->sweeps();
-    built_.state.position = relaxation_->takePositions();
-    relaxation_.reset();
+    resolvedOverlaps_->after = resolver_->overlap();
+    resolvedOverlaps_->sweeps = resolver_->sweeps();
+    built_.state.position = resolver_->takePositions();
+    resolver_.reset();
     pipeline_->upload(built_.state, materialsOf(built_.scene));
     stage_ = Stage::Done;
     return {};

@@ -13,30 +13,30 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "scene/scene.h"
+#include "sim/initial_overlaps.h"
 #include "sim/pipeline.h"
-#include "sim/relax.h"
-#include "sim/sizes.h"
+#include "sim/radius_stats.h"
 #include "sim/state.h"
 
 namespace spherule::sim {
 
 // A scene and the initial state of its spheres, in id order.
-struct Built {
+struct SceneAndState {
     scene::Scene scene;
     State state;
 };
 
 // Returns the scene and its initial state. Refused if there is no memory for the state.
-Result<Built> builtOf(scene::Scene scene);
+Result<SceneAndState> withInitialState(scene::Scene scene);
 
 // Prepares all that a simulation needs: arrays, kernels, the spheres on the device. Works in pieces, so that another
 // simulation can go on stepping on the same device. Used by the thread that owns the device.
 class Preparation {
   public:
-    using Build = std::function<Result<Built>(Progress&)>;
+    using Build = std::function<Result<SceneAndState>(Progress&)>;
 
     // `copies`: the caller's memory claim for `built` or `build`, released with the preparation.
-    Preparation(compute::Device& device, Built built, memory::Claim copies = {});
+    Preparation(compute::Device& device, SceneAndState built, memory::Claim copies = {});
     // `build` runs on a thread of its own and may not use the device. An exception in it, such as bad_alloc, becomes an
     // error.
     Preparation(compute::Device& device, Build build, memory::Claim copies = {});
@@ -45,16 +45,17 @@ class Preparation {
     Preparation(const Preparation&) = delete;
     Preparation& operator=(const Preparation&) = delete;
 
-    // Does one piece of about the length of a substep, or waits up to `patience` for the thread that builds. Returns
-    // true once all is done and Simulation may take the preparation. Do not call it again after that or after an error.
-    Result<bool> advance(std::chrono::milliseconds patience = std::chrono::milliseconds(0));
+    // Does one piece of about the length of a substep, or waits up to `maxWait` for the thread that builds. Returns
+    // true once all is done and Simulation may adopt the preparation. Do not call it again after that or after an
+    // error.
+    Result<bool> advance(std::chrono::milliseconds maxWait = std::chrono::milliseconds(0));
     // Does all remaining pieces.
     Result<void> finish();
 
     [[nodiscard]] Progress::Seen progress() const { return progress_.seen(); }
 
-    // Result of moving spheres apart that began deep in each other.
-    struct Parted {
+    // The result of moving spheres apart that overlapped deeply at the start.
+    struct ResolvedOverlaps {
         double before = 0;  // largest overlap, as a fraction of the smaller radius
         double after = 0;
         std::uint32_t sweeps = 0;
@@ -62,29 +63,37 @@ class Preparation {
 
   private:
     friend class Simulation;
-    enum class Stage : std::uint8_t { Building, Planning, Making, Uploading, Looking, Parting, Done };
+    enum class Stage : std::uint8_t {
+        Building,
+        Planning,
+        Allocating,
+        Uploading,
+        MeasuringOverlaps,
+        ResolvingOverlaps,
+        Done
+    };
 
-    Result<void> doStage(std::chrono::milliseconds patience);
-    Result<void> awaitBuilt(std::chrono::milliseconds patience);
+    Result<void> doStage(std::chrono::milliseconds maxWait);
+    Result<void> awaitBuilt(std::chrono::milliseconds maxWait);
     Result<void> makePlan();
     Result<void> makeNext();
     void upload();
-    Result<void> look();
-    Result<void> part();
+    Result<void> measureOverlaps();
+    Result<void> resolveOverlaps();
 
     compute::Device& device_;
     memory::Claim copies_;
     memory::Claim claim_;  // for the simulation that it makes
     Progress progress_;
-    std::uint64_t marks_ = 0;  // progress marks of the thread that builds, as last seen
-    std::future<Result<Built>> building_;
+    std::uint64_t seenMarks_ = 0;  // progress marks of the thread that builds, as last seen
+    std::future<Result<SceneAndState>> building_;
     Stage stage_ = Stage::Building;
-    Built built_;
-    Radii radii_;
+    SceneAndState built_;
+    RadiusStats radii_;
     std::unique_ptr<Pipeline> pipeline_;
-    double tolerated_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
-    std::unique_ptr<Relaxation> relaxation_;
-    std::optional<Parted> parted_;
+    double maxOverlap_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
+    std::unique_ptr<InitialOverlapResolver> resolver_;
+    std::optional<ResolvedOverlaps> resolvedOverlaps_;
     std::jthread builder_;  // last member: joined before the members that it uses are destroyed
 };
 

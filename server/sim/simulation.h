@@ -31,7 +31,7 @@ class Simulation {
     // Does the remaining substeps of the step.
     Result<void> step();
     // Returns true between two substeps of one step.
-    [[nodiscard]] bool midStep() const { return left_ > 0; }
+    [[nodiscard]] bool midStep() const { return restLeft_ > 0; }
     [[nodiscard]] double shareOfStep() const;  // share of the step under way that is done, 0 to 1
 
     // The outcome of a command: it is done, or it needs `preparation`. Pass the preparation to adopt() once it is done.
@@ -52,33 +52,33 @@ class Simulation {
     // Turns observed steps on or off. Default: on. Observing never changes the state.
     void observe(bool on) { observing_ = on; }
     [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download()); }
-    void put(const State& state);  // `state` has count() spheres
+    void upload(const State& state);  // `state` has count() spheres
 
     // Describes the non-finite sphere with the smallest id: its last finite position and speed. Call it only if
     // counters().nonFinite.
     [[nodiscard]] std::string divergence() const;
     // Returns to the last state that was found finite. States are kept about once per simulated second.
-    void restore();
+    void rollback();
 
     // Returns an array on the device; null if the plan has none. Valid until the next command.
     [[nodiscard]] compute::Buffer* buffer(Array array);
 
     struct Counters {
-        std::uint32_t pairs = 0;           // listed
-        std::uint32_t unlisted = 0;        // cell groups without room for their pairs; served, but slowly
-        std::uint32_t sampled = 0;         // cell groups so crowded that only some of their pairs are listed
-        std::uint32_t forgotten = 0;       // contacts with walls that found no room for their history
-        bool nonFinite = false;            // some sphere has become non-finite
-        std::uint32_t firstNonFinite = 0;  // the smallest id of such a sphere
-        std::uint32_t rebuilds = 0;        // of the lists, since the last change of the scene
-        double farthest = 0;               // largest motion in a substep of the step (radii); 0: below FAR_MOTION
+        std::uint32_t pairs = 0;                // listed
+        std::uint32_t unlisted = 0;             // cell groups without room for their pairs; served, but slowly
+        std::uint32_t sampled = 0;              // cell groups so crowded that only some of their pairs are listed
+        std::uint32_t droppedWallContacts = 0;  // contacts with walls that found no room for their slip
+        bool nonFinite = false;                 // some sphere has become non-finite
+        std::uint32_t firstNonFinite = 0;       // the smallest id of such a sphere
+        std::uint32_t rebuilds = 0;             // of the lists, since the last change of the scene
+        double largestMotion = 0;               // largest motion in a substep of the step (radii); 0: below SAFE_MOTION
     };
     [[nodiscard]] const Counters& counters() const { return counters_; }  // as of the end of the last step
 
     // Returns the substeps of the next step: the scene's number, or more while a sphere moves too far in a substep.
     [[nodiscard]] std::uint32_t substeps() const { return substeps_; }
 
-    // Sets the number of substeps that the scene's goal requires, also for the rest of a step under way. Wakes no
+    // Sets the number of substeps that the scene's target requires, also for the rest of a step under way. Wakes no
     // sphere.
     Result<void> chooseSubsteps(std::uint32_t substeps);
 
@@ -89,7 +89,7 @@ class Simulation {
     [[nodiscard]] std::vector<double> passSeconds() { return device_.takeTimes(); }
 
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
-    [[nodiscard]] const Radii& radii() const { return radii_; }
+    [[nodiscard]] const RadiusStats& radii() const { return radii_; }
     [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return plan().spheres; }
@@ -101,20 +101,20 @@ class Simulation {
     explicit Simulation(compute::Device& device) : device_(device) {}
 
     // The data that adopt() resets in addition to arrays and kernels. All spheres wake in each case.
-    enum class Anew : std::uint8_t { Nothing, Spheres, World };
+    enum class ResetScope : std::uint8_t { Nothing, Spheres, World };
 
-    void take(Preparation& preparation);
+    void install(Preparation& preparation);
     // `copies`: the claim for copies made for the preparation, in addition to the preparation's own claim.
-    Outcome prepare(Anew anew, memory::Claim copies, Preparation::Build build);
-    Outcome prepare(Anew anew, memory::Claim copies, Built built);
+    Outcome prepare(ResetScope scope, memory::Claim copies, Preparation::Build build);
+    Outcome prepare(ResetScope scope, memory::Claim copies, SceneAndState built);
     Result<State> liveState();  // DeviceLost if the device is lost, because its data is invalid
     void useSubsteps(std::uint32_t substeps);
-    Result<void> guard();
+    Result<void> checkStep();
     void readCounters();
-    void makeRoom();
+    void growPairs();
     void uploadParameters();
-    void fitToMotion(double radiiPerSubstep);
-    void keep();
+    void limitMotionPerSubstep(double radiiPerSubstep);
+    void saveLastFinite();
 
     class CommandHandler;
     Result<Outcome> change(scene::Scene changed, bool disturbs);
@@ -123,30 +123,30 @@ class Simulation {
     memory::Claim claim_;
     scene::Scene initial_;
     scene::Scene scene_;
-    Radii radii_;
+    RadiusStats radii_;
     std::unique_ptr<Pipeline> pipeline_;
     Counters counters_;
     bool observing_ = true;
     Impacts impacts_;
-    bool forgot_ = false;   // a notice about forgotten contacts was given
-    bool full_ = false;     // no room for more pairs
-    bool sampled_ = false;  // a notice about sampled pairs was given
+    bool noticedDropped_ = false;  // a notice about dropped wall contacts was given
+    bool pairsExhausted_ = false;  // no room for more pairs
+    bool noticedSampled_ = false;  // a notice about sampled pairs was given
     std::uint32_t substeps_ = 1;
-    std::uint32_t mostSubsteps_ = 1;  // limit while a sphere is very fast
-    std::uint32_t calm_ = 0;          // steps since a sphere moved too far
-    std::uint32_t patience_ = 0;      // calm steps before substeps are lowered
-    bool lowered_ = false;            // since a sphere last moved too far
+    std::uint32_t maxSubsteps_ = 1;  // limit while a sphere is very fast
+    std::uint32_t quietSteps_ = 0;   // steps since a sphere moved too far
+    std::uint32_t backoff_ = 0;      // quiet steps before substeps are lowered
+    bool lowered_ = false;           // since a sphere last moved too far
     std::vector<std::string> notices_;
-    SlotState good_;  // the last state that was found finite
-    std::uint64_t goodStep_ = 0;
+    SlotState lastFinite_;  // the last state that was found finite
+    std::uint64_t lastFiniteStep_ = 0;
     std::uint64_t steps_ = 0;
-    // The step under way. begun_: the share that was done when its substeps were last chosen. chosen_: the number of
-    // substeps for the rest. left_: the remaining ones.
-    double begun_ = 0;
-    std::uint32_t chosen_ = 0;
-    std::uint32_t left_ = 0;
-    bool observed_ = false;
-    Anew anew_ = Anew::Nothing;  // for the preparation under way
+    // The step under way, and its rest since its substeps were last chosen. restBegin_: the share of the step that was
+    // done then. restSubsteps_: the substeps of the rest. restLeft_: those that remain.
+    double restBegin_ = 0;
+    std::uint32_t restSubsteps_ = 0;
+    std::uint32_t restLeft_ = 0;
+    bool stepObserved_ = false;
+    ResetScope resetScope_ = ResetScope::Nothing;  // for the preparation under way
     std::uint32_t generation_ = 0;
 };
 

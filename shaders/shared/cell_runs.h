@@ -40,7 +40,7 @@ Reach reachOf(vec4 sphere, uint level) {
     r.centre = vec3(sphere) * inverseCellOf(level);
     // A little more than the exact radius, because the cells of the other spheres are rounded.
     float farthest = max(max(abs(r.centre.x), abs(r.centre.y)), abs(r.centre.z));
-    r.radius = (sphere.w + params.levelSize[level].y + params.margin) * inverseCellOf(level) * 1.0001f + 0.01f +
+    r.radius = (storedRadius(sphere) + largestRadius(level) + params.margin) * inverseCellOf(level) * 1.0001f + 0.01f +
                farthest * 1.0e-6f;
     r.rows = 0u;
     if (!finite3(r.centre)) return r;

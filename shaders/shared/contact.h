@@ -23,7 +23,6 @@ vec4 normalAndDistance(vec3 difference, float squared, uint a, uint b) {
     return vec4(difference * (1.0f / distance), distance);
 }
 
-// A sleeping sphere has a negative inverse mass: its mobility is 0, so that its neighbours cannot move it.
-float mobility(float inverseMass) {
-    return max(inverseMass, 0.0f);
+float distanceOf(vec4 normalAndDistance) {
+    return normalAndDistance.w;
 }

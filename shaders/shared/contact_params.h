@@ -5,7 +5,7 @@ uint contactIndex(uint a, uint b) {
 }
 
 vec4 contactOf(uint a, uint b) {
-    return HAS(MATERIALS) ? contactParams[contactIndex(a, b)].contact : params.law;
+    return HAS(MATERIALS) ? contactParams[contactIndex(a, b)].contact : params.contact;
 }
 
 vec4 stiffnessOf(uint a, uint b) {

@@ -24,26 +24,27 @@ vec3 rollingMoment(vec3 roll, float c, float most) {
 }
 
 // Finds the impulse and the moment that stop slip and roll together, where roll = (wa - wb) x n. Their limits are
-// `most` (N s) and `mostMoment` (N s m). If either exceeds its limit, finds the ones that stop slip and roll
+// `maxImpulse` (N s) and `maxMoment` (N s m). If either exceeds its limit, finds the ones that stop slip and roll
 // separately, each cut to its limit.
-// `mobility` = 1/ma + 1/mb, `coupling` = 1/(ma ra) - 1/(mb rb), `inertia` = 1/(ma ra^2) + 1/(mb rb^2).
-FrictionImpulse frictionImpulse(vec3 slip, vec3 roll, float mobility, float coupling, float inertia, float most, float mostMoment) {
+// `inverseMassSum` = 1/ma + 1/mb, `coupling` = 1/(ma ra) - 1/(mb rb), `inverseInertia` = 1/(ma ra^2) + 1/(mb rb^2).
+FrictionImpulse frictionImpulse(vec3 slip, vec3 roll, float inverseMassSum, float coupling, float inverseInertia,
+                                float maxImpulse, float maxMoment) {
     FrictionImpulse result;
-    float s = 3.5f * mobility;
-    float c = 2.5f * inertia;
+    float s = 3.5f * inverseMassSum;
+    float c = 2.5f * inverseInertia;
     if (HAS(ROLLING)) {
         // slip + s J - b T = 0 and roll - b J + c T = 0.
         float b = 2.5f * coupling;
         float inverse = 1.0f / (s * c - b * b);
         result.impulse = (slip * c + roll * b) * -inverse;
         result.moment = (roll * s + slip * b) * -inverse;
-        if (dot3(result.impulse, result.impulse) <= most * most &&
-            dot3(result.moment, result.moment) <= mostMoment * mostMoment)
+        if (dot3(result.impulse, result.impulse) <= maxImpulse * maxImpulse &&
+            dot3(result.moment, result.moment) <= maxMoment * maxMoment)
             return result;
-        result.moment = rollingMoment(roll, c, mostMoment);
+        result.moment = rollingMoment(roll, c, maxMoment);
     }
     float speed = sqrt(dot3(slip, slip));
-    float impulse = min(speed / s, most);
+    float impulse = min(speed / s, maxImpulse);
     result.impulse = slip * (speed > 0.0f ? -impulse / speed : 0.0f);
     return result;
 }

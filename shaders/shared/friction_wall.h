@@ -1,17 +1,21 @@
 // Friction between a sphere and a wall. The includer has the PRIVATE variables `solvedVelocity` (m/s) and `omega`
 // (rad/s).
 
-// `pressing` is the impulse that presses the sphere to the wall, per mass (m/s). `law` is ContactParams.contact.
-void applyWallFriction(vec3 n, float radius, float pressing, vec4 law) {
+// `normalImpulse` is the impulse that presses the sphere to the wall, per mass (m/s). `contact` is
+// ContactParams.contact.
+void applyWallFriction(vec3 n, float radius, float normalImpulse, vec4 contact) {
     vec3 slip = solvedVelocity - n * dot3(solvedVelocity, n) - cross3(omega, n) * radius;
-    float lever = 1.0f / radius;
-    float inertia = lever * lever;
-    FrictionImpulse got = frictionImpulse(slip, cross3(omega, n), 1.0f, lever, inertia, law.y * pressing, law.z * radius * pressing);
+    float inverseRadius = 1.0f / radius;
+    float inverseInertia = inverseRadius * inverseRadius;
+    FrictionImpulse friction =
+        frictionImpulse(slip, cross3(omega, n), 1.0f, inverseRadius, inverseInertia,
+                        frictionOf(contact) * normalImpulse, rollingResistanceOf(contact) * radius * normalImpulse);
     vec3 moment = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(ROLLING)) {
-        moment = cross3(n, got.moment) +
-                 spinningMoment(n, dot3(omega, n), 2.5f * inertia, law.w * radius * pressing);
+        moment = cross3(n, friction.moment) +
+                 spinningMoment(n, dot3(omega, n), 2.5f * inverseInertia,
+                                spinningResistanceOf(contact) * radius * normalImpulse);
     }
-    solvedVelocity = solvedVelocity + got.impulse;
-    omega = omega + (moment * inertia - cross3(n, got.impulse) * lever) * 2.5f;
+    solvedVelocity = solvedVelocity + friction.impulse;
+    omega = omega + (moment * inverseInertia - cross3(n, friction.impulse) * inverseRadius) * 2.5f;
 }

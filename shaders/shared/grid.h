@@ -14,22 +14,22 @@ float inverseCellOf(uint level) {
     return HAS(LEVELS) ? params.levelSize[level].x : params.inverseCell;
 }
 
-// A cell with more spheres of the level than this is crowded: not all of their pairs are visited at once.
-uint crowdLimit(uint level) {
+// A cell with more spheres of the level than this is overfull: a sample of its pairs is visited in each round.
+uint sampleThreshold(uint level) {
     return uint(params.levelSize[level].z);
 }
 
 uint levelOf(float radius) {
     uint level = 0u;
     if (HAS(LEVELS))
-        while (level + 1u < params.levels && radius > params.levelSize[level].y) level = level + 1u;
+        while (level + 1u < params.levels && radius > largestRadius(level)) level = level + 1u;
     return level;
 }
 
 uint levelOfGroup(uint group) {
     uint level = 0u;
     if (HAS(LEVELS))
-        while (level + 1u < params.levels && 8u * group >= params.levelCells[level + 1u].w) level = level + 1u;
+        while (level + 1u < params.levels && 8u * group >= firstCell(params.levelCells[level + 1u])) level = level + 1u;
     return level;
 }
 
@@ -45,14 +45,14 @@ uint wrapCell(float coordinate, uint cells) {
 // spheres is a slice of the scene from bottom to top. Threads that take equal shares of each therefore find their own
 // spheres, and equally many, in a pile too.
 uint cellIndex(uvec4 cells, uint x, uint y, uint z) {
-    return cells.w + (y * cells.z + z) * cells.x + x;
+    return firstCell(cells) + (y * cells.z + z) * cells.x + x;
 }
 
 // The cell of a sphere on its level.
 uint cellOf(vec4 sphere) {
     vec3 point = vec3(sphere);
     if (!finite3(point)) return 0u;
-    uint level = levelOf(sphere.w);
+    uint level = levelOf(storedRadius(sphere));
     uvec4 cells = cellsOf(level);
     vec3 p = point * inverseCellOf(level);
     return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
@@ -64,7 +64,7 @@ uint groupAt(vec3 point, uint level) {
     uvec4 cells = cellsOf(level);
     vec3 p = point * inverseCellOf(level);
     uint row = wrapCell(p.y, cells.y) / 2u * (cells.z / 2u) + wrapCell(p.z, cells.z) / 2u;
-    return cells.w / 8u + row * (cells.x / 2u) + wrapCell(p.x, cells.x) / 2u;
+    return firstCell(cells) / 8u + row * (cells.x / 2u) + wrapCell(p.x, cells.x) / 2u;
 }
 
 // The level of a launch over groups: its phase holds level and colour (0 .. 7).
@@ -87,5 +87,5 @@ uint groupOfPhase(uint index) {
     uint x = 2u * (index % gx) + (phase & 1u);
     uint y = 2u * (index / (gx * gz)) + ((phase >> 1u) & 1u);
     uint z = 2u * ((index / gx) % gz) + ((phase >> 2u) & 1u);
-    return cells.w / 8u + (y * (2u * gz) + z) * (2u * gx) + x;
+    return firstCell(cells) / 8u + (y * (2u * gz) + z) * (2u * gx) + x;
 }

@@ -8,13 +8,14 @@
 
 #include "shared/cell_runs.h"
 
-// Each sphere of a crowd meets at most CROWD_MOST others in a turn. It meets fewer, but at least CROWD_LEAST, if the
-// crowd is very large, so that the work of a cell is bounded.
-#define CROWD_MOST 32u
-#define CROWD_LEAST 4u
-#define CROWD_VISITS 32768u
+// A cell with more spheres than sampleThreshold() is overfull: in each round, each of its spheres is paired only with a
+// sample of the others. The sample has at most SAMPLE_MOST spheres. It has fewer, but at least SAMPLE_LEAST, if the
+// cell holds very many, so that the work of a cell is bounded.
+#define SAMPLE_MOST 32u
+#define SAMPLE_LEAST 4u
+#define SAMPLE_VISITS 32768u
 
-PRIVATE(bool, crowded)  // some cells held so many spheres that not all of their pairs were visited
+PRIVATE(bool, sampled)  // some cells held so many spheres that not all of their pairs were visited
 PRIVATE(Reach, reached)
 PRIVATE(CellRun, chord)
 
@@ -32,7 +33,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     uint south = y == 0u ? cells.y - 1u : y - 1u;
     uint above = z + 1u == cells.z ? 0u : z + 1u;
     bool whole = x > 0u && x + 1u < nx;
-    uint meets = max(CROWD_LEAST, min(CROWD_VISITS / (last - first), CROWD_MOST));
+    uint sampleSize = max(SAMPLE_LEAST, min(SAMPLE_VISITS / (last - first), SAMPLE_MOST));
     // One pass for the level itself, then one for each sphere and each finer level.
     uint passes = HAS(LEVELS) ? 1u + (last - first) * level : 1u;
     for (uint pass = 0u; pass < passes; ++pass) {
@@ -67,17 +68,17 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
                 }
                 uint begin = cellStart[start + from];
                 uint end = cellStart[start + to + 1u];
-                uint crowd = (to - from + 1u) * crowdLimit(finer ? (pass - 1u) % level : level);
+                uint threshold = (to - from + 1u) * sampleThreshold(finer ? (pass - 1u) % level : level);
                 uint until = finer ? one + 1u : last;
                 for (uint a = one; a < until; ++a) {
                     uint b = row + part == 0u && !finer ? a + 1u : begin;
                     uint stop = end;
-                    if (stop - b > crowd) {
-                        // Visits a share of the others now and another share in the next turn.
-                        uint shares = (stop - b + meets - 1u) / meets;
-                        b = b + sampleRound % shares * meets;
-                        stop = min(b + meets, stop);
-                        crowded = true;
+                    if (stop - b > threshold) {
+                        // Visits a share of the others now and another share in the next round.
+                        uint shares = (stop - b + sampleSize - 1u) / sampleSize;
+                        b = b + sampleRound % shares * sampleSize;
+                        stop = min(b + sampleSize, stop);
+                        sampled = true;
                     }
                     for (; b < stop; ++b) visitPair(a, b);
                 }
@@ -86,17 +87,18 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     }
 }
 
-// `sampleRound` selects the share of the pairs of a crowd that is visited. Successive rounds visit all shares in turn.
+// `sampleRound` selects the share of the pairs of an overfull cell that is visited. Successive rounds visit all shares
+// in turn.
 void visitGroupNumber(uint group, uint sampleRound) {
     uint level = levelOfGroup(group);
     uvec4 cells = cellsOf(level);
     uint gx = cells.x / 2u;
     uint gz = cells.z / 2u;
-    uint at = group - cells.w / 8u;
+    uint at = group - firstCell(cells) / 8u;
     uint x = at % gx;
     uint y = at / (gx * gz);
     uint z = (at / gx) % gz;
-    crowded = false;
+    sampled = false;
     for (uint k = 0u; k < 8u; ++k)
         visitCell(level, 2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u), sampleRound);
 }

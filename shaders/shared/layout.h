@@ -7,9 +7,9 @@ struct Parameters {
     vec4 gravity;        // xyz in m/s^2; w = 0
     vec4 wallMin;        // domain walls
     vec4 wallMax;
-    vec4 law;            // ContactParams.contact of two spheres, if all have one material
+    vec4 contact;        // ContactParams.contact of two spheres, if all have one material
     vec4 stiffness;      // ContactParams.stiffness of these
-    vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, crowd limit, 0; from fine to coarse
+    vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, sample threshold, 0; from fine to coarse
     uvec4 cells;         // per axis, multiples of 4; w = cells of all levels together
     uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 4; w = first cell of the level among all cells
 
@@ -26,7 +26,7 @@ struct Parameters {
     float sleepSpeed;    // m/s
     float sleepTime;     // s
     float wakeSpeed;     // m/s
-    float creep;         // m; a sphere that moves this far from its rest reference has moved away
+    float moveAwayDistance;  // m; a sphere that moves this far from its rest reference has moved away
 
     uint spheres;
     uint groups;         // of 2 x 2 x 2 cells, of one colour, of all levels
@@ -40,7 +40,7 @@ struct Parameters {
 
     uint material;       // of every sphere, if all have one
     uint wallMaterial;   // of the bounds
-    uint wallContacts;   // contacts with walls that a sphere can remember
+    uint maxWallHistory; // contacts with walls that a sphere can remember
     uint levels;
 };
 
@@ -85,8 +85,8 @@ struct SphereStatistics {
 #define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
 #define COUNTER_REBUILDS 5u     // since the start
 #define COUNTER_SUBSTEPS 6u     // since the start
-#define COUNTER_FORGOTTEN 7u    // contacts with walls without room for their tangential slip, since the start
-#define COUNTER_FASTEST 8u      // largest motion in a substep, in radii, as bits of a float; 0: none beyond FAR_MOTION
+#define COUNTER_DROPPED_WALLS 7u  // contacts with walls without room for their tangential slip, since the start
+#define COUNTER_LARGEST_MOTION 8u  // in a substep, in radii, as bits of a float; 0: none beyond SAFE_MOTION
 #define COUNTER_SAMPLED 9u      // cell groups so crowded that only some of their pairs are listed
 #define COUNTER_OUTSIDE 10u     // spheres outside the bounds when the lists were built, without lost ones
 #define COUNTER_FRAME_FALLS 11u // not 0: the frame of the spheres outside moves
@@ -99,7 +99,7 @@ struct SphereStatistics {
 
 // A sphere should move less than this share of its radius in a substep. Otherwise it may pass through an object that it
 // should hit.
-#define FAR_MOTION 0.5f
+#define SAFE_MOTION 0.5f
 
 // Launch sizes that depend on whether the lists are rebuilt: rows of uvec4 (groups x, y, z, 0).
 #define LAUNCH_SPHERES 0u

@@ -12,6 +12,10 @@
 // another one outside. This value means that there is no limit.
 #define UNLIMITED_ROOM 1.0e18f
 
+float roomOf(vec4 reference) {
+    return reference.w;
+}
+
 // The share of its room that a sphere may use up before there are new lists. Two spheres use up the same gap, and each
 // looks ahead as far.
 #define ROOM_SHARE 0.25f
@@ -51,5 +55,5 @@ float farthestAxis(vec3 p) {
 }
 
 bool lost(vec4 sphere) {
-    return farthestAxis(vec3(sphere)) > LOST_DISTANCE * (HAS(RADII) ? sphere.w : params.radius);
+    return farthestAxis(vec3(sphere)) > LOST_DISTANCE * radiusOf(sphere);
 }

@@ -3,8 +3,8 @@
 // with the lower id. The includer binds `position` and `idAndMaterial`.
 bool firstKeepsSlip(uint a, uint b) {
     if (HAS(RADII)) {
-        float ra = position[a].w;
-        float rb = position[b].w;
+        float ra = storedRadius(position[a]);
+        float rb = storedRadius(position[b]);
         if (ra != rb) return ra < rb;
     }
     return idOf(idAndMaterial[a]) < idOf(idAndMaterial[b]);

@@ -38,10 +38,10 @@ struct Spring {
 
 // `path` is the normal speed in the substep's motion, `speed` the normal speed before the impulse (m/s). Both are
 // positive when the spheres part.
-Spring springOf(float overlap, float path, float speed, float radius, float mobility, vec4 law) {
+Spring springOf(float overlap, float path, float speed, float radius, float inverseMass, vec4 moduli) {
     Spring spring;
     float h = params.substep;
-    precise float mass = 1.0f / mobility;
+    precise float mass = 1.0f / inverseMass;
     precise float before = overlap + path * h;
     bool begins = before < 0.0f;
     spring.share = 1.0f;
@@ -59,16 +59,16 @@ Spring springOf(float overlap, float path, float speed, float radius, float mobi
     precise float tangential;
     if (HAS(HERTZ)) {
         float disc = sqrt(radius * overlap);
-        stiffness = 2.0f * law.x * disc;
+        stiffness = 2.0f * normalModulus(moduli) * disc;
         force = 0.66666667f * stiffness * overlap;
-        damping = 2.0f * law.y * sqrt(0.83333333f * stiffness * mass);
-        tangential = 8.0f * law.z * disc;
+        damping = 2.0f * dampingRatio(moduli) * sqrt(0.83333333f * stiffness * mass);
+        tangential = 8.0f * tangentialModulus(moduli) * disc;
         if (!begins && before < overlap) spring.closed = sqrt(before / overlap);
     } else {
-        stiffness = 2.0f * law.x * radius;
+        stiffness = 2.0f * normalModulus(moduli) * radius;
         force = stiffness * overlap;
-        damping = 2.0f * law.y * sqrt(stiffness * mass);
-        tangential = 2.0f * law.z * radius;
+        damping = 2.0f * dampingRatio(moduli) * sqrt(stiffness * mass);
+        tangential = 2.0f * tangentialModulus(moduli) * radius;
         // The dashpot's force begins with a jump. In the first substep it acts only for the time since the contact
         // began.
         if (begins) {
@@ -78,23 +78,23 @@ Spring springOf(float overlap, float path, float speed, float radius, float mobi
     }
     // The dashpot acts on the mean of the speeds before and after, which is of second order. It never does more than
     // stop the pair.
-    precise float c = min(damping * spring.part, 2.0f / (h * mobility));
-    precise float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * mobility), 0.0f);
+    precise float c = min(damping * spring.part, 2.0f / (h * inverseMass));
+    precise float impulse = max(h * (force - c * speed) / (1.0f + 0.5f * h * c * inverseMass), 0.0f);
     spring.impulse = impulse;
     precise float now = impulse / h;
-    if (begins) now = max(force - damping * (speed + spring.acted * impulse * mobility), 0.0f);
+    if (begins) now = max(force - damping * (speed + spring.acted * impulse * inverseMass), 0.0f);
     spring.now = now;
     spring.stiff = tangential;
-    precise float drag = 2.0f * min(law.y, MOST_DRAG) * sqrt(tangential * mass);
+    precise float drag = 2.0f * min(dampingRatio(moduli), MOST_DRAG) * sqrt(tangential * mass);
     if (HAS(HERTZ)) drag = drag * 0.91287093f;
     spring.drag = drag;
     return spring;
 }
 
 // The tangential impulse over a substep (N s). `path` is the slip in the substep's motion, `slip` the slip before the
-// impulse (m/s). `mobility` is the change of slip per impulse. Updates `displacement` (m), which must lie in the plane
-// of the contact.
-vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, float friction) {
+// impulse (m/s). `slipPerImpulse` is the change of slip per impulse. Updates `displacement` (m), which must lie in the
+// plane of the contact.
+vec3 tangentialImpulse(vec3 path, vec3 slip, float slipPerImpulse, Spring spring, float friction) {
     float h = params.substep;
     precise vec3 old = displacement * spring.closed;
     precise vec3 grown = path * (h * (0.5f + 0.5f * spring.closed));
@@ -113,14 +113,14 @@ vec3 tangentialImpulse(vec3 path, vec3 slip, float mobility, Spring spring, floa
     }
     displacement = old + grown;
     // The dashpot acts on the mean of the slips before and after.
-    precise float weight = -h / (1.0f + 0.5f * h * spring.drag * spring.part * mobility);
+    precise float weight = -h / (1.0f + 0.5f * h * spring.drag * spring.part * slipPerImpulse);
     precise vec3 impulse = ((old * spring.part + grown) * spring.stiff + slip * (spring.drag * spring.part)) * weight;
     float squared = dot3(impulse, impulse);
     float most = friction * spring.impulse;
     if (squared <= most * most) return impulse;
     precise vec3 along = impulse * (1.0f / sqrt(squared));
     impulse = along * most;
-    precise vec3 sliding = slip + impulse * (mobility * spring.acted);
+    precise vec3 sliding = slip + impulse * (slipPerImpulse * spring.acted);
     displacement = (along * (friction * spring.now) + sliding * spring.drag) * (-1.0f / spring.stiff);
     return impulse;
 }
@@ -131,10 +131,11 @@ float overlapWithSpeed(float overlap, float speed) {
 }
 
 // The energy in the springs of a contact (J).
-float springEnergy(float overlap, float radius, vec4 law, vec3 path) {
+float springEnergy(float overlap, float radius, vec4 moduli, vec3 path) {
     if (HAS(HERTZ))
-        return sqrt(radius * overlap) * (0.53333333f * law.x * overlap * overlap + 4.0f * law.z * dot3(path, path));
-    return radius * (law.x * overlap * overlap + law.z * dot3(path, path));
+        return sqrt(radius * overlap) * (0.53333333f * normalModulus(moduli) * overlap * overlap +
+                                         4.0f * tangentialModulus(moduli) * dot3(path, path));
+    return radius * (normalModulus(moduli) * overlap * overlap + tangentialModulus(moduli) * dot3(path, path));
 }
 
 // Turns `path` into the plane with normal n and keeps its length.

@@ -2,14 +2,14 @@
 // support under load.
 
 // `v` is the sphere's row of `velocityBefore`: the velocity before the substep, because the present one contains
-// impulses of unfinished pushes. v.w is its quiet time, or MOVED_AWAY.
+// impulses of unfinished pushes.
 bool canWake(vec4 v) {
-    return v.w == MOVED_AWAY || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
+    return hasMovedAway(v) || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
 // A sphere wakes its neighbour up to this gap (m). The gap must exceed the distance that a sphere can move before it
-// counts as moved away. That distance is from one side of a resting place to the other: twice params.creep, at most two
-// thirds of the margin.
+// counts as moved away. That distance is from one side of a resting place to the other: twice params.moveAwayDistance,
+// at most two thirds of the margin.
 float wakeGap() {
     return 0.7f * params.margin;
 }

@@ -7,6 +7,15 @@
 // wall.
 #define WALL_TOLERANCE 2.0e-4f
 
+// A plane's row of `obstacles`: w is its offset (m).
+float planeOffset(vec4 plane) {
+    return plane.w;
+}
+
+uint surfaceMaterial(Obstacle obstacle) {
+    return uint(obstacle.b.w);
+}
+
 void visitFace(uint face, vec3 normal, float depth, float radius) {
     if ((params.closedFaces & (1u << face)) != 0u && depth > -WALL_TOLERANCE * radius)
         visitWall(normal, depth, params.wallMaterial, face);
@@ -22,7 +31,7 @@ void visitBox(Obstacle box, uint surface, float radius) {
     if (!(squared < radius * radius * (1.0f + 2.0f * WALL_TOLERANCE))) return;
     if (squared > 0.0f) {
         float distance = sqrt(squared);
-        visitWall(d * (1.0f / distance), radius - distance, uint(box.b.w), surface);
+        visitWall(d * (1.0f / distance), radius - distance, surfaceMaterial(box), surface);
         return;
     }
     // The centre is inside the box: the sphere leaves through the nearest side.
@@ -35,7 +44,7 @@ void visitBox(Obstacle box, uint surface, float radius) {
     if (toHigh.y < depth) { depth = toHigh.y; normal = vec3(0.0f, 1.0f, 0.0f); }
     if (toLow.z < depth) { depth = toLow.z; normal = vec3(0.0f, 0.0f, -1.0f); }
     if (toHigh.z < depth) { depth = toHigh.z; normal = vec3(0.0f, 0.0f, 1.0f); }
-    visitWall(normal, depth + radius, uint(box.b.w), surface);
+    visitWall(normal, depth + radius, surfaceMaterial(box), surface);
 }
 
 // Returns true if the sphere is so far inside the bounds that it meets none of their faces, as most spheres are.
@@ -62,8 +71,8 @@ void visitWalls(float radius) {
     if (HAS(PLANES)) {
         for (uint k = 0u; k < params.planes; ++k) {
             vec4 plane = obstacles[k].a;
-            float depth = plane.w + radius - dot3(vec3(plane), wallPoint);
-            if (depth > -WALL_TOLERANCE * radius) visitWall(vec3(plane), depth, uint(obstacles[k].b.w), 6u + k);
+            float depth = planeOffset(plane) + radius - dot3(vec3(plane), wallPoint);
+            if (depth > -WALL_TOLERANCE * radius) visitWall(vec3(plane), depth, surfaceMaterial(obstacles[k]), 6u + k);
         }
     }
     if (HAS(BOXES)) {

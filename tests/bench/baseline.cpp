@@ -30,7 +30,7 @@ class Sources final : public compute::SourceSet {
 
 Setting settingFor(compute::Device& device, sim::Simulation& simulation, bool count) {
     return {device,
-            sim::parametersFor(simulation.scene(), simulation.plan(), sim::radiiOf(simulation.scene()),
+            sim::parametersFor(simulation.scene(), simulation.plan(), sim::radiusStatsOf(simulation.scene()),
                                simulation.scene().step / simulation.substeps()),
             count};
 }

@@ -81,7 +81,7 @@ void measure(compute::Device& device, sim::Simulation& simulation, const std::st
         figures.push_back(figure);
     }
     // The race has advanced the simulation; the next measurement starts from the same state.
-    simulation.put(from);
+    simulation.upload(from);
 }
 
 // Measures the overlap of the same bed under the baselines' contact law. It shows that a baseline does not reach the

@@ -46,7 +46,7 @@ Result<Rung> rungFor(compute::Device& device, std::uint32_t spheres) {
 // Runs one step, in which the simulation allocates memory for the number of pairs.
 Result<void> letGo(Rung& rung, const Arrangement& arrangement) {
     sim::Simulation& simulation = *rung.simulation;
-    simulation.put(arranged(simulation.scene(), arrangement));
+    simulation.upload(arranged(simulation.scene(), arrangement));
     if (auto done = simulation.step(); !done) return done;
     rung.state = simulation.snapshot();
     return {};

@@ -12,7 +12,7 @@ class Ours final : public Method {
     explicit Ours(sim::Simulation& simulation) : simulation_(simulation) {}
 
     void upload(const sim::State& state) override {
-        simulation_.put(state);
+        simulation_.upload(state);
         substeps_ = 0;
     }
 

@@ -75,7 +75,7 @@ TEST(AgainstReference, FortyIsolatedPairsAgree) {
     for (int k = 0; k < 40; ++k) {
         SCOPED_TRACE(k);
         placePair(random, scene, scene.spheres[0], scene.spheres[1]);
-        simulation->put(sim::stateOf(scene));
+        simulation->upload(sim::stateOf(scene));
         const Difference found = difference(*simulation);
         EXPECT_LT(found.ofRadius, tolerance);
         EXPECT_GT(found.turned, 0.01) << "they never met";

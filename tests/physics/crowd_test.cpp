@@ -28,7 +28,7 @@ TEST(Crowd, FourThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
     for (const bool mixed : {false, true}) {
         const scene::Scene scene = crowdOf(4'000, 0.01F, mixed, scene::Model::Balanced);
         const auto simulation = simulate(scene);
-        simulation->put(sim::stateOf(scene));  // with the overlaps that a new simulation removes
+        simulation->upload(sim::stateOf(scene));  // with the overlaps that a new simulation removes
         run(*simulation, scene.step);
         const sim::Simulation::Counters counters = simulation->counters();
         EXPECT_GT(counters.sampled, 0U);
@@ -50,7 +50,7 @@ TEST(Crowd, AllNumbersOfThreadsGiveTheSameBits) {
             const scene::Scene scene = crowdOf(2'000, 0.01F, true, model);
             const auto simulation = simulate(scene, *on);
             const std::uint64_t apart = sim::hashOf(simulation->snapshot());
-            simulation->put(sim::stateOf(scene));
+            simulation->upload(sim::stateOf(scene));
             run(*simulation, 0.05);
             const std::pair hashes(apart, sim::hashOf(simulation->snapshot()));
             if (!expected) expected = hashes;

@@ -17,7 +17,7 @@ constexpr scene::Model models[] = {scene::Model::Fast, scene::Model::Balanced, s
 scene::Scene shots(scene::Model model, double speed, const std::vector<double>& heights) {
     scene::Scene scene = closedBox(4);
     scene.step = 1.0 / 60;
-    scene.quality = {.model = model, .substeps = 8, .pinned = false};
+    scene.quality = {.model = model, .substeps = 8, .substepsFixed = false};
     for (std::size_t k = 0; k < heights.size(); ++k)
         scene.spheres.push_back(
             {.position = {0.4 * static_cast<double>(k % 8) - 1.4, 0.4 * static_cast<double>(k / 8) - 0.8, heights[k]},
@@ -70,7 +70,7 @@ TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
     scene.gravity = {};
     scene.bounds.min = glm::dvec3(-100);
     scene.bounds.max = glm::dvec3(100);
-    scene.quality = {.model = scene::Model::Fast, .substeps = 1, .pinned = true};
+    scene.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};
     scene.spheres[0].velocity = {0, 0, -0.6F * 0.05F * 60};
     const auto simulation = simulate(scene);
     run(*simulation, 5);

@@ -58,7 +58,7 @@ class Divergence : public testing::TestWithParam<scene::Model> {};
 TEST_P(Divergence, IsToldWithTheSphereAndEndsInTheLastGoodState) {
     scene::Scene scene = block(4);
     scene.step = 1.0 / 60;
-    scene.quality = {.model = GetParam(), .substeps = 8, .pinned = true};
+    scene.quality = {.model = GetParam(), .substeps = 8, .substepsFixed = true};
     scene.materials[0].friction = 0.3;
     scene.sleep.enabled = true;
     const auto simulation = simulate(scene);
@@ -72,7 +72,7 @@ TEST_P(Divergence, IsToldWithTheSphereAndEndsInTheLastGoodState) {
     EXPECT_NE(simulation->divergence().find("sphere 7 has no finite position any more at step 91; at step 60"),
               std::string::npos)
         << simulation->divergence();
-    simulation->restore();
+    simulation->rollback();
     EXPECT_EQ(simulation->steps(), 60U);
     EXPECT_EQ(simulation->time(), 60 * scene.step);
     EXPECT_TRUE(allFinite(simulation->snapshot()));
@@ -95,7 +95,7 @@ TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
     sphere.radius = 0.02F;
     scene.spheres.assign(3000, sphere);
     const auto simulation = simulate(scene);
-    simulation->put(sim::stateOf(scene));
+    simulation->upload(sim::stateOf(scene));
     run(*simulation, scene.step);
     EXPECT_GT(simulation->counters().unlisted, 0U);
     ASSERT_TRUE(allFinite(simulation->snapshot()));

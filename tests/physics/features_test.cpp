@@ -15,7 +15,7 @@ using sim::Pass;
 
 sim::Plan planOf(const scene::Scene& scene) {
     return sim::planFor(scene, sim::featuresOf(scene), static_cast<std::uint32_t>(scene.spheres.size()),
-                        sim::radiiOf(scene));
+                        sim::radiusStatsOf(scene));
 }
 
 bool dispatches(const sim::Plan& plan, Pass pass) {
@@ -56,7 +56,8 @@ const std::vector<std::pair<scene::Model, std::set<Pass>>> passesByModel = {
     {scene::Model::Balanced,
      {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Positions, Pass::WallPositions, Pass::Velocities,
       Pass::WallVelocities, Pass::Friction, Pass::WallFriction, Pass::Sleep}},
-    {scene::Model::Accurate, {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::History, Pass::Forces, Pass::WallForces}},
+    {scene::Model::Accurate,
+     {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::SlipMemory, Pass::Forces, Pass::WallForces}},
 };
 
 TEST(Plan, OfEverythingHasThePassesOfItsModelAndNoOthers) {
@@ -90,7 +91,7 @@ TEST(Plan, WithoutFrictionHasNoRotationAndNoMemoryOfContacts) {
         for (const Array array : {Array::AngularVelocity, Array::DeltaOmega, Array::NormalImpulses, Array::WallImpulse,
                                   Array::TangentialSlip, Array::CarriedSlip, Array::CarriedOffsets, Array::WallSlip})
             EXPECT_FALSE(without.has(array)) << nameOf(array);
-        for (const Pass pass : {Pass::Friction, Pass::WallFriction, Pass::History})
+        for (const Pass pass : {Pass::Friction, Pass::WallFriction, Pass::SlipMemory})
             EXPECT_FALSE(dispatches(without, pass)) << nameOf(pass);
         EXPECT_LT(without.bytes(), with.bytes());
         EXPECT_FALSE(without.features.has(sim::Feature::Rolling)) << "nothing rolls";

@@ -23,7 +23,7 @@ class Friction : public testing::TestWithParam<scene::Model> {
         scene.step = 1.0 / 60;
         scene.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
         scene.materials = {material};
-        scene.quality = {.model = GetParam(), .pinned = false, .overlap = 0.3};  // soft, for fewer substeps
+        scene.quality = {.model = GetParam(), .substepsFixed = false, .overlap = 0.3};  // soft, for fewer substeps
         scene.spheres = {{.position = {-2, 0, -4 + r}, .velocity = velocity, .radius = static_cast<float>(r)}};
         if (auto fits = scene::fitSubsteps(scene); !fits) throw std::runtime_error(fits.error().text());
         return scene;
@@ -97,7 +97,7 @@ TEST_P(Friction, TurnsAnObliqueImpactAsCoulombSays) {
         scene::Scene scene = openSpace(1);
         scene.bounds.open[scene::ZMin] = false;
         scene.materials = {{.density = 4000, .restitution = e, .friction = mu, .young = 3.8e11, .poisson = 0.23}};
-        scene.quality = {.model = GetParam(), .pinned = false};
+        scene.quality = {.model = GetParam(), .substepsFixed = false};
         scene.step = 1e-4;
         scene.spheres = {
             {.position = {0, 0, -0.4974},
@@ -119,7 +119,7 @@ TEST_P(Friction, OfTwoSpheresKeepsMomentumAndAngularMomentum) {
     scene::Scene scene = openSpace(4);
     scene.materials = {{.restitution = 0.6, .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.1},
                        {.name = "heavy", .density = 4000, .friction = 0.6}};
-    scene.quality = {.model = GetParam(), .pinned = false};
+    scene.quality = {.model = GetParam(), .substepsFixed = false};
     scene.step = 1.0 / 480;
     scene.spheres = {{{-0.2, 0.03, 0.02}, {1, 0, 0}, 0.05F, 0, {3, 40, -20}}, {{0, 0, 0}, {}, 0.07F, 1, {0, -10, 9}}};
     ASSERT_TRUE(scene::fitSubsteps(scene));
@@ -143,7 +143,7 @@ TEST(FrictionInAPile, HoldsATetrahedronOfSoftSpheres) {
     scene::Scene scene = closedBox(2);
     scene.step = 1.0 / 60;
     scene.materials = {{.restitution = 0.5, .friction = 0.5}};
-    scene.quality = {.model = scene::Model::Accurate, .pinned = false};
+    scene.quality = {.model = scene::Model::Accurate, .substepsFixed = false};
     for (int k = 0; k < 3; ++k) {
         const double angle = 2 * std::numbers::pi / 3 * k;
         scene.spheres.push_back(
@@ -165,7 +165,7 @@ TEST(FrictionInAPile, ComesToRestUnderForcesWhateverTheRestitution) {
         scene.bounds.max.z = 2;
         scene.step = 1.0 / 60;
         scene.materials = {{.restitution = e, .friction = 0.5, .rollingResistance = 0.05}};
-        scene.quality = {.model = scene::Model::Accurate, .pinned = false, .overlap = 0.5};
+        scene.quality = {.model = scene::Model::Accurate, .substepsFixed = false, .overlap = 0.5};
         for (int k = 0; k < 60; ++k)
             scene.spheres.push_back({.position = {0.12 * (k % 3 - 1) + 0.003 * (k % 7), 0.12 * (k / 3 % 3 - 1),
                                                   -0.14 + 0.11 * static_cast<int>(k / 9)},

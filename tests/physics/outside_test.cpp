@@ -90,7 +90,7 @@ TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
             scene::Scene scene = openSpace(1);
             scene.gravity = {0, 0, -earth};
             scene.step = 1.0 / 60;
-            scene.quality = {.model = model, .substeps = 8, .pinned = false};
+            scene.quality = {.model = model, .substeps = 8, .substepsFixed = false};
             setRestitution(scene, 1);
             const double angle = random.uniform(0, 6.28);
             const glm::dvec3 along(std::cos(angle), std::sin(angle), 0);
@@ -114,7 +114,7 @@ TEST(Outside, TwoThatMeetFarFromTheBoundsDoNotPassThroughEachOther) {
         SCOPED_TRACE(scene::nameOf(model));
         scene::Scene scene = openSpace(1);
         scene.step = 1.0 / 60;
-        scene.quality = {.model = model, .substeps = 4, .pinned = true};
+        scene.quality = {.model = model, .substeps = 4, .substepsFixed = true};
         setRestitution(scene, 1);
         scene.spheres = {at({-0.3, 0, 0}), at({0.3, 0, 0})};
         const auto simulation = simulate(scene);
@@ -123,7 +123,7 @@ TEST(Outside, TwoThatMeetFarFromTheBoundsDoNotPassThroughEachOther) {
             state.position[id].x = id == 0 ? -60 : -20;
             state.velocity[id].x = id == 0 ? 40 : -10;
         }
-        simulation->put(state);
+        simulation->upload(state);
         run(*simulation, 0.5);
         EXPECT_EQ(simulation->substeps(), 4U) << "they are far from each other";
         std::uint32_t most = 0;
@@ -165,7 +165,7 @@ TEST(Outside, APlaneBelowTheBoundsIsHit) {
         scene::Scene scene = openSpace(1);
         scene.gravity = {0, 0, -earth};
         scene.step = 1.0 / 60;
-        scene.quality = {.model = model, .substeps = 8, .pinned = true};
+        scene.quality = {.model = model, .substeps = 8, .substepsFixed = true};
         setRestitution(scene, 0.5);
         scene.obstacles.push_back({scene::Plane{{0, 0, -30}, {0, 0, 1}}, 0, ""});
         scene.spheres = {at({0, 0, 0})};
@@ -250,7 +250,7 @@ TEST(Outside, AHundredThousandRadiiAwaySpheresAreAloneAndAtTheEndOfSpaceTheyStay
     state.position[2].z = -9.9e17F;
     state.velocity[2].z = -1e17F;
     state.position[3].x = 1e30F;
-    simulation->put(state);
+    simulation->upload(state);
     run(*simulation, 0.5);
     EXPECT_FALSE(simulation->counters().nonFinite);
     EXPECT_EQ(simulation->substeps(), 1U);

@@ -7,7 +7,7 @@
 
 #include "measure/scenes.h"
 #include "scene/quality.h"
-#include "sim/relax.h"
+#include "sim/initial_overlaps.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -41,13 +41,13 @@ TEST(Relax, ASqueezedBedRisesGentlyWhenSpringsTakeOver) {
     scene::Scene scene = measure::lattice(600, 0.05, 6);
     scene.bounds.open.fill(false);
     scene.step = 1.0 / 60;
-    scene.quality = {.model = scene::Model::Fast, .substeps = 1, .pinned = true};
+    scene.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};
     const auto simulation = simulate(scene);
     run(*simulation, 2);
     const sim::Statistics squeezed = simulation->statistics();
     static_cast<void>(noticesOf(*simulation));
     ASSERT_TRUE(simulation->apply(sim::Set{.model = scene::Model::Accurate}));
-    ASSERT_GT(squeezed.overlapMax, 2 * sim::deepestBearable(simulation->scene())) << "not squeezed";
+    ASSERT_GT(squeezed.overlapMax, 2 * sim::maxSafeOverlap(simulation->scene())) << "not squeezed";
     EXPECT_NE(noticesOf(*simulation).find("moved apart beforehand"), std::string::npos);
     double fastest = 0;
     for (int k = 0; k < 6; ++k) {

@@ -38,7 +38,7 @@ scene::Scene soft(const Setting& setting, double restitution) {
         scene.materials[1].young = 3e7;
         scene.materials[1].poisson = 0.4;
     }
-    scene.quality = {.model = scene::Model::Accurate, .pinned = false, .overlap = 0.05};
+    scene.quality = {.model = scene::Model::Accurate, .substepsFixed = false, .overlap = 0.05};
     scene.sphereContacts = !setting.walls;
     scene.bounds.min.x = -4;
     scene.bounds.max.x = 4;

@@ -214,7 +214,7 @@ TEST(SimulationHost, SpheresInOnePointArePushedApartInPieces) {
 
 TEST(SimulationHost, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
     const auto world = open("box-4k");
-    const std::uint32_t most = scene::mostSubsteps(world->simulation().scene());
+    const std::uint32_t most = scene::maxSubstepsFor(world->simulation().scene());
     const Error refused = refusalOf(*world, R"({"set":{"substeps":1000000}})");
     EXPECT_NE(refused.message.find(fmt::format("1 to {}", most)), std::string::npos) << refused.text();
     refusalOf(*world, fmt::format(R"({{"set":{{"substeps":{}}}}})", most + 1));
@@ -228,9 +228,9 @@ TEST(SimulationHost, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     scene.bounds = {.min = glm::dvec3(-10), .max = glm::dvec3(10)};
     for (const std::size_t spheres : {1, 1000, 100'000, 1'000'000}) {
         scene.spheres.assign(spheres, {.radius = 0.05F});
-        const double work = static_cast<double>(scene::mostSubsteps(scene)) * static_cast<double>(spheres);
+        const double work = static_cast<double>(scene::maxSubstepsFor(scene)) * static_cast<double>(spheres);
         EXPECT_LE(work, 2e8) << spheres;
-        EXPECT_GE(scene::mostSubsteps(scene), 64U) << spheres;
+        EXPECT_GE(scene::maxSubstepsFor(scene), 64U) << spheres;
     }
 }
 
@@ -247,7 +247,7 @@ TEST(SimulationHost, RefusesAPushThatIsTooFastAndTakesTheLargest) {
         // After the largest accepted push, the sphere does not move too far in a substep.
         sim::Simulation& simulation = world->simulation();
         const double h = simulation.scene().step / simulation.substeps();
-        EXPECT_LE(glm::length(sim::velocityOf(simulation.snapshot(), 0)) * h, 1.001 * scene::farMotion * 0.05);
+        EXPECT_LE(glm::length(sim::velocityOf(simulation.snapshot(), 0)) * h, 1.001 * scene::safeMotion * 0.05);
     }
 }
 

@@ -19,7 +19,7 @@ void rub(Bed& bed, float pressing) {
 // Two equal spheres of 0.5 m and 1 kg that touch, with this contact law.
 Bed pairWith(vec4 law) {
     Bed bed({vec4(across, 0.5F), vec4(0, 0, 0, 0.5F)}, Feature::FRICTION);
-    bed.parameters.law = law;
+    bed.parameters.contact = law;
     bed.rebuild();
     return bed;
 }

@@ -113,7 +113,7 @@ TEST(KernelsAsCpp, APairThatIsListedAnewRemembersNothing) {
 
 TEST(KernelsAsCpp, AContactAddsUpItsSlipUntilItEnds) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.99F, 0, 0, 0.5F)}, Feature::FRICTION | Feature::LOW_BITS);
-    bed.parameters.law = vec4(1, 100, 0, 0);
+    bed.parameters.contact = vec4(1, 100, 0, 0);
     bed.parameters.stiffness = vec4(1e5F, 0, 3e4F, 0);
     bed.rebuild();
     bed.setVelocity(0, {0, 0.1F, 0});
@@ -136,7 +136,7 @@ TEST(KernelsAsCpp, AContactAddsUpItsSlipUntilItEnds) {
 TEST(KernelsAsCpp, ASlidingContactStretchesItsSpringNoFurtherThanFrictionHolds) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.99F, 0, 0, 0.5F)}, Feature::FRICTION | Feature::LOW_BITS);
     const float friction = 0.3F;
-    bed.parameters.law = vec4(1, friction, 0, 0);
+    bed.parameters.contact = vec4(1, friction, 0, 0);
     bed.parameters.stiffness = vec4(1e5F, 0, 3e4F, 0);
     bed.rebuild();
     bed.setVelocity(0, {0, 100, 0});

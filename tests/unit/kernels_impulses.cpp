@@ -19,7 +19,7 @@ void collide(Bed& bed) {
 Bed pairWith(vec4 law, std::uint64_t features) {
     Bed bed({vec4(0.99F * across, 0.5F), vec4(0, 0, 0, 0.5F)}, features);
     bed.setMass(1, 3);
-    bed.parameters.law = law;
+    bed.parameters.contact = law;
     bed.rebuild();
     return bed;
 }

@@ -20,53 +20,55 @@ std::string refusalOfPairs(const std::string& pairs) {
 }
 
 TEST(ScenePairs, AMaterialWithItselfHasItsOwnLaw) {
-    const PairLaw law = lawBetween(withPairs(""), 1, 1);
-    EXPECT_EQ(law.restitution, 0.8);
-    EXPECT_DOUBLE_EQ(law.friction, 0.1);
-    EXPECT_DOUBLE_EQ(law.rollingResistance, 0.01);
-    EXPECT_DOUBLE_EQ(law.spinningResistance, 0.0025);
+    const ContactParameters contact = contactParametersBetween(withPairs(""), 1, 1);
+    EXPECT_EQ(contact.restitution, 0.8);
+    EXPECT_DOUBLE_EQ(contact.friction, 0.1);
+    EXPECT_DOUBLE_EQ(contact.rollingResistance, 0.01);
+    EXPECT_DOUBLE_EQ(contact.spinningResistance, 0.0025);
 }
 
 TEST(ScenePairs, TakeTheSmallerRestitutionAndTheGeometricMeanOfTheRest) {
     const Scene scene = withPairs("");
     for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
-        const PairLaw law = lawBetween(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b));
-        EXPECT_EQ(law.restitution, 0.2);
-        EXPECT_DOUBLE_EQ(law.friction, 0.3);
-        EXPECT_DOUBLE_EQ(law.rollingResistance, 0.02);
-        EXPECT_DOUBLE_EQ(law.spinningResistance, 0.005);
+        const ContactParameters contact =
+            contactParametersBetween(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b));
+        EXPECT_EQ(contact.restitution, 0.2);
+        EXPECT_DOUBLE_EQ(contact.friction, 0.3);
+        EXPECT_DOUBLE_EQ(contact.rollingResistance, 0.02);
+        EXPECT_DOUBLE_EQ(contact.spinningResistance, 0.005);
     }
-    EXPECT_EQ(lawBetween(scene, 0, 2).friction, 0) << "nothing rubs on what is without friction";
+    EXPECT_EQ(contactParametersBetween(scene, 0, 2).friction, 0) << "nothing rubs on what is without friction";
 }
 
 TEST(ScenePairs, OverrideWhatTheyGiveInBothOrders) {
     const Scene scene = withPairs(R"({"a": "steel", "b": "felt", "restitution": 0.7, "friction": 0})");
     for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
-        const PairLaw law = lawBetween(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b));
-        EXPECT_EQ(law.restitution, 0.7);
-        EXPECT_EQ(law.friction, 0);
-        EXPECT_DOUBLE_EQ(law.rollingResistance, 0.02) << "as without the pair";
-        EXPECT_DOUBLE_EQ(law.spinningResistance, 0.005);
+        const ContactParameters contact =
+            contactParametersBetween(scene, static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b));
+        EXPECT_EQ(contact.restitution, 0.7);
+        EXPECT_EQ(contact.friction, 0);
+        EXPECT_DOUBLE_EQ(contact.rollingResistance, 0.02) << "as without the pair";
+        EXPECT_DOUBLE_EQ(contact.spinningResistance, 0.005);
     }
-    EXPECT_EQ(lawBetween(scene, 0, 0).restitution, 0.2);
-    EXPECT_EQ(lawBetween(scene, 1, 1).restitution, 0.8);
-    EXPECT_EQ(lawBetween(scene, 1, 2).restitution, 0.5);
+    EXPECT_EQ(contactParametersBetween(scene, 0, 0).restitution, 0.2);
+    EXPECT_EQ(contactParametersBetween(scene, 1, 1).restitution, 0.8);
+    EXPECT_EQ(contactParametersBetween(scene, 1, 2).restitution, 0.5);
 }
 
 TEST(ScenePairs, OverrideEveryProperty) {
     const Scene scene = withPairs(R"({"a": "felt", "b": "ice", "rollingResistance": 0.3, "spinningResistance": 0.4},
                                      {"a": "felt", "b": "steel", "restitution": 1, "friction": 100})");
     ASSERT_EQ(scene.pairs.size(), 2U);
-    EXPECT_EQ(lawBetween(scene, 0, 2).rollingResistance, 0.3);
-    EXPECT_EQ(lawBetween(scene, 0, 2).spinningResistance, 0.4);
-    EXPECT_EQ(lawBetween(scene, 0, 1).restitution, 1);
-    EXPECT_EQ(lawBetween(scene, 0, 1).friction, 100);
+    EXPECT_EQ(contactParametersBetween(scene, 0, 2).rollingResistance, 0.3);
+    EXPECT_EQ(contactParametersBetween(scene, 0, 2).spinningResistance, 0.4);
+    EXPECT_EQ(contactParametersBetween(scene, 0, 1).restitution, 1);
+    EXPECT_EQ(contactParametersBetween(scene, 0, 1).friction, 100);
 }
 
 TEST(ScenePairs, MayBeOfOneMaterialTwice) {
     const Scene scene = withPairs(R"({"a": "steel", "b": "steel", "friction": 0.6})");
-    EXPECT_EQ(lawBetween(scene, 1, 1).friction, 0.6);
-    EXPECT_DOUBLE_EQ(lawBetween(scene, 0, 1).friction, 0.3) << "other pairs follow from the materials";
+    EXPECT_EQ(contactParametersBetween(scene, 1, 1).friction, 0.6);
+    EXPECT_DOUBLE_EQ(contactParametersBetween(scene, 0, 1).friction, 0.3) << "other pairs follow from the materials";
 }
 
 TEST(ScenePairs, NameTwoMaterials) {

@@ -78,10 +78,12 @@ TEST(SceneQuality, OverlapHasARange) {
 }
 
 TEST(SceneQuality, AutoHasOneGoalWithARange) {
-    EXPECT_FALSE(sceneWith("").quality.goal);
-    EXPECT_EQ(sceneWith(quality(R"("auto": {"budgetMs": 16})")).quality.goal, (Goal{Goal::Of::StepTime, 16}));
-    EXPECT_EQ(sceneWith(quality(R"("auto": {"overlap": 0.005})")).quality.goal, (Goal{Goal::Of::Overlap, 0.005}));
-    EXPECT_FALSE(sceneWith(quality(R"("auto": {})")).quality.goal);
+    EXPECT_FALSE(sceneWith("").quality.target);
+    EXPECT_EQ(sceneWith(quality(R"("auto": {"budgetMs": 16})")).quality.target,
+              (QualityTarget{QualityTarget::Kind::StepTime, 16}));
+    EXPECT_EQ(sceneWith(quality(R"("auto": {"overlap": 0.005})")).quality.target,
+              (QualityTarget{QualityTarget::Kind::Overlap, 0.005}));
+    EXPECT_FALSE(sceneWith(quality(R"("auto": {})")).quality.target);
     EXPECT_EQ(refusalOf(quality(R"("auto": {"budgetMs": 0})")), "quality.auto.budgetMs: is 0, must be positive");
     EXPECT_EQ(refusalOf(quality(R"("auto": {"budgetMs": 60001})")),
               "quality.auto.budgetMs: is 60001, must be at most 60000 ms");
@@ -90,10 +92,10 @@ TEST(SceneQuality, AutoHasOneGoalWithARange) {
 
 TEST(SceneQuality, ACallersModelOrSubstepsEndTheScenesAuto) {
     const std::string held = quality(R"("auto": {"budgetMs": 16})");
-    EXPECT_FALSE(sceneWith(held, {.substeps = 4}).quality.goal);
-    EXPECT_FALSE(sceneWith(held, {.model = Model::Fast}).quality.goal);
-    const Goal other{Goal::Of::Overlap, 0.01};
-    EXPECT_EQ(sceneWith(held, {.substeps = 4, .goal = other}).quality.goal, other);
+    EXPECT_FALSE(sceneWith(held, {.substeps = 4}).quality.target);
+    EXPECT_FALSE(sceneWith(held, {.model = Model::Fast}).quality.target);
+    const QualityTarget other{QualityTarget::Kind::Overlap, 0.01};
+    EXPECT_EQ(sceneWith(held, {.substeps = 4, .target = other}).quality.target, other);
 }
 
 TEST(SceneQuality, AModelIsOfUseWithinARange) {
@@ -103,12 +105,12 @@ TEST(SceneQuality, AModelIsOfUseWithinARange) {
     EXPECT_EQ(substepRange(scene, Model::Fast).fewest, 1U) << "none is too few";
     const Scene stiff = sceneWith(R"("materials": [{"young": 1e7}])", {.model = Model::Accurate});
     Scene fewest = stiff;
-    fewest.quality.pinned = true;
-    fewest.quality.substeps = fewestSubsteps(stiff, Model::Accurate);
+    fewest.quality.substepsFixed = true;
+    fewest.quality.substeps = minSubstepsFor(stiff, Model::Accurate);
     EXPECT_TRUE(fitSubsteps(fewest));
     --fewest.quality.substeps;
     EXPECT_FALSE(fitSubsteps(fewest));
-    EXPECT_GE(substepRange(stiff, Model::Accurate).fewest, fewestSubsteps(stiff, Model::Accurate));
+    EXPECT_GE(substepRange(stiff, Model::Accurate).fewest, minSubstepsFor(stiff, Model::Accurate));
     EXPECT_EQ(substepsFor(scene, Model::Balanced), 8U);
     EXPECT_FALSE(substepsFor(sceneWith(halfKnown), Model::Accurate));
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/radii.h"
+#include "scene/radius_distribution.h"
 #include "scene/random.h"
 
 namespace spherule::scene::testing {
@@ -59,8 +59,8 @@ TEST(SceneRandom, NormalHasItsMomentsAndTails) {
 }
 
 TEST(SceneRadii, StayWithinTheirLimits) {
-    const Radii uniform{.min = 0.1, .max = 0.2, .bell = {}};
-    const Radii normal{.min = 0.1, .max = 0.2, .bell = Radii::Bell{0.12, 0.02}};
+    const RadiusDistribution uniform{.min = 0.1, .max = 0.2, .bell = {}};
+    const RadiusDistribution normal{.min = 0.1, .max = 0.2, .bell = RadiusDistribution::Bell{0.12, 0.02}};
     Random random(7);
     double uniformSum = 0;
     double normalSum = 0;
@@ -79,7 +79,7 @@ TEST(SceneRadii, StayWithinTheirLimits) {
 
 TEST(SceneRadii, AConstantDrawsNothing) {
     Random random(8);
-    const Radii constant{.min = 0.1, .max = 0.1, .bell = {}};
+    const RadiusDistribution constant{.min = 0.1, .max = 0.1, .bell = {}};
     EXPECT_EQ(constant.draw(random), 0.1F);
     EXPECT_EQ(random.uniform(), Random(8).uniform());
 }

@@ -251,7 +251,7 @@ TEST(SceneYoung, IsRefusedWhereSpheresWouldFallThroughTheFloor) {
     EXPECT_NEAR(depthAfter(enough, contactTimeOf(enough).speed), 0.5, 0.003);
     Scene tooSoft = with(0.98 * least);
     EXPECT_FALSE(fitSubsteps(tooSoft));
-    tooSoft.quality.pinned = true;
+    tooSoft.quality.substepsFixed = true;
     tooSoft.quality.substeps = 1000;
     EXPECT_FALSE(fitSubsteps(tooSoft)) << "no substeps help";
     tooSoft.quality.model = Model::Balanced;

@@ -30,10 +30,10 @@ std::string refusalBy(Scene& scene) {
 }
 
 TEST(SceneSubsteps, ArePinnedByTheSceneAndByTheCaller) {
-    EXPECT_FALSE(sceneOf("").quality.pinned);
-    EXPECT_TRUE(sceneOf(R"("substeps": 8)").quality.pinned);
-    EXPECT_TRUE(sceneOf("", "", {.substeps = 8}).quality.pinned);
-    EXPECT_FALSE(sceneOf("", "", {.model = Model::Fast}).quality.pinned);
+    EXPECT_FALSE(sceneOf("").quality.substepsFixed);
+    EXPECT_TRUE(sceneOf(R"("substeps": 8)").quality.substepsFixed);
+    EXPECT_TRUE(sceneOf("", "", {.substeps = 8}).quality.substepsFixed);
+    EXPECT_FALSE(sceneOf("", "", {.model = Model::Fast}).quality.substepsFixed);
 }
 
 TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
@@ -54,7 +54,7 @@ TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
     pinned.quality.model = Model::Fast;
     EXPECT_EQ(refusalBy(pinned), "accepted");
     EXPECT_EQ(pinned.quality.substeps, 3U);
-    pinned.quality.pinned = false;
+    pinned.quality.substepsFixed = false;
     EXPECT_EQ(refusalBy(pinned), "accepted");
     EXPECT_EQ(pinned.quality.substeps, 4U);
 }
@@ -65,7 +65,7 @@ TEST(SceneSubsteps, AreRefusedOutOfTheirRange) {
     EXPECT_EQ(refusalBy(scene), "quality.substeps: is 0, must be 1 to 19996 for the 2 spheres of this scene");
     scene.quality.substeps = maxSubsteps + 1;
     EXPECT_EQ(refusalBy(scene), "quality.substeps: is 1000001, must be 1 to 19996 for the 2 spheres of this scene");
-    scene.quality.pinned = false;
+    scene.quality.substepsFixed = false;
     EXPECT_EQ(refusalBy(scene), "accepted") << "what was there does not count";
     EXPECT_EQ(scene.quality.substeps, 8U);
     scene.gravity *= 1e12;
@@ -100,14 +100,14 @@ TEST(SceneSubsteps, OfKnownMaterialsAreCheckedAsASceneIsBuilt) {
 TEST(SceneSubsteps, SpringsAreNotSoSoftThatSpheresPassThroughEachOther) {
     Scene softest = sceneOf(R"("model": "ACCURATE", "overlap": 0.5)");
     const std::uint32_t fewest = softest.quality.substeps;
-    EXPECT_EQ(fewestSubsteps(sceneOf(accurate), Model::Accurate), fewest) << "whatever overlap is asked for";
-    softest.quality.pinned = true;
+    EXPECT_EQ(minSubstepsFor(sceneOf(accurate), Model::Accurate), fewest) << "whatever overlap is asked for";
+    softest.quality.substepsFixed = true;
     EXPECT_EQ(refusalBy(softest), "accepted");
     softest.quality.substeps = fewest - 1;
     EXPECT_EQ(refusalBy(softest), "quality.substeps: is " + std::to_string(fewest - 1) +
                                       ", but springs so soft would give way by 50 % of a radius; give at least " +
                                       std::to_string(fewest));
-    softest.quality.goal = {Goal::Of::StepTime, 16};
+    softest.quality.target = {QualityTarget::Kind::StepTime, 16};
     EXPECT_EQ(refusalBy(softest), "accepted") << "nobody asked for these";
     EXPECT_EQ(softest.quality.substeps, fewest);
 }
@@ -131,7 +131,7 @@ TEST(SceneSubsteps, PinnedOnesMakeSpringsThatOverlapAndSpeedDoNotChange) {
     changed.spheres[0].velocity = {10, 0, 0};
     changed.gravity *= 2;
     EXPECT_EQ(springModulus(changed), modulus);
-    changed.quality.pinned = false;
+    changed.quality.substepsFixed = false;
     EXPECT_NE(springModulus(changed), modulus);
     changed = scene;
     changed.quality.substeps = 1000;

@@ -180,6 +180,29 @@ TEST(SimFeatures, EachHasTheModuleOfItsName) {
         EXPECT_EQ(modules().at(static_cast<std::size_t>(feature))->feature, feature) << nameOf(feature);
 }
 
+TEST(SimFeatures, EachHasARowInTheTableOfCostsOrAReason) {
+    for (const Module* module : modules())
+        EXPECT_NE(module->cost.row.empty(), module->cost.reason.empty()) << nameOf(module->feature);
+}
+
+TEST(SimFeatures, TheRowsOfCostsSwitchThem) {
+    v1::Scene bed = parsed(bare);
+    bed.mutable_bounds()->clear_open();
+    bed.clear_gravity();
+    const auto scene = scene::build(bed);
+    ASSERT_TRUE(scene) << scene.error().text();
+    for (const Module* module : modules()) {
+        const CostComparison& cost = module->cost;
+        if (cost.row.empty() || module->feature == Feature::Impacts) continue;  // observing needs no other scene
+        scene::Scene without = *scene;
+        scene::Scene with = *scene;
+        if (cost.without != nullptr) cost.without(without);
+        if (cost.with != nullptr) cost.with(with);
+        EXPECT_FALSE(featuresOf(without).has(module->feature)) << cost.row;
+        EXPECT_TRUE(featuresOf(with).has(module->feature)) << cost.row;
+    }
+}
+
 TEST(SimFeatures, OnlyAccurateFollowsHertz) {
     for (const Model model : {Model::Fast, Model::Balanced, Model::Accurate}) {
         const Features features = featuresAfter([&](v1::Scene& s) {

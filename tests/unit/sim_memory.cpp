@@ -9,7 +9,7 @@
 #include "compute/device.h"
 #include "core/memory.h"
 #include "scene/load.h"
-#include "sim/need.h"
+#include "sim/memory_needs.h"
 #include "sim/simulation.h"
 
 namespace spherule::sim {
@@ -68,12 +68,12 @@ TEST_F(SimMemory, WhatIsCountedIsWhatIsTaken) {
         auto simulation = Simulation::create(*device_, std::move(*scene));
         ASSERT_TRUE(simulation) << simulation.error().text();
         ASSERT_TRUE((*simulation)->step());
-        const Need need = needOf((*simulation)->plan());
+        const MemoryNeeds need = memoryNeedsOf((*simulation)->plan());
         const auto stays = static_cast<double>(need.arrays + need.onHost());
         EXPECT_GT(stays, 0.9 * static_cast<double>(held() - before)) << "friction " << friction;
         EXPECT_LT(stays, 1.3 * static_cast<double>(held() - before)) << "friction " << friction;
         EXPECT_EQ(memory::claimed().held, need.arrays + need.onHost());
-        EXPECT_EQ(memory::claimed().promised, need.work);
+        EXPECT_EQ(memory::claimed().promised, need.temporary);
     }
     EXPECT_EQ(memory::claimed().held + memory::claimed().promised, 0U);
 }

@@ -105,7 +105,9 @@ TEST(SimModules, AreAbsentFromAPlanThatDoesNotRequireThem) {
             "groups": [{"list": {"spheres": [{"position": [3,3,3]}]}, "radius": {"constant": 0.1}, "material": "a"},
                        {"list": {"spheres": [{"position": [3,2,3]}]}, "radius": {"constant": 0.2}, "material": "b"}]})"));
         ASSERT_TRUE(scene) << scene.error().text();
-        const auto planWith = [&](const Features& features) { return planFor(*scene, features, 2, radiiOf(*scene)); };
+        const auto planWith = [&](const Features& features) {
+            return planFor(*scene, features, 2, radiusStatsOf(*scene));
+        };
         const Features all = featuresOf(*scene);
         const Plan whole = planWith(all);
         for (const Module* module : modules()) {
@@ -118,8 +120,8 @@ TEST(SimModules, AreAbsentFromAPlanThatDoesNotRequireThem) {
             const Plan plan = planWith(fewer);
             const bool smaller = plan.bytes() < whole.bytes() || plan.substep.size() < whole.substep.size();
             // Walls and obstacles share all arrays and launches, so the plan is not smaller without one of them.
-            if (!all.obstructed() || (module->feature != Feature::Walls && module->feature != Feature::Planes &&
-                                      module->feature != Feature::Boxes && module->feature != Feature::Materials)) {
+            if (!all.hasSurfaces() || (module->feature != Feature::Walls && module->feature != Feature::Planes &&
+                                       module->feature != Feature::Boxes && module->feature != Feature::Materials)) {
                 EXPECT_TRUE(smaller) << nameOf(module->feature) << " of " << model;
             }
             for (const ArraySpec& spec : plan.arrays) EXPECT_TRUE(whole.has(spec.array)) << nameOf(spec.array);

@@ -6,14 +6,14 @@ namespace {
 
 void declareForces(PlanBuilder& plan) {
     const bool contacts = plan.has(Feature::Contacts);
-    if (!contacts && !plan.obstructed()) return;
+    if (!contacts && !plan.hasSurfaces()) return;
     plan.arrays({Array::DeltaVelocity});
     if (plan.has(Feature::Friction)) {
         plan.arrays({Array::DeltaOmega});
-        if (plan.obstructed()) plan.arrays({Array::WallSlip});
+        if (plan.hasSurfaces()) plan.arrays({Array::WallSlip});
     }
     plan.overPairs(Stage::Solve, Pass::Forces, "solve_forces.comp");
-    if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallForces, "walls_forces.comp");
+    if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallForces, "walls_forces.comp");
     plan.overSpheres(Stage::Solve, Pass::Forces, "apply_forces.comp");
     if (contacts) plan.statistics("statistics_springs.comp", plan.plan().groups());
 }
@@ -26,7 +26,8 @@ const Module moduleAccurate{
     .required = [](const scene::Scene& scene,
                    const Features& /*others*/) { return scene.quality.model == scene::Model::Accurate; },
     .declare = declareForces,
-    .upload = [](const ParameterSource& from, layout::Parameters& p) { p.wallContacts = from.plan.wallContacts; },
+    .upload = [](const ParameterSource& from, layout::Parameters& p) { p.maxWallHistory = from.plan.maxWallHistory; },
+    .cost = {.reason = "the table has columns for the models"},
 };
 
 // The part of a position that float32 cannot hold. The substeps of `accurate` are so short that without it a slow
@@ -35,6 +36,7 @@ const Module moduleLowBits{
     .feature = Feature::LowBits,
     .required = [](const scene::Scene& /*scene*/, const Features& others) { return others.has(Feature::Accurate); },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::PositionLow}); },
+    .cost = {.reason = "part of `accurate`"},
 };
 
 }  // namespace spherule::sim

@@ -12,10 +12,11 @@ const Module moduleBalanced{
         [](PlanBuilder& plan) {
             if (plan.has(Feature::Contacts)) plan.arrays({Array::Touching});
             plan.overPairs(Stage::Solve, Pass::Positions, "solve_positions.comp");
-            if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallPositions, "walls_positions.comp");
+            if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallPositions, "walls_positions.comp");
             plan.overPairs(Stage::Solve, Pass::Velocities, "solve_velocities.comp");
-            if (plan.obstructed()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
+            if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
         },
+    .cost = {.reason = "the table has columns for the models"},
 };
 
 // The velocity before the substep. Impacts and sleep are detected by it.
@@ -27,6 +28,7 @@ const Module moduleVelocityBefore{
             return others.has(Feature::Sleep) || (others.has(Feature::Balanced) && impacts);
         },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::VelocityBefore}); },
+    .cost = {.reason = "part of `balanced` and of sleep"},
 };
 
 }  // namespace spherule::sim

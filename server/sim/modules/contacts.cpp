@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scene/random.h"
 #include "sim/modules/module.h"
 
 namespace spherule::sim {
@@ -39,7 +40,7 @@ void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
     p.levels = static_cast<std::uint32_t>(grid.levels.size());
     for (std::size_t k = 0; k < grid.levels.size(); ++k) {
         const Level& level = grid.levels[k];
-        p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.crowd, 0);
+        p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.sampleThreshold, 0);
         p.levelCells[k] = glm::uvec4(level.cells, level.first);
     }
     p.margin = grid.margin;
@@ -56,18 +57,28 @@ const Module moduleContacts{
     .required = [](const scene::Scene& scene, const Features& /*others*/) { return scene.sphereContacts; },
     .declare = declareLists,
     .upload = uploadGrid,
+    .cost = {.reason = "without contacts, there is no bed"},
 };
 
 // Radii differ.
 const Module moduleRadii{
     .feature = Feature::Radii,
     .required = [](const scene::Scene& scene, const Features& /*others*/) { return differ(scene.spheres); },
+    .cost = {.row = "radii that differ",
+             // Varies radii by at most 1e-5, so that both scenes have the same contacts.
+             .with =
+                 [](scene::Scene& scene) {
+                     scene::Random random(4);
+                     for (scene::Sphere& sphere : scene.spheres)
+                         sphere.radius *= static_cast<float>(random.uniform(0.99999, 1.00001));
+                 }},
 };
 
 // Radii differ so much that each size class has its own grid. planFor() sets the feature, because it makes the grid.
 const Module moduleLevels{
     .feature = Feature::Levels,
     .required = [](const scene::Scene& /*scene*/, const Features& /*others*/) { return false; },
+    .cost = {.reason = "the case `sizes` measures it"},
 };
 
 // A face of the bounds is open: spheres may leave.
@@ -82,6 +93,9 @@ const Module moduleOpenFaces{
             if (plan.has(Feature::Contacts))
                 plan.onRebuild(Stage::Outside, Pass::Lists, "list_outside.comp", LAUNCH_OUTSIDE);
         },
+    .cost = {.row = "open top",
+             .without = [](scene::Scene& scene) { scene.bounds.open[scene::ZMax] = false; },
+             .with = [](scene::Scene& scene) { scene.bounds.open[scene::ZMax] = true; }},
 };
 
 }  // namespace spherule::sim

@@ -10,10 +10,11 @@ const Module moduleFast{
     .declare =
         [](PlanBuilder& plan) {
             plan.overPairs(Stage::Solve, Pass::Impulses, "solve_impulses.comp");
-            if (!plan.obstructed()) return;
+            if (!plan.hasSurfaces()) return;
             if (plan.has(Feature::Gravity)) plan.arrays({Array::WallWork});
             plan.overSpheres(Stage::Solve, Pass::WallImpulses, "walls_impulses.comp");
         },
+    .cost = {.reason = "the table has columns for the models"},
 };
 
 }  // namespace spherule::sim

@@ -13,6 +13,7 @@ const Module moduleGravity{
             p.gravity = glm::vec4(glm::vec3(from.scene.gravity), 0);
             p.deadBand = static_cast<float>(2 * glm::length(from.scene.gravity) * from.substep);
         },
+    .cost = {.reason = "without gravity, the bed does not rest"},
 };
 
 }  // namespace spherule::sim

@@ -16,6 +16,7 @@ const Module moduleImpacts{
             plan.observeSpheres(Stage::BeforeSolve, "velocity_before_solve.comp", aliases);
             plan.observeGroups(Stage::AfterSolve, "statistics_impacts.comp", aliases);
         },
+    .cost = {.row = "impacts observed"},
 };
 
 }  // namespace spherule::sim

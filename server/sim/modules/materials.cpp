@@ -7,8 +7,17 @@ namespace spherule::sim {
 
 namespace {
 
-bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::PairLaw&)) {
-    return std::ranges::any_of(scene::actingLaws(scene), holds);
+bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::ContactParameters&)) {
+    return std::ranges::any_of(scene::actingContactParameters(scene), holds);
+}
+
+// For the comparisons of costs.
+void setRestitution(scene::Scene& scene, double restitution) {
+    for (scene::Material& material : scene.materials) material.restitution = restitution;
+}
+
+void setFriction(scene::Scene& scene) {
+    for (scene::Material& material : scene.materials) material.friction = 0.3;
 }
 
 }  // namespace
@@ -18,8 +27,11 @@ const Module moduleRestitution{
     .feature = Feature::Restitution,
     .required =
         [](const scene::Scene& scene, const Features& /*others*/) {
-            return anyContact(scene, [](const auto& law) { return law.restitution > 0; });
+            return anyContact(scene, [](const auto& contact) { return contact.restitution > 0; });
         },
+    .cost = {.row = "restitution",
+             .without = [](scene::Scene& scene) { setRestitution(scene, 0); },
+             .with = [](scene::Scene& scene) { setRestitution(scene, 0.5); }},
 };
 
 // Spheres have more than one material: kernels look up the contact parameters by pair of materials.
@@ -31,6 +43,12 @@ const Module moduleMaterials{
                 scene.spheres, [&](const scene::Sphere& s) { return s.material != scene.spheres.front().material; });
         },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::ContactParams}); },
+    .cost = {.row = "two materials",
+             .with =
+                 [](scene::Scene& scene) {
+                     scene.materials.push_back(scene.materials.front());
+                     for (std::size_t k = 0; k < scene.spheres.size(); k += 2) scene.spheres[k].material = 1;
+                 }},
 };
 
 // Contacts of `accurate` follow Hertz and Mindlin instead of linear springs.
@@ -41,6 +59,7 @@ const Module moduleHertz{
             return others.has(Feature::Accurate) &&
                    std::ranges::any_of(scene.materials, [](const scene::Material& m) { return m.young > 0; });
         },
+    .cost = {.reason = "with a Young's modulus, contacts and substeps differ"},
 };
 
 // Some contact in the scene has friction, so that spheres turn.
@@ -48,7 +67,7 @@ const Module moduleFriction{
     .feature = Feature::Friction,
     .required =
         [](const scene::Scene& scene, const Features& /*others*/) {
-            return anyContact(scene, [](const auto& law) { return law.friction > 0; });
+            return anyContact(scene, [](const auto& contact) { return contact.friction > 0; });
         },
     .declare =
         [](PlanBuilder& plan) {
@@ -58,11 +77,12 @@ const Module moduleFriction{
                 plan.arrays({Array::NormalImpulses});
                 plan.overPairs(Stage::Friction, Pass::Friction, "solve_friction.comp");
             }
-            if (plan.obstructed()) {
+            if (plan.hasSurfaces()) {
                 plan.arrays({Array::WallImpulse});
                 plan.overSpheres(Stage::Friction, Pass::WallFriction, "walls_friction.comp");
             }
         },
+    .cost = {.row = "friction", .with = setFriction},
 };
 
 // Some contact in the scene resists rolling or spinning.
@@ -70,10 +90,17 @@ const Module moduleRolling{
     .feature = Feature::Rolling,
     .required =
         [](const scene::Scene& scene, const Features& others) {
-            return others.has(Feature::Friction) && anyContact(scene, [](const scene::PairLaw& law) {
-                       return law.rollingResistance > 0 || law.spinningResistance > 0;
+            return others.has(Feature::Friction) && anyContact(scene, [](const scene::ContactParameters& contact) {
+                       return contact.rollingResistance > 0 || contact.spinningResistance > 0;
                    });
         },
+    .cost = {.row = "rolling resistance",
+             .without = setFriction,
+             .with =
+                 [](scene::Scene& scene) {
+                     setFriction(scene);
+                     for (scene::Material& material : scene.materials) material.rollingResistance = 0.05;
+                 }},
 };
 
 }  // namespace spherule::sim

@@ -13,8 +13,8 @@ const std::array<const Module*, featureCount>& modules() {
     return all;
 }
 
-void PlanBuilder::arrays(std::initializer_list<Array> wanted) {
-    for (const Array array : wanted)
+void PlanBuilder::arrays(std::initializer_list<Array> needed) {
+    for (const Array array : needed)
         if (!plan_.has(array)) plan_.arrays.push_back({array, plan_.bytesFor(array, scene_)});
 }
 
@@ -46,7 +46,7 @@ void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std
     staged_.push_back({stage,
                        {.pass = pass,
                         .kernel = kernel,
-                        .count = plan_.fullLaunches.at(row),
+                        .count = plan_.dispatchSizes.at(row),
                         .launchRow = row,
                         .aliases = std::move(aliases)}});
 }

@@ -9,25 +9,25 @@
 #include "sim/features.h"
 #include "sim/layout.h"
 #include "sim/plan.h"
-#include "sim/sizes.h"
+#include "sim/radius_stats.h"
 
 namespace spherule::sim {
 
 // The stages of a substep, in their order. Within a stage, launches run in the order of the modules that declare them
-// (the order of shaders/features.def). The stages from Wake to RestoreContacts run only while the lists are rebuilt.
+// (the order of shaders/features.def). The stages from Wake to RestoreSlip run only while the lists are rebuilt.
 enum class Stage : std::uint8_t {
     Integrate,
-    Rebuild,        // decides whether the lists are rebuilt in this substep
-    Wake,           // the old lists are still valid
-    CarryContacts,  // saves the history of contacts by id
-    SortCells,      // the order of the spheres by cell
-    SortColumns,    // each column of the spheres, in that order
-    Reference,      // positions of the spheres when the lists are built
-    Outside,        // distances between the spheres outside the bounds
+    Rebuild,      // decides whether the lists are rebuilt in this substep
+    Wake,         // the old lists are still valid
+    CarrySlip,    // saves the tangential slip of contacts by id
+    SortCells,    // the order of the spheres by cell
+    SortColumns,  // each column of the spheres, in that order
+    Reference,    // positions of the spheres when the lists are built
+    Outside,      // distances between the spheres outside the bounds
     Lists,
-    RestoreContacts,  // gives the new pairs the history of their contacts
-    Activity,         // finds the cell groups that hold anything that moves
-    BeforeSolve,      // observed steps only
+    RestoreSlip,  // gives the new pairs the slip of their contacts
+    Activity,     // finds the cell groups that hold anything that moves
+    BeforeSolve,  // observed steps only
     Solve,
     Friction,
     AfterSolve,  // observed steps only
@@ -44,10 +44,10 @@ class PlanBuilder {
 
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] bool has(Feature feature) const { return plan_.features.has(feature); }
-    [[nodiscard]] bool obstructed() const { return plan_.features.obstructed(); }
+    [[nodiscard]] bool hasSurfaces() const { return plan_.features.hasSurfaces(); }
 
     // Adds arrays to the plan. Each module declares all arrays that it needs; duplicates are ignored.
-    void arrays(std::initializer_list<Array> wanted);
+    void arrays(std::initializer_list<Array> needed);
 
     // `aliases`: buffers of the kernel whose names differ from the arrays to bind.
     void overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases = {});
@@ -85,8 +85,16 @@ class PlanBuilder {
 struct ParameterSource {
     const scene::Scene& scene;
     const Plan& plan;
-    const Radii& radii;
+    const RadiusStats& radii;
     double substep;  // s
+};
+
+// How `spherule measure` finds the cost of a feature: it compares a bed of equal spheres at rest with and without it.
+struct CostComparison {
+    std::string_view row{};                    // its name in the table; empty if the table has no row
+    void (*without)(scene::Scene&) = nullptr;  // changes the scene of the bed; nullptr: not at all
+    void (*with)(scene::Scene&) = nullptr;
+    std::string_view reason{};  // why the table has no row
 };
 
 // An optional feature and its contributions to the plan and the parameters.
@@ -96,6 +104,7 @@ struct Module {
     bool (*required)(const scene::Scene& scene, const Features& others);
     void (*declare)(PlanBuilder& plan) = nullptr;
     void (*upload)(const ParameterSource& from, layout::Parameters& parameters) = nullptr;
+    CostComparison cost{};  // with a row or a reason
 };
 
 // One per feature, defined in sim/modules/.

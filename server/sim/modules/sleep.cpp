@@ -24,17 +24,17 @@ void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
     const double g = glm::length(scene.gravity);
     // The wake speed is well above the sleep speed, or a sphere would fall asleep and wake in turns. It is also above
     // the speed that the solver's pushes give a squeezed sphere: up to about 15 g h in a bed 20 spheres deep (h:
-    // substep). `creep` detects a sphere that moves away more slowly.
-    constexpr double kicks = 20;
+    // substep). `moveAwayDistance` detects a sphere that moves away more slowly.
+    constexpr double pushes = 20;
     p.sleepSpeed = static_cast<float>(scene.sleep.speed);
-    p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, kicks * g * from.substep));
+    p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, pushes * g * from.substep));
     // A sphere that stays within this distance of one place for the sleep time has not crossed it faster than the sleep
     // speed.
-    const double creep =
+    const double moveAwayDistance =
         std::min(static_cast<double>(from.plan.grid.margin) / 3, 0.5 * scene.sleep.speed * scene.sleep.time);
-    p.creep = static_cast<float>(creep);
-    // In weak gravity, a free flight stays within that distance of its top for up to 3.4 sqrt(creep / g).
-    p.sleepTime = static_cast<float>(std::max(scene.sleep.time, g > 0 ? 4 * std::sqrt(creep / g) : 0.0));
+    p.moveAwayDistance = static_cast<float>(moveAwayDistance);
+    // In weak gravity, a free flight stays within that distance of its top for up to 3.4 sqrt(moveAwayDistance / g).
+    p.sleepTime = static_cast<float>(std::max(scene.sleep.time, g > 0 ? 4 * std::sqrt(moveAwayDistance / g) : 0.0));
 }
 
 }  // namespace
@@ -51,6 +51,12 @@ const Module moduleSleep{
         },
     .declare = declareSleep,
     .upload = uploadSleep,
+    .cost = {.row = "sleep, nobody asleep",
+             .with =
+                 [](scene::Scene& scene) {
+                     scene.sleep.enabled = true;
+                     scene.sleep.time = 1e6;
+                 }},
 };
 
 }  // namespace spherule::sim

@@ -14,13 +14,14 @@ const Module moduleSlipMemory{
         [](PlanBuilder& plan) {
             using enum Array;
             plan.arrays({TangentialSlip, CarriedOffsets, CarriedSlip});
-            plan.onRebuild(Stage::CarryContacts, Pass::History, "slip_clear.comp", LAUNCH_OWNERS);
-            plan.onRebuild(Stage::CarryContacts, Pass::History, "slip_count.comp", LAUNCH_GROUPS);
-            plan.prefixSumOnRebuild(Stage::CarryContacts, Pass::History, CarriedOffsets,
+            plan.onRebuild(Stage::CarrySlip, Pass::SlipMemory, "slip_clear.comp", LAUNCH_OWNERS);
+            plan.onRebuild(Stage::CarrySlip, Pass::SlipMemory, "slip_count.comp", LAUNCH_GROUPS);
+            plan.prefixSumOnRebuild(Stage::CarrySlip, Pass::SlipMemory, CarriedOffsets,
                                     {LAUNCH_OWNER_BLOCKS, LAUNCH_OWNER_SUPERBLOCKS}, plan.plan().spheres + 1);
-            plan.onRebuild(Stage::CarryContacts, Pass::History, "slip_carry.comp", LAUNCH_GROUPS);
-            plan.onRebuild(Stage::RestoreContacts, Pass::History, "slip_restore.comp", LAUNCH_GROUPS);
+            plan.onRebuild(Stage::CarrySlip, Pass::SlipMemory, "slip_carry.comp", LAUNCH_GROUPS);
+            plan.onRebuild(Stage::RestoreSlip, Pass::SlipMemory, "slip_restore.comp", LAUNCH_GROUPS);
         },
+    .cost = {.reason = "part of friction in `accurate`"},
 };
 
 }  // namespace spherule::sim

@@ -31,6 +31,7 @@ const Module moduleWalls{
     .feature = Feature::Walls,
     .required = [](const scene::Scene& scene, const Features& /*others*/) { return scene::hasWalls(scene); },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::ContactParams}); },
+    .cost = {.reason = "without walls, the bed has no floor"},
 };
 
 const Module modulePlanes{
@@ -38,6 +39,13 @@ const Module modulePlanes{
     .required = hasAny<scene::Plane>,
     .declare = declareObstacles,
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.planes = count<scene::Plane>(from.scene); },
+    .cost =
+        {.row = "a plane",
+         .with =
+             [](scene::Scene& scene) {
+                 const glm::dvec3 below = scene.bounds.min - glm::dvec3(1);
+                 scene.obstacles.push_back({.shape = scene::Plane{.point = below, .normal = {0, 0, 1}}, .colour = ""});
+             }},
 };
 
 const Module moduleBoxes{
@@ -45,6 +53,13 @@ const Module moduleBoxes{
     .required = hasAny<scene::Box>,
     .declare = declareObstacles,
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.boxes = count<scene::Box>(from.scene); },
+    .cost = {.row = "a box",
+             .with =
+                 [](scene::Scene& scene) {
+                     const glm::dvec3 corner = scene.bounds.min;
+                     const scene::Box box{.min = corner - glm::dvec3(2), .max = corner - glm::dvec3(1)};
+                     scene.obstacles.push_back({.shape = box, .colour = ""});
+                 }},
 };
 
 }  // namespace spherule::sim

@@ -106,7 +106,7 @@ std::vector<Trajectory> collapse(compute::Device& device, std::uint32_t spheres)
         advance(*simulation, 1);
     }
     simulation = simulate(device, column(spheres, true));
-    simulation->put(bed);
+    simulation->upload(bed);
     advance(*simulation, 150);
     for (unsigned k = 0; k < 30; ++k) {
         record(*simulation, asleep);

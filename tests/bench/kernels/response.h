@@ -34,13 +34,15 @@ void meet(uint other) {
     vec3 normal = vec3(contact);
     push = push + normal * (0.5f * (reach - contact.w));
     float approach = dot3(speed - vec3(velocity[other]), normal);
-    if (approach < 0.0f) kick = kick - normal * (0.5f * (1.0f + params.law.x) * approach);
+    if (approach < 0.0f) kick = kick - normal * (0.5f * (1.0f + params.contact.x) * approach);
 }
 
 // Keeps the coordinate x between two walls; returns the new coordinate and the new speed.
 vec2 bounce(float x, float v, float low, float high, uint face) {
-    if ((params.closedFaces & (1u << face)) != 0u && x < low) return vec2(low, v < 0.0f ? -params.law.x * v : v);
-    if ((params.closedFaces & (2u << face)) != 0u && x > high) return vec2(high, v > 0.0f ? -params.law.x * v : v);
+    if ((params.closedFaces & (1u << face)) != 0u && x < low)
+        return vec2(low, v < 0.0f ? -params.contact.x * v : v);
+    if ((params.closedFaces & (2u << face)) != 0u && x > high)
+        return vec2(high, v > 0.0f ? -params.contact.x * v : v);
     return vec2(x, v);
 }
 

@@ -12,8 +12,8 @@ namespace spherule::scene {
 constexpr double smallestRadius = 1e-6;  // m
 constexpr double largestRadius = 1e6;    // m
 
-// A validated law of radii: always the same, uniform in min..max, or normal cut to min..max.
-struct Radii {
+// A validated distribution of radii: always the same, uniform in min..max, or normal cut to min..max.
+struct RadiusDistribution {
     struct Bell {
         double mean = 0;
         double deviation = 0;
@@ -23,13 +23,13 @@ struct Radii {
     double max = 0;  // m
     std::optional<Bell> bell;
 
-    // A constant law draws no random number.
+    // A constant distribution draws no random number.
     [[nodiscard]] float draw(Random& random) const;
 };
 
 // Reads a single radius (m).
 double readRadius(Check& check, double value, std::string_view field);
 
-Radii readRadii(Check& check, const v1::Radius& message, std::string_view field);
+RadiusDistribution readRadiusDistribution(Check& check, const v1::Radius& message, std::string_view field);
 
 }  // namespace spherule::scene

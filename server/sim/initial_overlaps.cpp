@@ -1,4 +1,4 @@
-#include "sim/relax.h"
+#include "sim/initial_overlaps.h"
 
 #include <cmath>
 #include <limits>
@@ -12,8 +12,8 @@ namespace spherule::sim {
 
 namespace {
 
-constexpr std::uint32_t mostSweeps = 1024;
-constexpr std::uint32_t sweepsPerLook = 16;
+constexpr std::uint32_t maxSweeps = 1024;
+constexpr std::uint32_t sweepsPerCheck = 16;
 
 // Uses the model `fast`, because its pushes add no velocity.
 scene::Scene withoutForces(const scene::Scene& scene) {
@@ -21,7 +21,7 @@ scene::Scene withoutForces(const scene::Scene& scene) {
     still.gravity = {};
     still.sleep.enabled = false;
     still.step = 1.0 / 480;
-    still.quality = {.model = scene::Model::Fast, .substeps = 1, .pinned = true};
+    still.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};
     still.pairs.clear();
     for (scene::Material& material : still.materials)
         material = {.name = material.name, .density = material.density, .restitution = 0};
@@ -36,42 +36,44 @@ State atRest(State state) {
 
 }  // namespace
 
-double deepestBearable(const scene::Scene& scene) {
+double maxSafeOverlap(const scene::Scene& scene) {
     constexpr double shallow = 0.25;  // reached in squeezed beds, exceeded by spheres placed in each other
     if (scene.quality.model == scene::Model::Fast) return std::numeric_limits<double>::infinity();
     if (scene.quality.model == scene::Model::Balanced) return shallow;
     return scene::contactTimeOf(scene).overlap;
 }
 
-Relaxation::Relaxation(compute::Device& device, const scene::Scene& scene, const State& state, double most)
-    : most_(most), preparation_(std::make_unique<Preparation>(device, Built{withoutForces(scene), atRest(state)})) {}
+InitialOverlapResolver::InitialOverlapResolver(compute::Device& device, const scene::Scene& scene, const State& state,
+                                               double maxOverlap)
+    : maxOverlap_(maxOverlap),
+      preparation_(std::make_unique<Preparation>(device, SceneAndState{withoutForces(scene), atRest(state)})) {}
 
-Relaxation::~Relaxation() = default;
+InitialOverlapResolver::~InitialOverlapResolver() = default;
 
-Result<bool> Relaxation::advance() {
+Result<bool> InitialOverlapResolver::advance() {
     if (preparation_) {
         const auto done = preparation_->advance();
         if (!done) return tl::unexpected(done.error());
-        if (*done) world_ = Simulation::from(std::exchange(preparation_, nullptr));
+        if (*done) simulation_ = Simulation::from(std::exchange(preparation_, nullptr));
         return false;
     }
-    if (sweeps_ == 0 || sweeps_ % sweepsPerLook != 0 || looked_) {
-        looked_ = false;
-        if (auto done = world_->step(); !done) return tl::unexpected(done.error());
+    if (sweeps_ == 0 || sweeps_ % sweepsPerCheck != 0 || measured_) {
+        measured_ = false;
+        if (auto done = simulation_->step(); !done) return tl::unexpected(done.error());
         ++sweeps_;
         return false;
     }
-    looked_ = true;
-    overlap_ = world_->statistics().deepest();
-    return !(overlap_ > most_) || sweeps_ >= mostSweeps;
+    measured_ = true;
+    overlap_ = simulation_->statistics().deepest();
+    return !(overlap_ > maxOverlap_) || sweeps_ >= maxSweeps;
 }
 
-double Relaxation::share() const {
-    return static_cast<double>(sweeps_) / mostSweeps;
+double InitialOverlapResolver::share() const {
+    return static_cast<double>(sweeps_) / maxSweeps;
 }
 
-std::vector<glm::vec4> Relaxation::takePositions() {
-    return world_->snapshot().position;
+std::vector<glm::vec4> InitialOverlapResolver::takePositions() {
+    return simulation_->snapshot().position;
 }
 
 }  // namespace spherule::sim

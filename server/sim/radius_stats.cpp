@@ -1,4 +1,4 @@
-#include "sim/sizes.h"
+#include "sim/radius_stats.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@ constexpr double narrowestBin = std::numbers::sqrt2;
 constexpr double ball = 4.0 / 3 * std::numbers::pi;
 
 // Returns bins of spheres of similar size, from the smallest to the largest. Classes are made of bins.
-std::vector<SizeClass> binsOf(const scene::Scene& scene, const Radii& radii) {
+std::vector<SizeClass> binsOf(const scene::Scene& scene, const RadiusStats& radii) {
     const double range = std::log(radii.largest / radii.smallest);
     const double wide = std::max(std::log(narrowestBin), range / mostBins);
     std::vector<SizeClass> bins(mostBins);
@@ -73,7 +73,7 @@ double costOf(const std::vector<SizeClass>& classes, double volume, double margi
 }
 
 // Returns the division of the bins into classes that costs least.
-std::vector<SizeClass> classesOf(const scene::Scene& scene, const Radii& radii, double volume) {
+std::vector<SizeClass> classesOf(const scene::Scene& scene, const RadiusStats& radii, double volume) {
     const std::vector<SizeClass> bins = binsOf(scene, radii);
     std::vector<SizeClass> best = joined(bins, 0);
     double least = costOf(best, volume, radii.mean * marginInRadii);
@@ -91,10 +91,10 @@ std::vector<SizeClass> classesOf(const scene::Scene& scene, const Radii& radii, 
 
 }  // namespace
 
-Radii radiiOf(const scene::Scene& scene) {
+RadiusStats radiusStatsOf(const scene::Scene& scene) {
     constexpr double packing = 0.6;
     if (scene.spheres.empty()) return {0.05, 0.05, 0.05, 0.05, {{0.05, 0.05, 0}}};
-    Radii radii{1e30, 0, 0, 0, {}};
+    RadiusStats radii{1e30, 0, 0, 0, {}};
     double inverses = 0;
     double cubes = 0;
     const auto count = static_cast<double>(scene.spheres.size());

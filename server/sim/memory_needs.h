@@ -13,16 +13,16 @@
 // allocated.
 namespace spherule::sim {
 
-struct Need {
+struct MemoryNeeds {
     std::uint64_t arrays = 0;      // the plan's arrays on the device; host memory if the device has none of its own
     std::vector<MemoryPart> host;  // host memory, as long as the simulation exists
-    std::uint64_t work = 0;        // host memory in addition, while it is made or executes the command that copies most
+    std::uint64_t temporary = 0;   // host memory in addition, while it is made or executes the command that copies most
 
     [[nodiscard]] std::uint64_t onHost() const;           // the sum of `host`
     [[nodiscard]] std::vector<MemoryPart> parts() const;  // all of it, with names for users
 };
 
-Need needOf(const Plan& plan);
+MemoryNeeds memoryNeedsOf(const Plan& plan);
 
 // Returns the host memory (bytes) of the plan's arrays on `device`.
 std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan);
@@ -32,7 +32,7 @@ Result<memory::Claim> claimForState(std::size_t spheres);
 // Claims memory for the simulation of a scene that is in memory already.
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan);
 // Updates the claim once the simulation is made: its memory is held, and the memory for its commands is promised.
-void settle(memory::Claim& claim, const compute::Device& device, const Plan& plan);
+void settleClaim(memory::Claim& claim, const compute::Device& device, const Plan& plan);
 
 // Return the memory (bytes) for copies in addition to the memory of `plan`: to give its spheres other arrays, and to
 // add spheres.

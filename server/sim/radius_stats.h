@@ -17,7 +17,7 @@ struct SizeClass {
 // The gap up to which pairs are listed, in radii. A wider gap lists more pairs, a narrower gap causes more rebuilds.
 constexpr double marginInRadii = 0.3;
 
-struct Radii {
+struct RadiusStats {
     double smallest = 0;  // m
     double largest = 0;
     double mean = 0;
@@ -27,6 +27,6 @@ struct Radii {
     std::vector<SizeClass> classes;  // from the smallest to the largest; each has its own cells
 };
 
-Radii radiiOf(const scene::Scene& scene);
+RadiusStats radiusStatsOf(const scene::Scene& scene);
 
 }  // namespace spherule::sim

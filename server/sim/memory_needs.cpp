@@ -1,4 +1,4 @@
-#include "sim/need.h"
+#include "sim/memory_needs.h"
 
 #include <numeric>
 
@@ -29,26 +29,26 @@ std::uint64_t snapshotBytes(const Plan& plan) {
 
 }  // namespace
 
-std::uint64_t Need::onHost() const {
+std::uint64_t MemoryNeeds::onHost() const {
     return std::accumulate(host.begin(), host.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const MemoryPart& part) { return sum + part.bytes; });
 }
 
-std::vector<MemoryPart> Need::parts() const {
+std::vector<MemoryPart> MemoryNeeds::parts() const {
     std::vector<MemoryPart> all{{"device: arrays", arrays}};
     for (const MemoryPart& part : host) all.push_back(part);
-    all.insert(all.end(),
-               {{"host: for a time", work}, {"all, where device and host are one", arrays + onHost() + work}});
+    all.insert(all.end(), {{"host: for a time", temporary},
+                           {"all, where device and host are one", arrays + onHost() + temporary}});
     return all;
 }
 
-Need needOf(const Plan& plan) {
+MemoryNeeds memoryNeedsOf(const Plan& plan) {
     const std::uint64_t n = plan.spheres;
-    Need need{.arrays = plan.bytes(),
-              .host = {{"host: scene", n * sizeof(scene::Sphere)},
-                       {"host: scene at the start", n * sizeof(scene::Sphere)},
-                       {"host: last good state", n * slotBytes(plan.features.has(Feature::Friction))}},
-              .work = n * snapshotBytes(plan)};
+    MemoryNeeds need{.arrays = plan.bytes(),
+                     .host = {{"host: scene", n * sizeof(scene::Sphere)},
+                              {"host: scene at the start", n * sizeof(scene::Sphere)},
+                              {"host: last good state", n * slotBytes(plan.features.has(Feature::Friction))}},
+                     .temporary = n * snapshotBytes(plan)};
     if (plan.features.has(Feature::Radii)) need.host.push_back({"host: radii for viewers", n * radiiBytes});
     return need;
 }
@@ -64,15 +64,15 @@ Result<memory::Claim> claimForState(std::size_t spheres) {
 }
 
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan) {
-    const Need need = needOf(plan);
-    const std::uint64_t there = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
+    const MemoryNeeds need = memoryNeedsOf(plan);
+    const std::uint64_t alreadyHeld = std::uint64_t{plan.spheres} * sizeof(scene::Sphere);
     return memory::Claim::make("", fmt::format("a scene of {} spheres", plan.spheres),
-                               arraysOnHost(device, plan) + need.onHost() - there + need.work);
+                               arraysOnHost(device, plan) + need.onHost() - alreadyHeld + need.temporary);
 }
 
-void settle(memory::Claim& claim, const compute::Device& device, const Plan& plan) {
-    const Need need = needOf(plan);
-    claim.settle(arraysOnHost(device, plan) + need.onHost(), need.work);
+void settleClaim(memory::Claim& claim, const compute::Device& device, const Plan& plan) {
+    const MemoryNeeds need = memoryNeedsOf(plan);
+    claim.settle(arraysOnHost(device, plan) + need.onHost(), need.temporary);
 }
 
 std::uint64_t copiesToChange(const Plan& plan) {

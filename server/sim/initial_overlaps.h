@@ -18,19 +18,19 @@ class Simulation;
 
 // Returns the largest overlap, in radii, that the scene's model resolves without adding kinetic energy. For `accurate`
 // it is the overlap of the fastest impact to expect: a deeper spring holds more energy than any impact in the scene.
-double deepestBearable(const scene::Scene& scene);
+double maxSafeOverlap(const scene::Scene& scene);
 
 // Pushes spheres apart by moving them, within the walls and without gravity or friction. Ends when no overlap is larger
-// than `most` (a fraction of the smaller radius), or after many sweeps. No simulated time passes. Needs memory for a
-// simulation of its own. Used by the thread that owns the device.
-class Relaxation {
+// than `maxOverlap` (a fraction of the smaller radius), or after many sweeps. No simulated time passes. Needs memory
+// for a simulation of its own. Used by the thread that owns the device.
+class InitialOverlapResolver {
   public:
-    Relaxation(compute::Device& device, const scene::Scene& scene, const State& state, double most);
-    ~Relaxation();
-    Relaxation(const Relaxation&) = delete;
-    Relaxation& operator=(const Relaxation&) = delete;
+    InitialOverlapResolver(compute::Device& device, const scene::Scene& scene, const State& state, double maxOverlap);
+    ~InitialOverlapResolver();
+    InitialOverlapResolver(const InitialOverlapResolver&) = delete;
+    InitialOverlapResolver& operator=(const InitialOverlapResolver&) = delete;
 
-    // Does one sweep, or one piece of the preparation. Returns true once the relaxation has ended. Do not call it again
+    // Does one sweep, or one piece of the preparation. Returns true once it has ended. Do not call it again
     // after that or after an error.
     Result<bool> advance();
 
@@ -41,11 +41,11 @@ class Relaxation {
     [[nodiscard]] std::vector<glm::vec4> takePositions();  // m, relative to the bounds' centre; w = radius
 
   private:
-    double most_;
-    std::unique_ptr<Preparation> preparation_;  // of world_, until world_ exists
-    std::unique_ptr<Simulation> world_;
+    double maxOverlap_;
+    std::unique_ptr<Preparation> preparation_;  // of simulation_, until that exists
+    std::unique_ptr<Simulation> simulation_;
     std::uint32_t sweeps_ = 0;
-    bool looked_ = false;  // overlaps checked since the last sweep
+    bool measured_ = false;  // overlaps were measured since the last sweep
     double overlap_ = 0;
 };
 

@@ -1,4 +1,4 @@
-#include "scene/radii.h"
+#include "scene/radius_distribution.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -8,24 +8,24 @@ namespace spherule::scene {
 
 namespace {
 
-void readLimits(Check& check, double min, double max, std::string_view field, Radii& radii) {
+void readLimits(Check& check, double min, double max, std::string_view field, RadiusDistribution& radii) {
     radii.min = readRadius(check, min, at(field, "min"));
     radii.max = readRadius(check, max, at(field, "max"));
     if (radii.min >= radii.max) check.refuse(at(field, "max"), fmt::format("is {}, must be above min, {}", max, min));
 }
 
-void readNormal(Check& check, const v1::Normal& normal, std::string_view field, Radii& radii) {
+void readNormal(Check& check, const v1::Normal& normal, std::string_view field, RadiusDistribution& radii) {
     readLimits(check, normal.min(), normal.max(), field, radii);
     // With these limits at least a third of the draws lies within min..max.
     const double mean = check.within(normal.mean(), radii.min, radii.max, at(field, "mean"), " (min to max)");
     const double deviation = check.upTo(normal.deviation(), radii.max - radii.min, at(field, "deviation"),
                                         " (max - min; for a wider one use uniform)");
-    radii.bell = Radii::Bell{mean, deviation};
+    radii.bell = RadiusDistribution::Bell{mean, deviation};
 }
 
 }  // namespace
 
-float Radii::draw(Random& random) const {
+float RadiusDistribution::draw(Random& random) const {
     if (min == max) return static_cast<float>(min);
     if (!bell) return static_cast<float>(random.uniform(min, max));
     for (;;) {
@@ -38,8 +38,8 @@ double readRadius(Check& check, double value, std::string_view field) {
     return check.within(check.positive(value, field), smallestRadius, largestRadius, field, " m");
 }
 
-Radii readRadii(Check& check, const v1::Radius& message, std::string_view field) {
-    Radii radii;
+RadiusDistribution readRadiusDistribution(Check& check, const v1::Radius& message, std::string_view field) {
+    RadiusDistribution radii;
     switch (message.kind_case()) {
         case v1::Radius::kConstant:
             radii.min = radii.max = readRadius(check, message.constant(), at(field, "constant"));
