@@ -9,20 +9,20 @@
 #include "core/memory.h"
 #include "core/quantity.h"
 #include "scene/quality.h"
-#include "scene/quality_target.h"
+#include "scene/quality_goal.h"
 
 namespace spherule::cli {
 
 namespace {
 
 // Parses a goal such as "16ms" or "0.5%"; nullopt if it is invalid.
-std::optional<scene::QualityTarget> goalFrom(const std::string& words) {
+std::optional<scene::QualityGoal> goalFrom(const std::string& words) {
     const auto given = quantityOf(words);
     if (!given) return std::nullopt;
     v1::Auto message;
     if (given->unit == "ms") message.set_budget_ms(given->number);
     if (given->unit == "%") message.set_overlap(given->number / 100);
-    const auto goal = scene::qualityTargetOf(message, "");
+    const auto goal = scene::qualityGoalOf(message, "");
     return goal ? *goal : std::nullopt;
 }
 
@@ -47,7 +47,7 @@ void addQuality(CLI::App& command, scene::Overrides& overrides) {
 void addGoal(CLI::App& command, scene::Overrides& overrides) {
     command
         .add_option_function<std::string>(
-            "--auto", [&overrides](const std::string& goal) { overrides.target = goalFrom(goal); },
+            "--auto", [&overrides](const std::string& goal) { overrides.goal = goalFrom(goal); },
             "move the substeps to hold a wall time per step, such as 16ms, or a mean overlap, such as 0.5%")
         ->check([](const std::string& goal) {
             return goalFrom(goal) ? "" : "'" + goal + "' is neither a time such as 16ms nor an overlap such as 0.5%";

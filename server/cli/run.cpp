@@ -251,7 +251,7 @@ Result<void> run(const RunOptions& options) {
     spdlog::info("on {}: {}", (*device)->info().renderer, (*device)->info().reason);
     auto loaded = scene::load(options.scene.scene, (*device)->info().kind, options.scene.overrides);
     if (!loaded) return tl::unexpected(loaded.error());
-    if (loaded->quality.target && loaded->quality.target->kind == scene::QualityTarget::Kind::StepTime)
+    if (loaded->quality.goal && loaded->quality.goal->kind == scene::QualityGoal::Kind::StepTime)
         return fail(ErrorKind::Input, "quality.auto",
                     "holds a time per step, so the result would depend on the load of the machine: give `run` an "
                     "overlap to hold, such as --auto 0.5%, or --substeps");

@@ -17,16 +17,16 @@ constexpr double mostChange = 2;
 }  // namespace
 
 bool AutoQuality::readable(const Reading& reading) const {
-    return goal_.kind == scene::QualityTarget::Kind::StepTime ? reading.stepMs > 0 : reading.contacts > 0;
+    return goal_.kind == scene::QualityGoal::Kind::StepTime ? reading.stepMs > 0 : reading.contacts > 0;
 }
 
 double AutoQuality::overGoal(const Reading& reading) const {
-    return (goal_.kind == scene::QualityTarget::Kind::StepTime ? reading.stepMs : reading.overlapMean) / goal_.max;
+    return (goal_.kind == scene::QualityGoal::Kind::StepTime ? reading.stepMs : reading.overlapMean) / goal_.max;
 }
 
 // The step time is proportional to the substeps, the overlap to the inverse of their square.
 std::uint32_t AutoQuality::wanted(double over, std::uint32_t substeps) const {
-    const bool time = goal_.kind == scene::QualityTarget::Kind::StepTime;
+    const bool time = goal_.kind == scene::QualityGoal::Kind::StepTime;
     const double right = time ? aim / over : std::sqrt(over / aim);
     const double exact = substeps * std::clamp(right, 1 / mostChange, mostChange);
     const double whole = time ? std::floor(exact) : std::ceil(exact);
@@ -34,7 +34,7 @@ std::uint32_t AutoQuality::wanted(double over, std::uint32_t substeps) const {
 }
 
 std::string AutoQuality::toldOf(const Reading& reading) const {
-    if (goal_.kind == scene::QualityTarget::Kind::StepTime)
+    if (goal_.kind == scene::QualityGoal::Kind::StepTime)
         return fmt::format("a step takes {:.3g} ms, and may take {:.3g}", reading.stepMs, goal_.max);
     return fmt::format("the mean overlap is {:.2g} % of the radius, and may be {:.2g}", 100 * reading.overlapMean,
                        100 * goal_.max);
@@ -42,7 +42,7 @@ std::string AutoQuality::toldOf(const Reading& reading) const {
 
 std::optional<Decision> AutoQuality::take(const Reading& reading, std::uint32_t substeps) {
     if (!readable(reading)) return std::nullopt;
-    const bool time = goal_.kind == scene::QualityTarget::Kind::StepTime;
+    const bool time = goal_.kind == scene::QualityGoal::Kind::StepTime;
     const double easyBelow = time ? 0.6 : 0.4;
     const double over = overGoal(reading);
     missed_ = over > 1 ? missed_ + 1 : 0;

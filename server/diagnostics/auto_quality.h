@@ -24,7 +24,7 @@ struct Decision {
 // band below the goal it changes nothing, so that substeps do not oscillate.
 class AutoQuality {
   public:
-    AutoQuality(scene::QualityTarget goal, scene::SubstepRange range) : goal_(goal), range_(range) {}
+    AutoQuality(scene::QualityGoal goal, scene::SubstepRange range) : goal_(goal), range_(range) {}
 
     // Takes a reading of steps with this number of substeps. Returns nullopt if nothing changes.
     std::optional<Decision> take(const Reading& reading, std::uint32_t substeps);
@@ -35,7 +35,7 @@ class AutoQuality {
     [[nodiscard]] std::uint32_t wanted(double over, std::uint32_t substeps) const;
     [[nodiscard]] std::string toldOf(const Reading& reading) const;
 
-    scene::QualityTarget goal_;
+    scene::QualityGoal goal_;
     scene::SubstepRange range_;
     int missed_ = 0;  // readings in a row
     int easy_ = 0;

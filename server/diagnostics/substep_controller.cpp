@@ -16,12 +16,12 @@ constexpr int fewSteps = 3;
 
 bool SubstepController::full(const scene::Scene& scene) const {
     if (steps_ >= std::max(1L, std::lround(readEvery / scene.step))) return true;
-    return scene.quality.target->kind == scene::QualityTarget::Kind::StepTime && steps_ >= fewSteps && ms_ >= slowMs;
+    return scene.quality.goal->kind == scene::QualityGoal::Kind::StepTime && steps_ >= fewSteps && ms_ >= slowMs;
 }
 
 Result<std::optional<std::string>> SubstepController::stepped(sim::Simulation& simulation, double wallMs) {
     const scene::Scene& scene = simulation.scene();
-    if (!scene.quality.target) return std::nullopt;
+    if (!scene.quality.goal) return std::nullopt;
     ++steps_;
     ms_ += wallMs;
     const std::uint32_t substeps = scene.quality.substeps;
@@ -33,12 +33,12 @@ Result<std::optional<std::string>> SubstepController::stepped(sim::Simulation& s
     steps_ = 0;
     ms_ = 0;
     if (raised) return std::nullopt;
-    if (scene.quality.target->kind == scene::QualityTarget::Kind::Overlap) {
+    if (scene.quality.goal->kind == scene::QualityGoal::Kind::Overlap) {
         const sim::Statistics statistics = simulation.statistics();
         reading.contacts = statistics.contacts;
         reading.overlapMean = statistics.overlapMean;
     }
-    if (!quality_) quality_.emplace(*scene.quality.target, scene::substepRange(scene, scene.quality.model));
+    if (!quality_) quality_.emplace(*scene.quality.goal, scene::substepRange(scene, scene.quality.model));
     auto decision = quality_->take(reading, substeps);
     if (!decision) return std::nullopt;
     if (decision->substeps != substeps)

@@ -8,7 +8,7 @@
 
 #include "scene/check.h"
 #include "scene/quality.h"
-#include "scene/quality_target.h"
+#include "scene/quality_goal.h"
 
 namespace spherule::host {
 
@@ -38,9 +38,9 @@ Result<sim::Set> setOf(const v1::Set& message) {
     if (!model) return tl::unexpected(model.error());
     set.model = *model;
     if (message.has_auto_()) {
-        const auto goal = scene::qualityTargetOf(message.auto_(), "auto");
+        const auto goal = scene::qualityGoalOf(message.auto_(), "auto");
         if (!goal) return fail(ErrorKind::Refused, goal.error().where, goal.error().message);
-        set.target.emplace(*goal);
+        set.goal.emplace(*goal);
     }
     return set;
 }

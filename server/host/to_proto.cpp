@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "net/command_rules.h"
 #include "scene/quality.h"
-#include "scene/quality_target.h"
+#include "scene/quality_goal.h"
 
 namespace spherule::host {
 
@@ -96,7 +96,7 @@ v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool 
     settings.set_step(scene.step);
     settings.set_model(scene::messageOf(scene.quality.model));
     settings.set_friction(scene.materials.front().friction);
-    if (scene.quality.target) *settings.mutable_auto_() = scene::messageOf(*scene.quality.target);
+    if (scene.quality.goal) *settings.mutable_auto_() = scene::messageOf(*scene.quality.goal);
     return message;
 }
 

@@ -24,7 +24,7 @@ constexpr std::uint32_t maxSubsteps = 1'000'000;
 struct Overrides {
     std::optional<std::uint32_t> substeps{};
     std::optional<Model> model{};
-    std::optional<QualityTarget> target{};
+    std::optional<QualityGoal> goal{};
     std::optional<std::uint64_t> seed{};  // replaces every seed of the scene
     bool noSleep = false;
 };

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/load.h"
-#include "scene/quality_target.h"
+#include "scene/quality_goal.h"
 #include "scene/stiffness.h"
 
 namespace spherule::scene {
@@ -122,8 +122,8 @@ Result<void> fitSubsteps(Scene& scene) {
                                 scene.spheres.size()));
     const std::uint32_t fewest = minSubstepsFor(scene, quality.model);
     if (quality.substeps >= fewest) return {};
-    if (quality.target) {
-        quality.substeps = fewest;  // with a target, the number of substeps may change
+    if (quality.goal) {
+        quality.substeps = fewest;  // with a goal, the number of substeps may change
         return {};
     }
     const std::string reason =
@@ -212,12 +212,12 @@ void readQuality(Check& check, const v1::Quality& message, const Overrides& over
         quality.model = modelOf(message.model());
     }
     quality.model = overrides.model.value_or(quality.model);
-    if (auto target = qualityTargetOf(message.auto_(), "quality.auto")) {
+    if (auto goal = qualityGoalOf(message.auto_(), "quality.auto")) {
         // A model or substeps that the caller requests stay.
         const bool asked = overrides.model || overrides.substeps;
-        quality.target = overrides.target || asked ? overrides.target : *target;
+        quality.goal = overrides.goal || asked ? overrides.goal : *goal;
     } else {
-        check.refuse(target.error().where, target.error().message);
+        check.refuse(goal.error().where, goal.error().message);
     }
     if (message.has_overlap()) quality.overlap = check.within(message.overlap(), 1e-6, 0.5, "quality.overlap");
     if (const auto fits = checkModel(scene); !fits) check.refuse(fits.error().where, fits.error().message);

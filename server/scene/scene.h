@@ -44,12 +44,12 @@ struct MaterialPair {
 
 enum class Model : std::uint8_t { Fast, Balanced, Accurate };
 
-// The target for moving substeps while a scene runs: the longest time of a step, or the largest overlap of spheres.
-struct QualityTarget {
+// The goal for moving substeps while a scene runs: the longest time of a step, or the largest overlap of spheres.
+struct QualityGoal {
     enum class Kind : std::uint8_t { StepTime, Overlap } kind = Kind::StepTime;
     double max = 0;  // wall ms per step; mean overlap over the radius
 
-    bool operator==(const QualityTarget&) const = default;
+    bool operator==(const QualityGoal&) const = default;
 };
 
 struct Quality {
@@ -57,7 +57,7 @@ struct Quality {
     std::uint32_t substeps = 1;  // per step
     bool substepsFixed = true;   // substeps are requested, not chosen by the model
     double overlap = 0.1;        // of the radius: target of `accurate` when it chooses stiffness and substeps
-    std::optional<QualityTarget> target{};  // nullopt: substeps stay the same
+    std::optional<QualityGoal> goal{};  // nullopt: substeps stay the same
 };
 
 struct Group {

@@ -64,7 +64,7 @@ Result<void> setModel(scene::Scene& scene, const Set& set) {
     if (!set.model) return {};
     scene.quality.model = *set.model;
     scene.quality.substepsFixed = false;
-    scene.quality.target.reset();
+    scene.quality.goal.reset();
     if (auto fits = scene::checkModel(scene); !fits) return refusal(fits.error());
     return {};
 }
@@ -73,12 +73,12 @@ Result<void> setSubsteps(scene::Scene& scene, const Set& set) {
     if (!set.substeps) return {};
     scene.quality.substepsFixed = true;
     scene.quality.substeps = *set.substeps;
-    scene.quality.target.reset();
+    scene.quality.goal.reset();
     return {};
 }
 
 Result<void> setTarget(scene::Scene& scene, const Set& set) {
-    if (set.target) scene.quality.target = *set.target;
+    if (set.goal) scene.quality.goal = *set.goal;
     return {};
 }
 
@@ -141,7 +141,7 @@ Result<Applied> Simulation::apply(const Command& command) {
 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& set) {
     const bool disturbs = set.gravity || set.restitution || set.friction || set.model;
-    if (!disturbs && !set.substeps && !set.target) return {};
+    if (!disturbs && !set.substeps && !set.goal) return {};
     scene::Scene changed = simulation_.scene_;
     for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setTarget})
         if (auto done = part(changed, set); !done) return tl::unexpected(done.error());

@@ -22,9 +22,9 @@ struct Set {
     std::optional<glm::dvec3> gravity{};                          // m/s^2
     std::optional<double> restitution{};                          // of all materials
     std::optional<double> friction{};                             // of all materials
-    std::optional<scene::Model> model{};                          // also removes the target
-    std::optional<std::uint32_t> substeps{};                      // per step; also removes the target
-    std::optional<std::optional<scene::QualityTarget>> target{};  // nullopt inside: removes the target
+    std::optional<scene::Model> model{};                          // also removes the goal
+    std::optional<std::uint32_t> substeps{};                      // per step; also removes the goal
+    std::optional<std::optional<scene::QualityGoal>> goal{};  // nullopt inside: removes the goal
 };
 
 // Returns to the beginning of the scene.

@@ -5,7 +5,7 @@
 namespace spherule::diagnostics {
 namespace {
 
-using scene::QualityTarget;
+using scene::QualityGoal;
 
 constexpr scene::SubstepRange range{.fewest = 2, .most = 64};
 
@@ -32,12 +32,12 @@ struct World {
     }
 };
 
-World holding(QualityTarget::Kind kind, double most) {
+World holding(QualityGoal::Kind kind, double most) {
     return {.quality = AutoQuality({of, most}, range)};
 }
 
 TEST(AutoQuality, LowersSubstepsUntilTheBudgetHolds) {
-    World world = holding(QualityTarget::Kind::StepTime, 10);
+    World world = holding(QualityGoal::Kind::StepTime, 10);
     world.msPerSubstep = 4;
     world.read(40);
     EXPECT_EQ(world.substeps, 2U);
@@ -47,7 +47,7 @@ TEST(AutoQuality, LowersSubstepsUntilTheBudgetHolds) {
 }
 
 TEST(AutoQuality, OneSlowReadingMovesNothing) {
-    World world = holding(QualityTarget::Kind::StepTime, 10);
+    World world = holding(QualityGoal::Kind::StepTime, 10);
     for (int k = 0; k < 20; ++k) {
         world.msPerSubstep = 5;
         world.read(1);
@@ -58,7 +58,7 @@ TEST(AutoQuality, OneSlowReadingMovesNothing) {
 }
 
 TEST(AutoQuality, RaisesSubstepsWhereThereIsRoomAndThenStays) {
-    World world = holding(QualityTarget::Kind::StepTime, 40);
+    World world = holding(QualityGoal::Kind::StepTime, 40);
     world.read(100);
     EXPECT_LE(world.substeps, 40U);
     EXPECT_GE(world.substeps, 24U);
@@ -68,7 +68,7 @@ TEST(AutoQuality, RaisesSubstepsWhereThereIsRoomAndThenStays) {
 }
 
 TEST(AutoQuality, SaysOnceThatABudgetIsOutOfReach) {
-    World world = holding(QualityTarget::Kind::StepTime, 1);
+    World world = holding(QualityGoal::Kind::StepTime, 1);
     world.read(100);
     EXPECT_EQ(world.substeps, 2U);
     const std::string told =
@@ -79,14 +79,14 @@ TEST(AutoQuality, SaysOnceThatABudgetIsOutOfReach) {
 }
 
 TEST(AutoQuality, RaisesSubstepsUntilTheOverlapIsSmallEnough) {
-    World world = holding(QualityTarget::Kind::Overlap, 0.005);
+    World world = holding(QualityGoal::Kind::Overlap, 0.005);
     world.read(100);
     EXPECT_LE(1 / (1.0 * world.substeps * world.substeps), 0.005);
     EXPECT_LE(world.substeps, 23U) << "but not much further";
 }
 
 TEST(AutoQuality, LowersSubstepsWhereTheOverlapIsFarBelow) {
-    World world = holding(QualityTarget::Kind::Overlap, 0.05);
+    World world = holding(QualityGoal::Kind::Overlap, 0.05);
     world.substeps = 60;
     world.read(200);
     EXPECT_LE(1 / (1.0 * world.substeps * world.substeps), 0.05);
@@ -94,13 +94,13 @@ TEST(AutoQuality, LowersSubstepsWhereTheOverlapIsFarBelow) {
 }
 
 TEST(AutoQuality, ReadsNoOverlapWhereNothingTouches) {
-    World world = holding(QualityTarget::Kind::Overlap, 0.005);
+    World world = holding(QualityGoal::Kind::Overlap, 0.005);
     world.read(100, 0);
     EXPECT_EQ(world.changes, 0);
 }
 
 TEST(AutoQuality, NeverLeavesItsRange) {
-    World world = holding(QualityTarget::Kind::Overlap, 1e-6);
+    World world = holding(QualityGoal::Kind::Overlap, 1e-6);
     world.read(100);
     EXPECT_EQ(world.substeps, 64U);
     EXPECT_NE(world.said.find("out of reach even with 64 substeps"), std::string::npos) << world.said;

@@ -78,12 +78,12 @@ TEST(SceneQuality, OverlapHasARange) {
 }
 
 TEST(SceneQuality, AutoHasOneGoalWithARange) {
-    EXPECT_FALSE(sceneWith("").quality.target);
-    EXPECT_EQ(sceneWith(quality(R"("auto": {"budgetMs": 16})")).quality.target,
-              (QualityTarget{QualityTarget::Kind::StepTime, 16}));
-    EXPECT_EQ(sceneWith(quality(R"("auto": {"overlap": 0.005})")).quality.target,
-              (QualityTarget{QualityTarget::Kind::Overlap, 0.005}));
-    EXPECT_FALSE(sceneWith(quality(R"("auto": {})")).quality.target);
+    EXPECT_FALSE(sceneWith("").quality.goal);
+    EXPECT_EQ(sceneWith(quality(R"("auto": {"budgetMs": 16})")).quality.goal,
+              (QualityGoal{QualityGoal::Kind::StepTime, 16}));
+    EXPECT_EQ(sceneWith(quality(R"("auto": {"overlap": 0.005})")).quality.goal,
+              (QualityGoal{QualityGoal::Kind::Overlap, 0.005}));
+    EXPECT_FALSE(sceneWith(quality(R"("auto": {})")).quality.goal);
     EXPECT_EQ(refusalOf(quality(R"("auto": {"budgetMs": 0})")), "quality.auto.budgetMs: is 0, must be positive");
     EXPECT_EQ(refusalOf(quality(R"("auto": {"budgetMs": 60001})")),
               "quality.auto.budgetMs: is 60001, must be at most 60000 ms");
@@ -92,10 +92,10 @@ TEST(SceneQuality, AutoHasOneGoalWithARange) {
 
 TEST(SceneQuality, ACallersModelOrSubstepsEndTheScenesAuto) {
     const std::string held = quality(R"("auto": {"budgetMs": 16})");
-    EXPECT_FALSE(sceneWith(held, {.substeps = 4}).quality.target);
-    EXPECT_FALSE(sceneWith(held, {.model = Model::Fast}).quality.target);
-    const QualityTarget other{QualityTarget::Kind::Overlap, 0.01};
-    EXPECT_EQ(sceneWith(held, {.substeps = 4, .target = other}).quality.target, other);
+    EXPECT_FALSE(sceneWith(held, {.substeps = 4}).quality.goal);
+    EXPECT_FALSE(sceneWith(held, {.model = Model::Fast}).quality.goal);
+    const QualityGoal other{QualityGoal::Kind::Overlap, 0.01};
+    EXPECT_EQ(sceneWith(held, {.substeps = 4, .target = other}).quality.goal, other);
 }
 
 TEST(SceneQuality, AModelIsOfUseWithinARange) {

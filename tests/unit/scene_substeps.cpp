@@ -107,7 +107,7 @@ TEST(SceneSubsteps, SpringsAreNotSoSoftThatSpheresPassThroughEachOther) {
     EXPECT_EQ(refusalBy(softest), "quality.substeps: is " + std::to_string(fewest - 1) +
                                       ", but springs so soft would give way by 50 % of a radius; give at least " +
                                       std::to_string(fewest));
-    softest.quality.target = {QualityTarget::Kind::StepTime, 16};
+    softest.quality.goal = {QualityGoal::Kind::StepTime, 16};
     EXPECT_EQ(refusalBy(softest), "accepted") << "nobody asked for these";
     EXPECT_EQ(softest.quality.substeps, fewest);
 }
