@@ -24,7 +24,7 @@ bool dispatches(const sim::Plan& plan, Pass pass) {
 
 // 64 spheres, in a scene that uses all features.
 scene::Scene everything(scene::Model model = scene::Model::Balanced) {
-    scene::Scene scene = closedBox(10);
+    scene::Scene scene = fineStepBox(10);
     scene.quality.model = model;
     scene.sleep.enabled = true;
     scene.obstacles.push_back({scene::Plane{{0, 0, -4}, {0, 0, 1}}, 0, ""});
@@ -40,7 +40,7 @@ scene::Scene everything(scene::Model model = scene::Model::Balanced) {
 }
 
 scene::Scene dust() {
-    scene::Scene scene = openSpace(10);
+    scene::Scene scene = fineStepSpace(10);
     scene.sphereContacts = false;
     scene.spheres = everything().spheres;
     for (scene::Sphere& sphere : scene.spheres) {

@@ -10,6 +10,7 @@
 #include "rivals.h"
 #include "sim/morton.h"
 #include "sim/tier.h"
+#include "value_of.h"
 
 namespace spherule::bench {
 
@@ -17,11 +18,7 @@ namespace {
 
 constexpr std::size_t warmUp = 2;  // frames, until velocities are known
 
-template <class T>
-T valueOf(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(*result);
-}
+using support::valueOf;
 
 using Order = std::vector<std::uint32_t>;
 using Metres = std::vector<glm::vec3>;

@@ -4,17 +4,14 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <stdexcept>
+
+#include "value_of.h"
 
 namespace spherule::codec {
 
 namespace {
 
-template <class T>
-T valueOf(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(*result);
-}
+using support::valueOf;
 
 constexpr double edge = 1073741824;
 

@@ -10,6 +10,7 @@
 
 #include "codec/order.h"
 #include "codec_support.h"
+#include "recording/record.h"
 
 namespace spherule::recording {
 
@@ -96,6 +97,17 @@ Film film(const std::string& path, std::uint32_t frames, bool finish) {
         writeFile(path, bytes);
     }
     return film;
+}
+
+void filmWithRepeatedTimes(const std::string& path) {
+    film(path, 10);
+    const auto file = RecordFile::open(path);
+    std::string content = fileHead();
+    std::uint64_t offset = fileHeadBytes;
+    for (auto record = file->read(offset); record; record = file->read(record->end))
+        if (record->kind != Kind::Index)
+            content += recordBytes(record->kind, std::floor(5 * record->time + 0.01) / 5, record->payload);
+    writeFile(path, content);
 }
 
 std::string contentOf(const std::string& path) {

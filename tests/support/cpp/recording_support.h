@@ -28,6 +28,9 @@ struct Film {
 // Writes the recording to `path`. `finish`: with index and trailer.
 Film film(const std::string& path, std::uint32_t frames, bool finish = true);
 
+// Writes a film in which each two frames have the same time, as when the simulation was paused.
+void filmWithRepeatedTimes(const std::string& path);
+
 // Scene facts and order of a valid scene.
 v1::ServerMessage sceneMessage(std::uint32_t epoch, std::uint32_t spheres);
 v1::ServerMessage orderMessage(std::uint32_t epoch, std::uint32_t spheres);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A decoder written after docs/codec.md alone, which is compared with the test vectors of that document:
-codec_vectors.py Vectors FOLDER, with the repository's folder. It is also compared with our decoder, on random chains of
-valid and garbled frames: codec_vectors.py Chains CODEC_CHAINS, with the program of codec_chains.cpp. It is simple and
+vectors_test.py Vectors FOLDER, with the repository's folder. It is also compared with our decoder, on random chains of
+valid and garbled frames: vectors_test.py Chains CODEC_CHAINS, with the program of codec_chains.cpp. It is simple and
 slow."""
 import re
 import struct

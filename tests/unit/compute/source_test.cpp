@@ -1,7 +1,12 @@
-#include <array>
-
 #include "compute/source.h"
-#include "device_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "map_sources.h"
 
 namespace spherule::compute {
 namespace {

@@ -6,7 +6,7 @@ import sys
 import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).resolve().parent.parent / "prose.py"
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "prose.py"
 sys.path.insert(0, str(SCRIPT.parent))
 import prose  # noqa: E402
 

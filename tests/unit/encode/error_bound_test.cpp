@@ -26,17 +26,14 @@
 #include "sim/morton.h"
 #include "sim/simulation.h"
 #include "sim/tier.h"
+#include "value_of.h"
 
 namespace spherule::codec {
 namespace {
 
 constexpr std::array tiers{v1::FINE, v1::NORMAL, v1::ECO};
 
-template <class T>
-T valueOf(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(*result);
-}
+using support::valueOf;
 
 double bound(double x, double quantum) {
     return quantum / 2 + 3 * std::ldexp(std::abs(x) + quantum / 2, -24);

@@ -326,5 +326,20 @@ TEST_F(Playing, ANameThatIsNoTextBecomesOne) {
     EXPECT_EQ(player.timeline().file(), "bed-\xEF\xBF\xBD.sph");
 }
 
+TEST(Player, OfFramesOfOneTimeShowsOne) {
+    const recording::TemporaryFolder folder;
+    recording::filmWithRepeatedTimes(folder / "film.sph");
+    Player::Clock::time_point now{};
+    Player player(recording::Recording::open(folder / "film.sph").value(), "film.sph", false, now);
+    player.advance(now);
+    v1::Command step;
+    step.mutable_step()->set_count(1);
+    for (int k = 1; k < 5; ++k) {
+        ASSERT_TRUE(player.apply(step, now));
+        EXPECT_TRUE(player.advance(now += std::chrono::seconds(1)).shown);
+        EXPECT_NEAR(player.recording().time(), 0.2 * k, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace spherule::app

@@ -10,7 +10,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <glm/geometric.hpp>
 
-#include "app_support.h"
+#include "host_support.h"
 #include "scene/quality.h"
 
 namespace spherule::app {

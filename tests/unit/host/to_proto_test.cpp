@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "app_support.h"
+#include "host_support.h"
 
 namespace spherule::app {
 namespace {

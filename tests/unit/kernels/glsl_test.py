@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""kernels_glsl.py SHADERS GLSLANG: every kernel in SHADERS must be GLSL 4.5 to the reference compiler GLSLANG, with all
+"""glsl_test.py SHADERS GLSLANG: every kernel in SHADERS must be GLSL 4.5 to the reference compiler GLSLANG, with all
 features, with none, and with each of its features alone."""
 import re
 import subprocess

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""kernels_check.py PROJECT CMAKE: tests that server/compute/cpu/Kernels.cmake stops the build with a message when a
+"""kernel_checks_test.py PROJECT CMAKE: tests that server/compute/cpu/Kernels.cmake stops the build with a message when a
 kernel is invalid."""
 import shutil
 import subprocess
