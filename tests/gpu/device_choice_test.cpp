@@ -15,7 +15,7 @@ TEST(DeviceChoice, SoftwareIsASoftwareRenderer) {
     EXPECT_TRUE(info.robust);
 }
 
-TEST(DeviceChoice, AutoIsAGpuOrElseTheCpuAndSaysWhy) {
+TEST(DeviceChoice, AutoPrefersGpuAndReportsReason) {
     const auto device = openDevice("auto");
     ASSERT_TRUE(device.has_value()) << device.error().text();
     const auto& info = (*device)->info();
@@ -27,7 +27,7 @@ TEST(DeviceChoice, AutoIsAGpuOrElseTheCpuAndSaysWhy) {
     }
 }
 
-TEST(DeviceChoice, TheCpuIsThereWithAnyNumberOfThreads) {
+TEST(DeviceChoice, CpuTakesAnyNumberOfThreads) {
     for (const auto& [choice, threads] :
          {std::pair{"cpu:1", "1 thread"}, {"cpu:3", "3 threads"}, {"cpu-double:2", "2 threads, double precision"}}) {
         const auto device = openDevice(choice);
@@ -37,7 +37,7 @@ TEST(DeviceChoice, TheCpuIsThereWithAnyNumberOfThreads) {
     }
 }
 
-TEST(DeviceChoice, GpuThatIsNotThereIsNoDeviceWithAdvice) {
+TEST(DeviceChoice, MissingGpuIsRefusedWithAdvice) {
     const auto device = openDevice("gpu:99");
     ASSERT_FALSE(device.has_value());
     EXPECT_EQ(device.error().kind, ErrorKind::NoDevice);
@@ -59,7 +59,7 @@ TEST(DeviceChoice, DevicesCanBeOpenedAgainAndAgain) {
     for (int round = 0; round < 10; ++round) EXPECT_TRUE(openDevice("software").has_value());
 }
 
-TEST(DeviceChoice, SoftwareComesWithoutASurfaceWhereEglListsNoDevices) {
+TEST(DeviceChoice, SoftwareIsSurfacelessWithoutEglDevices) {
     ASSERT_TRUE(gl::loadEgl().has_value());
     const auto opened = gl::openContext(gl::parseWish("software").value(), {});
     ASSERT_TRUE(opened.has_value()) << opened.error().text();

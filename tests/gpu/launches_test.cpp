@@ -111,7 +111,7 @@ TEST_F(DeviceTest, IndirectLaunchOfNoGroupsDoesNothing) {
     EXPECT_EQ(contents(*values), std::vector<std::uint32_t>{0});
 }
 
-TEST_F(DeviceTest, FreshBufferIsBoundWhereADeletedOneWas) {
+TEST_F(DeviceTest, NewBufferTakesBindingOfDeletedBuffer) {
     const auto up = kernel(countUp);
     for (int round = 0; round < 10; ++round) {
         const auto values = buffer(8);
@@ -120,7 +120,7 @@ TEST_F(DeviceTest, FreshBufferIsBoundWhereADeletedOneWas) {
     }
 }
 
-TEST_F(DeviceTest, FreshKernelRunsWhereADeletedOneDid) {
+TEST_F(DeviceTest, NewKernelRunsAfterDeletedKernel) {
     for (std::uint32_t round = 1; round < 10; ++round) {
         const std::array defines{Define{"VALUE", std::to_string(round) + "u"}};
         const auto set = kernel(R"(

@@ -104,7 +104,7 @@ T medianOf(std::vector<T> values) {
 }
 
 // The simulation runs without pauses, so an answer takes about one step, with or without queries.
-TEST(Queries, OfFortyViewersDelayNoCommand) {
+TEST(Queries, FromFortyViewersDelayNoCommand) {
     const auto runtime = serve();
     Viewers viewers(runtime->port(), 40);
     Controller controller(runtime->port());

@@ -28,13 +28,13 @@ HostWords roundTrip(const HostWords& values, std::string_view words, Precision p
     return back;
 }
 
-TEST(CpuMemory, GivesBackWhatItTook) {
+TEST(CpuMemory, FreesItsMemory) {
     const HostWords values{real(1.5F), 7, real(-0.1F), 0xffffffff, real(1e-30F), 3};
     for (const auto precision : {Precision::Single, Precision::Double})
         for (const auto* const words : {"ru", "u", "rururu"}) EXPECT_EQ(roundTrip(values, words, precision), values);
 }
 
-TEST(CpuMemory, HoldsRealNumbersAsDoublesWhereAsked) {
+TEST(CpuMemory, StoresFloatsAsDoublesOnRequest) {
     const auto buffer = bufferOf(12, "ruu", Precision::Double);
     const auto& memory = static_cast<const CpuBuffer&>(*buffer);
     EXPECT_EQ(buffer->bytes(), 12U) << "to the host it is what it asked for";
@@ -48,7 +48,7 @@ TEST(CpuMemory, HoldsRealNumbersAsDoublesWhereAsked) {
     EXPECT_EQ(rest, (std::array<std::uint32_t, 2>{5, 6}));
 }
 
-TEST(CpuMemory, IsRefusedBeyondWhatTheMachineHas) {
+TEST(CpuMemory, RefusesMoreThanTheMachineHas) {
     const auto refused = CpuBuffer::create("pairs", std::size_t{1} << 44U, Words("u", Precision::Single));
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().kind, ErrorKind::Refused);

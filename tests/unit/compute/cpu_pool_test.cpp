@@ -33,7 +33,7 @@ TEST(Pool, VisitsEachNumberOnceForAnyThreadsCountAndGrain) {
 }
 
 // Each run reads what other threads wrote in the run before.
-TEST(Pool, ARunSeesWhatTheRunBeforeWrote) {
+TEST(Pool, RunSeesWritesOfPreviousRun) {
     Pool pool(4);
     std::vector<std::uint32_t> values(1000);
     std::vector<std::uint32_t> next(1000);
@@ -63,7 +63,7 @@ TEST(Pool, ThreadsThatSleptWakeUp) {
     }
 }
 
-TEST(Pool, EndsWithoutARun) {
+TEST(Pool, EndsWithoutRun) {
     for (int round = 0; round < 50; ++round) Pool(4);
 }
 

@@ -44,14 +44,14 @@ class ProbeFacts : public testing::Test {
     fs::path root_ = fs::temp_directory_path() / ("spherule_facts_" + std::to_string(getpid()));
 };
 
-TEST_F(ProbeFacts, AnEmptyHostHasNothing) {
+TEST_F(ProbeFacts, AreEmptyOnEmptyHost) {
     const auto host = facts();
     EXPECT_EQ(host.place, HostFacts::Place::Host);
     EXPECT_FALSE(host.nvidiaDriver || host.migSlice);
     EXPECT_TRUE(host.unsearched.empty() && host.closedDrmFiles.empty() && host.closedNvidiaFiles.empty());
 }
 
-TEST_F(ProbeFacts, AnNvidiaDriverIsSeenByItsFiles) {
+TEST_F(ProbeFacts, DetectNvidiaDriverByItsFiles) {
     file("dev/nvidiactl");
     EXPECT_TRUE(facts().nvidiaDriver);
     fs::remove_all(root_);
@@ -59,7 +59,7 @@ TEST_F(ProbeFacts, AnNvidiaDriverIsSeenByItsFiles) {
     EXPECT_TRUE(facts().nvidiaDriver);
 }
 
-TEST_F(ProbeFacts, AMigSliceIsSeenByItsNameOrItsRights) {
+TEST_F(ProbeFacts, DetectMigSliceByNameOrCapability) {
     file("proc/driver/nvidia/capabilities/mig/config");  // exists if the driver supports MIG
     EXPECT_FALSE(facts().migSlice);
     file("proc/driver/nvidia/capabilities/gpu0/mig/gi7/access");
@@ -69,7 +69,7 @@ TEST_F(ProbeFacts, AMigSliceIsSeenByItsNameOrItsRights) {
     EXPECT_TRUE(facts().migSlice);
 }
 
-TEST_F(ProbeFacts, ContainersAndPodsAreKnown) {
+TEST_F(ProbeFacts, DetectContainersAndPods) {
     file(".dockerenv");
     EXPECT_EQ(facts().place, HostFacts::Place::Container);
     fs::remove_all(root_);
@@ -79,7 +79,7 @@ TEST_F(ProbeFacts, ContainersAndPodsAreKnown) {
     EXPECT_EQ(facts().place, HostFacts::Place::Pod);
 }
 
-TEST_F(ProbeFacts, VendorFilesThatEglDoesNotReadAreFound) {
+TEST_F(ProbeFacts, FindVendorFilesThatEglDoesNotRead) {
     file("run/opengl-driver/share/glvnd/egl_vendor.d/10_nvidia.json");
     file("usr/share/glvnd/egl_vendor.d/10_nvidia.json");
     file("usr/share/glvnd/egl_vendor.d/50_mesa.json");
@@ -90,7 +90,7 @@ TEST_F(ProbeFacts, VendorFilesThatEglDoesNotReadAreFound) {
     EXPECT_EQ(facts().vendorVariable, "__EGL_VENDOR_LIBRARY_DIRS");
 }
 
-TEST_F(ProbeFacts, AVendorThatMissesALibraryNamesIt) {
+TEST_F(ProbeFacts, NameMissingLibraryOfVendor) {
     set("__EGL_VENDOR_LIBRARY_DIRS", (root_ / "a").string() + ":" + (root_ / "b").string());
     file("b/10_nvidia.json", vendorText(SPHERULE_VENDOR_WITHOUT_PART));
     file("a/50_gone.json", vendorText("libEGL_gone.so.0"));

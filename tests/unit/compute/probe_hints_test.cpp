@@ -47,7 +47,7 @@ void expectHint(const Probe& seen, const HostFacts& host, const std::string& par
     EXPECT_NE(troubleshooting.find(said.front()), std::string::npos) << "not in the document: " << said.front();
 }
 
-TEST(ProbeHints, AHostWithEverythingGetsNone) {
+TEST(ProbeHints, AreEmptyForCompleteHost) {
     Probe seen = withSoftware({nvidia});
     seen.devices.push_back(device("gpu:0", "EGL_NV_device_cuda"));
     HostFacts host = withNvidia();
@@ -55,14 +55,14 @@ TEST(ProbeHints, AHostWithEverythingGetsNone) {
     EXPECT_TRUE(hintsFor(seen, host).empty());
 }
 
-TEST(ProbeHints, WithoutEglItIsToBeInstalled) {
+TEST(ProbeHints, AdviseToInstallEgl) {
     Probe seen = withSoftware();
     seen.eglProblem = "libEGL.so.1: cannot be opened";
     expectHint(seen, {}, "apt install libegl1");
     expectHint(seen, withNvidia(), "apt install libegl1");
 }
 
-TEST(ProbeHints, WithoutAGpuItIsSaidWhereOneIsAskedFor) {
+TEST(ProbeHints, AdviseWhereToRequestGpu) {
     HostFacts host;
     expectHint(withSoftware(), host, "install its driver");
     host.place = HostFacts::Place::Container;
@@ -71,7 +71,7 @@ TEST(ProbeHints, WithoutAGpuItIsSaidWhereOneIsAskedFor) {
     expectHint(withSoftware(), host, "runtimeClassName");
 }
 
-TEST(ProbeHints, AContainerWithoutGraphicsIsTold) {
+TEST(ProbeHints, ReportContainerWithoutGraphics) {
     HostFacts host = withNvidia();
     host.nvidiaCapabilities = "compute,utility";
     expectHint(withSoftware(), host, "NVIDIA_DRIVER_CAPABILITIES=compute,utility,graphics");
@@ -79,20 +79,20 @@ TEST(ProbeHints, AContainerWithoutGraphicsIsTold) {
     EXPECT_EQ(nvidiaHint(withSoftware({nvidia}), host).find("got only its parts"), std::string::npos);
 }
 
-TEST(ProbeHints, AVendorFileThatIsMissingIsToBeMade) {
+TEST(ProbeHints, AdviseToCreateMissingVendorFile) {
     HostFacts host = withNvidia();
     host.nvidiaLibrary = true;
     expectHint(withSoftware(), host, "create /usr/share/glvnd/egl_vendor.d/10_nvidia.json");
 }
 
-TEST(ProbeHints, ADriverWithoutItsOpenGlPartIsTold) {
+TEST(ProbeHints, ReportDriverWithoutOpenGl) {
     expectHint(withSoftware(), withNvidia(), "neither a vendor file for EGL nor libEGL_nvidia.so.0");
     ProbeVendor gone = nvidia;
     gone.problem = "libEGL_nvidia.so.0: cannot open shared object file: No such file or directory";
     expectHint(withSoftware({gone}), withNvidia(), "names libEGL_nvidia.so.0, which is not here");
 }
 
-TEST(ProbeHints, AVendorFileWhereEglDoesNotLookIsTold) {
+TEST(ProbeHints, ReportVendorFileOutsideSearchPath) {
     HostFacts host = withNvidia();
     host.unsearched = {"/run/opengl-driver/share/glvnd/egl_vendor.d/10_nvidia.json"};
     expectHint(withSoftware(), host, "where EGL does not look");
@@ -101,7 +101,7 @@ TEST(ProbeHints, AVendorFileWhereEglDoesNotLookIsTold) {
     expectHint(withSoftware(), host, "because __EGL_VENDOR_LIBRARY_FILENAMES is set and names others");
 }
 
-TEST(ProbeHints, ALibraryThatIsPassedOverIsNamedWithWhatItMisses) {
+TEST(ProbeHints, NameSkippedLibraryAndWhatItLacks) {
     ProbeVendor broken = nvidia;
     broken.problem = "libnvidia-glsi.so.535.183.01: cannot open shared object file: No such file or directory";
     expectHint(withSoftware({broken}), withNvidia(),
@@ -110,13 +110,13 @@ TEST(ProbeHints, ALibraryThatIsPassedOverIsNamedWithWhatItMisses) {
     expectHint(withSoftware({broken}), withNvidia(), "it does not open (libEGL_nvidia.so.0: invalid ELF header)");
 }
 
-TEST(ProbeHints, AMigSliceIsTold) {
+TEST(ProbeHints, ReportMigSlice) {
     HostFacts host = withNvidia();
     host.migSlice = true;
     expectHint(withSoftware({nvidia}), host, "MIG slice");
 }
 
-TEST(ProbeHints, FilesThatAreClosedAreNamed) {
+TEST(ProbeHints, NameInaccessibleFiles) {
     HostFacts host = withNvidia();
     host.closedNvidiaFiles = {"/dev/nvidia0", "/dev/nvidiactl"};
     expectHint(withSoftware({nvidia}), host, "You may not open /dev/nvidia0, /dev/nvidiactl");
@@ -125,11 +125,11 @@ TEST(ProbeHints, FilesThatAreClosedAreNamed) {
     expectHint(withSoftware(), drm, "You may not open /dev/dri/renderD128");
 }
 
-TEST(ProbeHints, ADriverThatGivesNoGpuIsTold) {
+TEST(ProbeHints, ReportDriverWithoutGpu) {
     expectHint(withSoftware({nvidia}), withNvidia(), "nvidia-smi");
 }
 
-TEST(ProbeHints, ALibraryWithoutItsKernelModuleIsTold) {
+TEST(ProbeHints, ReportMissingKernelModule) {
     HostFacts host;
     expectHint(withSoftware({nvidia}), host, "modprobe nvidia");
     host.place = HostFacts::Place::Container;
@@ -138,7 +138,7 @@ TEST(ProbeHints, ALibraryWithoutItsKernelModuleIsTold) {
     expectHint(withSoftware({nvidia}), host, "no GPU was given to this pod");
 }
 
-TEST(ProbeHints, AMissingSoftwareRendererIsToldLast) {
+TEST(ProbeHints, ReportMissingSoftwareRendererLast) {
     Probe seen;
     seen.devices = {device("gpu:0")};
     expectHint(seen, {}, "libgl1-mesa-dri");
@@ -148,7 +148,7 @@ TEST(ProbeHints, AMissingSoftwareRendererIsToldLast) {
     EXPECT_NE(said.back().find("libgl1-mesa-dri"), std::string::npos);
 }
 
-TEST(ProbeHints, ADriverThatReportsNoResetIsTold) {
+TEST(ProbeHints, ReportDriverWithoutResetStatus) {
     Probe seen = withSoftware();
     seen.chosen.emplace();
     seen.chosen->kind = "gpu";

@@ -11,7 +11,7 @@
 namespace spherule::compute {
 namespace {
 
-TEST(KernelSources, LinesKnowWhereTheyCameFrom) {
+TEST(KernelSources, LinesKeepTheirOrigin) {
     const MapSources sources{{"a.comp", "one\n  # include \"b.h\"  \nthree"}, {"b.h", "inner\n"}};
     const std::array defines{Define{"F", "2"}};
     const auto expanded = expandSource(sources, "a.comp", defines);
@@ -47,7 +47,7 @@ TEST(KernelSources, CycleIsRefusedWithItsPath) {
     EXPECT_EQ(expanded.error().text(), "c.h:3: \"b.h\" includes itself by way of a.comp -> b.h -> c.h");
 }
 
-TEST(KernelSources, MissingFileIsNamedWithTheLineThatAsksForIt) {
+TEST(KernelSources, MissingFileIsNamedWithItsInclude) {
     const MapSources sources{{"a.comp", "\n#include \"lost.h\"\n"}};
     const auto expanded = expandSource(sources, "a.comp", {});
     ASSERT_FALSE(expanded.has_value());

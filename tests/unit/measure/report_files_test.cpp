@@ -39,13 +39,13 @@ std::size_t linesOf(const std::string& text) {
     return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
-TEST(Measured, ErrorsAreRelativeToWhatIsExpectedOrToAScale) {
+TEST(ReportFiles, ErrorsAreRelativeToWhatIsExpectedOrToAScale) {
     EXPECT_DOUBLE_EQ(*against("", 1.5, 2, "").error, 0.25);
     EXPECT_DOUBLE_EQ(*against("", 0.5, 0, "", 10).error, 0.05);
     EXPECT_FALSE(plain("", 1, "").error);
 }
 
-TEST(Measured, CsvHasARowPerFigureAndOneForATrouble) {
+TEST(ReportFiles, CsvHasRowPerFigureAndPerProblem) {
     const std::string csv = csvOf(sample());
     EXPECT_EQ(linesOf(csv), 4U);
     EXPECT_NE(csv.find("\naccuracy,bounce,\"apex, \"\"worst\"\"\",fast,2,4,0.25,0.98,1,0.02,m,,1,0.5,"),
@@ -53,7 +53,7 @@ TEST(Measured, CsvHasARowPerFigureAndOneForATrouble) {
     EXPECT_NE(csv.find("not measured: too dear"), std::string::npos);
 }
 
-TEST(Measured, TablesEscapeTheirBarsAndHideNoTrouble) {
+TEST(ReportFiles, TablesEscapeBarsAndShowProblems) {
     const std::string text = markdownOf(sample());
     EXPECT_NE(text.find("fails: 3 of 40 \\| lost"), std::string::npos);
     EXPECT_NE(text.find("## What fails\n\nOf 1 verdicts"), std::string::npos);
@@ -61,7 +61,7 @@ TEST(Measured, TablesEscapeTheirBarsAndHideNoTrouble) {
     EXPECT_NE(text.find("Not measured with accurate x1: too dear"), std::string::npos);
 }
 
-TEST(Measured, JsonHasCurvesByModelAndRungAndEveryVerdict) {
+TEST(ReportFiles, JsonHasCurvesByModelAndRungAndEveryVerdict) {
     const auto json = nlohmann::json::parse(jsonOf(sample()));
     const auto& rung = json.at("models").at("fast").at(0);
     EXPECT_EQ(rung.at("factor"), 2);
@@ -70,7 +70,7 @@ TEST(Measured, JsonHasCurvesByModelAndRungAndEveryVerdict) {
     EXPECT_EQ(json.at("verdicts").size(), 2U);
 }
 
-TEST(Measured, AChartShowsEveryPointInsideAndEscapesNames) {
+TEST(ReportFiles, AChartShowsEveryPointInsideAndEscapesNames) {
     const std::string svg = logChart("a < b & c", "x", "y", {{"one", {{1, 1e-3}, {10, 0}, {100, 1e2}}}, {"two", {}}});
     EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
     std::size_t circles = 0;
@@ -81,7 +81,7 @@ TEST(Measured, AChartShowsEveryPointInsideAndEscapesNames) {
     EXPECT_NE(logChart("none", "x", "y", {}).find("</svg>"), std::string::npos);
 }
 
-TEST(Measured, APlotHasALinePerModel) {
+TEST(ReportFiles, APlotHasALinePerModel) {
     const std::vector<Plot> plots = plotsOf(sample());
     ASSERT_EQ(plots.size(), 1U);
     EXPECT_EQ(plots[0].name, "bounce apex");
