@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the dependencies of server/ and the length of source files: architecture.py ROOT
+"""Checks the dependencies of server/, the names of test files and the length of source files: architecture.py ROOT
 
 MODULES lists the modules from the lowest to the highest, with the modules that each may use. The build refuses most wrong
 includes already, because only targets that use a module see its headers. This script also checks the USES lines of
@@ -31,6 +31,8 @@ LONGEST = 400
 FOLDERS = [".ci", "cmake", "deploy", "proto", "server", "shaders", "tests", "web-viewer"]
 SOURCES = {".cpp", ".h", ".comp", ".glsl", ".proto", ".ts", ".mjs", ".css", ".html", ".py", ".sh", ".cmake"}
 NOT_OURS = {"node_modules", "dist", "gen"}
+TESTS = {".cpp": re.compile(r"^TEST(_F|_P)?\(", re.MULTILINE),
+         ".py": re.compile(r"^    def test_", re.MULTILINE)}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"/]+)/[^"]*"', re.MULTILINE)
 QUOTED = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
@@ -89,6 +91,15 @@ def include_cycles(server):
         yield from walk(source, [])
 
 
+def misnamed_tests(root):
+    """Files with tests, and no others, are named SUBJECT_test.cpp or SUBJECT_test.py."""
+    for source in sorted((root / "tests").rglob("*")):
+        pattern = TESTS.get(source.suffix)
+        if pattern and not NOT_OURS & set(source.parts):
+            if bool(pattern.search(source.read_text(encoding="utf-8"))) != source.stem.endswith("_test"):
+                yield f"{source.relative_to(root)}: files with tests, and no others, end with _test{source.suffix}"
+
+
 def long_files(root):
     for folder in FOLDERS:
         for source in sorted((root / folder).rglob("*")):
@@ -101,6 +112,6 @@ def long_files(root):
 
 root = Path(sys.argv[1]).resolve()
 server = root / "server"
-problems = [*wrong_includes(server), *upward_modules(), *include_cycles(server), *long_files(root)]
+problems = [*wrong_includes(server), *upward_modules(), *include_cycles(server), *misnamed_tests(root), *long_files(root)]
 print("\n".join(problems) or "every include follows the architecture, without a cycle; no file is too long")
 sys.exit(1 if problems else 0)
