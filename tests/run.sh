@@ -107,11 +107,15 @@ run_tidy() {
 }
 
 # These tests compute on the CPU device, because sanitizers report faults of Mesa's renderer.
+sanitized_programs=(unit_{scene,codec,encode,recording,host,cli,kernels,compute,net,client} physics_tests net_tests)
+sanitized_tests='^(unit_(scene|codec|recording|cli|kernels|net|client)|physics_tests_cpu|net_tests)\.'
+sanitized_tests+='|^unit_encode\.(Spheres/)?Codec(Counts)?\.|^unit_host\.(Player|Playing|PlayLoop)\.'
+sanitized_tests+='|^unit_compute\.(CpuMemory|Pool)\.'
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&
-        cmake --build --preset "$1" -j "$jobs" --target scene_test codec_test recording_test playing_test kernels_test pool_test physics_tests net_tests &&
+        cmake --build --preset "$1" -j "$jobs" --target "${sanitized_programs[@]}" &&
         ctest --test-dir "build/$1" -j "$jobs" --output-on-failure --no-tests=error \
-            -R '^(scene_test|codec_test|recording_test|playing_test|kernels_test|pool_test|physics_tests_cpu|net_tests)\.'
+            -R "$sanitized_tests"
 }
 
 # Inputs that fail are written to build/fuzz/finds-TARGET.

@@ -33,7 +33,7 @@ class FrameEncoder {
     void encodeDelta(const FrameSource& source, bool hash);
     void encodeResync(bool hash);
 
-    // Writes the columns of the frame into `frame`. poll() returns false while they are being copied to the host; call
+    // Write the columns of the frame into `frame`. poll() returns false while the device copies them to the host. Call
     // it until it returns true, before the next frame is encoded. download() waits for the device.
     bool poll(v1::Frame& frame);
     void download(v1::Frame& frame);

@@ -15,7 +15,7 @@ Result<std::optional<QualityGoal>> qualityGoalOf(const v1::Auto& message, std::s
     std::optional<QualityGoal> goal;
     if (message.goal_case() == v1::Auto::kBudgetMs)
         goal = {QualityGoal::Kind::StepTime,
-                  check.upTo(message.budget_ms(), mostStepTime, at(where, "budgetMs"), " ms")};
+                check.upTo(message.budget_ms(), mostStepTime, at(where, "budgetMs"), " ms")};
     if (message.goal_case() == v1::Auto::kOverlap)
         goal = {QualityGoal::Kind::Overlap, check.within(message.overlap(), 1e-6, 0.5, at(where, "overlap"))};
     if (!check.ok()) return check.error();

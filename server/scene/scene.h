@@ -54,9 +54,9 @@ struct QualityGoal {
 
 struct Quality {
     Model model = Model::Balanced;
-    std::uint32_t substeps = 1;  // per step
-    bool substepsFixed = true;   // substeps are requested, not chosen by the model
-    double overlap = 0.1;        // of the radius: target of `accurate` when it chooses stiffness and substeps
+    std::uint32_t substeps = 1;         // per step
+    bool substepsFixed = true;          // substeps are requested, not chosen by the model
+    double overlap = 0.1;               // of the radius: target of `accurate` when it chooses stiffness and substeps
     std::optional<QualityGoal> goal{};  // nullopt: substeps stay the same
 };
 

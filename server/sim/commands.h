@@ -19,11 +19,11 @@ namespace spherule::sim {
 
 // Changes the settings that are present.
 struct Set {
-    std::optional<glm::dvec3> gravity{};                          // m/s^2
-    std::optional<double> restitution{};                          // of all materials
-    std::optional<double> friction{};                             // of all materials
-    std::optional<scene::Model> model{};                          // also removes the goal
-    std::optional<std::uint32_t> substeps{};                      // per step; also removes the goal
+    std::optional<glm::dvec3> gravity{};                      // m/s^2
+    std::optional<double> restitution{};                      // of all materials
+    std::optional<double> friction{};                         // of all materials
+    std::optional<scene::Model> model{};                      // also removes the goal
+    std::optional<std::uint32_t> substeps{};                  // per step; also removes the goal
     std::optional<std::optional<scene::QualityGoal>> goal{};  // nullopt inside: removes the goal
 };
 

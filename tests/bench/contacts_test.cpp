@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "methods.h"
 #include "recipe.h"
+#include "test_device.h"
 
 namespace spherule::bench {
 namespace {
@@ -12,8 +11,7 @@ namespace {
 class Contacts : public testing::Test {
   protected:
     void SetUp() override {
-        const char* const named = std::getenv("SPHERULE_TEST_DEVICE");
-        device_ = compute::openDevice(named == nullptr ? "software" : named).value();
+        device_ = support::openTestDevice();
         simulation_ = sim::Simulation::create(*device_, box(2000).value()).value();
         for (int step = 0; step < 30; ++step) ASSERT_TRUE(simulation_->step());
         state_ = simulation_->snapshot();

@@ -1,7 +1,5 @@
 // Tokens, roles and control of the simulation.
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import path from "node:path";
 import { test } from "node:test";
 import { control, open, says, shows, visit, when } from "./support/browser.mjs";
@@ -171,21 +169,16 @@ test("for a viewer, controls that send commands are disabled with a reason, and 
 });
 
 test("a viewer of a recording cannot seek", async () => {
-  const folder = mkdtempSync(path.join(tmpdir(), "spherule-admission-"));
-  try {
-    const file = path.join(folder, "short.spr");
-    await spherule("run", "billiards", "--for", "1", "--device", "cpu", "--record", file);
-    const player = await play(file, { tokens });
-    const page = await enter(suite.browser, player, tokens.viewer);
-    await page.waitForSelector(control("timeline"));
-    assert.equal(await page.isDisabled(control("timeline")), true);
-    assert.match(await page.getAttribute(control("timeline"), "title"), /not control/);
-    assert.equal(await page.isDisabled(control("speed")), true);
-    await page.close();
-    await player.stop();
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  const file = path.join(suite.folder, "short.spr");
+  await spherule("run", "billiards", "--for", "1", "--device", "cpu", "--record", file);
+  const player = await play(file, { tokens });
+  const page = await enter(suite.browser, player, tokens.viewer);
+  await page.waitForSelector(control("timeline"));
+  assert.equal(await page.isDisabled(control("timeline")), true);
+  assert.match(await page.getAttribute(control("timeline"), "title"), /not control/);
+  assert.equal(await page.isDisabled(control("speed")), true);
+  await page.close();
+  await player.stop();
 });
 
 test("control is requested, kept, withdrawn, handed over and released", async () => {

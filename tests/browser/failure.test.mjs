@@ -1,29 +1,24 @@
 // When the server ends, the page shows the reason until it has reconnected to the next server by itself.
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import path from "node:path";
-import { after, test } from "node:test";
+import { test } from "node:test";
 import { control, open, says, when } from "./support/browser.mjs";
 import { collisions } from "./support/layout.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
-let folder;
-const suite = browserSuite(() => {
-  folder = mkdtempSync(path.join(tmpdir(), "spherule-failure-"));
-});
-after(() => rmSync(folder, { recursive: true }));
+const suite = browserSuite();
 
 /**
  * A driver that passes all calls to Mesa until `strike` is called: then the device is lost. See
  * tests/faults/faulty_driver.c.
  */
 function faultyDriver() {
-  const vendor = path.join(folder, "faulty.json");
+  const vendor = path.join(suite.folder, "faulty.json");
   const library = path.resolve(process.env.FAULTY_DRIVER ?? "build/release/tests/faults/libfaulty_driver.so");
   writeFileSync(vendor, JSON.stringify({ file_format_version: "1.0.0", ICD: { library_path: library } }));
-  const when = path.join(folder, "strike");
+  const when = path.join(suite.folder, "strike");
   return {
     settings: { __EGL_VENDOR_LIBRARY_FILENAMES: vendor, SPHERULE_FAULT: "reset", SPHERULE_FAULT_WHEN: when },
     strike: () => writeFileSync(when, ""),

@@ -1,9 +1,6 @@
 // Attacks by other sites through the browser of a trusted user: none of them works. Each test also repeats the attack
 // against a server that allows it, to show that the attack itself is valid.
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import path from "node:path";
 import { after, test } from "node:test";
 import { control, launch, open, says, shows, visit, when } from "./support/browser.mjs";
 import { tlsOptions } from "./support/certificate.mjs";
@@ -168,10 +165,9 @@ test("no action on the page violates its security policy", async () => {
 });
 
 test("over TLS the page loads and streams if the browser trusts the certificate", async () => {
-  const folder = mkdtempSync(path.join(tmpdir(), "spherule-outsiders-"));
   const trusting = await launch("--ignore-certificate-errors");
   try {
-    const server = await serve("billiards", { tokens, options: tlsOptions(folder) });
+    const server = await serve("billiards", { tokens, options: tlsOptions(suite.folder) });
     assert.match(server.url, /^https:/);
     const page = await enter(trusting, server, tokens.controller);
     await says(page, "connection", /^connected$/);
@@ -185,6 +181,5 @@ test("over TLS the page loads and streams if the browser trusts the certificate"
     await server.stop();
   } finally {
     await trusting.close();
-    rmSync(folder, { recursive: true });
   }
 });

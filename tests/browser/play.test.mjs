@@ -1,8 +1,7 @@
 import assert from "node:assert/strict";
-import { mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { readdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
-import { after, test } from "node:test";
+import { test } from "node:test";
 import { control, open, says, when } from "./support/browser.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
@@ -12,16 +11,13 @@ import { browserSuite } from "./support/suite.mjs";
 const duration = 3.9; // s
 const frame = 1 / 30; // s
 
-let folder;
 let file;
 let page; // of a server that plays a recording
-const suite = browserSuite(async (browser) => {
-  folder = await mkdtemp(path.join(tmpdir(), "spherule-play-"));
+const suite = browserSuite(async (browser, folder) => {
   file = path.join(folder, "cradle.sph");
   await spherule("run", "cradle", "--for", `${duration}s`, "--record", file, "--device", "cpu");
   page = await open(browser, (await play(file, { options: ["--paused"] })).url, { size: [1280, 900] });
 });
-after(() => rm(folder, { recursive: true, force: true }));
 
 const slider = control("timeline");
 
@@ -238,7 +234,7 @@ test("the speed set on the panel is the speed of playback", async () => {
 });
 
 test("an incomplete recording is marked, and no element covers another one", async () => {
-  const cut = path.join(folder, "cut.sph");
+  const cut = path.join(suite.folder, "cut.sph");
   const whole = await readFile(file);
   await writeFile(cut, whole.subarray(0, Math.round(0.6 * whole.length)));
   const other = await open(suite.browser, (await play(cut, { options: ["--paused"] })).url, { size: [1280, 900] });
@@ -254,7 +250,7 @@ test("an incomplete recording is marked, and no element covers another one", asy
 });
 
 test("the record button records the simulation to a readable file", async () => {
-  const server = await serve("cradle", { folder });
+  const server = await serve("cradle", { folder: suite.folder });
   const live = await open(suite.browser, server.url, { size: [1280, 900] });
   assert.equal(await live.isVisible(slider), false);
   await live.click(control("record"));
@@ -270,9 +266,9 @@ test("the record button records the simulation to a readable file", async () => 
   const recorded = await live.evaluate(() => spherule.session.recording.file);
   const toast = live.locator(control("toast")).filter({ hasText: "Recorded" });
   assert.ok((await toast.textContent()).includes(`spherule play ${recorded}`));
-  assert.deepEqual(await readdir(path.join(folder, "recordings")), [path.basename(recorded)]);
-  const states = path.join(folder, "states.csv");
-  await spherule("export", path.join(folder, recorded), "--format", "csv", "--out", states);
+  assert.deepEqual(await readdir(path.join(suite.folder, "recordings")), [path.basename(recorded)]);
+  const states = path.join(suite.folder, "states.csv");
+  await spherule("export", path.join(suite.folder, recorded), "--format", "csv", "--out", states);
   const rows = (await readFile(states, "utf8")).trim().split("\n");
   assert.equal(rows[0], "time,id,x,y,z,radius");
   assert.ok(rows.length > 1 + 5 * 10, `${rows.length} rows`);

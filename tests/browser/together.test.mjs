@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
-import { mkdtemp, rm, writeFile } from "node:fs/promises";
-import os from "node:os";
+import { writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
 import { control, open, pause, says, when } from "./support/browser.mjs";
@@ -66,12 +65,11 @@ test("a command without a connection is reported as lost", async () => {
 });
 
 test("a long load shows its progress and can be cancelled, and the simulation continues", async () => {
-  const folder = await mkdtemp(path.join(os.tmpdir(), "spherule-"));
   // In such a dense scene, the search for random places without overlaps takes many seconds.
   const fill = { min: [-1, -1, -1], max: [1, 1, 1], count: 700000 };
   const bounds = { min: [-1, -1, -1], max: [1, 1, 1] };
   const scene = { name: "packed", bounds, groups: [{ radius: { constant: 0.01 }, fill }] };
-  const file = path.join(folder, "packed.json");
+  const file = path.join(suite.folder, "packed.json");
   await writeFile(file, JSON.stringify(scene));
   const server = await serve("billiards");
   const page = await open(suite.browser, server.url);
@@ -92,5 +90,4 @@ test("a long load shows its progress and can be cancelled, and the simulation co
   assert.match(await load, /refused: cancelled/);
   await page.close();
   await server.stop();
-  await rm(folder, { recursive: true });
 });

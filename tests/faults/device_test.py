@@ -4,7 +4,6 @@ library of faulty_driver.c."""
 import http.client
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -13,11 +12,13 @@ import time
 import unittest
 
 from faults import FaultyDriver, HeldThread
+from program import FolderTestCase, runner
 from serving import Server
 from viewer import Viewer, answers
 
 DRIVER = sys.argv.pop()
 BINARY = sys.argv.pop()
+call = runner(BINARY)
 
 
 def setUpModule():
@@ -30,12 +31,10 @@ def setUpModule():
                     os.path.join(cache.name, "run.sph")], check=True, timeout=120, stdout=subprocess.DEVNULL)
 
 
-class Faults(unittest.TestCase):
+class Faults(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.recording = os.path.join(folder.name, "run.sph")
+        super().setUp()
+        self.recording = self.at("run.sph")
 
     def serve(self, *options, scene="box-4k", device="software", driver=None):
         server = Server(BINARY, "serve", scene, "--device", device, *options, env=driver and driver.environment)
@@ -47,12 +46,11 @@ class Faults(unittest.TestCase):
         return FaultyDriver(self.folder, DRIVER, fault)
 
     def recorded(self, *, whole):
-        done = subprocess.run([BINARY, "export", self.recording, "--format", "csv", "--out",
-                               os.path.join(self.folder, "run.csv")], capture_output=True, text=True, timeout=120, check=False)
+        done = call("export", self.recording, "--format", "csv", "--out", self.at("run.csv"))
         self.assertEqual(done.returncode, 0, done.stderr)
         if whole:
             self.assertNotIn("is exported up to", done.stderr)
-        with open(os.path.join(self.folder, "run.csv"), encoding="utf-8") as file:
+        with open(self.at("run.csv"), encoding="utf-8") as file:
             positions = [line.split(",")[2:5] for line in file][1:]
         self.assertGreater(len(positions), 10)
         self.assertLess(max(abs(float(value)) for position in positions for value in position), 100)
@@ -84,7 +82,7 @@ class Lost(Faults):
     def test_it_is_noticed_while_nothing_is_simulated(self):
         driver = self.driver("reset")
         server = self.serve(driver=driver)
-        self.assertEqual(subprocess.run([BINARY, "ctl", server.stream, "pause"], check=False).returncode, 0)
+        self.assertEqual(call("ctl", server.stream, "pause").returncode, 0)
         begun = time.monotonic()
         driver.strike()
         self.assertEqual(server.wait(), 75)
@@ -177,8 +175,7 @@ class Full(Faults):
     def test_a_driver_that_allows_a_kernel_too_few_buffers_is_refused_at_the_start(self):
         driver = self.driver("buffers")
         driver.strike()
-        done = subprocess.run([BINARY, "run", "two-spheres", "--device", "software", "--for", "0.1s"],
-                              capture_output=True, text=True, timeout=120, check=False, env=driver.environment)
+        done = call("run", "two-spheres", "--device", "software", "--for", "0.1s", **driver.environment)
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("allows a kernel 8 storage buffers; 16 are needed", done.stderr)
 
@@ -186,8 +183,7 @@ class Full(Faults):
         driver = self.driver("memory")
         driver.strike()
         for command in (["serve", "box-50k", "--listen", "127.0.0.1:0"], ["run", "box-50k", "--for", "1s"]):
-            done = subprocess.run([BINARY, *command, "--device", "software"], env=driver.environment, capture_output=True,
-                                  text=True, timeout=60, check=False)
+            done = call(*command, "--device", "software", **driver.environment)
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertRegex(done.stderr.splitlines()[-1], rf"^spherule: [a-z ]+: {self.need}$")
 
@@ -195,8 +191,7 @@ class Full(Faults):
         driver = self.driver("memory")
         server = self.serve(scene="cradle", driver=driver)
         driver.strike()
-        done = subprocess.run([BINARY, "ctl", server.stream, "load", "box-50k"], capture_output=True, text=True, timeout=60,
-                              check=False)
+        done = call("ctl", server.stream, "load", "box-50k")
         self.assertEqual(done.returncode, 4)
         self.assertRegex(done.stderr, rf"refused: [a-z ]+: {self.need}")
         viewer = Viewer(server.port).wait(lambda one: len(one.of("frame")) > 3)
@@ -205,14 +200,12 @@ class Full(Faults):
         self.assertEqual(server.end(), 0)
 
     def test_so_is_one_that_has_no_room_in_the_memory_of_the_program(self):
-        scene = os.path.join(self.folder, "large.json")
-        with open(scene, "w", encoding="utf-8") as file:
-            json.dump({"bounds": {"min": [0, 0, 0], "max": [160, 160, 160]},
-                       "groups": [{"radius": {"constant": 0.1}, "lattice": {"count": 4_000_000, "spacing": 0.3, "min": [0, 0, 0], "max": [160, 160, 160]}}]}, file)
-        limited = ["bash", "-c", 'ulimit -v 1500000; exec "$@"', "bash"]
+        box = {"min": [0, 0, 0], "max": [160, 160, 160]}
+        scene = self.write("large.json", json.dumps({"bounds": box, "groups": [
+            {"radius": {"constant": 0.1}, "lattice": {"count": 4_000_000, "spacing": 0.3, **box}}]}))
+        limited = runner("bash", "-c", 'ulimit -v 1500000; exec "$@"', "bash", BINARY)
         for command in (["serve", scene, "--listen", "127.0.0.1:0"], ["run", scene, "--for", "1s"]):
-            done = subprocess.run([*limited, BINARY, *command, "--device", "cpu:1"], capture_output=True, text=True,
-                                  timeout=120, check=False)
+            done = limited(*command, "--device", "cpu:1")
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertRegex(done.stderr.splitlines()[-1], r"use fewer spheres")
 

@@ -5,7 +5,7 @@
 // - memory: buffers of 1 MiB or more cannot be allocated;
 // - buffers: a kernel may have at most 8 storage buffers.
 //
-// Libglvnd loads the library through a vendor file, which tests/faults/faults.py writes.
+// Libglvnd loads the library through a vendor file, which tests/support/py/faults.py writes.
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>

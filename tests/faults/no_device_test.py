@@ -2,17 +2,16 @@
 """Tests the program without the libraries or files that a device needs: no_device_test.py BINARY."""
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
 
+from program import runner
+
 BINARY = sys.argv.pop()
 
 
-def call(*arguments, **environment):
-    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=60, check=False,
-                          env={**os.environ, **environment})
+call = runner(BINARY, timeout=60)
 
 
 class NoDevice(unittest.TestCase):

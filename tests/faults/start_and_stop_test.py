@@ -7,16 +7,17 @@ import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from contextlib import contextmanager
 
 from faults import HeldThread
+from program import FolderTestCase, runner
 from serving import Server
 from viewer import Viewer, answers
 
 BINARY = sys.argv.pop()
+call = runner(BINARY, timeout=60)
 SLOW = {"bounds": {"min": [0, 0, 0], "max": [100, 100, 100]},  # takes seconds to build
         "groups": [{"radius": {"constant": 0.1}, "fill": {"count": 2_000_000, "min": [0, 0, 0], "max": [100, 100, 100]}}]}
 
@@ -39,24 +40,13 @@ def taken_port():
     return taken, taken.getsockname()[1]
 
 
-class Program(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def at(self, name):
-        return os.path.join(self.folder, name)
-
+class Program(FolderTestCase):
     def slow_scene(self):
-        with open(self.at("slow.json"), "w", encoding="utf-8") as file:
-            json.dump(SLOW, file)
-        return self.at("slow.json")
+        return self.write("slow.json", json.dumps(SLOW))
 
     def refused(self, listen, code, pattern, *options):
         # The server checks the port before the scene: otherwise it would report that the scene does not exist.
-        done = subprocess.run([BINARY, "serve", self.at("none.json"), "--device", "cpu", "--listen", listen, *options],
-                              capture_output=True, text=True, timeout=60, check=False)
+        done = call("serve", self.at("none.json"), "--device", "cpu", "--listen", listen, *options)
         self.assertEqual(done.returncode, code)
         self.assertRegex(done.stderr, pattern)
         self.assertEqual(done.stdout, "")
@@ -152,8 +142,7 @@ class Stop(Program):
         self.assertEqual(viewer.of("event")[0]["text"], "The server is stopping.")
         self.assertEqual(server.wait(), 0)
         self.assertRegex(server.said, "recorded [0-9.]+ s in ")
-        done = subprocess.run([BINARY, "export", recording, "--format", "csv", "--out", self.at("run.csv")],
-                              capture_output=True, text=True, timeout=60, check=False)
+        done = call("export", recording, "--format", "csv", "--out", self.at("run.csv"))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("is exported up to", done.stderr)
 

@@ -2,34 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
-#include <functional>
-#include <initializer_list>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "compute/device.h"
+#include "map_sources.h"
+#include "test_device.h"
 
 namespace spherule::compute {
-
-// Kernel sources given in the test.
-class MapSources final : public SourceSet {
-  public:
-    using Files = std::map<std::string, std::string, std::less<>>;
-    MapSources(std::initializer_list<Files::value_type> files) : files_(files) {}
-
-    [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const override {
-        const auto file = files_.find(name);
-        if (file == files_.end()) return std::nullopt;
-        return file->second;
-    }
-
-  private:
-    Files files_;
-};
 
 // The head of every kernel of these tests. It follows the conventions of device.h, without the project's shaders.
 inline const std::string kernelHead = R"(
@@ -39,13 +21,7 @@ layout(location = 1) uniform uint invocations;
 uint self() { return gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u; }
 )";
 
-// Opens the device named by SPHERULE_TEST_DEVICE. The default is Mesa's software renderer, which runs everywhere.
-inline std::unique_ptr<Device> openTestDevice() {
-    const char* const named = std::getenv("SPHERULE_TEST_DEVICE");
-    auto device = openDevice(named == nullptr ? "software" : named);
-    if (!device) throw std::runtime_error(device.error().text());
-    return std::move(*device);
-}
+using support::openTestDevice;
 
 class DeviceTest : public testing::Test {
   protected:

@@ -18,7 +18,8 @@ import sys
 import tempfile
 import time
 
-from serving import Server
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support/py"))
+from serving import Server  # noqa: E402
 
 # All viewers connect at once from one address.
 UNLIMITED = ["--max-sessions", "0", "--max-sessions-per-address", "0", "--connections-per-second", "0"]

@@ -17,7 +17,8 @@ import sys
 import tempfile
 
 import attackers
-from serving import Server
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../support/py"))
+from serving import Server  # noqa: E402
 
 TOKENS = {"viewer": "the-viewers-token-of-a-siege", "controller": "the-controllers-token-of-a-siege"}
 # Rejections that must have been counted, because attackers cause them all the time.

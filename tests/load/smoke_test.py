@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
 """Runs the load client with a server and without one: smoke_test.py SERVER CLIENT."""
-import subprocess
 import sys
 import unittest
 
+from program import runner
 from serving import Server
 
 CLIENT = sys.argv.pop()
 SERVER = sys.argv.pop()
 
 
-def load(*arguments):
-    return subprocess.run([CLIENT, *arguments], capture_output=True, text=True, timeout=60, check=False)
+load = runner(CLIENT, timeout=60)
 
 
 class Smoke(unittest.TestCase):

@@ -63,7 +63,7 @@ Difference difference(sim::Simulation& simulation) {
 
 // One simulation runs the pairs one after another.
 TEST(AgainstReference, FortyIsolatedPairsAgree) {
-    scene::Scene scene = openSpace(5);
+    scene::Scene scene = fineStepSpace(5);
     scene.gravity = weakGravity;
     scene.spheres.resize(2);
     scene.spheres[0].radius = 0.4F;
@@ -86,7 +86,7 @@ TEST(AgainstReference, FortyIsolatedPairsAgree) {
 
 // The spheres do not touch each other. Each hits one or two of five walls and a slope.
 TEST(AgainstReference, FortySpheresAtWallsAgree) {
-    scene::Scene scene = openSpace(1.6);
+    scene::Scene scene = fineStepSpace(1.6);
     scene.gravity = weakGravity;
     scene.sphereContacts = false;
     scene.bounds.open.fill(false);

@@ -41,7 +41,7 @@ TEST_P(SceneBits, AreTheSameOnAllDevices) {
 
 // 200 spheres of two materials and many sizes, thrown onto an obstacle in a box, with all contact parameters.
 scene::Scene mixture(scene::Model model) {
-    scene::Scene scene = closedBox(0.8);
+    scene::Scene scene = fineStepBox(0.8);
     scene.materials = {{.name = "a", .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.05},
                        {.name = "b", .density = 2500, .restitution = 0.8, .friction = 0.7}};
     scene.bounds.material = 1;

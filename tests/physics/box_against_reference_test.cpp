@@ -15,7 +15,7 @@ namespace {
 constexpr double side = 0.5;  // m
 
 scene::Scene boxOf200() {
-    scene::Scene scene = closedBox(2);
+    scene::Scene scene = fineStepBox(2);
     scene.bounds.min = {-side / 2, -side / 2, -1};
     scene.bounds.max = {side / 2, side / 2, 1};
     scene::Random random(11);

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "scene/quality.h"
 #include "support.h"
 
@@ -12,7 +14,7 @@ namespace {
 
 // Spheres of `radius` that are all in one point. If `mixed`, one in fifty is ten times as large.
 scene::Scene crowdOf(std::uint32_t count, float radius, bool mixed, scene::Model model) {
-    scene::Scene scene = closedBox(2);
+    scene::Scene scene = fineStepBox(2);
     scene.quality.model = model;
     if (model == scene::Model::Accurate) scene.quality.substeps = 8;
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -57,6 +59,40 @@ TEST(Crowd, AllNumbersOfThreadsGiveTheSameBits) {
             EXPECT_EQ(hashes, *expected) << scene::nameOf(model) << " on " << choice;
         }
     }
+}
+
+TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
+    scene::Scene scene = fineStepBox(2);
+    scene::Sphere sphere;
+    sphere.radius = 0.02F;
+    scene.spheres.assign(3000, sphere);
+    const auto simulation = simulate(scene);
+    simulation->upload(sim::stateOf(scene));
+    run(*simulation, scene.step);
+    EXPECT_GT(simulation->counters().unlisted, 0U);
+    ASSERT_TRUE(allFinite(simulation->snapshot()));
+    for (int k = 0; k < 240; ++k) {
+        run(*simulation, scene.step);
+        ASSERT_FALSE(simulation->counters().nonFinite);
+    }
+    EXPECT_EQ(simulation->counters().unlisted, 0U) << "there was room to make";
+    const sim::Statistics statistics = simulation->statistics();
+    EXPECT_EQ(statistics.nonFinite, 0U);
+    EXPECT_EQ(statistics.outside, 0U);
+    EXPECT_LT(statistics.overlapMax, 1.9) << "some have stayed where they were";
+    EXPECT_TRUE(allFinite(simulation->snapshot()));
+}
+
+TEST(Crowd, TwoSpheresInOnePointComeApartWithoutASpeed) {
+    scene::Scene scene = fineStepSpace(2);
+    scene.spheres.resize(2);
+    for (scene::Sphere& sphere : scene.spheres) sphere.radius = 0.05F;
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.1);
+    const sim::State state = simulation->snapshot();
+    ASSERT_TRUE(allFinite(state));
+    EXPECT_NEAR(glm::length(positionOf(state, 0) - positionOf(state, 1)), 0.1, 1e-4);
+    EXPECT_LT(glm::length(velocityOf(state, 0)), 1e-3);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 // Returns the error (m) of the position of a sphere that moves freely for 20 s. The host passes floats to the kernels;
 // this step length is exact as a float.
 double errorOfAGlide(const std::string& choice) {
-    scene::Scene scene = openSpace(100);
+    scene::Scene scene = fineStepSpace(100);
     scene.sphereContacts = false;
     scene.step = 1.0 / 512;
     scene::Sphere sphere;

@@ -15,7 +15,7 @@ constexpr scene::Model models[] = {scene::Model::Fast, scene::Model::Balanced, s
 
 // Spheres side by side, one at each of the heights above the middle, which fly towards the floor.
 scene::Scene shots(scene::Model model, double speed, const std::vector<double>& heights) {
-    scene::Scene scene = closedBox(4);
+    scene::Scene scene = fineStepBox(4);
     scene.step = 1.0 / 60;
     scene.quality = {.model = model, .substeps = 8, .substepsFixed = false};
     for (std::size_t k = 0; k < heights.size(); ++k)

@@ -19,7 +19,7 @@ class Friction : public testing::TestWithParam<scene::Model> {
   protected:
     // One sphere on the floor of a wide box, at rest unless given a velocity; `slope` tilts gravity towards +x.
     static scene::Scene onFloor(const scene::Material& material, double slope, glm::vec3 velocity = {}) {
-        scene::Scene scene = closedBox(8);
+        scene::Scene scene = fineStepBox(8);
         scene.step = 1.0 / 60;
         scene.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
         scene.materials = {material};
@@ -94,7 +94,7 @@ TEST_P(Friction, TurnsAnObliqueImpactAsCoulombSays) {
     constexpr double e = 0.98;
     for (const double degrees : {45.0, 60.0, 75.0}) {
         const double angle = degrees * std::numbers::pi / 180;
-        scene::Scene scene = openSpace(1);
+        scene::Scene scene = fineStepSpace(1);
         scene.bounds.open[scene::ZMin] = false;
         scene.materials = {{.density = 4000, .restitution = e, .friction = mu, .young = 3.8e11, .poisson = 0.23}};
         scene.quality = {.model = GetParam(), .substepsFixed = false};
@@ -116,7 +116,7 @@ TEST_P(Friction, TurnsAnObliqueImpactAsCoulombSays) {
 }
 
 TEST_P(Friction, OfTwoSpheresKeepsMomentumAndAngularMomentum) {
-    scene::Scene scene = openSpace(4);
+    scene::Scene scene = fineStepSpace(4);
     scene.materials = {{.restitution = 0.6, .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.1},
                        {.name = "heavy", .density = 4000, .friction = 0.6}};
     scene.quality = {.model = GetParam(), .substepsFixed = false};
@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Friction,
 
 // A ball on three others, which only friction holds together.
 TEST(FrictionInAPile, HoldsATetrahedronOfSoftSpheres) {
-    scene::Scene scene = closedBox(2);
+    scene::Scene scene = fineStepBox(2);
     scene.step = 1.0 / 60;
     scene.materials = {{.restitution = 0.5, .friction = 0.5}};
     scene.quality = {.model = scene::Model::Accurate, .substepsFixed = false};
@@ -161,7 +161,7 @@ TEST(FrictionInAPile, HoldsATetrahedronOfSoftSpheres) {
 // The pile would never rest if springs stored energy without limit, or if dashpots were too strong for the substeps.
 TEST(FrictionInAPile, ComesToRestUnderForcesWhateverTheRestitution) {
     for (const double e : {0.0, 0.5}) {
-        scene::Scene scene = closedBox(0.4);
+        scene::Scene scene = fineStepBox(0.4);
         scene.bounds.max.z = 2;
         scene.step = 1.0 / 60;
         scene.materials = {{.restitution = e, .friction = 0.5, .rollingResistance = 0.05}};

@@ -14,7 +14,7 @@ constexpr double within = 0.005;
 
 // A gas of 200 spheres between walls.
 scene::Scene gas(scene::Model model, double restitution) {
-    scene::Scene scene = closedBox(2);
+    scene::Scene scene = fineStepBox(2);
     scene.gravity = {};
     scene.quality.model = model;
     scene::Random random(3);
@@ -32,7 +32,7 @@ scene::Scene gas(scene::Model model, double restitution) {
 
 // 32 pairs, each in its own lane. Pair n collides head-on in the middle of step n.
 scene::Scene headOn(scene::Model model, double restitution) {
-    scene::Scene scene = openSpace(8);
+    scene::Scene scene = fineStepSpace(8);
     scene.quality.model = model;
     for (int k = 0; k < 32; ++k) {
         const double half = 0.05 + (k + 0.5) * scene.step;
@@ -101,7 +101,7 @@ TEST(Observing, ChangesNothing) {
 }
 
 TEST(Observing, LeavesOutWhatRestsOnOthersAndSlidesPast) {
-    scene::Scene scene = closedBox(0.4);
+    scene::Scene scene = fineStepBox(0.4);
     scene.spheres = {{{0, 0, -0.15}, {}, 0.05F}, {{0, 0, -0.05}, {}, 0.05F}, {{0.1, 0.1, -0.15}, {}, 0.05F}};
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         scene.quality.model = model;

@@ -37,7 +37,7 @@ std::vector<SlotPair> withinMargin(sim::Simulation& simulation) {
 // 400 spheres near the surfaces of each other. Some are far outside, where the torus of cells wraps around. Most of
 // them move towards another one with the speed `approach` (m/s).
 scene::Scene cluster(double side, double ratio, double approach) {
-    scene::Scene scene = openSpace(side);
+    scene::Scene scene = fineStepSpace(side);
     scene::Random random(7);
     for (int k = 0; k < 400; ++k) {
         scene::Sphere sphere;

@@ -47,7 +47,7 @@ scene::Scene bedUnderOne(std::uint32_t count, double ratio) {
     const double side = std::max(2.4 * large, std::cbrt(count) * spacing);
     const int perRow = static_cast<int>(side / spacing);
     const int layers = (static_cast<int>(count) + perRow * perRow - 1) / (perRow * perRow);
-    scene::Scene scene = closedBox(side);
+    scene::Scene scene = fineStepBox(side);
     scene.bounds.max.z = scene.bounds.min.z + layers * spacing + 2.2 * large;
     scene.step = 1.0 / 60;
     scene.quality.substeps = 8;

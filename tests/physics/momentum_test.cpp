@@ -11,7 +11,7 @@ namespace {
 // A cloud of 1,000 spheres on a jittered lattice that contracts. Each sphere moves towards the middle at 2 m/s per m of
 // distance, plus a random velocity of up to 0.5 m/s along each axis.
 scene::Scene contractingCloud(bool equal) {
-    scene::Scene scene = openSpace(10);
+    scene::Scene scene = fineStepSpace(10);
     scene::Random random(7);
     constexpr int kinds = 50;
     for (int k = 1; k < kinds; ++k) addMaterial(scene, {.density = random.uniform(500, 8000)});

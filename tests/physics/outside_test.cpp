@@ -87,7 +87,7 @@ TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
         for (const std::uint64_t seed : {1, 2, 3}) {
             SCOPED_TRACE(std::string(scene::nameOf(model)) + ", seed " + std::to_string(seed));
             scene::Random random(seed);
-            scene::Scene scene = openSpace(1);
+            scene::Scene scene = fineStepSpace(1);
             scene.gravity = {0, 0, -earth};
             scene.step = 1.0 / 60;
             scene.quality = {.model = model, .substeps = 8, .substepsFixed = false};
@@ -112,7 +112,7 @@ TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
 TEST(Outside, TwoThatMeetFarFromTheBoundsDoNotPassThroughEachOther) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         SCOPED_TRACE(scene::nameOf(model));
-        scene::Scene scene = openSpace(1);
+        scene::Scene scene = fineStepSpace(1);
         scene.step = 1.0 / 60;
         scene.quality = {.model = model, .substeps = 4, .substepsFixed = true};
         setRestitution(scene, 1);
@@ -162,7 +162,7 @@ TEST(Outside, OneThatComesBackHitsWhatItLeft) {
 TEST(Outside, APlaneBelowTheBoundsIsHit) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         SCOPED_TRACE(scene::nameOf(model));
-        scene::Scene scene = openSpace(1);
+        scene::Scene scene = fineStepSpace(1);
         scene.gravity = {0, 0, -earth};
         scene.step = 1.0 / 60;
         scene.quality = {.model = model, .substeps = 8, .substepsFixed = true};
@@ -218,7 +218,7 @@ TEST(Outside, ASwarmThatLeavesHasAllThatTouchInItsLists) {
 }
 
 TEST(Outside, HasTheSameBitsOnAllDevices) {
-    scene::Scene scene = openSpace(0.8);
+    scene::Scene scene = fineStepSpace(0.8);
     scene.gravity = {0, 0, -earth};
     scene.sleep.enabled = true;
     setRestitution(scene, 0.5);
@@ -239,7 +239,7 @@ TEST(Outside, HasTheSameBitsOnAllDevices) {
 }
 
 TEST(Outside, AHundredThousandRadiiAwaySpheresAreAloneAndAtTheEndOfSpaceTheyStay) {
-    scene::Scene scene = openSpace(1);
+    scene::Scene scene = fineStepSpace(1);
     scene.gravity = {0, 0, -earth};
     scene.spheres = {at({-0.2, 0, 0}), at({0.2, 0, 0}), at({0, 0, 0.3}), at({0, 0, -0.3})};
     const auto simulation = simulate(scene);

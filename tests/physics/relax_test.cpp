@@ -21,7 +21,7 @@ std::string noticesOf(sim::Simulation& simulation) {
 
 TEST(Relax, SpheresInOnePointPartWithoutSpeedInEveryModel) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
-        scene::Scene scene = closedBox(4);
+        scene::Scene scene = fineStepBox(4);
         scene.gravity = {};
         scene.step = 1.0 / 60;
         scene.quality.model = model;

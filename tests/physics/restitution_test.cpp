@@ -33,7 +33,7 @@ const std::vector<Meeting> meetings{
 };
 
 scene::Scene lanes(double restitution) {
-    scene::Scene scene = openSpace(8);
+    scene::Scene scene = fineStepSpace(8);
     for (const double density : {20000.0, 7800.0, 500.0}) addMaterial(scene, {.density = density});
     double lane = -2;
     for (const Meeting& meeting : meetings) {
@@ -85,7 +85,7 @@ TEST_P(Restitution, HoldsWhereEverySphereIsTheSame) {
 }
 
 TEST_P(Restitution, HoldsAtWallsPlanesAndBoxes) {
-    scene::Scene scene = openSpace(4);
+    scene::Scene scene = fineStepSpace(4);
     scene.bounds.open[scene::ZMin] = false;
     const glm::dvec3 slope = glm::normalize(glm::dvec3(1, 0, 2));
     scene.obstacles.push_back({scene::Plane{{-1.5, 0, -1.2}, slope}, 0, ""});

@@ -29,7 +29,7 @@ struct Setting {
 class ObliqueImpact : public testing::TestWithParam<Setting> {};
 
 scene::Scene soft(const Setting& setting, double restitution) {
-    scene::Scene scene = openSpace(2);
+    scene::Scene scene = fineStepSpace(2);
     scene.step = 1e-3;
     scene.materials = {{.density = 1000, .restitution = restitution, .friction = setting.friction},
                        {.name = "other", .density = 2500, .restitution = restitution, .friction = setting.friction}};
@@ -367,7 +367,7 @@ TEST(SoftFloor, HoldsWhatASphereAtRestHasPressedIntoIt) {
 }
 
 TEST(SoftFloor, OfHardSpheresHoldsNothing) {
-    scene::Scene scene = closedBox(1);
+    scene::Scene scene = fineStepBox(1);
     scene.spheres = {{.position = {0, 0, -0.46}, .radius = 0.05F}};
     const auto simulation = simulate(scene);
     EXPECT_EQ(simulation->statistics().elasticEnergy, 0);

@@ -12,7 +12,7 @@ namespace {
 
 // 600 spheres of two kinds after a fall of 0.5 s, so that the spheres move and touch.
 std::unique_ptr<sim::Simulation> fallenHeap() {
-    scene::Scene scene = closedBox(1.2);
+    scene::Scene scene = fineStepBox(1.2);
     scene.bounds.open[scene::ZMax] = true;
     scene::Random random(2);
     const std::uint8_t heavy = addMaterial(scene, {.density = 3000});

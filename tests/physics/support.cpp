@@ -2,19 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
 
 namespace spherule::physics {
-
-std::unique_ptr<compute::Device> openTestDevice() {
-    const char* const choice = std::getenv("SPHERULE_TEST_DEVICE");
-    auto device = compute::openDevice(choice == nullptr ? "software" : choice);
-    if (!device) throw std::runtime_error(device.error().text());
-    return std::move(*device);
-}
 
 compute::Device& device() {
     static const std::unique_ptr<compute::Device> only = openTestDevice();
@@ -22,27 +14,25 @@ compute::Device& device() {
 }
 
 scene::Scene named(const std::string& name, const scene::Overrides& overrides) {
-    auto scene = scene::load(name, "software", overrides);
-    if (!scene) throw std::runtime_error(scene.error().text());
-    return std::move(*scene);
+    return support::valueOf(scene::load(name, "software", overrides));
 }
 
-scene::Scene openSpace(double side) {
+scene::Scene fineStepSpace(double side) {
     scene::Scene scene = measure::openSpace(side);
     scene.step = 1.0 / 480;
     scene.quality.substeps = 1;
     return scene;
 }
 
-scene::Scene closedBox(double side) {
-    scene::Scene scene = openSpace(side);
+scene::Scene fineStepBox(double side) {
+    scene::Scene scene = fineStepSpace(side);
     scene.bounds.open.fill(false);
     scene.gravity = {0, 0, -earth};
     return scene;
 }
 
 scene::Scene sleepyBox(double side) {
-    scene::Scene scene = closedBox(side);
+    scene::Scene scene = fineStepBox(side);
     scene.step = 1.0 / 60;
     scene.quality.substeps = 8;
     scene.sleep.enabled = true;
@@ -51,9 +41,7 @@ scene::Scene sleepyBox(double side) {
 }
 
 std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on) {
-    auto simulation = sim::Simulation::create(on, std::move(scene));
-    if (!simulation) throw std::runtime_error(simulation.error().text());
-    return std::move(*simulation);
+    return support::valueOf(sim::Simulation::create(on, std::move(scene)));
 }
 
 void run(sim::Simulation& simulation, double seconds) {

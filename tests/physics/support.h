@@ -14,23 +14,23 @@
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "sim/simulation.h"
+#include "test_device.h"
 
 namespace spherule::physics {
 
-// Opens the device named by SPHERULE_TEST_DEVICE. The default is Mesa's software renderer, which runs everywhere.
-std::unique_ptr<compute::Device> openTestDevice();
+using support::openTestDevice;
 compute::Device& device();  // one for all tests
 
 // Loads a shipped scene.
 scene::Scene named(const std::string& name, const scene::Overrides& overrides = {});
 
 // A cube of `side` m around the origin with open faces, no gravity and no sleep. A step is one substep of 1/480 s.
-scene::Scene openSpace(double side);
+scene::Scene fineStepSpace(double side);
 
-// Same as openSpace(), with closed faces and the earth's gravity downwards.
-scene::Scene closedBox(double side);
+// Same as fineStepSpace(), with closed faces and the earth's gravity downwards.
+scene::Scene fineStepBox(double side);
 
-// Same as closedBox(), with steps of 1/60 s, eight substeps per step, sleep, and a restitution of 0.3.
+// Same as fineStepBox(), with steps of 1/60 s, eight substeps per step, sleep, and a restitution of 0.3.
 scene::Scene sleepyBox(double side);
 
 using measure::addMaterial;

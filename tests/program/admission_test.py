@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
-"""Tests tokens, TLS and settings of a server: admission_test.py BINARY. Uses tests/load/serving.py."""
+"""Tests tokens, TLS and settings of a server: admission_test.py BINARY."""
 import json
 import os
 import signal
 import socket
 import ssl
-import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import warnings
 
 from authorities import Authorities
+from program import FolderTestCase, runner, wait_for
 from serving import Server
 
 BINARY = sys.argv.pop()
@@ -20,30 +19,10 @@ VIEWERS = "the-viewers-token-of-a-test"
 CONTROLLERS = "the-controllers-token-of-a-test"
 
 
-def call(*arguments, **environment):
-    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=60, check=False,
-                          env={**os.environ, **environment})
+call = runner(BINARY, timeout=60)
 
 
-def wait_for(condition, seconds=20):
-    end = time.monotonic() + seconds
-    while not (result := condition()) and time.monotonic() < end:
-        time.sleep(0.05)
-    return result
-
-
-class Files(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def file(self, name, text):
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
-
+class ServerTestCase(FolderTestCase):
     def serve(self, *options, **environment):
         return Server(BINARY, "serve", "two-spheres", "--device", "cpu:1", *options, cwd=self.folder,
                       env={**os.environ, **environment})
@@ -54,9 +33,9 @@ class Files(unittest.TestCase):
         return done.stderr
 
 
-class Tokens(Files):
+class Tokens(ServerTestCase):
     def test_ctl_needs_the_controllers_token(self):
-        with self.serve("--controller-token-file", self.file("c", CONTROLLERS + "\n"),
+        with self.serve("--controller-token-file", self.write("c", CONTROLLERS + "\n"),
                         SPHERULE_VIEWER_TOKEN=VIEWERS) as server:
             self.assertIn("it asks for a token", "".join(server.greeting))
             none = call("ctl", server.stream, "pause")
@@ -73,14 +52,14 @@ class Tokens(Files):
                 self.assertNotIn(token, "".join(server.greeting) + server.said)
 
     def test_tokens_are_read_anew_on_sighup(self):
-        tokens = self.file("c", CONTROLLERS)
+        tokens = self.write("c", CONTROLLERS)
         with self.serve("--controller-token-file", tokens) as server:
-            self.file("c", "another-token-of-a-test")
+            self.write("c", "another-token-of-a-test")
             os.kill(server.pid, signal.SIGHUP)
             new = {"SPHERULE_TOKEN": "another-token-of-a-test"}
             self.assertTrue(wait_for(lambda: call("ctl", server.stream, "pause", **new).returncode == 0))
             self.assertEqual(call("ctl", server.stream, "pause", SPHERULE_TOKEN=CONTROLLERS).returncode, 4)
-            self.file("c", "short")
+            self.write("c", "short")
             os.kill(server.pid, signal.SIGHUP)
             time.sleep(0.5)
             self.assertEqual(call("ctl", server.stream, "resume", **new).returncode, 0)
@@ -91,11 +70,11 @@ class Tokens(Files):
     def test_what_cannot_be_meant_is_refused_with_what_to_do(self):
         self.assertIn("other machines can reach this server", self.refused("--listen", "0.0.0.0:0"))
         self.assertIn("give 16 to 256", self.refused(SPHERULE_VIEWER_TOKEN="short"))
-        self.assertIn("is empty", self.refused("--viewer-token-file", self.file("e", "")))
+        self.assertIn("is empty", self.refused("--viewer-token-file", self.write("e", "")))
         self.assertIn("give one of the two", self.refused("--open", SPHERULE_VIEWER_TOKEN=VIEWERS))
         self.assertIn("give each their own",
                       self.refused(SPHERULE_VIEWER_TOKEN=VIEWERS, SPHERULE_CONTROLLER_TOKEN=VIEWERS))
-        self.assertIn("TLS needs a certificate and its key", self.refused("--tls-key", self.file("k", "x")))
+        self.assertIn("TLS needs a certificate and its key", self.refused("--tls-key", self.write("k", "x")))
         self.assertIn("--origin: is \"example.org\"", self.refused("--origin", "example.org"))
         self.assertIn("--host: is \"*\"", self.refused("--host", "*"))
 
@@ -103,7 +82,7 @@ class Tokens(Files):
         self.assertNotEqual(call("serve", "--viewer-token", VIEWERS).returncode, 0)
 
 
-class Tls(Files):
+class Tls(ServerTestCase):
     def setUp(self):
         super().setUp()
         self.authorities = Authorities(self.folder)
@@ -173,14 +152,14 @@ class Tls(Files):
             self.assertRegex(server.said, "tokens and certificate stay as they were: --tls-key: is ")
 
 
-class Settings(Files):
+class Settings(ServerTestCase):
     def printed(self, *options, **environment):
         done = call("serve", "--print-config", *options, **environment)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
     def test_the_command_line_goes_before_the_environment_and_that_before_the_file(self):
-        file = self.file("a.toml", "[serve]\nmax-sessions = 11\ndevice = \"cpu:1\"\nsubsteps = 3\n")
+        file = self.write("a.toml", "[serve]\nmax-sessions = 11\ndevice = \"cpu:1\"\nsubsteps = 3\n")
         text = self.printed("--config", file, "--substeps", "5", SPHERULE_SUBSTEPS="4", SPHERULE_MAX_SESSIONS="12")
         self.assertIn("max-sessions=12", text)
         self.assertIn('device="cpu:1"', text)
@@ -189,10 +168,10 @@ class Settings(Files):
     def test_what_is_printed_is_taken_again(self):
         once = self.printed("--max-sessions", "12", "--origin", "https://a.example", "--origin", "https://b.example")
         self.assertIn("https://b.example", once)
-        self.assertEqual(self.printed("--config", self.file("b.toml", once)), once)
+        self.assertEqual(self.printed("--config", self.write("b.toml", once)), once)
 
     def test_a_setting_that_does_not_exist_is_an_error(self):
-        done = call("serve", "--config", self.file("c.toml", "[serve]\nmax-session = 3\n"))
+        done = call("serve", "--config", self.write("c.toml", "[serve]\nmax-session = 3\n"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("max-session", done.stderr)
 

@@ -10,12 +10,13 @@ import time
 import unittest
 import urllib.request
 
+from program import runner, wait_for
+
 BINARY = sys.argv.pop()
 PATIENCE = 60  # s; only a failing test waits that long
 
 
-def call(*arguments):
-    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False)
+call = runner(BINARY)
 
 
 class Served(unittest.TestCase):
@@ -46,10 +47,7 @@ class Served(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def eventually(self, condition, what):
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            self.assertLess(time.monotonic(), end, what)
-            time.sleep(0.2)
+        self.assertTrue(wait_for(condition, PATIENCE), what)
 
     def logged(self):
         with open(self.log.name, encoding="utf-8") as log:

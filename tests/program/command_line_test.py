@@ -4,7 +4,6 @@ import csv
 import fcntl
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -12,7 +11,9 @@ import tempfile
 import termios
 import time
 import unittest
-import urllib.request
+
+from program import FolderTestCase, runner, wait_for
+from serving import Server
 
 DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
@@ -22,8 +23,7 @@ overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outs
 restitutionAsked stateHash""".split()
 
 
-def call(*arguments):
-    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False)
+call = runner(BINARY)
 
 
 def run_json(*arguments):
@@ -149,11 +149,10 @@ class Run(unittest.TestCase):
         self.assertIn("wrong.json: groups[0].radius.constant: is -0.1, must be positive", done.stderr)
 
 
-class Interrupted(unittest.TestCase):
+class Interrupted(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.dump = os.path.join(folder.name, "states.csv")
+        super().setUp()
+        self.dump = self.at("states.csv")
 
     def start(self, *more):
         running = subprocess.Popen([BINARY, "run", "two-spheres", "--for", "1e9s", "--device", DEVICE, *more],
@@ -161,18 +160,11 @@ class Interrupted(unittest.TestCase):
         self.addCleanup(lambda: (running.kill(), running.wait(), running.stdout.close(), running.stderr.close()))
         return running
 
-    def wait_for(self, condition):
-        for _ in range(1500):
-            if condition():
-                return
-            time.sleep(0.01)
-        self.fail("it does not come")
-
     def test_the_first_signal_ends_it_with_a_summary_and_complete_files(self):
         for sign in signal.SIGINT, signal.SIGTERM:
             recording = f"{self.dump}-{sign}.sph"
             running = self.start("--json", "--every", "1s", "--dump", self.dump, "--record", recording, "--force")
-            self.wait_for(lambda path=recording: os.path.exists(path) and os.path.getsize(path) > 1000)
+            self.assertTrue(wait_for(lambda path=recording: os.path.exists(path) and os.path.getsize(path) > 1000))
             running.send_signal(sign)
             out, said = running.communicate(timeout=20)
             self.assertEqual(running.returncode, 0, said)
@@ -212,7 +204,7 @@ class Interrupted(unittest.TestCase):
             return before == fcntl.ioctl(reader, termios.FIONREAD, b"1234") != bytes(4)
         for first, second in (signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT):
             running = self.start("--every", "0.02s", "--dump", self.dump, "--force")
-            self.wait_for(is_full)
+            self.assertTrue(wait_for(is_full))
             running.send_signal(first)
             time.sleep(0.2)
             self.assertIsNone(running.poll())
@@ -229,7 +221,7 @@ class Interrupted(unittest.TestCase):
                                     "--device", DEVICE, "--dump", self.dump], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
         self.addCleanup(lambda: (running.kill(), running.wait()))
-        self.wait_for(lambda: os.path.exists(self.dump) and os.path.getsize(self.dump) > 0)
+        self.assertTrue(wait_for(lambda: os.path.exists(self.dump) and os.path.getsize(self.dump) > 0))
         running.send_signal(signal.SIGHUP)
         time.sleep(0.2)
         self.assertIsNone(running.poll())
@@ -260,25 +252,13 @@ class Others(unittest.TestCase):
 
 class Serve(unittest.TestCase):
     def setUp(self):
-        self.server = subprocess.Popen([BINARY, "serve", "cradle", "--device", DEVICE, "--listen", "127.0.0.1:0"],
-                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        for line in self.server.stdout:
-            if found := re.search(r"open http://(\S+)/", line):
-                self.address = found.group(1)
-                break
-
-    def tearDown(self):
-        self.server.stdout.close()
-        if self.server.poll() is None:
-            self.server.kill()
-            self.server.wait()
+        self.server = Server(BINARY, "serve", "cradle", "--device", DEVICE)
+        self.server.__enter__()
+        self.addCleanup(self.server.end, kill=True)
+        self.get = self.server.get
 
     def ctl(self, *words):
-        return call("ctl", f"ws://{self.address}/ws", *words)
-
-    def get(self, path):
-        with urllib.request.urlopen(f"http://{self.address}{path}", timeout=30) as answer:
-            return answer.read().decode()
+        return call("ctl", self.server.stream, *words)
 
     def test_commands_are_answered_with_their_step_or_refused_with_the_reason(self):
         done = self.ctl("set", "gravity", "0", "0", "-1.6")
@@ -330,18 +310,9 @@ class Serve(unittest.TestCase):
             scene = scene_in(folder, "plain.json", 0.1, [0.5, 0.5, 0.5])
             path = os.path.join(os.fsencode(folder), b"caf\xe9.json")
             os.rename(scene, path)
-            other = subprocess.Popen([BINARY, "serve", path, "--device", DEVICE, "--listen", "127.0.0.1:0"],
-                                     stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-            try:
-                address = next(found.group(1).decode() for line in other.stdout
-                               if (found := re.search(rb"open (http://\S+)/", line)))
-                with urllib.request.urlopen(f"{address}/readyz", timeout=30) as answer:
-                    self.assertEqual(json.load(answer)["scene"], "caf\ufffd")
-                self.assertIsNone(other.poll())
-            finally:
-                other.kill()
-                other.wait()
-                other.stdout.close()
+            with Server(BINARY, "serve", path, "--device", DEVICE, errors="replace") as other:
+                self.assertEqual(json.loads(other.get("/readyz"))["scene"], "caf\ufffd")
+                self.assertEqual(other.end(), 0)
 
     def test_health_readiness_and_metrics(self):
         self.assertEqual(self.get("/healthz"), "alive\n")
@@ -361,8 +332,7 @@ class Serve(unittest.TestCase):
         self.assertIn("<!doctype html>", self.get("/").lower())
 
     def test_sigterm_drains_and_exits_0(self):
-        self.server.send_signal(signal.SIGTERM)
-        self.assertEqual(self.server.wait(timeout=30), 0)
+        self.assertEqual(self.server.end(), 0)
 
 
 if __name__ == "__main__":

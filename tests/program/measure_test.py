@@ -4,12 +4,13 @@ import csv
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
 import xml.etree.ElementTree
+
+from program import runner
 
 BINARY = sys.argv.pop()
 LONGEST = 250  # s; it should take 50 s on two free processors
@@ -68,8 +69,7 @@ BOUNDS = {
 }
 
 
-def call(*arguments):
-    return subprocess.run([BINARY, "measure", *arguments], capture_output=True, text=True, timeout=LONGEST, check=False)
+call = runner(BINARY, "measure", timeout=LONGEST)
 
 
 class Refusals(unittest.TestCase):

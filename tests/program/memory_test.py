@@ -4,12 +4,13 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
+from program import FolderTestCase, runner
 from serving import Server
 
 BINARY = sys.argv.pop()
+call = runner(BINARY)
 
 
 def lattice(spheres, **more):
@@ -20,20 +21,9 @@ def lattice(spheres, **more):
             "groups": [{"radius": {"constant": 0.05}, "lattice": {**box, "spacing": spacing, "count": spheres}}]}
 
 
-class Memory(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
+class Memory(FolderTestCase):
     def scene(self, spheres, **more):
-        path = os.path.join(self.folder, f"{spheres}.json")
-        with open(path, "w", encoding="utf-8") as file:
-            json.dump(lattice(spheres, **more), file)
-        return path
-
-    def call(self, *arguments):
-        return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False)
+        return self.write(f"{spheres}.json", json.dumps(lattice(spheres, **more)))
 
     def refused(self, done, *parts):
         said = done.stdout + done.stderr
@@ -55,22 +45,22 @@ class Memory(unittest.TestCase):
 
     def test_plan_says_it_beforehand(self):
         path = self.scene(200_000)
-        plan = json.loads(self.call("plan", path, "--json").stdout)
+        plan = json.loads(call("plan", path, "--json").stdout)
         memory = {part["name"]: part["bytes"] for part in plan["memory"]}
         self.assertEqual(memory["device: arrays"], plan["bytes"])
         self.assertEqual(memory["host: scene"], 56 * 200_000)
         together = memory["all, where device and host are one"]
         room = 40 << 20  # memory of the program itself, and a margin
         for limit, code in ((together + 2 * room, 0), (together - room, 4)):
-            done = self.call("run", path, "--for", "0.02s", "--device", "cpu:1", "--memory-limit", str(limit))
+            done = call("run", path, "--for", "0.02s", "--device", "cpu:1", "--memory-limit", str(limit))
             self.assertEqual(done.returncode, code, f"{limit}: {done.stderr}")
 
     def test_a_load_beside_the_world_that_runs_is_refused_and_that_goes_on(self):
         with Server(BINARY, "serve", self.scene(200_000), "--device", "cpu:1", "--memory-limit", "260MiB") as server:
-            done = self.call("ctl", server.stream, "load", self.scene(300_000))
+            done = call("ctl", server.stream, "load", self.scene(300_000))
             self.refused(done, "a scene of 300000 spheres", "--memory-limit allows 260 MiB", "what runs here holds ")
-            self.assertEqual(self.call("ctl", server.stream, "load", "two-spheres").returncode, 0)
-            done = self.call("ctl", server.stream, "load", self.scene(300_000))
+            self.assertEqual(call("ctl", server.stream, "load", "two-spheres").returncode, 0)
+            done = call("ctl", server.stream, "load", self.scene(300_000))
             self.assertEqual(done.returncode, 0, f"alone it has room: {done.stderr}")
             self.assertEqual(server.end(), 0)
 
@@ -78,7 +68,7 @@ class Memory(unittest.TestCase):
         folder = os.path.join(self.folder, "recordings")
         with Server(BINARY, "serve", self.scene(300_000), "--device", "cpu:1", "--memory-limit", "250MiB",
                     "--recordings", folder) as server:
-            self.refused(self.call("ctl", server.stream, "record"), "--memory-limit allows 250 MiB")
+            self.refused(call("ctl", server.stream, "record"), "--memory-limit allows 250 MiB")
             self.assertEqual(os.listdir(folder) if os.path.exists(folder) else [], [], "no empty file is left")
             self.assertEqual(server.end(), 0)
 

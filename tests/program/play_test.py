@@ -1,46 +1,31 @@
 #!/usr/bin/env python3
-"""Tests playback, and recording by a server: play_test.py BINARY LOAD_CLIENT. Uses tests/load/serving.py."""
+"""Tests playback, and recording by a server: play_test.py BINARY LOAD_CLIENT."""
 import json
 import os
 import resource
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
+from program import FolderTestCase, runner, wait_for
 from serving import Server
 
 CLIENT = sys.argv.pop()
 BINARY = sys.argv.pop()
 
 
-def call(*arguments):
-    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False)
+call = runner(BINARY)
 
 
 def tell(server, *words):
     return call("ctl", server.stream, *words)
 
 
-def wait_for(condition, seconds=20):
-    end = time.monotonic() + seconds
-    while not (result := condition()):
-        if time.monotonic() > end:
-            return result
-        time.sleep(0.1)
-    return result
-
-
-class Files(unittest.TestCase):
+class RecordingTestCase(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.recording = self.at("a.sph")
-
-    def at(self, name):
-        return os.path.join(self.folder, name)
 
     def length_of(self, recording):
         """Returns the first and the last time (s), and the message about the end of the recording."""
@@ -54,7 +39,7 @@ class Files(unittest.TestCase):
         return Server(BINARY, "serve", *options, "--device", "cpu:1", cwd=self.folder, **more)
 
 
-class Play(Files):
+class Play(RecordingTestCase):
     def setUp(self):
         super().setUp()
         done = call("run", "two-spheres", "--for", "4s", "--device", "cpu", "--record", self.recording)
@@ -112,7 +97,7 @@ class Play(Files):
             self.assertRegex(server.said + "".join(server.greeting), r"a.sph is played up to [0-9.]+ s: the record at byte")
 
 
-class Record(Files):
+class Record(RecordingTestCase):
     def recorded(self, server):
         return server.metrics()["spherule_recording_bytes", ""]
 
@@ -172,17 +157,14 @@ class Record(Files):
         self.assertIn("is cut off", self.length_of(self.recording)[2])
 
     def test_a_recording_of_nothing_is_a_failure(self):
-        scene = self.at("empty.json")
-        with open(scene, "w", encoding="utf-8") as file:
-            json.dump({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}, file)
+        scene = self.write("empty.json", '{"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}')
         with self.serve(scene, "--record", self.recording) as server:
             self.assertTrue(wait_for(lambda: server.metrics()["spherule_recording_active", ""] == 1))
             self.assertEqual(server.end(), 4)
             self.assertIn("nothing was recorded: no frame has come", server.said)
 
     def test_where_it_cannot_be_begun_nothing_is_served(self):
-        with open(self.recording, "w", encoding="utf-8") as file:
-            file.write("precious")
+        self.write("a.sph", "precious")
         done = call("serve", "two-spheres", "--device", "cpu:1", "--listen", "127.0.0.1:0", "--record", self.recording)
         self.assertEqual(done.returncode, 2)
         self.assertIn("is there already; give --force to replace it", done.stderr)

@@ -9,7 +9,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree as xml
@@ -18,6 +17,8 @@ import numpy
 from ase.io import read
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from program import FolderTestCase, runner
 
 BINARY = sys.argv.pop()
 COLUMNS = ["id", "x", "y", "z", "radius"]
@@ -29,8 +30,7 @@ MIXED = {"bounds": {"min": [0, 0, 0], "max": [1, 2, 1.5]},
                      "fill": {"count": 60, "min": [0, 0, 0], "max": [1, 2, 1.5]}}]}
 
 
-def call(*arguments, **options):
-    return subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=120, check=False, **options)
+call = runner(BINARY)
 
 
 def frames_of(path):
@@ -42,15 +42,10 @@ def frames_of(path):
     return [(when, numpy.array(rows)) for when, rows in frames.items()]
 
 
-class Files(unittest.TestCase):
+class RecordingTestCase(FolderTestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.recording = self.at("run.sph")
-
-    def at(self, name):
-        return os.path.join(self.folder, name)
 
     def run_done(self, scene, *more, device="cpu"):
         done = call("run", scene, "--device", device, "--record", self.recording, *more)
@@ -68,7 +63,7 @@ class Files(unittest.TestCase):
         return done.stderr.splitlines()[-1]
 
 
-class Formats(Files):
+class Formats(RecordingTestCase):
     """Each export has the states of the same run's dump, within the documented error."""
 
     def record(self, scene, smallest, *more):
@@ -134,7 +129,7 @@ class Formats(Files):
                 self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
 
 
-class Record(Files):
+class Record(RecordingTestCase):
     def bytes_of(self, *more, device="cpu"):
         self.run_done("box-4k", "--for", "0.5s", "--force", *more, device=device)
         with open(self.recording, "rb") as file:
@@ -210,7 +205,7 @@ class Record(Files):
         self.assertGreater(len(os.listdir(self.at("run"))), 0)
 
 
-class Export(Files):
+class Export(RecordingTestCase):
     def setUp(self):
         super().setUp()
         self.run_done("two-spheres", "--for", "5s")

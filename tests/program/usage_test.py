@@ -3,19 +3,20 @@
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 
+from program import runner
+
 BINARY = sys.argv.pop()
+call = runner(BINARY, timeout=60)
 COMMANDS = pathlib.Path(__file__).resolve().parents[2] / "docs/cli.md"
 
 
 class Usage(unittest.TestCase):
     def refusal(self, *arguments, variables=None):
-        done = subprocess.run([BINARY, *arguments], capture_output=True, text=True, timeout=60, check=False,
-                              env=dict(os.environ, **(variables or {})))
+        done = call(*arguments, **(variables or {}))
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(done.stdout, "")
         said = done.stderr.splitlines()[-1]
@@ -33,7 +34,9 @@ class Usage(unittest.TestCase):
 
     def test_the_page_on_commands_names_each_command_and_option(self):
         def help_of(*words):
-            return subprocess.run([BINARY, *words, "--help"], capture_output=True, text=True, timeout=60, check=True).stdout
+            done = call(*words, "--help")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout
 
         def options(text):
             return re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.MULTILINE)
@@ -124,8 +127,7 @@ class Usage(unittest.TestCase):
             path = os.path.join(folder, "settings.toml")
             with open(path, "w", encoding="utf-8") as file:
                 file.write("[serve]\nmax-sessions = 7\n")
-            done = subprocess.run([BINARY, "serve", "--print-config"], capture_output=True, text=True, timeout=60,
-                                  check=False, env=dict(os.environ, SPHERULE_CONFIG=path))
+            done = call("serve", "--print-config", SPHERULE_CONFIG=path)
         self.assertIn("\nmax-sessions=7\n", done.stdout)
 
 

@@ -10,6 +10,7 @@
 #include "encode/column_encoder.h"
 #include "encode/morton.h"
 #include "rivals.h"
+#include "value_of.h"
 
 namespace spherule::bench {
 
@@ -17,11 +18,7 @@ namespace {
 
 constexpr std::size_t warmUp = 2;  // frames, until velocities are known
 
-template <class T>
-T valueOf(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(*result);
-}
+using support::valueOf;
 
 using Order = std::vector<std::uint32_t>;
 using Metres = std::vector<glm::vec3>;
@@ -63,9 +60,9 @@ Ours ours(compute::Device& device, const Trajectory& trajectory, double quantum,
         for (const glm::vec3& p : metres) positions.emplace_back(p, 0);
         device.upload(*position, 0, std::as_bytes(std::span(positions)));
         if (k == 0)
-            frames->encodeKeyframe({.position = position.get()});
+            frames->encodeKeyframe({.values = position.get()});
         else
-            frames->encodeDelta({.position = position.get()});
+            frames->encodeDelta({.values = position.get()});
         const auto made = frames->download();
         (void)valueOf(decoder.apply(made));
         if (!std::ranges::equal(decoder.newest(), inOrder(cellsOf(metres, quantum), order)))

@@ -14,6 +14,7 @@
 #include "codec/decoder.h"
 #include "encode/column_encoder.h"
 #include "encode/morton.h"
+#include "value_of.h"
 
 namespace spherule::bench {
 
@@ -23,11 +24,7 @@ constexpr double kickedRadius = 0.016;  // m, the smallest
 constexpr float spacing = 0.04F;        // m
 constexpr int rounds = 15;
 
-template <class T>
-T valueOf(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(*result);
-}
+using support::valueOf;
 
 template <class Work>
 double milliseconds(compute::Device& device, Work&& work) {

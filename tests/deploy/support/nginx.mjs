@@ -4,7 +4,7 @@ import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync
 import net from "node:net";
 import os from "node:os";
 import path from "node:path";
-import { certify } from "./certificates.mjs";
+import { certify } from "../../browser/support/certificate.mjs";
 
 export const name = "spherule.example.org";
 
@@ -26,14 +26,14 @@ export const read = (file) => readFileSync(path.join(root, file), "utf8");
 export async function start({ tls, plain, upstream }) {
   const folder = mkdtempSync(path.join(os.tmpdir(), "spherule-nginx-"));
   chmodSync(folder, 0o755); // nginx's workers run as another user
-  const ca = certify(folder, name);
+  const { root: authority, chain, key } = certify(folder, `DNS:${name}`);
   let site = read("deploy/nginx/spherule.conf");
   for (const [written, here] of [
     ["listen 80;", `listen 127.0.0.1:${plain};`],
     ["listen 443 ssl", `listen 127.0.0.1:${tls} ssl`],
     ["server 127.0.0.1:8080;", `server 127.0.0.1:${upstream};`],
-    ["/etc/nginx/tls/spherule.pem", path.join(folder, "chain.pem")],
-    ["/etc/nginx/tls/spherule.key", path.join(folder, "leaf.key")],
+    ["/etc/nginx/tls/spherule.pem", chain],
+    ["/etc/nginx/tls/spherule.key", key],
   ]) {
     if (!site.includes(written)) throw new Error(`spherule.conf has no "${written}"`);
     site = site.replaceAll(written, here);
@@ -51,10 +51,10 @@ export async function start({ tls, plain, upstream }) {
   const ended = new Promise((resolve) => child.once("exit", resolve));
   while (!(await answers(tls))) if (child.exitCode !== null) throw new Error("nginx has ended");
   return {
-    ca,
+    ca: readFileSync(authority, "utf8"),
     url: `https://${name}:${tls}/`,
     /** Options with which Chromium resolves the name to 127.0.0.1 and trusts this certificate. */
-    switches: [`--host-resolver-rules=MAP ${name} 127.0.0.1`, `--ignore-certificate-errors-spki-list=${pin(folder)}`],
+    switches: [`--host-resolver-rules=MAP ${name} 127.0.0.1`, `--ignore-certificate-errors-spki-list=${pin(chain)}`],
     async stop() {
       child.kill("SIGQUIT");
       const code = await ended;
@@ -64,10 +64,10 @@ export async function start({ tls, plain, upstream }) {
   };
 }
 
-/** Returns the hash of the leaf's public key, in the form that Chromium's option takes. */
-function pin(folder) {
-  const shell = "openssl x509 -in leaf.pem -noout -pubkey | openssl pkey -pubin -outform der | openssl dgst -sha256 -binary";
-  return execFileSync("sh", ["-c", shell], { cwd: folder }).toString("base64");
+/** Returns the hash of the public key of the first certificate, in the form that Chromium's option takes. */
+function pin(chain) {
+  const shell = "openssl x509 -in $0 -noout -pubkey | openssl pkey -pubin -outform der | openssl dgst -sha256 -binary";
+  return execFileSync("sh", ["-c", shell, chain]).toString("base64");
 }
 
 async function answers(port) {

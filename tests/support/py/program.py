@@ -1,0 +1,41 @@
+"""Runs the program under test to its end, and gives each test a folder for its files."""
+import os
+import subprocess
+import tempfile
+import time
+import unittest
+
+
+def runner(binary, *first, timeout=120):
+    """Returns a function that runs the program with the arguments `first` and its own, for at most `timeout` seconds."""
+    def call(*arguments, preexec_fn=None, **variables):
+        """`variables`: further variables of the environment. Returns a subprocess.CompletedProcess with text."""
+        return subprocess.run([binary, *first, *arguments], capture_output=True, text=True, timeout=timeout, check=False,
+                              env={**os.environ, **variables}, preexec_fn=preexec_fn)
+    return call
+
+
+def wait_for(condition, seconds=20):
+    """Waits until `condition()` is true, for at most `seconds`. Returns its last result."""
+    end = time.monotonic() + seconds
+    while not (result := condition()) and time.monotonic() < end:
+        time.sleep(0.05)
+    return result
+
+
+class FolderTestCase(unittest.TestCase):
+    """Each test has an empty folder, which is removed after it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def at(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        """Writes a file of the folder; returns its path."""
+        with open(self.at(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.at(name)

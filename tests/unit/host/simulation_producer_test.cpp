@@ -1,0 +1,273 @@
+#include "host/simulation_producer.h"
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <google/protobuf/util/json_util.h>
+
+#include "fake_publisher.h"
+#include "recording_support.h"
+
+namespace spherule::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A SimulationProducer without a network. Queues commands of sessions, and keeps the answers in order.
+class Desk : private FakePublisher {
+  public:
+    explicit Desk(const std::string& scene = "two-spheres")
+        : producer_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, *this},
+                    diagnostics::ownTable(), recording::LiveOptions()) {}
+
+    // Queues a command; returns its id, which counts from 1.
+    std::uint64_t give(const std::string& json, std::uint64_t session = 1) {
+        v1::Command command;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &command).ok()) << json;
+        command.set_id(++given_);
+        EXPECT_FALSE(requests_.push({.session = session, .command = std::move(command)}));
+        return given_;
+    }
+
+    // Runs until `enough` returns true. It is called after each answer and each retained message.
+    void run(std::function<bool()> enough) {
+        enough_ = std::move(enough);
+        EXPECT_TRUE(producer_.run(stop_.get_token()));
+    }
+    // Runs until all commands have an answer.
+    void run() {
+        run([this] { return answers.size() >= given_; });
+    }
+
+    [[nodiscard]] const v1::CommandResult& answer(std::uint64_t id) const {
+        for (const v1::CommandResult& result : answers)
+            if (result.id() == id) return result;
+        ADD_FAILURE() << "command " << id << " has no answer";
+        return v1::CommandResult::default_instance();
+    }
+    [[nodiscard]] std::string refusal(std::uint64_t id) const { return answer(id).refused().reason(); }
+    // Returns the position of the command's answer among all answers.
+    [[nodiscard]] std::size_t placeOf(std::uint64_t id) const {
+        for (std::size_t k = 0; k < answers.size(); ++k)
+            if (answers[k].id() == id) return k;
+        return answers.size();
+    }
+
+    std::vector<v1::CommandResult> answers;
+    std::vector<v1::Change> changes;  // the changes sent to all sessions
+
+  private:
+    void look() {
+        if (enough_ && enough_()) stop_.request_stop();
+    }
+    void retain(codec::SharedMessage message) override {
+        if (message->content().has_change()) changes.push_back(message->content().change());
+        look();
+    }
+    void reply(net::SessionId, v1::CommandResult result) override {
+        answers.push_back(std::move(result));
+        look();
+    }
+
+    Requests requests_;
+    StatusBoard board_;
+    std::stop_source stop_;
+    std::function<bool()> enough_;
+    std::uint64_t given_ = 0;
+    SimulationProducer producer_;
+};
+
+// 1,000 spheres almost in one point. It takes hundreds of sweeps to push them apart.
+constexpr const char* crowd = R"({"load":{"scene":{"name":"crowd","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
+    "groups":[{"radius":{"constant":0.05},"lattice":{"min":[-0.1,-0.1,-0.1],"max":[0.1,0.1,0.1],"spacing":1e-6,
+                                                     "count":1000}}]}}})";
+// In this dense scene, the search for random places without overlaps takes many seconds.
+constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
+    "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
+
+TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
+    Desk desk;
+    const auto first = desk.give(R"({"step":{"count":30}})");
+    const auto second = desk.give(R"({"step":{"count":4}})");
+    const auto pause = desk.give(R"({"pause":{}})");
+    desk.run();
+    // The pause ends both, because it comes before they are done.
+    EXPECT_NE(desk.refusal(first).find("of 30 steps"), std::string::npos) << desk.refusal(first);
+    EXPECT_EQ(desk.refusal(second).rfind("0 of 4 steps", 0), 0U) << desk.refusal(second);
+    EXPECT_TRUE(desk.answer(pause).has_applied());
+
+    Desk other;
+    const auto many = other.give(R"({"step":{"count":30}})");
+    const auto few = other.give(R"({"step":{"count":4}})", 2);
+    other.run();
+    EXPECT_EQ(other.answer(many).applied().step(), 30U);
+    EXPECT_EQ(other.answer(few).applied().step(), 34U);
+}
+
+TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneIsMade) {
+    for (const char* scene : {crowd, packed}) {
+        Desk desk;
+        const auto load = desk.give(scene);
+        const auto pause = desk.give(R"({"pause":{}})", 2);
+        const auto resume = desk.give(R"({"resume":{}})", 2);
+        const auto cancel = desk.give(R"({"cancel":{}})", 2);
+        const auto again = desk.give(R"({"cancel":{}})", 2);
+        desk.run();
+        EXPECT_TRUE(desk.answer(pause).has_applied());
+        EXPECT_TRUE(desk.answer(resume).has_applied());
+        EXPECT_TRUE(desk.answer(cancel).has_applied());
+        EXPECT_EQ(desk.refusal(load), "cancelled");
+        EXPECT_NE(desk.refusal(again).find("nothing is under way"), std::string::npos);
+        EXPECT_LT(desk.placeOf(pause), desk.placeOf(load));
+    }
+}
+
+TEST(SimulationProducer, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
+    Desk desk;
+    const auto first = desk.give(packed);
+    const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);
+    const auto second = desk.give(crowd, 2);
+    const auto wrong = desk.give(R"({"load":{"name":"nothing"}})");
+    const auto third = desk.give(R"({"load":{"name":"cradle"}})");
+    desk.run();
+    EXPECT_NE(desk.refusal(first).find("session 2 has asked for load crowd"), std::string::npos);
+    EXPECT_NE(desk.refusal(waits).find(" has asked for load "), std::string::npos);
+    EXPECT_NE(desk.refusal(second).find("session 1 has asked for load cradle"), std::string::npos);
+    EXPECT_NE(desk.refusal(wrong).find("known are"), std::string::npos);
+    EXPECT_TRUE(desk.answer(third).has_applied());
+}
+
+TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
+    Desk desk;
+    const auto load = desk.give(packed);
+    const auto set = desk.give(R"({"set":{"gravity":[0,0,1]}})", 2);
+    const auto push = desk.give(R"({"push":{"sphere":0,"impulse":[0,0,0.1]}})", 2);
+    desk.run([&] { return desk.answers.size() == 2; });
+    for (const auto id : {set, push}) {
+        EXPECT_NE(desk.refusal(id).find("load packed is under way (placing spheres"), std::string::npos)
+            << desk.refusal(id);
+        EXPECT_NE(desk.refusal(id).find("cancel"), std::string::npos);
+    }
+    // When the loop ends, it refuses pending commands.
+    EXPECT_EQ(desk.refusal(load), "the server is stopping");
+
+    Desk quick;
+    const auto friction = quick.give(R"({"set":{"friction":0.3}})");  // needs other arrays and kernels
+    const auto gravity = quick.give(R"({"set":{"gravity":[0,0,1]}})", 2);
+    quick.run();
+    EXPECT_TRUE(quick.answer(friction).has_applied());
+    // On a busy machine, the first command may take so long that the second is refused.
+    EXPECT_TRUE(quick.answer(gravity).has_applied() || quick.refusal(gravity).find("set is under way") == 0);
+    if (quick.answer(gravity).has_applied()) {
+        EXPECT_LT(quick.placeOf(friction), quick.placeOf(gravity));
+    }
+}
+
+// Commands of one session run in order. A later pause or resume ends a step that waits for a load.
+TEST(SimulationProducer, APauseOrResumeEndsStepsThatWaitForAChange) {
+    for (const char* later : {R"({"resume":{}})", R"({"pause":{}})"}) {
+        Desk desk;
+        const auto load = desk.give(R"({"load":{"name":"cradle"}})");
+        const auto step = desk.give(R"({"step":{"count":10}})");
+        const auto end = desk.give(later);
+        desk.run();
+        EXPECT_TRUE(desk.answer(load).has_applied());
+        EXPECT_TRUE(desk.answer(end).has_applied());
+        EXPECT_NE(desk.refusal(step).find("none of its steps were done"), std::string::npos) << desk.refusal(step);
+    }
+}
+
+TEST(SimulationProducer, EverybodyIsToldHowFarALongChangeHasCome) {
+    Desk desk;
+    desk.give(packed, 7);
+    desk.run([&] { return desk.changes.size() >= 3; });
+    ASSERT_GE(desk.changes.size(), 3U);
+    for (const v1::Change& change : desk.changes) {
+        EXPECT_EQ(change.what(), "load packed");
+        EXPECT_EQ(change.doing(), "placing spheres");
+        EXPECT_EQ(change.session(), 7U);
+        EXPECT_GT(change.share(), 0);
+        EXPECT_LT(change.share(), 1);
+    }
+}
+
+// A SimulationProducer with one sphere that lies on the floor, and a viewer that takes frames.
+class PausedSimulation : public testing::Test, private FakePublisher {
+  protected:
+    PausedSimulation() {
+        recording::writeFile(folder_ / "one.json", R"({"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
+            "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
+        thread_ = std::jthread([this](const std::stop_token& stop) {
+            SimulationProducer producer(SimulationHost::open("cpu:1", folder_ / "one.json", {}).value(),
+                                        {requests_, board_, *this}, diagnostics::ownTable(), recording::LiveOptions());
+            EXPECT_TRUE(producer.run(stop));
+        });
+    }
+
+    void tell(const v1::Command& command) { ASSERT_FALSE(requests_.push({.session = 1, .command = command})); }
+    void step(std::uint32_t count) {
+        v1::Command command;
+        command.mutable_step()->set_count(count);
+        tell(command);
+    }
+    // Waits for the first frame of a step.
+    v1::Frame frameOf(std::uint64_t step) {
+        std::unique_lock lock(mutex_);
+        v1::Frame found;
+        EXPECT_TRUE(changed_.wait_for(lock, 15s, [&] {
+            for (const v1::Frame& frame : frames_) {
+                if (frame.step() != step) continue;
+                found = frame;
+                return true;
+            }
+            return false;
+        }));
+        return found;
+    }
+
+  private:
+    void publish(const codec::EncodedFrame& encoded) override {
+        const std::scoped_lock lock(mutex_);
+        frames_.push_back(encoded.message->content().frame());
+        changed_.notify_all();
+    }
+    [[nodiscard]] std::uint32_t viewers() const override { return 1; }
+    [[nodiscard]] std::vector<codec::Subscription> subscriptions() override {
+        return {{.rendition = {v1::NORMAL, 60}}};
+    }
+
+    recording::TemporaryFolder folder_;
+    Requests requests_;
+    StatusBoard board_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<v1::Frame> frames_;
+    std::jthread thread_;
+};
+
+TEST_F(PausedSimulation, AFrameOfAPausedWorldTellsHowManySleepInIt) {
+    v1::Command reset;
+    reset.mutable_reset();
+    v1::Command fast;
+    fast.mutable_set()->set_speed(10);
+    v1::Command pause;
+    pause.mutable_pause();
+    tell(pause);
+    tell(reset);
+    tell(fast);
+    EXPECT_EQ(frameOf(0).status().sleeping(), 0U);
+    // These steps take less time than the interval of diagnostics.
+    step(60);
+    EXPECT_EQ(frameOf(60).status().sleeping(), 1U);
+    EXPECT_TRUE(frameOf(60).status().paused());
+}
+
+}  // namespace
+}  // namespace spherule::host
