@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "codec/rendition.h"
 #include "spherule/v1/frame.pb.h"
 
 // The values of each sphere that frames carry. Each column is a chain of docs/codec.md with its own quantum.
 namespace spherule::codec {
 
-// The value of one column in a frame: quantum * q, with q in the bytes.
+// The values of one column in a frame: quantum * q, with q in the bytes.
 struct EncodedColumn {
     double quantum = 0;
     std::string_view spb;
@@ -25,9 +27,21 @@ struct Column {
 };
 
 // The first column is the position (m), relative to the centre of the bounds.
-inline constexpr std::size_t columnCount = 1;
+inline constexpr std::array columns = {
+    Column{.name = "position",
+           .quantumFor = quantumOf,
+           .read =
+               [](const v1::Frame& frame) {
+                   return EncodedColumn{frame.quantum(), frame.spb()};
+               },
+           .write =
+               [](v1::Frame& frame, double quantum, std::string spb) {
+                   frame.set_quantum(quantum);
+                   frame.set_spb(std::move(spb));
+               }},
+};
+inline constexpr std::size_t columnCount = columns.size();
 template <class T>
 using PerColumn = std::array<T, columnCount>;
-extern const PerColumn<Column> columns;
 
 }  // namespace spherule::codec
