@@ -33,7 +33,7 @@ struct World {
 };
 
 World holding(QualityTarget::Kind kind, double most) {
-    return {.quality = AutoQuality({of, most}, range)};
+    return {.quality = AutoQuality({kind, most}, range)};
 }
 
 TEST(AutoQuality, LowersSubstepsUntilTheBudgetHolds) {
