@@ -107,8 +107,10 @@ run_tidy() {
 }
 
 # These tests compute on the CPU device, because sanitizers report faults of Mesa's renderer.
-sanitized_programs=(unit_{scene,codec,encode,recording,host,cli,kernels,compute,net,client} physics_tests net_tests)
-sanitized_tests='^(unit_(scene|codec|recording|cli|kernels|net|client)|physics_tests_cpu|net_tests)\.'
+sanitized_programs=(
+    unit_{scene,codec,encode,recording,host,cli,kernels,compute,net,client,support} physics_tests net_tests
+)
+sanitized_tests='^(unit_(scene|codec|recording|cli|kernels|net|client|support)|physics_tests_cpu|net_tests)\.'
 sanitized_tests+='|^unit_encode\.(Spheres/)?Codec(Counts)?\.|^unit_host\.(Player|Playing|PlayLoop)\.'
 sanitized_tests+='|^unit_compute\.(CpuMemory|Pool)\.'
 sanitized() {

@@ -7,11 +7,11 @@ import unittest
 
 
 def runner(binary, *first, timeout=120):
-    """Returns a function that runs the program with the arguments `first` and its own, for at most `timeout` seconds."""
+    """Returns a function that runs the program with the arguments `first` and its own, for at most `timeout` s."""
     def call(*arguments, preexec_fn=None, **variables):
         """`variables`: further variables of the environment. Returns a subprocess.CompletedProcess with text."""
-        return subprocess.run([binary, *first, *arguments], capture_output=True, text=True, timeout=timeout, check=False,
-                              env={**os.environ, **variables}, preexec_fn=preexec_fn)
+        return subprocess.run([binary, *first, *arguments], capture_output=True, text=True, timeout=timeout,
+                              check=False, env={**os.environ, **variables}, preexec_fn=preexec_fn)
     return call
 
 
