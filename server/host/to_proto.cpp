@@ -88,7 +88,7 @@ v1::Welcome welcomeOf(const compute::DeviceInfo& device) {
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused) {
     v1::ServerMessage message;
     v1::Settings& settings = *message.mutable_settings();
-    set(settings.mutable_gravity(), scene.gravity);
+    set(settings.mutable_gravity(), scene.forces.gravity);
     settings.set_restitution(scene.materials.front().restitution);
     settings.set_substeps(scene.quality.substeps);
     settings.set_speed(speed);

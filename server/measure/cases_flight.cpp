@@ -13,7 +13,7 @@ namespace {
 
 Result<void> projectile(Bench& bench) {
     scene::Scene scene = openSpace(8);
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     const glm::dvec3 start(-2, 0.1, -1);
     const glm::dvec3 thrown(3, 1, 5);
     addSphere(scene, start, 0.05, thrown);
@@ -21,7 +21,7 @@ Result<void> projectile(Bench& bench) {
     if (!opened) return tl::unexpected(opened.error());
     constexpr double duration = 1;
     if (auto done = bench.run(**opened, duration); !done) return done;
-    const glm::dvec3 expected = start + duration * thrown + 0.5 * duration * duration * scene.gravity;
+    const glm::dvec3 expected = start + duration * thrown + 0.5 * duration * duration * scene.forces.gravity;
     const glm::dvec3 off = positionOf((*opened)->snapshot(), 0) - expected;
     bench.add(against("distance from the parabola", glm::length(off), 0, "m", glm::length(expected - start)));
     return {};
@@ -34,7 +34,7 @@ struct Apex {
 
 // Returns the first `count` apexes of the only sphere. Each follows from the sphere's speed in the step of the apex.
 Result<std::vector<Apex>> apexes(Bench& bench, sim::Simulation& simulation, std::size_t count) {
-    const double g = -simulation.scene().gravity.z;
+    const double g = -simulation.scene().forces.gravity.z;
     const double floor = simulation.scene().bounds.min.z;
     std::vector<Apex> found;
     bool rising = false;

@@ -18,7 +18,7 @@ scene::Scene onFloor(double friction, double slope, double speed) {
     scene.bounds.min.z = -0.5;
     scene.bounds.max.z = 0.5;
     scene.bounds.open[scene::ZMin] = false;
-    scene.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
+    scene.forces.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
     setRestitution(scene, 0);
     setFriction(scene, friction);
     addSphere(scene, {-3, 0, -0.5 + r}, r, {speed, 0, 0});

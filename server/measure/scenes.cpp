@@ -20,7 +20,7 @@ scene::Scene openSpace(double side) {
 scene::Scene closedBox(double side) {
     scene::Scene scene = openSpace(side);
     scene.bounds.open.fill(false);
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     return scene;
 }
 
@@ -54,7 +54,7 @@ scene::Scene lattice(std::uint32_t count, double radius, double across) {
     scene.bounds.max.z = height / 2;
     scene.bounds.open.fill(false);
     scene.bounds.open[scene::ZMax] = true;
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     scene::Random random(1);
     const auto jitter = [&] { return random.uniform(-0.09, 0.09) * radius; };
     const double first = -side / 2 + 1.1 * radius;

@@ -66,7 +66,7 @@ Result<std::unique_ptr<sim::Simulation>> openFor(Bench& bench, scene::Scene scen
 Result<void> atWall(Bench& bench) {
     for (const double speed : {1.0, 10.0, 100.0, 200.0, 1000.0}) {
         scene::Scene scene = closedBox(12);
-        scene.gravity = {};
+        scene.forces.gravity = {};
         for (std::uint32_t k = 0; k < starts; ++k)
             addSphere(scene, {0.2 * k - 4, 0, -6 + startOf(k, speed)}, r, {0, 0, -speed});
         auto opened = openFor(bench, scene, 4 / speed);

@@ -40,7 +40,7 @@ Result<void> substeps(Bench& bench) {
 Result<void> gravities(Bench& bench) {
     for (const double gravity : {0.0, 1e-3, 1.0, 100.0, 1e4}) {
         scene::Scene scene = heap(64);
-        scene.gravity = {0, 0, -gravity};
+        scene.forces.gravity = {0, 0, -gravity};
         auto opened = bench.open(scene);
         if (!opened) return tl::unexpected(opened.error());
         if (auto done = survive(bench, **opened, fmt::format("{:g} m/s^2", gravity), 1); !done) return done;
@@ -63,7 +63,7 @@ Result<void> restitutions(Bench& bench) {
 Result<void> inOnePlace(Bench& bench, std::uint32_t count, double seconds) {
     constexpr double most = 1;  // m/s
     scene::Scene scene = closedBox(8);
-    scene.gravity = {};
+    scene.forces.gravity = {};
     for (std::uint32_t k = 0; k < count; ++k) addSphere(scene, {}, 0.05);
     auto opened = bench.open(scene);
     if (!opened) return tl::unexpected(opened.error());

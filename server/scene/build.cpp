@@ -88,7 +88,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
         check.refuse("name", fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));
     scene.name = message.name();
     scene.description = message.description();
-    scene.gravity = check.vectorOr(message.gravity(), {0, 0, -9.81}, "gravity");
+    scene.forces = Forces::read(check, message);
     scene.materials = readMaterials(check, message.materials());
     if (check.ok()) scene.pairs = readPairs(check, message.pairs(), scene.materials);
     if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");

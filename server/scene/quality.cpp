@@ -35,7 +35,7 @@ double smallestRadius(const Scene& scene) {
 // h = min(1/480 s, sqrt(8.5e-4 r_min / g)): keeps the mean overlap of a bed under a hundredth of the radius.
 double balancedSubstep(const Scene& scene) {
     constexpr double longest = 1.0 / 480;
-    const double gravity = glm::length(scene.gravity);
+    const double gravity = glm::length(scene.forces.gravity);
     const double radius = smallestRadius(scene);
     return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
 }

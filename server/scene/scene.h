@@ -9,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "scene/forces.h"
+
 namespace spherule::scene {
 
 // A validated scene, in SI units and world coordinates. Ids are indices into `spheres`.
@@ -109,7 +111,7 @@ struct Sleep {
 struct Scene {
     std::string name;
     std::string description;
-    glm::dvec3 gravity{};
+    Forces forces;
     Bounds bounds;
     std::vector<Obstacle> obstacles;
     std::vector<Group> groups;

@@ -64,8 +64,8 @@ struct Extremes {
 
 Extremes extremesOf(const Scene& scene) {
     Extremes found;
-    const double g = glm::length(scene.gravity);
-    const glm::dvec3 up = g > 0 ? -scene.gravity / g : glm::dvec3(0);
+    const double g = glm::length(scene.forces.gravity);
+    const glm::dvec3 up = g > 0 ? -scene.forces.gravity / g : glm::dvec3(0);
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
     const double floor = -glm::dot(glm::abs(up), half);
     for (const Sphere& sphere : scene.spheres) {
@@ -138,7 +138,7 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     double speed = 0;
     for (const Sphere& sphere : scene.spheres)
         speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
-    const double fall = stopped ? 2 * glm::length(scene.gravity) * extremes.fall : 0;
+    const double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
     if (scene.sphereContacts && scene.spheres.size() > 1)
         fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall);
     if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall);
@@ -156,10 +156,10 @@ constexpr double solid = 0.6;  // share of a pile's volume
 
 // Returns the pressure (Pa) of all spheres, spread over the ground; 0 if there is no ground.
 double pressureOfPile(const Scene& scene, const Extremes& extremes) {
-    const double g = glm::length(scene.gravity);
+    const double g = glm::length(scene.forces.gravity);
     if (!(g > 0) || !hasSurfaces(scene)) return 0;
     const glm::dvec3 extent = scene.bounds.max - scene.bounds.min;
-    const glm::dvec3 down = glm::abs(scene.gravity) / g;
+    const glm::dvec3 down = glm::abs(scene.forces.gravity) / g;
     const double across = extent.x * extent.y * extent.z / glm::dot(extent, down);
     const double height = std::min(extremes.volume / solid / across, glm::dot(extent, down));
     return solid * extremes.densest * g * height;
@@ -255,7 +255,7 @@ std::optional<TooSoft> tooSoft(const Scene& scene) {
     const Extremes extremes = extremesOf(scene);
     const Meetings fastest = meetingsOf(scene, extremes);
     const double pressure = pressureOfPile(scene, extremes);
-    const double g = hasSurfaces(scene) ? glm::length(scene.gravity) : 0;
+    const double g = hasSurfaces(scene) ? glm::length(scene.forces.gravity) : 0;
     std::optional<TooSoft> worst;
     const auto look = [&](std::uint8_t a, std::uint8_t b, bool wall) {
         const double density = scene.materials[a].density;

@@ -32,7 +32,7 @@ Result<void> setGravity(scene::Scene& scene, const Set& set) {
     if (!(glm::length(*set.gravity) <= maxGravity))
         return fail(ErrorKind::Refused, "gravity",
                     fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), maxGravity));
-    scene.gravity = *set.gravity;
+    scene.forces.gravity = *set.gravity;
     return {};
 }
 

@@ -13,7 +13,7 @@ namespace {
 // total mass (kg).
 double potentialEnergy(const scene::Scene& scene, const glm::dvec4& weighted) {
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
-    const glm::dvec3& g = scene.gravity;
+    const glm::dvec3& g = scene.forces.gravity;
     const glm::dvec3 lowest(std::copysign(half.x, g.x), std::copysign(half.y, g.y), std::copysign(half.z, g.z));
     return weighted.w * glm::dot(g, lowest) - glm::dot(g, glm::dvec3(weighted));
 }

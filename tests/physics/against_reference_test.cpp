@@ -55,7 +55,7 @@ Difference difference(sim::Simulation& simulation) {
     for (std::uint32_t id = 0; id < end.count(); ++id) {
         const reference::Sphere& expected = world.spheres[id];
         worst.ofRadius = std::max(worst.ofRadius, glm::length(positionOf(end, id) - expected.x) / expected.radius);
-        const glm::dvec3 change = expected.v - velocityOf(start, id) - seconds * simulation.scene().gravity;
+        const glm::dvec3 change = expected.v - velocityOf(start, id) - seconds * simulation.scene().forces.gravity;
         worst.turned = std::min(worst.turned, glm::length(change));
     }
     return worst;
@@ -64,7 +64,7 @@ Difference difference(sim::Simulation& simulation) {
 // One simulation runs the pairs one after another.
 TEST(AgainstReference, FortyIsolatedPairsAgree) {
     scene::Scene scene = fineStepSpace(5);
-    scene.gravity = weakGravity;
+    scene.forces.gravity = weakGravity;
     scene.spheres.resize(2);
     scene.spheres[0].radius = 0.4F;
     scene.spheres[1].radius = largestRadius;
@@ -87,7 +87,7 @@ TEST(AgainstReference, FortyIsolatedPairsAgree) {
 // The spheres do not touch each other. Each hits one or two of five walls and a slope.
 TEST(AgainstReference, FortySpheresAtWallsAgree) {
     scene::Scene scene = fineStepSpace(1.6);
-    scene.gravity = weakGravity;
+    scene.forces.gravity = weakGravity;
     scene.sphereContacts = false;
     scene.bounds.open.fill(false);
     scene.bounds.open[scene::ZMax] = true;

@@ -11,7 +11,7 @@ namespace {
 // from the sphere's energy in the step of the apex.
 std::vector<double> apexes(sim::Simulation& simulation, std::size_t count) {
     const scene::Scene& scene = simulation.scene();
-    const double g = -scene.gravity.z;
+    const double g = -scene.forces.gravity.z;
     const double floor = scene.bounds.min.z - scene.bounds.centre().z;
     std::vector<double> found;
     bool rising = false;

@@ -67,7 +67,7 @@ TEST(FastMotion, IsForgottenWithTheRunItWasIn) {
 TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
     // 0.6 radii per step: two substeps are enough, one is not.
     scene::Scene scene = shots(scene::Model::Fast, 0, {0});
-    scene.gravity = {};
+    scene.forces.gravity = {};
     scene.bounds.min = glm::dvec3(-100);
     scene.bounds.max = glm::dvec3(100);
     scene.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};

@@ -21,7 +21,7 @@ class Friction : public testing::TestWithParam<scene::Model> {
     static scene::Scene onFloor(const scene::Material& material, double slope, glm::vec3 velocity = {}) {
         scene::Scene scene = fineStepBox(8);
         scene.step = 1.0 / 60;
-        scene.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
+        scene.forces.gravity = earth * glm::dvec3(std::sin(slope), 0, -std::cos(slope));
         scene.materials = {material};
         scene.quality = {.model = GetParam(), .substepsFixed = false, .overlap = 0.3};  // soft, for fewer substeps
         scene.spheres = {{.position = {-2, 0, -4 + r}, .velocity = velocity, .radius = static_cast<float>(r)}};

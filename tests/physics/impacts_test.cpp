@@ -15,7 +15,7 @@ constexpr double within = 0.005;
 // A gas of 200 spheres between walls.
 scene::Scene gas(scene::Model model, double restitution) {
     scene::Scene scene = fineStepBox(2);
-    scene.gravity = {};
+    scene.forces.gravity = {};
     scene.quality.model = model;
     scene::Random random(3);
     const auto speed = [&random] { return static_cast<float>(random.uniform(-3, 3)); };
@@ -84,7 +84,7 @@ TEST(Observing, ChangesNothing) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         const auto hashOf = [model](bool observed) {
             scene::Scene scene = gas(model, 0.7);
-            scene.gravity = {0, 0, -earth};
+            scene.forces.gravity = {0, 0, -earth};
             scene.sleep.enabled = true;
             for (scene::Material& material : scene.materials) material.friction = 0.3;
             const auto simulation = simulate(scene);

@@ -88,7 +88,7 @@ TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
             SCOPED_TRACE(std::string(scene::nameOf(model)) + ", seed " + std::to_string(seed));
             scene::Random random(seed);
             scene::Scene scene = fineStepSpace(1);
-            scene.gravity = {0, 0, -earth};
+            scene.forces.gravity = {0, 0, -earth};
             scene.step = 1.0 / 60;
             scene.quality = {.model = model, .substeps = 8, .substepsFixed = false};
             setRestitution(scene, 1);
@@ -163,7 +163,7 @@ TEST(Outside, APlaneBelowTheBoundsIsHit) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         SCOPED_TRACE(scene::nameOf(model));
         scene::Scene scene = fineStepSpace(1);
-        scene.gravity = {0, 0, -earth};
+        scene.forces.gravity = {0, 0, -earth};
         scene.step = 1.0 / 60;
         scene.quality = {.model = model, .substeps = 8, .substepsFixed = true};
         setRestitution(scene, 0.5);
@@ -219,7 +219,7 @@ TEST(Outside, ASwarmThatLeavesHasAllThatTouchInItsLists) {
 
 TEST(Outside, HasTheSameBitsOnAllDevices) {
     scene::Scene scene = fineStepSpace(0.8);
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     scene.sleep.enabled = true;
     setRestitution(scene, 0.5);
     scene.obstacles.push_back({scene::Box{{-2, -2, -9}, {2, 0.1, -8}}, 0, ""});
@@ -240,7 +240,7 @@ TEST(Outside, HasTheSameBitsOnAllDevices) {
 
 TEST(Outside, AHundredThousandRadiiAwaySpheresAreAloneAndAtTheEndOfSpaceTheyStay) {
     scene::Scene scene = fineStepSpace(1);
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     scene.spheres = {at({-0.2, 0, 0}), at({0.2, 0, 0}), at({0, 0, 0.3}), at({0, 0, -0.3})};
     const auto simulation = simulate(scene);
     sim::State state = simulation->snapshot();

@@ -22,7 +22,7 @@ std::string noticesOf(sim::Simulation& simulation) {
 TEST(Relax, SpheresInOnePointPartWithoutSpeedInEveryModel) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
         scene::Scene scene = fineStepBox(4);
-        scene.gravity = {};
+        scene.forces.gravity = {};
         scene.step = 1.0 / 60;
         scene.quality.model = model;
         ASSERT_TRUE(scene::fitSubsteps(scene));

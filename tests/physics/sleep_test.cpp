@@ -37,7 +37,7 @@ TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
     for (const double g : {earth, 0.1, 0.01}) {
         SCOPED_TRACE(g);
         scene::Scene scene = sleepyBox(20);
-        scene.gravity = {0, 0, -g};
+        scene.forces.gravity = {0, 0, -g};
         scene.spheres.push_back(at({0, 0, 0}));
         const double up = g;  // at the top after one second
         scene.spheres[0].velocity = {0, 0, static_cast<float>(up)};

@@ -351,7 +351,7 @@ INSTANTIATE_TEST_SUITE_P(Of, SoftContacts, testing::Bool(),
 TEST(SoftFloor, HoldsWhatASphereAtRestHasPressedIntoIt) {
     for (const bool hertz : {false, true}) {
         scene::Scene scene = soft({.hertz = hertz, .walls = true, .friction = 0.3}, 0.2);
-        scene.gravity = {0, 0, -earth};
+        scene.forces.gravity = {0, 0, -earth};
         scene.step = 1.0 / 60;
         if (hertz)
             for (scene::Material& material : scene.materials) material.young = 1e6;
@@ -376,7 +376,7 @@ TEST(SoftFloor, OfHardSpheresHoldsNothing) {
 
 TEST(SoftFloor, ThatWouldNotHoldIsRefusedByCommandsToo) {
     scene::Scene scene = soft({.hertz = true, .walls = true, .friction = 0}, 0.5);
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     scene.spheres = {{.position = {0, 0, 0}, .radius = 0.05F}};
     scene.materials[0].young = 1e6;
     ASSERT_TRUE(scene::fitSubsteps(scene));

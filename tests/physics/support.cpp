@@ -27,7 +27,7 @@ scene::Scene fineStepSpace(double side) {
 scene::Scene fineStepBox(double side) {
     scene::Scene scene = fineStepSpace(side);
     scene.bounds.open.fill(false);
-    scene.gravity = {0, 0, -earth};
+    scene.forces.gravity = {0, 0, -earth};
     return scene;
 }
 
@@ -52,7 +52,7 @@ void run(sim::Simulation& simulation, double seconds) {
 
 reference::World referenceOf(const scene::Scene& scene, const sim::State& state) {
     reference::World world;
-    world.gravity = scene.gravity;
+    world.gravity = scene.forces.gravity;
     world.contacts = scene.sphereContacts;
     const auto restitutionOf = [&](std::uint8_t material) { return scene.materials[material].restitution; };
     const glm::dvec3 centre = scene.bounds.centre();

@@ -7,11 +7,12 @@ namespace spherule::sim {
 // A uniform acceleration.
 const Module moduleGravity{
     .feature = Feature::Gravity,
-    .required = [](const scene::Scene& scene, const Features& /*others*/) { return glm::length(scene.gravity) > 0; },
+    .required = [](const scene::Scene& scene,
+                   const Features& /*others*/) { return glm::length(scene.forces.gravity) > 0; },
     .upload =
         [](const ParameterSource& from, layout::Parameters& p) {
-            p.gravity = glm::vec4(glm::vec3(from.scene.gravity), 0);
-            p.deadBand = static_cast<float>(2 * glm::length(from.scene.gravity) * from.substep);
+            p.gravity = glm::vec4(glm::vec3(from.scene.forces.gravity), 0);
+            p.deadBand = static_cast<float>(2 * glm::length(from.scene.forces.gravity) * from.substep);
         },
     .cost = {.reason = "without gravity, the bed does not rest"},
 };

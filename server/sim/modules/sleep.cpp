@@ -21,7 +21,7 @@ void declareSleep(PlanBuilder& plan) {
 
 void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
     const scene::Scene& scene = from.scene;
-    const double g = glm::length(scene.gravity);
+    const double g = glm::length(scene.forces.gravity);
     // The wake speed is well above the sleep speed, or a sphere would fall asleep and wake in turns. It is also above
     // the speed that the solver's pushes give a squeezed sphere: up to about 15 g h in a bed 20 spheres deep (h:
     // substep). `moveAwayDistance` detects a sphere that moves away more slowly.

@@ -9,7 +9,7 @@ namespace {
 TEST(SceneRefusals, AnEmptySceneWithBoundsIsAccepted) {
     const Scene scene = sceneWith("");
     EXPECT_TRUE(scene.spheres.empty());
-    EXPECT_EQ(scene.gravity, glm::dvec3(0, 0, -9.81));
+    EXPECT_EQ(scene.forces.gravity, glm::dvec3(0, 0, -9.81));
     ASSERT_EQ(scene.materials.size(), 1U);
     EXPECT_EQ(scene.materials[0].restitution, 0.5);
     EXPECT_TRUE(scene.pairs.empty());

@@ -117,11 +117,11 @@ TEST(SceneContactTime, ExpectsTheSpeedsAndTheFallThereMayBe) {
     EXPECT_NEAR(contactTimeOf(flying(0)).speed, 0.05 / 30 * 60, 1e-6) << "a thirtieth of its radius in a step";
     EXPECT_NEAR(contactTimeOf(flying(3)).speed, 3, 1e-6);
     Scene scene = flying(3);
-    scene.gravity = {0, 0, -9.81};
+    scene.forces.gravity = {0, 0, -9.81};
     EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.5), 1e-6);
     scene.spheres[0].position = {0.2, 0.5, 0.9};
     EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.9), 1e-6);
-    scene.gravity = {9.81, 0, 0};
+    scene.forces.gravity = {9.81, 0, 0};
     EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.8), 1e-6) << "down is where gravity points";
 }
 
@@ -130,9 +130,9 @@ TEST(SceneContactTime, ExpectsSpheresToMeetHeadOn) {
     scene.spheres.push_back(scene.spheres[0]);
     scene.spheres[1].velocity = {0, 0, -1};
     EXPECT_NEAR(contactTimeOf(scene).speed, 6, 1e-6) << "twice the fastest";
-    scene.gravity = {0, 0, -9.81};
+    scene.forces.gravity = {0, 0, -9.81};
     EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(36 + 2 * 9.81 * 0.5), 1e-6) << "which falls once";
-    scene.gravity = {};
+    scene.forces.gravity = {};
     const double modulus = springModulus(scene);
     scene.sphereContacts = false;
     EXPECT_NEAR(contactTimeOf(scene).speed, 3, 1e-6) << "they meet walls alone";
@@ -173,7 +173,7 @@ TEST(SceneContactTime, DoesNotDependOnWhatMotionAllHaveInCommon) {
         move(scene, {10, -20, 5});
         EXPECT_NEAR(contactTimeOf(scene).speed / at.speed, 1, 1e-5);
         EXPECT_NEAR(contactTimeOf(scene).contact / at.contact, 1, 1e-5);
-        scene.gravity = {0, 0, -9.81};
+        scene.forces.gravity = {0, 0, -9.81};
         EXPECT_NEAR(contactTimeOf(scene).speed / at.speed, 1, 1e-5) << "they fall together";
         scene.bounds.open[ZMin] = false;
         EXPECT_GT(contactTimeOf(scene).speed, 5) << "the floor does not";
@@ -202,7 +202,7 @@ TEST(SceneContactTime, ScalesWithTheScene) {
         for (const double time : {0.1, 10.0}) {
             for (const bool moving : {true, false}) {
                 Scene scene = swarm(5);
-                scene.gravity = {0, 0, -9.81};
+                scene.forces.gravity = {0, 0, -9.81};
                 if (!moving)
                     for (Sphere& sphere : scene.spheres) sphere.velocity = {};
                 scene.bounds.open[ZMin] = !moving;
@@ -211,7 +211,7 @@ TEST(SceneContactTime, ScalesWithTheScene) {
                 scene.bounds.min *= length;
                 scene.bounds.max *= length;
                 scene.step *= time;
-                scene.gravity *= length / (time * time);
+                scene.forces.gravity *= length / (time * time);
                 for (Sphere& sphere : scene.spheres) {
                     sphere.position *= length;
                     sphere.radius *= static_cast<float>(length);
@@ -256,7 +256,7 @@ TEST(SceneYoung, IsRefusedWhereSpheresWouldFallThroughTheFloor) {
     EXPECT_FALSE(fitSubsteps(tooSoft)) << "no substeps help";
     tooSoft.quality.model = Model::Balanced;
     EXPECT_TRUE(fitSubsteps(tooSoft)) << "whose spheres are hard";
-    enough.gravity *= 2;
+    enough.forces.gravity *= 2;
     EXPECT_FALSE(fitSubsteps(enough));
     enough.bounds.open.fill(true);
     EXPECT_TRUE(fitSubsteps(enough)) << "there is nothing to fall on";

@@ -39,7 +39,7 @@ TEST(SceneSubsteps, ArePinnedByTheSceneAndByTheCaller) {
 TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
     Scene chosen = sceneOf("");
     ASSERT_EQ(chosen.quality.substeps, 8U);
-    chosen.gravity *= 4;
+    chosen.forces.gravity *= 4;
     EXPECT_EQ(refusalBy(chosen), "accepted");
     EXPECT_EQ(chosen.quality.substeps, 16U);
     chosen.spheres[1].radius /= 4;
@@ -50,7 +50,7 @@ TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
     EXPECT_EQ(chosen.quality.substeps, 8U);
 
     Scene pinned = sceneOf(R"("substeps": 3)");
-    pinned.gravity *= 4;
+    pinned.forces.gravity *= 4;
     pinned.quality.model = Model::Fast;
     EXPECT_EQ(refusalBy(pinned), "accepted");
     EXPECT_EQ(pinned.quality.substeps, 3U);
@@ -68,7 +68,7 @@ TEST(SceneSubsteps, AreRefusedOutOfTheirRange) {
     scene.quality.substepsFixed = false;
     EXPECT_EQ(refusalBy(scene), "accepted") << "what was there does not count";
     EXPECT_EQ(scene.quality.substeps, 8U);
-    scene.gravity *= 1e12;
+    scene.forces.gravity *= 1e12;
     EXPECT_EQ(refusalBy(scene).find("quality.substeps: would be "), 0U) << refusalBy(scene);
 }
 
@@ -129,7 +129,7 @@ TEST(SceneSubsteps, PinnedOnesMakeSpringsThatOverlapAndSpeedDoNotChange) {
     Scene changed = scene;
     changed.quality.overlap = 0.01;
     changed.spheres[0].velocity = {10, 0, 0};
-    changed.gravity *= 2;
+    changed.forces.gravity *= 2;
     EXPECT_EQ(springModulus(changed), modulus);
     changed.quality.substepsFixed = false;
     EXPECT_NE(springModulus(changed), modulus);

@@ -13,7 +13,7 @@ constexpr double frame = 1.0 / 60;
 double substepsFor(double step, double gravity, double radius, Model model = Model::Balanced) {
     Scene scene;
     scene.step = step;
-    scene.gravity = {0, 0, -gravity};
+    scene.forces.gravity = {0, 0, -gravity};
     scene.quality.model = model;
     if (radius > 0) scene.spheres.push_back({.radius = static_cast<float>(radius)});
     return defaultSubsteps(scene);
@@ -44,7 +44,7 @@ TEST(SceneTiming, SubstepsGrowWithTheRootOfGravityOverRadius) {
 
 TEST(SceneTiming, TheSmallestSphereDecides) {
     Scene scene;
-    scene.gravity = {0, 0, -9.81};
+    scene.forces.gravity = {0, 0, -9.81};
     for (const float radius : {0.05F, 0.0125F, 0.1F}) scene.spheres.push_back({.radius = radius});
     EXPECT_EQ(defaultSubsteps(scene), 16);
 }
