@@ -111,7 +111,7 @@ sanitized_programs=(
     unit_{scene,codec,encode,recording,host,cli,kernels,compute,net,client,support} physics_tests net_tests
 )
 sanitized_tests='^(unit_(scene|codec|recording|cli|kernels|net|client|support)|physics_tests_cpu|net_tests)\.'
-sanitized_tests+='|^unit_encode\.(Spheres/)?Codec(Counts)?\.|^unit_host\.(Player|Playing|PlayLoop)\.'
+sanitized_tests+='|^unit_encode\.(Spheres/)?Codec(Counts)?\.|^unit_host\.(PlayerTest|PlaybackProducer)\.'
 sanitized_tests+='|^unit_compute\.(CpuMemory|Pool)\.'
 sanitized() {
     cmake --preset "$1" --log-level=WARNING -D SPHERULE_TESTS=ON &&

@@ -45,11 +45,11 @@ Result<std::unique_ptr<host::FrameProducer>> open(const PlayOptions& options, co
     if (!player) return tl::unexpected(player.error());
     auto device = compute::openDevice("cpu");
     if (!device) return tl::unexpected(device.error());
-    io.board.update([&](host::ServerStatus& report) {
-        report.device = (*device)->info();
-        report.device.reason = "a recording needs no GPU";
-        report.scene = player->recording().facts().name();
-        report.spheres = player->recording().facts().count();
+    io.board.update([&](host::ServerStatus& current) {
+        current.device = (*device)->info();
+        current.device.reason = "a recording needs no GPU";
+        current.scene = player->recording().facts().name();
+        current.spheres = player->recording().facts().count();
     });
     return std::make_unique<host::PlaybackProducer>(std::move(*device), std::move(*player), io);
 }

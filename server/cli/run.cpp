@@ -110,11 +110,11 @@ Result<void> runSteps(sim::Simulation& simulation, host::RunRecorder* recorder, 
             spdlog::warn("{}", notice);
             if (auto done = record(v1::Event::WARNING, notice); !done) return done;
         }
-        const auto told = controller.stepped(simulation, 0);  // `run` accepts no goal for the wall time
-        if (!told) return tl::unexpected(told.error());
-        if (*told) {
-            spdlog::info("at step {}, {}", simulation.steps(), **told);
-            if (auto done = record(v1::Event::TUNED, **told); !done) return done;
+        const auto message = controller.stepped(simulation, 0);  // `run` accepts no goal for the wall time
+        if (!message) return tl::unexpected(message.error());
+        if (*message) {
+            spdlog::info("at step {}, {}", simulation.steps(), **message);
+            if (auto done = record(v1::Event::TUNED, **message); !done) return done;
         }
         if (simulation.counters().nonFinite)
             return fail(ErrorKind::Diverged, "", simulation.divergence() + "; use more substeps or another model");
@@ -170,7 +170,8 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
         diagnostics::OverlapWatch overlap;
         const auto report = [&]() -> Result<void> {
             const Interval interval = watch.take();
-            if (const auto told = overlap.check(simulation.steps(), interval.end.deepest())) spdlog::warn("{}", *told);
+            if (const auto alarm = overlap.check(simulation.steps(), interval.end.deepest()))
+                spdlog::warn("{}", *alarm);
             print(options, device.info(), simulation, interval);
             watch.start();
             return {};

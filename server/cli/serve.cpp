@@ -21,11 +21,11 @@ Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, c
                                                   const host::ProducerIo& io) {
     auto world = host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides);
     if (!world) return tl::unexpected(world.error());
-    io.board.update([&](host::ServerStatus& report) {
-        report.device = (*world)->device().info();
-        report.scenes = scene::names();
-        report.scene = (*world)->simulation().scene().name;
-        report.spheres = (*world)->simulation().count();
+    io.board.update([&](host::ServerStatus& current) {
+        current.device = (*world)->device().info();
+        current.scenes = scene::names();
+        current.scene = (*world)->simulation().scene().name;
+        current.spheres = (*world)->simulation().count();
     });
     return std::make_unique<host::SimulationProducer>(std::move(*world), io, table, options.recordings);
 }

@@ -124,9 +124,9 @@ Result<std::unique_ptr<Client>> Client::connect(const std::string& url, Timeout 
     error = connection->waitFor(
         [&](auto done) { stream.async_handshake(response, host + ":" + parts->port, parts->path, done); });
     if (error) {
-        const std::string said = response.body().empty() ? error.message() : response.body();
+        const std::string reason = response.body().empty() ? error.message() : response.body();
         return tl::unexpected(connection->error("is not a stream of spherule: HTTP " +
-                                                std::to_string(response.result_int()) + ", " + said));
+                                                std::to_string(response.result_int()) + ", " + reason));
     }
     return std::unique_ptr<Client>(new Client(std::move(connection)));
 }
@@ -160,9 +160,9 @@ Result<std::optional<v1::ServerMessage>> Client::receive(Timeout timeout) {
     if (!connection.wait(connection.readDone, timeout)) return std::nullopt;
     connection.reading = false;
     if (*connection.readDone) {
-        const auto& said = connection.stream.reason();
+        const auto& reason = connection.stream.reason();
         const bool clean = *connection.readDone == websocket::error::closed;
-        connection.closed = clean ? CloseFrame{said.code, {said.reason.data(), said.reason.size()}}
+        connection.closed = clean ? CloseFrame{reason.code, {reason.reason.data(), reason.reason.size()}}
                                   : CloseFrame{closedAbnormally, connection.readDone->message()};
         return tl::unexpected(connection.error("closed with " + std::to_string(connection.closed->code) + ": " +
                                                connection.closed->reason));

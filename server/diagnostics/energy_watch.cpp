@@ -20,7 +20,7 @@ std::optional<std::string> EnergyWatch::check(const Reading& reading) {
     if (!std::isfinite(energy)) return std::nullopt;
     // Far below the bounds, potential energy is negative; the plain sum would be too small as a scale.
     const double scale = reading.kinetic + reading.elastic + std::abs(reading.potential);
-    std::optional<std::string> told;
+    std::optional<std::string> alarm;
     if (!recent_.empty()) {
         const double highest = std::ranges::max_element(recent_, {}, &Seen::energy)->energy;
         if (recent_.size() == several) ceiling_ = std::min(ceiling_.value_or(highest), highest);
@@ -29,7 +29,7 @@ std::optional<std::string> EnergyWatch::check(const Reading& reading) {
         const bool enough = !soft || recent_.size() == several;
         if (enough && energy - before > tolerated * scale) {
             if (!alarmed_)
-                told = fmt::format(
+                alarm = fmt::format(
                     "at step {}, mechanical energy has risen by {:.3g} J to {:.3g} J, though nothing gave any: the "
                     "model is "
                     "beyond its range here; use more substeps or another model",
@@ -42,7 +42,7 @@ std::optional<std::string> EnergyWatch::check(const Reading& reading) {
     }
     recent_.push_back({energy, reading.soft});
     if (recent_.size() > several) recent_.pop_front();
-    return told;
+    return alarm;
 }
 
 void EnergyWatch::invalidateBaseline() {

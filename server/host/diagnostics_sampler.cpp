@@ -75,14 +75,15 @@ DiagnosticsSampler::Sample DiagnosticsSampler::sample(sim::Simulation& simulatio
     if (steps_ > 0) diagnostics.set_step_ms(ms_ / static_cast<double>(steps_));
     if (steps_ >= enoughSteps || ms_ >= enoughMs) sample.dialChanged = calibrate(simulation, diagnostics.step_ms());
     if (steps_ > 0 || energy_.fresh())
-        if (auto told = energy_.check({.step = simulation.steps(),
-                                       .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
-                                       .potential = statistics.potentialEnergy,
-                                       .elastic = statistics.elasticEnergy,
-                                       .given = statistics.pushWork,
-                                       .soft = storesUnseen(simulation, statistics)}))
-            sample.alarms.push_back(std::move(*told));
-    if (auto told = overlap_.check(simulation.steps(), statistics.deepest())) sample.alarms.push_back(std::move(*told));
+        if (auto alarm = energy_.check({.step = simulation.steps(),
+                                        .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
+                                        .potential = statistics.potentialEnergy,
+                                        .elastic = statistics.elasticEnergy,
+                                        .given = statistics.pushWork,
+                                        .soft = storesUnseen(simulation, statistics)}))
+            sample.alarms.push_back(std::move(*alarm));
+    if (auto alarm = overlap_.check(simulation.steps(), statistics.deepest()))
+        sample.alarms.push_back(std::move(*alarm));
     diagnostics.set_energy_rises(energy_.alarmed());
     discard();
     return sample;

@@ -64,7 +64,7 @@ Result<void> Host::run(const std::stop_token& stop, const ProducerFactory& creat
     auto producer = create({requests_, board_, *server_});
     if (!producer) return tl::unexpected(producer.error());
     producer_ = std::move(*producer);
-    board_.update([](ServerStatus& report) { report.setState("running"); });
+    board_.update([](ServerStatus& current) { current.setState("running"); });
     {
         const std::lock_guard lock(mutex_);
         opened_ = true;
@@ -122,7 +122,7 @@ void Host::hung(const Error& error) {
 }
 
 void Host::beginToEnd(const std::optional<Error>& failure) {
-    board_.update([&](ServerStatus& report) { report.state = failure ? "failed" : "draining"; });
+    board_.update([&](ServerStatus& current) { current.state = failure ? "failed" : "draining"; });
     server_->stopAccepting();
     v1::ServerMessage message;
     v1::Event& event = *message.mutable_event();

@@ -100,9 +100,9 @@ void PlaybackProducer::describe() {
     facts.set_epoch(++epoch_);
     const auto radii = player_.recording().radii();
     smallest_ = radii.empty() ? 0 : static_cast<double>(*std::ranges::min_element(radii));
-    board_.update([&](ServerStatus& report) {
-        report.scene = facts.name();
-        report.spheres = facts.count();
+    board_.update([&](ServerStatus& current) {
+        current.scene = facts.name();
+        current.spheres = facts.count();
     });
     publisher_.retain(codec::share(std::move(message)));
 }
@@ -164,12 +164,12 @@ v1::Status PlaybackProducer::status(encode::StreamEncoder::Clock::time_point now
 void PlaybackProducer::report(encode::StreamEncoder::Clock::time_point now) {
     if (now < nextReport_) return;
     nextReport_ = now + reportEvery;
-    board_.update([&](ServerStatus& report) {
-        report.setState(player_.paused() ? "paused" : "running");
-        report.steps = step_;
-        report.simSeconds = time_;
-        report.framesProduced = encoder_.framesMade();
-        report.status = status(now);
+    board_.update([&](ServerStatus& current) {
+        current.setState(player_.paused() ? "paused" : "running");
+        current.steps = step_;
+        current.simSeconds = time_;
+        current.framesProduced = encoder_.framesMade();
+        current.status = status(now);
     });
 }
 

@@ -243,7 +243,7 @@ void SimulationProducer::reportRecording() {
     if (!recorder_.canRecord()) return;
     const auto state = recorder_.changedState(recording::LiveRecorder::Clock::now());
     if (!state) return;
-    board_.update([&](ServerStatus& report) { report.recording = *state; });
+    board_.update([&](ServerStatus& current) { current.recording = *state; });
     if (!state->failure().empty())
         notify(v1::Event::WARNING, fmt::format("The recording {} has ended: {}.", state->file(), state->failure()));
     v1::ServerMessage message;
@@ -340,20 +340,20 @@ Result<void> SimulationProducer::report() {
         diagnostics_.reset();
         sampler_.discard();
     }
-    board_.update([&](ServerStatus& report) {
-        report.setState(host_.paused() ? "paused" : "running");
-        report.slow = slowness();
-        report.scene = host_.simulation().scene().name;
-        report.spheres = host_.simulation().count();
-        report.steps = host_.simulation().steps();
-        report.simSeconds = host_.simulation().time();
-        report.rebuilds = host_.simulation().counters().rebuilds;
-        report.framesProduced = encoder_.framesMade();
-        report.recordingFramesLost = recorder_.framesLost();
-        report.status = status(now);
-        report.diagnostics = diagnostics_;
-        report.passSeconds.resize(std::max(report.passSeconds.size(), times.size()));
-        for (std::size_t pass = 0; pass < times.size(); ++pass) report.passSeconds[pass] += times[pass];
+    board_.update([&](ServerStatus& current) {
+        current.setState(host_.paused() ? "paused" : "running");
+        current.slow = slowness();
+        current.scene = host_.simulation().scene().name;
+        current.spheres = host_.simulation().count();
+        current.steps = host_.simulation().steps();
+        current.simSeconds = host_.simulation().time();
+        current.rebuilds = host_.simulation().counters().rebuilds;
+        current.framesProduced = encoder_.framesMade();
+        current.recordingFramesLost = recorder_.framesLost();
+        current.status = status(now);
+        current.diagnostics = diagnostics_;
+        current.passSeconds.resize(std::max(current.passSeconds.size(), times.size()));
+        for (std::size_t pass = 0; pass < times.size(); ++pass) current.passSeconds[pass] += times[pass];
     });
     return {};
 }

@@ -120,7 +120,7 @@ bool Admission::isOrigin(std::string_view origin, std::string_view host) const {
 
 std::optional<v1::Role> Admission::roleOf(std::string_view token) const {
     if (!asksForToken()) return v1::CONTROLLER;
-    // Always compare both, so that the time does not tell which token matched.
+    // Always compare both, so that the time does not reveal which token matched.
     const bool controls = !controllerToken_.empty() && same(token, controllerToken_);
     const bool views = !viewerToken_.empty() && same(token, viewerToken_);
     if (controls) return v1::CONTROLLER;

@@ -10,7 +10,7 @@
 
 namespace spherule::net {
 
-// Sends messages and frames to the sessions, and tells what they want. Any thread.
+// Sends messages and frames to the sessions, and returns what they want. Any thread.
 class Publisher {
   public:
     Publisher() = default;

@@ -21,9 +21,9 @@ namespace {
 using namespace std::chrono_literals;
 
 // A SimulationProducer without a network. Queues commands of sessions, and keeps the answers in order.
-class Desk : private FakePublisher {
+class TestSessions : private FakePublisher {
   public:
-    explicit Desk(const std::string& scene = "two-spheres")
+    explicit TestSessions(const std::string& scene = "two-spheres")
         : producer_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, *this},
                     diagnostics::ownTable(), recording::LiveOptions()) {}
 
@@ -93,7 +93,7 @@ constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"m
     "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
 
 TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
-    Desk desk;
+    TestSessions desk;
     const auto first = desk.give(R"({"step":{"count":30}})");
     const auto second = desk.give(R"({"step":{"count":4}})");
     const auto pause = desk.give(R"({"pause":{}})");
@@ -103,7 +103,7 @@ TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
     EXPECT_EQ(desk.refusal(second).rfind("0 of 4 steps", 0), 0U) << desk.refusal(second);
     EXPECT_TRUE(desk.answer(pause).has_applied());
 
-    Desk other;
+    TestSessions other;
     const auto many = other.give(R"({"step":{"count":30}})");
     const auto few = other.give(R"({"step":{"count":4}})", 2);
     other.run();
@@ -113,7 +113,7 @@ TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
 
 TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneIsMade) {
     for (const char* scene : {crowd, packed}) {
-        Desk desk;
+        TestSessions desk;
         const auto load = desk.give(scene);
         const auto pause = desk.give(R"({"pause":{}})", 2);
         const auto resume = desk.give(R"({"resume":{}})", 2);
@@ -130,7 +130,7 @@ TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneIsMade) {
 }
 
 TEST(SimulationProducer, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
-    Desk desk;
+    TestSessions desk;
     const auto first = desk.give(packed);
     const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);
     const auto second = desk.give(crowd, 2);
@@ -145,7 +145,7 @@ TEST(SimulationProducer, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
 }
 
 TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
-    Desk desk;
+    TestSessions desk;
     const auto load = desk.give(packed);
     const auto set = desk.give(R"({"set":{"gravity":[0,0,1]}})", 2);
     const auto push = desk.give(R"({"push":{"sphere":0,"impulse":[0,0,0.1]}})", 2);
@@ -158,7 +158,7 @@ TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTa
     // When the loop ends, it refuses pending commands.
     EXPECT_EQ(desk.refusal(load), "the server is stopping");
 
-    Desk quick;
+    TestSessions quick;
     const auto friction = quick.give(R"({"set":{"friction":0.3}})");  // needs other arrays and kernels
     const auto gravity = quick.give(R"({"set":{"gravity":[0,0,1]}})", 2);
     quick.run();
@@ -173,7 +173,7 @@ TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTa
 // Commands of one session run in order. A later pause or resume ends a step that waits for a load.
 TEST(SimulationProducer, APauseOrResumeEndsStepsThatWaitForAChange) {
     for (const char* later : {R"({"resume":{}})", R"({"pause":{}})"}) {
-        Desk desk;
+        TestSessions desk;
         const auto load = desk.give(R"({"load":{"name":"cradle"}})");
         const auto step = desk.give(R"({"step":{"count":10}})");
         const auto end = desk.give(later);
@@ -185,7 +185,7 @@ TEST(SimulationProducer, APauseOrResumeEndsStepsThatWaitForAChange) {
 }
 
 TEST(SimulationProducer, EverybodyIsToldHowFarALongChangeHasCome) {
-    Desk desk;
+    TestSessions desk;
     desk.give(packed, 7);
     desk.run([&] { return desk.changes.size() >= 3; });
     ASSERT_GE(desk.changes.size(), 3U);
