@@ -10,7 +10,7 @@
 namespace spherule::cli {
 namespace {
 
-TEST(Export, OfFramesOfOneTimeHasOne) {
+TEST(Export, ContainsOneOfSeveralFramesWithEqualTimes) {
     const recording::TemporaryFolder folder;
     recording::filmWithRepeatedTimes(folder / "film.sph");
     CLI::App app;

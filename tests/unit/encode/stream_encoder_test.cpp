@@ -65,7 +65,7 @@ class StreamEncoderTest : public testing::Test {
     StreamEncoder::Clock::time_point now_ = StreamEncoder::Clock::now();
 };
 
-TEST_F(StreamEncoderTest, MakesNothingForNobodyAndAKeyframeForTheFirst) {
+TEST_F(StreamEncoderTest, EncodesNothingWithoutViewersAndAKeyframeForTheFirst) {
     EXPECT_EQ(serve({}, 1s), "");
     EXPECT_TRUE(orders_.empty());
     EXPECT_EQ(serve({{.rendition = normal, .newcomer = true}}, 1s), "K");
@@ -77,7 +77,7 @@ TEST_F(StreamEncoderTest, MakesNothingForNobodyAndAKeyframeForTheFirst) {
     EXPECT_EQ(encoded_[0].number, 2U);
 }
 
-TEST_F(StreamEncoderTest, KeepsToTheRateOfEachChain) {
+TEST_F(StreamEncoderTest, EncodesEachChainAtItsRate) {
     const codec::Rendition slow{v1::ECO, 10};
     serve({{.rendition = normal}, {.rendition = slow}}, 1s);
     std::size_t fast = 0;
@@ -90,7 +90,7 @@ TEST_F(StreamEncoderTest, KeepsToTheRateOfEachChain) {
     EXPECT_NEAR(static_cast<double>(slowly), 20, 1);
 }
 
-TEST_F(StreamEncoderTest, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers) {
+TEST_F(StreamEncoderTest, EncodesOnlyKeyframesForNewViewersWhilePaused) {
     serve({{.rendition = normal, .newcomer = true}}, 1s);
     EXPECT_EQ(serve({{.rendition = normal}}, 1s, 0), "");
     EXPECT_FALSE(encoder_.due());
@@ -98,7 +98,7 @@ TEST_F(StreamEncoderTest, MakesNothingOfAWorldThatStandsButKeyframesForNewcomers
     EXPECT_EQ(encoded_[0].number, 1U) << "of the state that others have";
 }
 
-TEST_F(StreamEncoderTest, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) {
+TEST_F(StreamEncoderTest, ServesNewAndLostViewersWhenStepsAreSlowerThanFrames) {
     serve({{.rendition = normal, .newcomer = true}}, 1s);
     for (const codec::Subscription& subscription :
          {codec::Subscription{normal, true, false}, codec::Subscription{normal, false, true}}) {
@@ -109,7 +109,7 @@ TEST_F(StreamEncoderTest, ServesNewcomersAndTheLostOfAWorldSlowerThanItsFrames) 
     }
 }
 
-TEST_F(StreamEncoderTest, LetsThoseWhoKeepLosingTheChainWait) {
+TEST_F(StreamEncoderTest, LimitsTheRateOfKeyframesForLostViewers) {
     serve({{.rendition = normal}}, 1s);
     int joins = 0;
     for (int k = 0; k < 200; ++k) {
@@ -120,7 +120,7 @@ TEST_F(StreamEncoderTest, LetsThoseWhoKeepLosingTheChainWait) {
     EXPECT_LE(joins, 4) << "one in 250 ms";
 }
 
-TEST_F(StreamEncoderTest, BeginsAnewForOtherSpheresAndForWhoComesBack) {
+TEST_F(StreamEncoderTest, SendsKeyframesForNewSpheresAndReturningViewers) {
     serve({{.rendition = normal}}, 1s);
     epoch_ = 2;
     EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "K");
@@ -133,7 +133,7 @@ TEST_F(StreamEncoderTest, BeginsAnewForOtherSpheresAndForWhoComesBack) {
     EXPECT_EQ(serve({{.rendition = normal}}, 40ms), "");
 }
 
-TEST_F(StreamEncoderTest, SaysToViewersThatThereIsNoMemoryForTheirFrames) {
+TEST_F(StreamEncoderTest, WarnsWhenMemoryIsInsufficientForFrames) {
     const std::uint64_t before = memory::claimed().held;
     count_ = 200'000;
     memory::setLimit(1);

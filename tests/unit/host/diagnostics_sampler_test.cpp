@@ -9,7 +9,7 @@ namespace spherule::host {
 namespace {
 
 // The lattice falls, and its overlaps are largest in step 34. Then it expands.
-TEST(DiagnosticsSampler, HearsNoAlarmWhenABedThatWasSqueezedExpands) {
+TEST(DiagnosticsSampler, RaisesNoAlarmWhenACompressedBedExpands) {
     const auto device = compute::openDevice("cpu").value();
     auto simulation = sim::Simulation::create(*device, scene::load("box-4k", "cpu", {}).value()).value();
     DiagnosticsSampler sampler(diagnostics::ownTable());

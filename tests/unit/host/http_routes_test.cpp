@@ -9,7 +9,7 @@
 namespace spherule::host {
 namespace {
 
-TEST(HttpRoutes, ReadinessIsJsonWhateverBytesANameHas) {
+TEST(HttpRoutes, ReadinessIsValidJsonForNamesInAnyEncoding) {
     StatusBoard live;
     live.update([](ServerStatus& report) {
         report.scene = std::string("caf\xe9");  // a file name in Latin 1

@@ -77,7 +77,7 @@ class Playback : private FakePublisher {
     std::stop_source stop_;
 };
 
-TEST(PlaybackProducer, ShowsScenesOneAfterAnotherWhateverEpochTheyName) {
+TEST(PlaybackProducer, ShowsScenesInSequenceWithAnyEpochNumbers) {
     for (const std::uint32_t second : {1U, 2U}) {
         const recording::TemporaryFolder folder;
         const std::string path = folder / "film.sph";

@@ -92,7 +92,7 @@ class PlayerTest : public testing::Test {
     Player::Moved moved_;
 };
 
-TEST_F(PlayerTest, ShowsTheFrameThatTheClockAsksFor) {
+TEST_F(PlayerTest, ShowsTheFrameDueAtTheClockTime) {
     open();
     EXPECT_TRUE(moved_.shown);
     EXPECT_NEAR(after(0ms), 0, 1e-9);
@@ -107,7 +107,7 @@ TEST_F(PlayerTest, ShowsTheFrameThatTheClockAsksFor) {
     EXPECT_NEAR(after(100ms), 2.1, 1e-9);
 }
 
-TEST_F(PlayerTest, ComesForEachFrameAndNotInBetween) {
+TEST_F(PlayerTest, IsDueOncePerFrame) {
     open();
     int frames = 1;
     int calls = 0;
@@ -118,7 +118,7 @@ TEST_F(PlayerTest, ComesForEachFrameAndNotInBetween) {
     EXPECT_TRUE(player_->settings().paused());
 }
 
-TEST_F(PlayerTest, PausesAndGoesOnFromThere) {
+TEST_F(PlayerTest, PausesAndResumesAtTheSameTime) {
     open();
     after(550ms);
     ASSERT_TRUE(tell(&v1::Command::mutable_pause));
@@ -129,7 +129,7 @@ TEST_F(PlayerTest, PausesAndGoesOnFromThere) {
     EXPECT_NEAR(after(20ms), 0.6, 1e-9);
 }
 
-TEST_F(PlayerTest, SeeksWherePausedToo) {
+TEST_F(PlayerTest, SeeksWhilePaused) {
     open();
     ASSERT_TRUE(tell(&v1::Command::mutable_pause));
     for (const double time : {1.55, 0.3, 2.0, -7.0, 99.0, 1.0}) {
@@ -162,7 +162,7 @@ TEST_F(PlayerTest, StepsAndPauses) {
     EXPECT_FALSE(player_->due());
 }
 
-TEST_F(PlayerTest, FromTheEndItBeginsAnewWhenResumed) {
+TEST_F(PlayerTest, ResumeAtTheEndAndResetRestartPlayback) {
     open();
     EXPECT_NEAR(after(9000ms), end, 1e-9);
     after(0ms);
@@ -176,7 +176,7 @@ TEST_F(PlayerTest, FromTheEndItBeginsAnewWhenResumed) {
     EXPECT_NEAR(after(150ms), 0.1, 1e-9);
 }
 
-TEST_F(PlayerTest, GoesRoundWhereThatIsWanted) {
+TEST_F(PlayerTest, LoopsOnRequest) {
     open(true);
     int rounds = 0;
     double last = 0;
@@ -189,7 +189,7 @@ TEST_F(PlayerTest, GoesRoundWhereThatIsWanted) {
     EXPECT_FALSE(player_->paused());
 }
 
-TEST_F(PlayerTest, ChangesNothingInWhatIsPlayed) {
+TEST_F(PlayerTest, RefusesCommandsThatChangeTheRecording) {
     open();
     EXPECT_FALSE(tell(&v1::Command::mutable_query));
     EXPECT_FALSE(tell(&v1::Command::mutable_spawn));
@@ -202,7 +202,7 @@ TEST_F(PlayerTest, ChangesNothingInWhatIsPlayed) {
     EXPECT_EQ(player_->speed(), 1);
 }
 
-TEST_F(PlayerTest, CarriesOutWhatTheRulesAllowWhilePlaying) {
+TEST_F(PlayerTest, AcceptsExactlyTheCommandsAllowedDuringPlayback) {
     open();
     int carriedOut = 0;
     for (const auto* const kind : net::commandFields()) {
@@ -217,7 +217,7 @@ TEST_F(PlayerTest, CarriesOutWhatTheRulesAllowWhilePlaying) {
     EXPECT_GE(carriedOut, 5);  // a step without a count is refused
 }
 
-TEST_F(PlayerTest, WhatIsDamagedIsToldAndSkipped) {
+TEST_F(PlayerTest, ReportsAndSkipsDamage) {
     const std::uint64_t offset = damage(0.65);  // the next keyframe is at 1.0 s
     open();
     EXPECT_NEAR(after(650ms), 0.6, 1e-9);
@@ -231,7 +231,7 @@ TEST_F(PlayerTest, WhatIsDamagedIsToldAndSkipped) {
     EXPECT_EQ(moved_.damage.size(), 1U);
 }
 
-TEST_F(PlayerTest, ADamagedEndIsTheEnd) {
+TEST_F(PlayerTest, StopsOrLoopsAtADamagedEnd) {
     damage(2.05);  // the last keyframe is at 2.0 s
     open(true);
     EXPECT_NEAR(after(1300ms), 1.3, 1e-9);
@@ -265,7 +265,7 @@ TEST_F(PlayerTest, ADamagedEndIsTheEnd) {
     EXPECT_NEAR(after(10ms), 0, 1e-9);
 }
 
-TEST_F(PlayerTest, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
+TEST_F(PlayerTest, StopsWhenNoIntactKeyframeFollowsDamage) {
     damage(1.55);
     damage(1.95, recording::Kind::Resync);
     open();
@@ -278,7 +278,7 @@ TEST_F(PlayerTest, WhereTheKeyframesBehindAreDamagedTooItIsTheEnd) {
     EXPECT_NEAR(after(10ms), 0, 1e-9);
 }
 
-TEST_F(PlayerTest, WaitsForAFrameThatIsLongInComing) {
+TEST_F(PlayerTest, WaitsForAFrameAfterALongInterval) {
     // The same frames with intervals of 10,000 s.
     std::string content = recording::fileHead();
     const auto film = recording::RecordFile::open(path_);
@@ -296,7 +296,7 @@ TEST_F(PlayerTest, WaitsForAFrameThatIsLongInComing) {
     EXPECT_NEAR(after(5001s), 1e4, 1e-9);
 }
 
-TEST_F(PlayerTest, GoingElsewhereEndsTheSteps) {
+TEST_F(PlayerTest, SeekAndResetEndSteps) {
     open();
     ASSERT_TRUE(step(1000));
     after(0ms);
@@ -321,13 +321,13 @@ TEST_F(PlayerTest, GoingElsewhereEndsTheSteps) {
     EXPECT_NEAR(after(110ms), 1.1, 1e-9);
 }
 
-TEST_F(PlayerTest, ANameThatIsNoTextBecomesOne) {
+TEST_F(PlayerTest, ConvertsFileNamesToUtf8) {
     auto recording = recording::Recording::open(path_);
     const Player player(std::move(*recording), "bed-\xff.sph", false, now_);
     EXPECT_EQ(player.timeline().file(), "bed-\xEF\xBF\xBD.sph");
 }
 
-TEST(Player, OfFramesOfOneTimeShowsOne) {
+TEST(Player, ShowsOneOfSeveralFramesWithEqualTimes) {
     const recording::TemporaryFolder folder;
     recording::filmWithRepeatedTimes(folder / "film.sph");
     Player::Clock::time_point now{};

@@ -35,7 +35,7 @@ std::string popAll(Requests& requests) {
     return order;
 }
 
-TEST(Requests, OfEachSessionAreTakenInTurnAndInTheirOrder) {
+TEST(Requests, AreTakenInOrderAndFromSessionsInTurn) {
     Requests requests;
     for (std::uint64_t id = 1; id <= 4; ++id) EXPECT_FALSE(requests.push(pauseOf(7, id)));
     EXPECT_FALSE(requests.push(pauseOf(3, 1)));
@@ -44,7 +44,7 @@ TEST(Requests, OfEachSessionAreTakenInTurnAndInTheirOrder) {
     EXPECT_EQ(popAll(requests), "3:1 7:1 9:1 7:2 9:2 7:3 7:4 ");
 }
 
-TEST(Requests, OfOneSessionLeaveRoomForOthers) {
+TEST(Requests, AreLimitedPerSessionAndInTotal) {
     Requests requests({.commands = 10, .commandsPerSession = 4});
     for (std::uint64_t id = 1; id <= 4; ++id) EXPECT_FALSE(requests.push(pauseOf(1, id)));
     const auto reason = requests.push(pauseOf(1, 5));
@@ -58,7 +58,7 @@ TEST(Requests, OfOneSessionLeaveRoomForOthers) {
     EXPECT_FALSE(requests.push(pauseOf(5, 1)));
 }
 
-TEST(Requests, AreBoundedByTheMemoryThatTheyTake) {
+TEST(Requests, AreLimitedByMemory) {
     Requests requests({.bytes = 1000, .bytesPerSession = 600});
     EXPECT_FALSE(requests.push(pauseOf(1, 1, 500)));
     EXPECT_TRUE(requests.refuses(1, 101)) << "of this session";
@@ -70,7 +70,7 @@ TEST(Requests, AreBoundedByTheMemoryThatTheyTake) {
     EXPECT_FALSE(requests.push(pauseOf(1, 2, 600))) << "what was taken counts no longer";
 }
 
-TEST(Requests, ThatAreQueriesTakeNoRoomFromCommands) {
+TEST(Requests, QueriesDoNotCountAsCommands) {
     const Requests::Limits limits;
     Requests requests;
     for (std::uint64_t viewer = 1; viewer <= 40; ++viewer) {
@@ -85,7 +85,7 @@ TEST(Requests, ThatAreQueriesTakeNoRoomFromCommands) {
     EXPECT_FALSE(requests.push(queryOf(1, 100))) << "what was taken counts no longer";
 }
 
-TEST(Requests, WakeWhoWaitsForThem) {
+TEST(Requests, WakeAWaitingThread) {
     Requests requests;
     EXPECT_FALSE(requests.popFor(1ms));
     std::jthread sender([&] { EXPECT_FALSE(requests.push(queryOf(1, 1))); });

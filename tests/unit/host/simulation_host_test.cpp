@@ -72,7 +72,7 @@ void load(SimulationHost& world, const std::string& scene) {
     }
 }
 
-TEST(SimulationHost, ComesBackAfterEachSubstepOfALongStep) {
+TEST(SimulationHost, AdvanceReturnsAfterEachSubstepOfALongStep) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":1000}})");
@@ -90,7 +90,7 @@ TEST(SimulationHost, ComesBackAfterEachSubstepOfALongStep) {
     EXPECT_EQ(simulation.time(), simulation.scene().step);
 }
 
-TEST(SimulationHost, PausesInTheMiddleOfAStepAndGoesOnWithIt) {
+TEST(SimulationHost, PausesWithinAStepAndContinuesIt) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":100}})");
@@ -135,7 +135,7 @@ TEST(SimulationHost, SubstepsMayChangeWithinAStep) {
     }
 }
 
-TEST(SimulationHost, GoesOnWhileAnotherSceneIsMade) {
+TEST(SimulationHost, SimulatesWhileAnotherSceneLoads) {
     const auto world = open("box-4k");
     const std::uint32_t epoch = world->epoch();
     ASSERT_FALSE(give(*world, commandOf(R"({"load":{"name":"box-10k"}})")));
@@ -160,7 +160,7 @@ TEST(SimulationHost, GoesOnWhileAnotherSceneIsMade) {
     EXPECT_EQ(world->simulation().steps(), 0U);
 }
 
-TEST(SimulationHost, ACancelledLoadLeavesTheWorldAsItWas) {
+TEST(SimulationHost, CancelledLoadLeavesTheWorldUnchanged) {
     const auto world = open("two-spheres");
     const std::uint32_t epoch = world->epoch();
     const std::uint64_t hash = sim::hashOf(world->simulation().snapshot());
@@ -175,7 +175,7 @@ TEST(SimulationHost, ACancelledLoadLeavesTheWorldAsItWas) {
 }
 
 // While spheres are added, the others must not move, because new spheres must not overlap them.
-TEST(SimulationHost, HoldsStillWhileSpheresAreAdded) {
+TEST(SimulationHost, DoesNotMoveSpheresWhileOthersAreAdded) {
     const auto world = open("two-spheres");
     while (!*world->advance(now)) {
     }
@@ -200,7 +200,7 @@ TEST(SimulationHost, HoldsStillWhileSpheresAreAdded) {
 }
 
 // Each sweep is a piece, and so is the check after every 16 sweeps.
-TEST(SimulationHost, SpheresInOnePointArePushedApartInPieces) {
+TEST(SimulationHost, SeparatesSpheresAtOnePointInPieces) {
     const auto world = open("two-spheres");
     ASSERT_FALSE(give(*world, commandOf(R"({"load":{"scene":{"bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
         "groups":[{"radius":{"constant":0.02},
@@ -212,7 +212,7 @@ TEST(SimulationHost, SpheresInOnePointArePushedApartInPieces) {
     EXPECT_FALSE(world->simulation().takeNotices().empty());
 }
 
-TEST(SimulationHost, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
+TEST(SimulationHost, AcceptsAtMostTheSubstepLimitOfTheScene) {
     const auto world = open("box-4k");
     const std::uint32_t most = scene::maxSubstepsFor(world->simulation().scene());
     const Error refused = refusalOf(*world, R"({"set":{"substeps":1000000}})");
@@ -223,7 +223,7 @@ TEST(SimulationHost, RefusesMoreSubstepsThanASceneCanBearAndTakesTheMost) {
 }
 
 // With more spheres, fewer substeps are accepted, so that the work of a step is limited.
-TEST(SimulationHost, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
+TEST(SimulationHost, WorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     scene::Scene scene;
     scene.bounds = {.min = glm::dvec3(-10), .max = glm::dvec3(10)};
     for (const std::size_t spheres : {1, 1000, 100'000, 1'000'000}) {
@@ -234,7 +234,7 @@ TEST(SimulationHost, TheWorkOfAStepIsLimitedForAnyNumberOfSpheres) {
     }
 }
 
-TEST(SimulationHost, RefusesAPushThatIsTooFastAndTakesTheLargest) {
+TEST(SimulationHost, AcceptsPushesOnlyUpToTheStatedLimit) {
     for (const char* model : {"FAST", "BALANCED", "ACCURATE"}) {
         const auto world = open("box-4k");
         load(*world, std::string(R"("quality":{"model":")") + model + "\"}," + thrown);
@@ -252,7 +252,7 @@ TEST(SimulationHost, RefusesAPushThatIsTooFastAndTakesTheLargest) {
 }
 
 // A command that is cancelled does not change the speed either.
-TEST(SimulationHost, ASpeedComesWithTheRestOfItsCommand) {
+TEST(SimulationHost, AppliesSpeedTogetherWithTheRestOfItsCommand) {
     const auto world = open("two-spheres");
     const char* set = R"({"set":{"speed":4,"model":"ACCURATE"}})";
     ASSERT_FALSE(give(*world, commandOf(set)));
@@ -266,7 +266,7 @@ TEST(SimulationHost, ASpeedComesWithTheRestOfItsCommand) {
 }
 
 // Even for a very fast sphere, the refusal gives an impulse that is accepted.
-TEST(SimulationHost, APushAgainstAVeryFastSphereNamesTheLargest) {
+TEST(SimulationHost, RefusalStatesTheLargestPushForAVeryFastSphere) {
     const auto world = open();
     load(*world, thrown);
     done(*world, R"({"set":{"substeps":20}})");
@@ -280,7 +280,7 @@ TEST(SimulationHost, APushAgainstAVeryFastSphereNamesTheLargest) {
     done(*world, fmt::format(R"({{"push":{{"sphere":0,"impulse":[{},0,0]}}}})", -0.999 * most));
 }
 
-TEST(SimulationHost, RefusesSpheresThatBeginTooFast) {
+TEST(SimulationHost, RefusesScenesWithTooFastSpheres) {
     const auto world = open();
     const std::string scene = R"("bounds":{"min":[-1,-1,-1],"max":[1,1,1]},"groups":[{"radius":{"constant":0.05},
         "velocity":[0,{},0],"list":{"spheres":[{"position":[0,0,0]}]}}])";

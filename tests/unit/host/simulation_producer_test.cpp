@@ -92,7 +92,7 @@ constexpr const char* crowd = R"({"load":{"scene":{"name":"crowd","bounds":{"min
 constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"min":[-1,-1,-1],"max":[1,1,1]},
     "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
 
-TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
+TEST(SimulationProducer, StepCommandIsAnsweredWhenItsStepsAreDone) {
     TestSessions desk;
     const auto first = desk.give(R"({"step":{"count":30}})");
     const auto second = desk.give(R"({"step":{"count":4}})");
@@ -111,7 +111,7 @@ TEST(SimulationProducer, AStepIsAnsweredOnceItsStepsAreDone) {
     EXPECT_EQ(other.answer(few).applied().step(), 34U);
 }
 
-TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneIsMade) {
+TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneLoads) {
     for (const char* scene : {crowd, packed}) {
         TestSessions desk;
         const auto load = desk.give(scene);
@@ -129,7 +129,7 @@ TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneIsMade) {
     }
 }
 
-TEST(SimulationProducer, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
+TEST(SimulationProducer, NewLoadReplacesTheLoadUnderWay) {
     TestSessions desk;
     const auto first = desk.give(packed);
     const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);
@@ -144,7 +144,7 @@ TEST(SimulationProducer, TheNewestLoadOrResetTakesThePlaceOfTheOneUnderWay) {
     EXPECT_TRUE(desk.answer(third).has_applied());
 }
 
-TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTakesLong) {
+TEST(SimulationProducer, CommandsWaitForAChangeAndAreRefusedIfItTakesLong) {
     TestSessions desk;
     const auto load = desk.give(packed);
     const auto set = desk.give(R"({"set":{"gravity":[0,0,1]}})", 2);
@@ -171,7 +171,7 @@ TEST(SimulationProducer, WhatNeedsTheWorldWaitsForAChangeAndIsRefusedWhereThatTa
 }
 
 // Commands of one session run in order. A later pause or resume ends a step that waits for a load.
-TEST(SimulationProducer, APauseOrResumeEndsStepsThatWaitForAChange) {
+TEST(SimulationProducer, PauseOrResumeEndsStepsThatWaitForAChange) {
     for (const char* later : {R"({"resume":{}})", R"({"pause":{}})"}) {
         TestSessions desk;
         const auto load = desk.give(R"({"load":{"name":"cradle"}})");
@@ -184,7 +184,7 @@ TEST(SimulationProducer, APauseOrResumeEndsStepsThatWaitForAChange) {
     }
 }
 
-TEST(SimulationProducer, EverybodyIsToldHowFarALongChangeHasCome) {
+TEST(SimulationProducer, BroadcastsTheProgressOfALongChange) {
     TestSessions desk;
     desk.give(packed, 7);
     desk.run([&] { return desk.changes.size() >= 3; });
@@ -252,7 +252,7 @@ class PausedSimulation : public testing::Test, private FakePublisher {
     std::jthread thread_;
 };
 
-TEST_F(PausedSimulation, AFrameOfAPausedWorldTellsHowManySleepInIt) {
+TEST_F(PausedSimulation, FramesReportTheNumberOfSleepingSpheres) {
     v1::Command reset;
     reset.mutable_reset();
     v1::Command fast;

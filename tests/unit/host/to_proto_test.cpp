@@ -16,7 +16,7 @@ v1::Refused refusalOf(const v1::Command& command, const std::string& where) {
     return result.refused();
 }
 
-TEST(ResultOf, NamesTheFieldFromTheCommandOn) {
+TEST(ResultOf, FieldPathStartsWithTheCommand) {
     v1::Command command;
     command.mutable_set();
     EXPECT_EQ(refusalOf(command, "gravity[1]").field(), "set.gravity[1]");
@@ -26,7 +26,7 @@ TEST(ResultOf, NamesTheFieldFromTheCommandOn) {
     EXPECT_EQ(refusalOf(command, "scene.groups[0].fill").field(), "load.scene.groups[0].fill");
 }
 
-TEST(ResultOf, NamesInTheReasonWhatIsNoFieldOfTheCommand) {
+TEST(ResultOf, PathOutsideTheCommandIsPartOfTheReason) {
     v1::Command command;
     command.mutable_set();
     EXPECT_EQ(refusalOf(command, "materials[0].young").field(), "");
@@ -34,14 +34,14 @@ TEST(ResultOf, NamesInTheReasonWhatIsNoFieldOfTheCommand) {
     EXPECT_EQ(refusalOf(command, "").reason(), "is wrong");
 }
 
-TEST(ResultOf, IsFitForAMessageWhateverBytesAFileHas) {
+TEST(ResultOf, ReplacesInvalidUtf8) {
     v1::Command command;
     command.mutable_pause();
     EXPECT_EQ(refusalOf(command, "a\xff.json").reason(), "a\xef\xbf\xbd.json: is wrong");
 }
 
 // The refusals of a command, as clients receive them.
-TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
+TEST(ResultOf, RefusalsOfTheHostHavePathsFromTheCommand) {
     auto world = SimulationHost::open("cpu:1", "cradle", {});
     ASSERT_TRUE(world);
     const auto refused = [&](const v1::Command& command) {
@@ -76,7 +76,7 @@ TEST(ResultOf, RefusalsOfAWorldHaveOneRoot) {
     EXPECT_EQ(refused(command), "push.sphere");
 }
 
-TEST(ResultOf, HasTheSphereThatWasHitAndTheStatisticsOfAQuery) {
+TEST(ResultOf, ContainsTheHitSphereOrTheStatistics) {
     v1::Command command;
     command.set_id(7);
     const v1::CommandResult hit = resultOf(command, sim::Applied{.step = 3, .sphere = 0});

@@ -72,7 +72,7 @@ class LiveRecording : public testing::Test {
     std::uint32_t number_ = 0;
 };
 
-TEST_F(LiveRecording, WritesWhatAViewerIsSentFromAKeyframeOn) {
+TEST_F(LiveRecording, WritesTheFramesSentToViewersFromAKeyframeOn) {
     open();
     EXPECT_TRUE(subscriptions().empty());
     order();
@@ -97,7 +97,7 @@ TEST_F(LiveRecording, WritesWhatAViewerIsSentFromAKeyframeOn) {
     EXPECT_TRUE(subscriptions().empty());
 }
 
-TEST_F(LiveRecording, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
+TEST_F(LiveRecording, StartsAtTheNextKeyframeOfARunningChain) {
     open();
     order();
     recorder_->publish(encoded(FrameKind::Keyframe, 0));
@@ -113,7 +113,7 @@ TEST_F(LiveRecording, BeginsWithTheNextKeyframeOfAChainThatOthersWatch) {
     EXPECT_EQ(play(*recording).size(), 2U);
 }
 
-TEST_F(LiveRecording, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
+TEST_F(LiveRecording, TimeIncreasesWhenSimulationTimeGoesBack) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -134,7 +134,7 @@ TEST_F(LiveRecording, ItsTimeGoesOnWhenThatOfTheSimulationGoesBack) {
     EXPECT_EQ(recording->facts().epoch(), 2U);
 }
 
-TEST_F(LiveRecording, WantsAKeyframeNowAndThenWhileSomethingMoves) {
+TEST_F(LiveRecording, RequestsKeyframesRegularlyWhileFramesArrive) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -149,7 +149,7 @@ TEST_F(LiveRecording, WantsAKeyframeNowAndThenWhileSomethingMoves) {
     EXPECT_FALSE(subscriptions()[0].lost);
 }
 
-TEST_F(LiveRecording, AsksForAKeyframeAfterAGap) {
+TEST_F(LiveRecording, RequestsAKeyframeAfterAGap) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -168,7 +168,7 @@ TEST_F(LiveRecording, AsksForAKeyframeAfterAGap) {
     EXPECT_EQ(end, "");
 }
 
-TEST_F(LiveRecording, OneRecordingAtATimeAndASecondHasANameOfItsOwn) {
+TEST_F(LiveRecording, MakesOneRecordingAtATimeWithAUniqueName) {
     open();
     order();
     EXPECT_EQ(recorder_->stop().error().message, "nothing is being recorded");
@@ -182,7 +182,7 @@ TEST_F(LiveRecording, OneRecordingAtATimeAndASecondHasANameOfItsOwn) {
     EXPECT_NE(recorder_->changedState(LiveRecorder::Clock::now())->file(), first);
 }
 
-TEST_F(LiveRecording, ItsFolderHasALimit) {
+TEST_F(LiveRecording, LimitsTheSizeOfTheFolder) {
     options_.folderBytes = 3'000'000;
     std::filesystem::create_directories(options_.folder);
     writeFile(options_.folder + "/old.sph", std::string(1'900'000, ' '));
@@ -202,14 +202,14 @@ TEST_F(LiveRecording, ItsFolderHasALimit) {
     EXPECT_NE(recorder_->start().error().message.find("--recordings FOLDER"), std::string::npos);
 }
 
-TEST_F(LiveRecording, WhereNothingCanBeWrittenItDoesNotBegin) {
+TEST_F(LiveRecording, IsRefusedIfTheFileIsNotWritable) {
     options_.path = "/dev/full";
     options_.replace = true;
     open();
     EXPECT_EQ(recorder_->startFromOptions().error().kind, ErrorKind::Refused);
 }
 
-TEST_F(LiveRecording, ARecordingWithoutFramesIsAFailure) {
+TEST_F(LiveRecording, RecordingWithoutFramesFails) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -220,7 +220,7 @@ TEST_F(LiveRecording, ARecordingWithoutFramesIsAFailure) {
     EXPECT_TRUE(std::filesystem::is_empty(options_.folder));
 }
 
-TEST_F(LiveRecording, AFolderThatIsDeletedIsAFailure) {
+TEST_F(LiveRecording, FailsWhenTheFolderIsDeleted) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -236,7 +236,7 @@ TEST_F(LiveRecording, AFolderThatIsDeletedIsAFailure) {
     EXPECT_TRUE(recorder_->start());  // in a new folder
 }
 
-TEST_F(LiveRecording, IsNotLargerForWhatOthersAskFor) {
+TEST_F(LiveRecording, IgnoresKeyframesAndDiagnosticsForOthers) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -260,7 +260,7 @@ TEST_F(LiveRecording, IsNotLargerForWhatOthersAskFor) {
     EXPECT_EQ(records, 6);  // source, scene, order, two frames, index
 }
 
-TEST_F(LiveRecording, RoundingDoesNotSetTimeBack) {
+TEST_F(LiveRecording, TimeNeverDecreasesByRounding) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -278,7 +278,7 @@ TEST_F(LiveRecording, RoundingDoesNotSetTimeBack) {
     EXPECT_EQ(recorder_->finish()->failure(), "");
 }
 
-TEST_F(LiveRecording, OfAPausedWorldTakesNothing) {
+TEST_F(LiveRecording, WritesNoRepeatedFramesWhilePaused) {
     open();
     order();
     ASSERT_TRUE(recorder_->start());
@@ -315,7 +315,7 @@ TEST_F(LiveRecording, OfAPausedWorldTakesNothing) {
     EXPECT_EQ(times, (std::vector<double>{0, 1, 2, 3, 3.5, 3.75}));
 }
 
-TEST_F(LiveRecording, AHostileSceneNameIsNoPath) {
+TEST_F(LiveRecording, SceneNameCannotChangeTheFolder) {
     open();
     v1::ServerMessage scene = sceneMessage(1, spheres);
     scene.mutable_scene()->set_name("../../up/away\n;" + std::string(500, 'x'));

@@ -19,7 +19,7 @@ World pair(double restitution, double inverseMassOfSecond) {
     return world;
 }
 
-TEST(Reference, AFreeSphereFollowsItsParabola) {
+TEST(Reference, FreeSphereFollowsAParabola) {
     World world;
     world.gravity = {0, 0, -9.81};
     world.spheres = {{{0, 0, 0}, {1, 0, 2}, 0.05, 1, 0.5}};
@@ -28,7 +28,7 @@ TEST(Reference, AFreeSphereFollowsItsParabola) {
     EXPECT_NEAR(world.spheres[0].x.z, 2 - 9.81 / 2, 1e-12);
 }
 
-TEST(Reference, AnElasticPairKeepsItsEnergyAndAnyPairItsMomentum) {
+TEST(Reference, CollisionsConserveMomentumAndElasticOnesEnergy) {
     for (const double e : {0.0, 0.5, 1.0}) {
         World world = pair(e, 0.25);
         for (int k = 0; k < 100; ++k) world.substep(h);
@@ -43,7 +43,7 @@ TEST(Reference, AnElasticPairKeepsItsEnergyAndAnyPairItsMomentum) {
     }
 }
 
-TEST(Reference, ABouncingSphereKeepsTheShareOfItsHeightThatRestitutionLeaves) {
+TEST(Reference, BounceHeightScalesWithRestitutionSquared) {
     World world;
     world.gravity = {0, 0, -9.81};
     world.walls = {{{0, 0, 0}, {0, 0, 1}, 0.8}};
@@ -53,7 +53,7 @@ TEST(Reference, ABouncingSphereKeepsTheShareOfItsHeightThatRestitutionLeaves) {
     EXPECT_NEAR(ball.x.z - 0.05 + ball.v.z * ball.v.z / (2 * 9.81), 0.64, 0.64 * 1e-9);
 }
 
-TEST(Reference, ASphereOnTheFloorStaysThere) {
+TEST(Reference, SphereAtRestOnTheFloorDoesNotMove) {
     World world;
     world.gravity = {0, 0, -9.81};
     world.walls = {{{0, 0, 0}, {0, 0, 1}, 0}};
