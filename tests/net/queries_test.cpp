@@ -105,7 +105,7 @@ T medianOf(std::vector<T> values) {
 }
 
 // The simulation runs without pauses, so an answer takes about one step, with or without queries.
-TEST(Queries, FromFortyViewersDelayNoCommand) {
+TEST(Queries, FromFortyViewersDoNotDelayCommands) {
     const auto host = serve();
     Viewers viewers(host->port(), 40);
     Controller controller(host->port());

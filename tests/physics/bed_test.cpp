@@ -6,7 +6,7 @@ namespace spherule::physics {
 namespace {
 
 // A bed of 4,000 spheres in 20 layers, 3 s after the start, with sleep off.
-TEST(Bed, HardlyOverlapsAndHardlyMoves) {
+TEST(Bed, HasSmallOverlapsAndSpeeds) {
     const auto simulation = simulate(named("box-4k", {.noSleep = true}));
     run(*simulation, 2.5);
     const double before = simulation->statistics().meanHeight;

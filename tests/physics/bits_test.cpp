@@ -85,15 +85,15 @@ void expectTheSameBits(const scene::Scene& scene, double seconds) {
     }
 }
 
-TEST_P(Bits, OfAMixtureAreTheSame) {
+TEST_P(Bits, OfAMixtureAreTheSameOnAllDevices) {
     expectTheSameBits(mixture(GetParam()), GetParam() == scene::Model::Accurate ? 0.15 : 0.6);
 }
 
-TEST_P(Bits, OfSizesOneToTenAreTheSame) {
+TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {
     expectTheSameBits(mixedBed(GetParam(), 10), GetParam() == scene::Model::Accurate ? 0.1 : 0.3);
 }
 
-TEST_P(Bits, OfSizesOneToAHundredAreTheSame) {
+TEST_P(Bits, OfSizesOneToAHundredAreTheSameOnAllDevices) {
     expectTheSameBits(mixedBed(GetParam(), 100), GetParam() == scene::Model::Accurate ? 0.05 : 0.2);
 }
 

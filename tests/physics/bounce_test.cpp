@@ -38,7 +38,7 @@ TEST(Bounce, FiveApexesAreWithinOnePercent) {
     }
 }
 
-TEST(Bounce, AnElasticSphereComesBackToWhereItFellFrom) {
+TEST(Bounce, ElasticSphereReturnsToItsInitialHeight) {
     scene::Scene scene = named("bounce");
     setRestitution(scene, 1);
     const auto simulation = simulate(scene);

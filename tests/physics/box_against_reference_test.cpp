@@ -54,7 +54,7 @@ void add(Figures& sum, const Figures& figures) {
     sum.contacts += figures.contacts;
 }
 
-TEST(BoxAgainstReference, OneSubstepFromEachOfAHundredStatesDiffersByLessThanTheLargestOverlap) {
+TEST(BoxAgainstReference, OneSubstepDiffersByLessThanTheLargestOverlap) {
     const scene::Scene scene = boxOf200();
     const auto simulation = simulate(scene);
     run(*simulation, 0.5);
@@ -100,7 +100,7 @@ std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simula
 // Only the order of pairs differs: with the device's order, positions and velocities agree to the rounding of float32.
 // The test begins with the lattice; spheres fall, hit each other and the walls, and pile up. Rarely, two spheres that
 // barely touch do so only on the device or only in the reference.
-TEST(BoxAgainstReference, OneSubstepInTheDevicesOrderIsTheSame) {
+TEST(BoxAgainstReference, OneSubstepInTheOrderOfTheDeviceAgrees) {
     const scene::Scene scene = boxOf200();
     const auto simulation = simulate(scene);
     double distance = 0;
@@ -151,11 +151,11 @@ void expectTheSameHalfSecond(double from) {
     testing::Test::RecordProperty("contactsPerState", std::to_string(device.contacts / steps));
 }
 
-TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeWhileItCollapses) {
+TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeDuringCollapse) {
     expectTheSameHalfSecond(0.1);
 }
 
-TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeOnceItHasSettled) {
+TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeAfterSettling) {
     expectTheSameHalfSecond(1);
 }
 

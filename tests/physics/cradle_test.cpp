@@ -7,7 +7,7 @@
 namespace spherule::physics {
 namespace {
 
-TEST(Cradle, TheLastBallLeavesWithTheSpeedPutIn) {
+TEST(Cradle, LastBallLeavesWithTheSpeedOfTheFirst) {
     const auto simulation = simulate(named("cradle"));
     const double speed = velocityOf(simulation->snapshot(), 0).x;
     run(*simulation, 0.5);
@@ -19,7 +19,7 @@ TEST(Cradle, TheLastBallLeavesWithTheSpeedPutIn) {
 }
 
 // The velocities after the impact depend on the contact law; docs/accuracy.md describes the result.
-TEST(Cradle, TouchingBallsKeepTheirMomentum) {
+TEST(Cradle, TouchingBallsConserveMomentum) {
     const auto simulation = simulate(named("cradle-touching"));
     const sim::State before = simulation->snapshot();
     run(*simulation, 0.5);

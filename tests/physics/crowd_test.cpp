@@ -26,7 +26,7 @@ scene::Scene crowdOf(std::uint32_t count, float radius, bool mixed, scene::Model
     return scene;
 }
 
-TEST(Crowd, FourThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
+TEST(Crowd, FourThousandSpheresAtOnePointHaveLimitedPairs) {
     for (const bool mixed : {false, true}) {
         const scene::Scene scene = crowdOf(4'000, 0.01F, mixed, scene::Model::Balanced);
         const auto simulation = simulate(scene);
@@ -44,7 +44,7 @@ TEST(Crowd, FourThousandSpheresInOnePointMeetOnlySomeOfTheOthersAtATime) {
     }
 }
 
-TEST(Crowd, AllNumbersOfThreadsGiveTheSameBits) {
+TEST(Crowd, StateIsTheSameForAnyNumberOfThreads) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
         std::optional<std::pair<std::uint64_t, std::uint64_t>> expected;
         for (const char* const choice : {"cpu:1", "cpu:2", "cpu:3", "cpu:8"}) {
@@ -61,7 +61,7 @@ TEST(Crowd, AllNumbersOfThreadsGiveTheSameBits) {
     }
 }
 
-TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
+TEST(Crowd, ThreeThousandSpheresAtOnePointSeparate) {
     scene::Scene scene = fineStepBox(2);
     scene::Sphere sphere;
     sphere.radius = 0.02F;
@@ -83,7 +83,7 @@ TEST(Crowd, ThreeThousandSpheresInOnePointComeApartAndTheRunSaysSo) {
     EXPECT_TRUE(allFinite(simulation->snapshot()));
 }
 
-TEST(Crowd, TwoSpheresInOnePointComeApartWithoutASpeed) {
+TEST(Crowd, TwoSpheresAtOnePointSeparateWithoutSpeed) {
     scene::Scene scene = fineStepSpace(2);
     scene.spheres.resize(2);
     for (scene::Sphere& sphere : scene.spheres) sphere.radius = 0.05F;

@@ -16,14 +16,14 @@ std::uint64_t hashAfterHalfASecond(compute::Device& on, std::uint64_t seed) {
     return sim::hashOf(simulation->snapshot());
 }
 
-TEST(Determinism, TwoRunsOfASceneAndSeedEndInTheSameState) {
+TEST(Determinism, RunsWithTheSameSeedEndInTheSameState) {
     const std::uint64_t first = hashAfterHalfASecond(device(), 1);
     EXPECT_EQ(hashAfterHalfASecond(device(), 1), first);
     EXPECT_EQ(hashAfterHalfASecond(*openTestDevice(), 1), first) << "on a device opened anew";
     EXPECT_NE(hashAfterHalfASecond(device(), 2), first) << "another seed, another world";
 }
 
-TEST(Determinism, AResetSceneGoesTheSameWayAgain) {
+TEST(Determinism, ResetSceneRepeatsItsRun) {
     const auto simulation = simulate(named("pour"));
     run(*simulation, 0.3);
     const std::uint64_t first = sim::hashOf(simulation->snapshot());

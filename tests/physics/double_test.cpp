@@ -35,7 +35,7 @@ TEST(Double, RoundsOnlyTheResult) {
     EXPECT_GT(errorOfAGlide("cpu"), 20 * rounding) << "the test cannot tell the two apart";
 }
 
-TEST(Double, GivesTheSameStateAgain) {
+TEST(Double, IsDeterministicForAnyNumberOfThreads) {
     std::uint64_t first = 0;
     for (const char* const choice : {"cpu-double:1", "cpu-double:3"}) {
         const auto device = compute::openDevice(choice).value();

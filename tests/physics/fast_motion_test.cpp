@@ -27,7 +27,7 @@ scene::Scene shots(scene::Model model, double speed, const std::vector<double>& 
     return scene;
 }
 
-TEST(FastMotion, IsHeldByTheFloorInEveryModelFromFortyHeights) {
+TEST(FastMotion, FloorStopsFastSpheresInEveryModel) {
     std::vector<double> heights;
     for (int k = 0; k < 40; ++k) heights.push_back(0.5 + 0.017 * k);
     for (const scene::Model model : models) {
@@ -40,7 +40,7 @@ TEST(FastMotion, IsHeldByTheFloorInEveryModelFromFortyHeights) {
     }
 }
 
-TEST(FastMotion, RaisesTheSubstepsSaysSoAndTakesThemBack) {
+TEST(FastMotion, RaisesSubstepsTemporarilyAndReportsIt) {
     scene::Scene scene = shots(scene::Model::Balanced, 200, {0});
     setRestitution(scene, 0);
     const auto simulation = simulate(scene);
@@ -55,7 +55,7 @@ TEST(FastMotion, RaisesTheSubstepsSaysSoAndTakesThemBack) {
     EXPECT_NE(lowered[0].find("back to 8 substeps"), std::string::npos) << lowered[0];
 }
 
-TEST(FastMotion, IsForgottenWithTheRunItWasIn) {
+TEST(FastMotion, DoesNotAffectARunAfterReset) {
     const auto simulation = simulate(shots(scene::Model::Balanced, 200, {0, 0.3, 0.5}));
     run(*simulation, 0.3);
     const std::uint64_t first = sim::hashOf(simulation->snapshot());
@@ -64,7 +64,7 @@ TEST(FastMotion, IsForgottenWithTheRunItWasIn) {
     EXPECT_EQ(sim::hashOf(simulation->snapshot()), first);
 }
 
-TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
+TEST(FastMotion, IsReportedRepeatedlyButNotAtEveryStep) {
     // 0.6 radii per step: two substeps are enough, one is not.
     scene::Scene scene = shots(scene::Model::Fast, 0, {0});
     scene.forces.gravity = {};
@@ -79,7 +79,7 @@ TEST(FastMotion, ThatLastsIsToldOnceAndAgainButNotAtEveryStep) {
     EXPECT_LE(notices.size(), 20U) << "of 300 steps";
 }
 
-TEST(FastMotion, OfAPushIsSeenBeforeTheNextStep) {
+TEST(FastMotion, AfterAPushRaisesSubstepsBeforeTheNextStep) {
     scene::Scene scene = shots(scene::Model::Balanced, 0, {-1.9});
     const auto simulation = simulate(scene);
     ASSERT_TRUE(simulation->apply(sim::Push{.target = 0U, .impulse = {0, 0, -300}}));

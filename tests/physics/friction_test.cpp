@@ -62,7 +62,7 @@ TEST_P(Friction, TurnsSlidingIntoRolling) {
     RecordProperty("speed", std::to_string(after.speed / (5 * u / 7)));
 }
 
-TEST_P(Friction, LetsASphereRollDownASlope) {
+TEST_P(Friction, SphereRollsDownASlope) {
     const double slope = 20 * std::numbers::pi / 180;
     const double expected = 5.0 / 7 * earth * std::sin(slope);
     const Track track = trackOf(onFloor({.restitution = 0.1, .friction = 0.3}, slope), 0.5);
@@ -70,14 +70,14 @@ TEST_P(Friction, LetsASphereRollDownASlope) {
     EXPECT_NEAR(track.travelled, expected / 8, tolerance * expected / 8);
 }
 
-TEST_P(Friction, LetsASphereSlideWhereItIsTooWeak) {
+TEST_P(Friction, SphereSlidesIfFrictionIsLow) {
     const double slope = 20 * std::numbers::pi / 180;
     const double expected = earth * (std::sin(slope) - 0.05 * std::cos(slope));
     const Track track = trackOf(onFloor({.restitution = 0.1, .friction = 0.05}, slope), 0.5);
     EXPECT_NEAR(track.speed / 0.5, expected, tolerance * expected);
 }
 
-TEST_P(Friction, HoldsASphereOnASlopeThatRollingResistanceExceeds) {
+TEST_P(Friction, RollingResistanceHoldsASphereOnASlope) {
     const double slope = 20 * std::numbers::pi / 180;  // its tangent is 0.364
     const Track held = trackOf(onFloor({.restitution = 0.1, .friction = 0.5, .rollingResistance = 0.4}, slope), 0.4);
     EXPECT_LT(std::abs(held.travelled), 0.3 * r);
@@ -89,7 +89,7 @@ TEST_P(Friction, HoldsASphereOnASlopeThatRollingResistanceExceeds) {
 }
 
 // Chung and Ooi 2011, test 4, where the sphere slides: e_t = 1 - mu (1 + e) / tan, spin 5/2 mu (1 + e) v cos / r.
-TEST_P(Friction, TurnsAnObliqueImpactAsCoulombSays) {
+TEST_P(Friction, ObliqueImpactFollowsCoulombsLaw) {
     constexpr double mu = 0.092;
     constexpr double e = 0.98;
     for (const double degrees : {45.0, 60.0, 75.0}) {
@@ -115,7 +115,7 @@ TEST_P(Friction, TurnsAnObliqueImpactAsCoulombSays) {
     }
 }
 
-TEST_P(Friction, OfTwoSpheresKeepsMomentumAndAngularMomentum) {
+TEST_P(Friction, ConservesMomentumAndAngularMomentum) {
     scene::Scene scene = fineStepSpace(4);
     scene.materials = {{.restitution = 0.6, .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.1},
                        {.name = "heavy", .density = 4000, .friction = 0.6}};
@@ -159,7 +159,7 @@ TEST(FrictionInAPile, HoldsATetrahedronOfSoftSpheres) {
 }
 
 // The pile would never rest if springs stored energy without limit, or if dashpots were too strong for the substeps.
-TEST(FrictionInAPile, ComesToRestUnderForcesWhateverTheRestitution) {
+TEST(FrictionInAPile, PileOfSoftSpheresComesToRestForAnyRestitution) {
     for (const double e : {0.0, 0.5}) {
         scene::Scene scene = fineStepBox(0.4);
         scene.bounds.max.z = 2;

@@ -50,7 +50,7 @@ class Impacts : public testing::TestWithParam<std::tuple<scene::Model, double>> 
     [[nodiscard]] static double restitution() { return std::get<1>(GetParam()); }
 };
 
-TEST_P(Impacts, OfPairsAreSeenInEverySixteenthStep) {
+TEST_P(Impacts, OfPairsAreCountedWithTheirRestitution) {
     const auto simulation = simulate(headOn(model(), restitution()));
     run(*simulation, 40 * simulation->scene().step);
     const sim::Impacts seen = simulation->statistics().impacts;
@@ -61,7 +61,7 @@ TEST_P(Impacts, OfPairsAreSeenInEverySixteenthStep) {
     EXPECT_EQ(simulation->statistics().impacts.count, 2) << "looking again adds nothing";
 }
 
-TEST_P(Impacts, OfAGasPartAsItsMaterialsAsk) {
+TEST_P(Impacts, OfAGasHaveTheRestitutionOfTheMaterials) {
     const auto simulation = simulate(gas(model(), restitution()));
     run(*simulation, 2);
     const sim::Impacts seen = simulation->statistics().impacts;
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Impacts,
                              return std::string(scene::nameOf(std::get<0>(parameter.param))) + (half ? "Half" : "High");
                          });
 
-TEST(Observing, ChangesNothing) {
+TEST(Observing, DoesNotChangeTheState) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         const auto hashOf = [model](bool observed) {
             scene::Scene scene = gas(model, 0.7);
@@ -100,7 +100,7 @@ TEST(Observing, ChangesNothing) {
     }
 }
 
-TEST(Observing, LeavesOutWhatRestsOnOthersAndSlidesPast) {
+TEST(Observing, IgnoresSpheresAtRest) {
     scene::Scene scene = fineStepBox(0.4);
     scene.spheres = {{{0, 0, -0.15}, {}, 0.05F}, {{0, 0, -0.05}, {}, 0.05F}, {{0.1, 0.1, -0.15}, {}, 0.05F}};
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
@@ -111,7 +111,7 @@ TEST(Observing, LeavesOutWhatRestsOnOthersAndSlidesPast) {
     }
 }
 
-TEST(Observing, BeginsAnewWithTheScene) {
+TEST(Observing, RestartsAfterReset) {
     const auto simulation = simulate(headOn(scene::Model::Balanced, 0.5));
     run(*simulation, 40 * simulation->scene().step);
     const sim::Impacts before = simulation->statistics().impacts;
@@ -123,7 +123,7 @@ TEST(Observing, BeginsAnewWithTheScene) {
 }
 
 // In the model `accurate`, an impact takes many substeps. Impacts are not counted there, and have no array.
-TEST(Observing, IsNotForForces) {
+TEST(Observing, CountsNoImpactsInTheAccurateModel) {
     scene::Scene scene = headOn(scene::Model::Accurate, 0.5);
     scene.quality.substeps = 100;
     const auto simulation = simulate(scene);

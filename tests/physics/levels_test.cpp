@@ -63,7 +63,7 @@ scene::Scene cluster(double side, double ratio, double approach) {
 
 class Ratio : public testing::TestWithParam<int> {};
 
-TEST_P(Ratio, ListsAreWhatBruteForceFinds) {
+TEST_P(Ratio, ContactListsMatchBruteForce) {
     for (const double side : {3.0, 12.0}) {
         const scene::Scene scene = cluster(side, GetParam(), 0);
         const auto simulation = simulate(scene);
@@ -77,7 +77,7 @@ TEST_P(Ratio, ListsAreWhatBruteForceFinds) {
     }
 }
 
-TEST_P(Ratio, AClusterKeepsItsMomentum) {
+TEST_P(Ratio, ClusterConservesMomentum) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
         SCOPED_TRACE(scene::nameOf(model));
         scene::Scene scene = cluster(12, GetParam(), 0.5);
@@ -101,7 +101,7 @@ TEST_P(Ratio, AClusterKeepsItsMomentum) {
 
 INSTANTIATE_TEST_SUITE_P(OneTo, Ratio, testing::Values(2, 10, 30, 100));
 
-TEST(Levels, ALargeSphereRestsOnABedOfSmallOnes) {
+TEST(Levels, LargeSphereRestsOnABedOfSmallSpheres) {
     scene::Scene scene = bedUnderOne(1'000, 100);
     const auto simulation = simulate(scene);
     run(*simulation, 1);
@@ -118,7 +118,7 @@ TEST(Levels, ALargeSphereRestsOnABedOfSmallOnes) {
 }
 
 // A large sphere rolls into small sleeping ones, and a small sphere into a large sleeping one.
-TEST(Levels, SleepersWakeWhenSpheresOfOtherSizesComeToThem) {
+TEST(Levels, SpheresOfOtherSizesWakeSleepingSpheres) {
     scene::Scene scene = sleepyBox(2);
     auto add = [&scene](double x, double y, double radius) {
         scene::Sphere sphere;

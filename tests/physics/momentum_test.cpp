@@ -34,7 +34,7 @@ scene::Scene contractingCloud(bool equal) {
 
 class Momentum : public testing::TestWithParam<bool> {};
 
-TEST_P(Momentum, IsKeptThroughThousandsOfCollisions) {
+TEST_P(Momentum, IsConservedInThousandsOfCollisions) {
     const auto simulation = simulate(contractingCloud(GetParam()));
     const sim::State before = simulation->snapshot();
     std::uint64_t contacts = 0;

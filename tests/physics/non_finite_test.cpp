@@ -27,7 +27,7 @@ scene::Scene block(int perSide) {
 
 class NonFinite : public testing::TestWithParam<glm::vec4> {};
 
-TEST_P(NonFinite, ASphereIsCountedAndLeavesItsNeighboursAlone) {
+TEST_P(NonFinite, SphereIsCountedAndDoesNotAffectOthers) {
     constexpr std::uint32_t id = 62;  // in the middle of 5 x 5 x 5
     const auto simulation = simulate(block(5));
     run(*simulation, 0.1);
@@ -53,7 +53,7 @@ TEST_P(NonFinite, ASphereIsCountedAndLeavesItsNeighboursAlone) {
 
 class Divergence : public testing::TestWithParam<scene::Model> {};
 
-TEST_P(Divergence, IsToldWithTheSphereAndEndsInTheLastGoodState) {
+TEST_P(Divergence, IsReportedAndRolledBackToTheLastFiniteState) {
     scene::Scene scene = block(4);
     scene.step = 1.0 / 60;
     scene.quality = {.model = GetParam(), .substeps = 8, .substepsFixed = true};

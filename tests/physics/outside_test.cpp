@@ -45,7 +45,7 @@ std::unique_ptr<sim::Simulation> settled(const scene::Scene& scene, compute::Dev
     return simulation;
 }
 
-TEST(Outside, OneThatFallsForEverAsksForNoListsAndNoSubsteps) {
+TEST(Outside, FallingSphereCausesNoRebuildsOrSubsteps) {
     std::uint32_t rebuilds[2];
     for (const bool escaped : {false, true}) {
         const auto simulation = settled(pit(5, escaped), device());
@@ -61,7 +61,7 @@ TEST(Outside, OneThatFallsForEverAsksForNoListsAndNoSubsteps) {
 }
 
 // Measures processor time in turns, so that other programs on the machine hardly affect it.
-TEST(Outside, OneThatFallsForEverAddsLessThanAFifthToTheTimeOfASleepingBed) {
+TEST(Outside, FallingSphereAddsLessThanAFifthToTheStepTime) {
     const auto cpu = compute::openDevice("cpu:1").value();
     const auto without = settled(pit(12, false), *cpu);
     const auto with = settled(pit(12, true), *cpu);
@@ -82,7 +82,7 @@ TEST(Outside, OneThatFallsForEverAddsLessThanAFifthToTheTimeOfASleepingBed) {
 }
 
 // Two spheres leave a small domain side by side, and slowly approach each other as they fall.
-TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
+TEST(Outside, FallingSpheresCollide) {
     for (const scene::Model model : models) {
         for (const std::uint64_t seed : {1, 2, 3}) {
             SCOPED_TRACE(std::string(scene::nameOf(model)) + ", seed " + std::to_string(seed));
@@ -109,7 +109,7 @@ TEST(Outside, TwoThatFallTogetherStillBounceOffEachOther) {
     }
 }
 
-TEST(Outside, TwoThatMeetFarFromTheBoundsDoNotPassThroughEachOther) {
+TEST(Outside, FastSpheresFarFromTheBoundsCollide) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         SCOPED_TRACE(scene::nameOf(model));
         scene::Scene scene = fineStepSpace(1);
@@ -139,7 +139,7 @@ TEST(Outside, TwoThatMeetFarFromTheBoundsDoNotPassThroughEachOther) {
 }
 
 // A sphere leaves through the open top at 30 m/s, and falls back onto sleeping spheres after 6 s.
-TEST(Outside, OneThatComesBackHitsWhatItLeft) {
+TEST(Outside, ReturningSphereHitsSleepingSpheres) {
     scene::Scene scene = sleepyBox(2);
     scene.bounds.open[scene::ZMax] = true;
     for (int k = 0; k < 9; ++k) scene.spheres.push_back(at({0.1 * (k % 3) - 0.1, 0.1 * (k / 3) - 0.1, -0.95}));
@@ -159,7 +159,7 @@ TEST(Outside, OneThatComesBackHitsWhatItLeft) {
     EXPECT_EQ(simulation->statistics().outside, 0U);
 }
 
-TEST(Outside, APlaneBelowTheBoundsIsHit) {
+TEST(Outside, SphereHitsAPlaneBelowTheBounds) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced}) {
         SCOPED_TRACE(scene::nameOf(model));
         scene::Scene scene = fineStepSpace(1);
@@ -184,7 +184,7 @@ TEST(Outside, APlaneBelowTheBoundsIsHit) {
 }
 
 // All touching pairs of a swarm that leaves the bounds are in the lists.
-TEST(Outside, ASwarmThatLeavesHasAllThatTouchInItsLists) {
+TEST(Outside, ContactListsOfALeavingSwarmAreComplete) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
         SCOPED_TRACE(seed);
         scene::Random random(seed);
@@ -217,7 +217,7 @@ TEST(Outside, ASwarmThatLeavesHasAllThatTouchInItsLists) {
     }
 }
 
-TEST(Outside, HasTheSameBitsOnAllDevices) {
+TEST(Outside, StateIsTheSameOnAllDevices) {
     scene::Scene scene = fineStepSpace(0.8);
     scene.forces.gravity = {0, 0, -earth};
     scene.sleep.enabled = true;
@@ -238,7 +238,7 @@ TEST(Outside, HasTheSameBitsOnAllDevices) {
     }
 }
 
-TEST(Outside, AHundredThousandRadiiAwaySpheresAreAloneAndAtTheEndOfSpaceTheyStay) {
+TEST(Outside, VeryDistantSpheresHaveNoContactsAndStayFinite) {
     scene::Scene scene = fineStepSpace(1);
     scene.forces.gravity = {0, 0, -earth};
     scene.spheres = {at({-0.2, 0, 0}), at({0.2, 0, 0}), at({0, 0, 0.3}), at({0, 0, -0.3})};

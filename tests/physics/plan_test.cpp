@@ -60,7 +60,7 @@ const std::vector<std::pair<scene::Model, std::set<Pass>>> passesByModel = {
      {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::SlipMemory, Pass::Forces, Pass::WallForces}},
 };
 
-TEST(Plan, OfEverythingHasThePassesOfItsModelAndNoOthers) {
+TEST(Plan, WithAllFeaturesHasExactlyThePassesOfItsModel) {
     for (const auto& [model, passes] : passesByModel) {
         const sim::Plan plan = planOf(everything(model));
         for (unsigned k = 0; k < sim::passCount; ++k) {
@@ -71,7 +71,7 @@ TEST(Plan, OfEverythingHasThePassesOfItsModelAndNoOthers) {
     }
 }
 
-TEST(Plan, OfEverythingInAllModelsHasEveryArray) {
+TEST(Plan, WithAllFeaturesInAllModelsHasEveryArray) {
     std::set<Array> arrays;
     for (const auto& [model, passes] : passesByModel)
         for (const sim::ArraySpec& spec : planOf(everything(model)).arrays) arrays.insert(spec.array);
@@ -81,7 +81,7 @@ TEST(Plan, OfEverythingInAllModelsHasEveryArray) {
 
 // Without friction, there are no arrays for spins, for impulses of pairs and walls, or for the slip of contacts. There
 // are no passes that read them either.
-TEST(Plan, WithoutFrictionHasNoRotationAndNoMemoryOfContacts) {
+TEST(Plan, WithoutFrictionHasNoRotationAndNoContactHistory) {
     for (const auto& [model, passes] : passesByModel) {
         scene::Scene scene = everything(model);
         for (scene::Material& material : scene.materials) material.friction = 0;
@@ -98,7 +98,7 @@ TEST(Plan, WithoutFrictionHasNoRotationAndNoMemoryOfContacts) {
     }
 }
 
-TEST(Plan, OfDustInEmptySpaceIntegratesAndNothingElse) {
+TEST(Plan, WithoutContactsAndForcesOnlyIntegrates) {
     const sim::Plan plan = planOf(dust());
     ASSERT_EQ(plan.substep.size(), 1U);
     EXPECT_EQ(plan.substep[0].pass, Pass::Integrate);
@@ -131,7 +131,7 @@ TEST(Plan, WithoutSleepHasNoSleepPass) {
     EXPECT_LT(planOf(scene).bytes(), planOf(everything()).bytes());
 }
 
-TEST(Plan, OfOneMaterialInEmptySpaceHasNoTableOfLaws) {
+TEST(Plan, WithOneMaterialInEmptySpaceHasNoContactTable) {
     scene::Scene scene = everything();
     scene.bounds.open.fill(true);
     scene.obstacles.clear();
@@ -153,7 +153,7 @@ TEST(Plan, WithoutWallsHasNoWallPass) {
     EXPECT_FALSE(planOf(scene).has(Array::Obstacles)) << "faces are no obstacles";
 }
 
-TEST(Plan, SaysWhichKernelsNeedNotKnowOfGravityOrRadii) {
+TEST(Plan, DetectsUseOfGravityAndRadii) {
     EXPECT_TRUE(planOf(everything()).features.has(sim::Feature::Gravity));
     EXPECT_TRUE(planOf(everything()).features.has(sim::Feature::Radii));
     EXPECT_FALSE(planOf(dust()).features.has(sim::Feature::Gravity));
@@ -161,7 +161,7 @@ TEST(Plan, SaysWhichKernelsNeedNotKnowOfGravityOrRadii) {
 }
 
 // The simulation allocates the arrays of the plan, and runs the passes of the plan.
-TEST(Plan, IsWhatTheSimulationAllocatesAndTimes) {
+TEST(Plan, DeterminesAllocatedArraysAndTimedPasses) {
     const auto simulation = simulate(dust());
     EXPECT_EQ(simulation->plan().bytes(), planOf(dust()).bytes());
     EXPECT_TRUE(simulation->pipeline().read<std::uint32_t>(Array::Pairs).empty());

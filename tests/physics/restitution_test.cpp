@@ -56,7 +56,7 @@ double measured(const sim::State& before, const sim::State& after, std::uint32_t
            glm::dot(velocityOf(before, a) - velocityOf(before, b), n);
 }
 
-TEST_P(Restitution, IsThatOfTheSceneForEveryKindOfPair) {
+TEST_P(Restitution, MatchesTheSceneForEveryKindOfPair) {
     const auto simulation = simulate(lanes(GetParam()));
     const sim::State before = simulation->snapshot();
     run(*simulation, 0.5);
@@ -75,7 +75,7 @@ TEST_P(Restitution, IsThatOfTheSceneForEveryKindOfPair) {
     RecordProperty("worst", std::to_string(worst));
 }
 
-TEST_P(Restitution, HoldsWhereEverySphereIsTheSame) {
+TEST_P(Restitution, MatchesTheSceneForIdenticalSpheres) {
     scene::Scene scene = named("two-spheres");
     setRestitution(scene, GetParam());
     const auto simulation = simulate(scene);
@@ -84,7 +84,7 @@ TEST_P(Restitution, HoldsWhereEverySphereIsTheSame) {
     EXPECT_NEAR(measured(before, simulation->snapshot(), 0, 1), GetParam(), tolerance);
 }
 
-TEST_P(Restitution, HoldsAtWallsPlanesAndBoxes) {
+TEST_P(Restitution, MatchesTheSceneAtWallsPlanesAndBoxes) {
     scene::Scene scene = fineStepSpace(4);
     scene.bounds.open[scene::ZMin] = false;
     const glm::dvec3 slope = glm::normalize(glm::dvec3(1, 0, 2));
@@ -111,7 +111,7 @@ TEST_P(Restitution, HoldsAtWallsPlanesAndBoxes) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Restitution, testing::Values(0.0, 0.5, 0.9, 1.0));
 
-TEST(Restitution, APairTakesTheSmallerOfItsTwo) {
+TEST(Restitution, IsTheSmallerOneOfTwoMaterials) {
     scene::Scene scene = lanes(0.9);
     // The new material keeps the density of the one that it replaces.
     for (std::size_t k = 0; k < scene.spheres.size(); k += 2) {

@@ -33,7 +33,7 @@ std::unique_ptr<sim::Simulation> sleepingColumn(int height) {
     return simulation;
 }
 
-TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
+TEST(Sleep, DoesNotStartAtTheTopOfAFlight) {
     for (const double g : {earth, 0.1, 0.01}) {
         SCOPED_TRACE(g);
         scene::Scene scene = sleepyBox(20);
@@ -52,7 +52,7 @@ TEST(Sleep, DoesNotTakeASphereAtTheTopOfItsFlight) {
 
 // The sphere moves by less than the creep, and is slow at each apex. But it never is slow and supported at the same
 // time.
-TEST(Sleep, DoesNotTakeASphereThatHopsForEver) {
+TEST(Sleep, DoesNotStartForABouncingSphere) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.948})};
     setRestitution(scene, 1);
@@ -111,7 +111,7 @@ TEST(Sleep, EndsWhenTheSupportIsRemoved) {
     for (std::uint32_t id = 1; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.04) << id;
 }
 
-TEST(Sleep, EndsWhenTheSupportIsOutOfReachWithinASubstep) {
+TEST(Sleep, EndsWhenTheSupportLeavesWithinASubstep) {
     const auto simulation = sleepingColumn(4);
     push(*simulation, 0, {40, 0, 0});  // 83 mm a substep
     run(*simulation, 0.08);
@@ -122,7 +122,7 @@ TEST(Sleep, EndsWhenTheSupportIsOutOfReachWithinASubstep) {
     for (std::uint32_t id = 2; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.01) << id;
 }
 
-TEST(Sleep, EndsWhenTheSupportCreepsAway) {
+TEST(Sleep, EndsWhenTheSupportMovesAwaySlowly) {
     const auto simulation = sleepingColumn(2);
     push(*simulation, 0, {0.025, 0, 0});
     run(*simulation, 5);
@@ -130,7 +130,7 @@ TEST(Sleep, EndsWhenTheSupportCreepsAway) {
 }
 
 // A fast sphere causes a rebuild of the lists in every substep, before a slow sphere has moved by the margin.
-TEST(Sleep, EndsWhenTheSupportCreepsAwayInABusyWorld) {
+TEST(Sleep, EndsWhenTheSupportMovesSlowlyDuringFrequentRebuilds) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.95}), at({0, 0, -0.85}), at({0.9, 0.9, 0.9})};
     scene.spheres[2].radius = 0.025F;
@@ -224,7 +224,7 @@ Watch watch(sim::Simulation& simulation, double seconds) {
 }
 
 // 100 balls fall on the floor one by one, and 20 more on top of some of them.
-TEST(SleepWatch, BallsOnTheFloorAllFallAsleepAndStayExactlyWhereTheyAre) {
+TEST(SleepWatch, BallsOnTheFloorFallAsleepAndDoNotMove) {
     scene::Scene scene = sleepyBox(2);
     scene::Sphere ball;
     ball.radius = 0.05F;
@@ -245,7 +245,7 @@ TEST(SleepWatch, BallsOnTheFloorAllFallAsleepAndStayExactlyWhereTheyAre) {
     EXPECT_EQ(simulation->statistics().sleeping, 120U);
 }
 
-TEST(SleepWatch, InABedNothingFastFallsAsleepAndNoSleeperMoves) {
+TEST(SleepWatch, OnlySlowSpheresOfABedSleepAndTheyDoNotMove) {
     const auto simulation = simulate(named("box-4k"));
     const Watch seen = watch(*simulation, 5);
     EXPECT_EQ(seen.tooFast, 0);

@@ -90,7 +90,7 @@ void setHeights(scene::Scene& scene, bool walls) {
     }
 }
 
-TEST_P(ObliqueImpact, TurnsSpheresAsTheLawSaysWhateverThePhase) {
+TEST_P(ObliqueImpact, RotationMatchesTheContactLawForAnyPhase) {
     constexpr double ofReference = 0.01;
     constexpr double overPhases = 0.005;
     constexpr int rows = 4;
@@ -228,7 +228,7 @@ TEST_P(SoftContacts, AreTheSameInAMovingFrame) {
     }
 }
 
-TEST_P(SoftContacts, AreTheSameFromAnotherSide) {
+TEST_P(SoftContacts, AreTheSameAfterRotationOfTheScene) {
     const scene::Scene scene = meetings(3, setting(), 0.7);
     scene::Scene rotated = scene;
     const auto turned = [](const auto& v) { return std::decay_t<decltype(v)>(v.y, v.z, v.x); };
@@ -240,7 +240,7 @@ TEST_P(SoftContacts, AreTheSameFromAnotherSide) {
     expectTheSame(rotationsAfter(rotated), rotationsAfter(scene), 0.001);
 }
 
-TEST_P(SoftContacts, AreTheSameInAnyOrder) {
+TEST_P(SoftContacts, AreTheSameForAnyOrderOfSpheres) {
     const scene::Scene scene = meetings(4, setting(), 0.7);
     scene::Scene other = scene;
     std::ranges::reverse(other.spheres);
@@ -265,7 +265,7 @@ TEST_P(SoftContacts, ScaleWithTheScene) {
     expectTheSame(rotationsAfter(large), rotationsAfter(scene), 0.001, 1e15);
 }
 
-TEST_P(SoftContacts, KeepMomentumAndAngularMomentumAndGainNoEnergy) {
+TEST_P(SoftContacts, ConserveMomentumAndGainNoEnergy) {
     for (const std::uint64_t seed : {6U, 7U}) {
         for (const double e : {0.5, 1.0}) {
             scene::Scene scene = meetings(seed, setting(), e);
@@ -308,7 +308,7 @@ TEST_P(SoftContacts, KeepMomentumAndAngularMomentumAndGainNoEnergy) {
 }
 
 // In elastic contacts without sliding, only Mindlin's spring loses energy, as its stiffness changes.
-TEST_P(SoftContacts, ElasticEnergyIsWhatTheOthersLack) {
+TEST_P(SoftContacts, SumOfKineticAndElasticEnergyIsConstant) {
     for (const double friction : {0.0, 0.5}) {
         scene::Scene scene = meetings(8, {.hertz = GetParam(), .walls = false, .friction = friction}, 1, 1);
         scene.step = 1e-4;
@@ -348,7 +348,7 @@ INSTANTIATE_TEST_SUITE_P(Of, SoftContacts, testing::Bool(),
                          [](const auto& parameter) { return std::string(parameter.param ? "Hertz" : "Linear"); });
 
 // A sphere at rest on the floor stores m g d / 2 in a linear spring, and 2/5 m g d in a Hertz spring.
-TEST(SoftFloor, HoldsWhatASphereAtRestHasPressedIntoIt) {
+TEST(SoftFloor, ElasticEnergyMatchesASphereAtRest) {
     for (const bool hertz : {false, true}) {
         scene::Scene scene = soft({.hertz = hertz, .walls = true, .friction = 0.3}, 0.2);
         scene.forces.gravity = {0, 0, -earth};
@@ -366,7 +366,7 @@ TEST(SoftFloor, HoldsWhatASphereAtRestHasPressedIntoIt) {
     }
 }
 
-TEST(SoftFloor, OfHardSpheresHoldsNothing) {
+TEST(SoftFloor, HardSpheresHaveNoElasticEnergy) {
     scene::Scene scene = fineStepBox(1);
     scene.spheres = {{.position = {0, 0, -0.46}, .radius = 0.05F}};
     const auto simulation = simulate(scene);
@@ -374,7 +374,7 @@ TEST(SoftFloor, OfHardSpheresHoldsNothing) {
     EXPECT_EQ(simulation->plan().statistics.size(), 2U);
 }
 
-TEST(SoftFloor, ThatWouldNotHoldIsRefusedByCommandsToo) {
+TEST(SoftFloor, CommandsThatMakeItTooSoftAreRefused) {
     scene::Scene scene = soft({.hertz = true, .walls = true, .friction = 0}, 0.5);
     scene.forces.gravity = {0, 0, -earth};
     scene.spheres = {{.position = {0, 0, 0}, .radius = 0.05F}};

@@ -76,7 +76,7 @@ Sums sumsOf(const reference::World& world) {
     return sums;
 }
 
-TEST(Statistics, AreWhatPlainSumsOverTheStateSay) {
+TEST(Statistics, MatchSumsOverTheState) {
     const auto simulation = fallenHeap();
     const sim::Statistics got = simulation->statistics();
     const sim::State state = simulation->snapshot();
