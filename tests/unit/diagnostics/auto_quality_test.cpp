@@ -36,7 +36,7 @@ World holding(QualityGoal::Kind kind, double most) {
     return {.quality = AutoQuality({kind, most}, range)};
 }
 
-TEST(AutoQuality, LowersSubstepsUntilTheBudgetHolds) {
+TEST(AutoQuality, LowersSubstepsToMeetTheBudget) {
     World world = holding(QualityGoal::Kind::StepTime, 10);
     world.msPerSubstep = 4;
     world.read(40);
@@ -46,7 +46,7 @@ TEST(AutoQuality, LowersSubstepsUntilTheBudgetHolds) {
         << world.said;
 }
 
-TEST(AutoQuality, OneSlowReadingMovesNothing) {
+TEST(AutoQuality, IgnoresSingleSlowReadings) {
     World world = holding(QualityGoal::Kind::StepTime, 10);
     for (int k = 0; k < 20; ++k) {
         world.msPerSubstep = 5;
@@ -57,7 +57,7 @@ TEST(AutoQuality, OneSlowReadingMovesNothing) {
     EXPECT_EQ(world.changes, 0) << world.said;
 }
 
-TEST(AutoQuality, RaisesSubstepsWhereThereIsRoomAndThenStays) {
+TEST(AutoQuality, RaisesSubstepsWithinTheBudgetAndThenStaysConstant) {
     World world = holding(QualityGoal::Kind::StepTime, 40);
     world.read(100);
     EXPECT_LE(world.substeps, 40U);
@@ -67,7 +67,7 @@ TEST(AutoQuality, RaisesSubstepsWhereThereIsRoomAndThenStays) {
     EXPECT_EQ(world.changes, before) << "it does not go up and down";
 }
 
-TEST(AutoQuality, SaysOnceThatABudgetIsOutOfReach) {
+TEST(AutoQuality, ReportsAnUnreachableBudgetOnce) {
     World world = holding(QualityGoal::Kind::StepTime, 1);
     world.read(100);
     EXPECT_EQ(world.substeps, 2U);
@@ -78,14 +78,14 @@ TEST(AutoQuality, SaysOnceThatABudgetIsOutOfReach) {
     EXPECT_EQ(world.said.find("out of reach", first + told.size()), std::string::npos) << world.said;
 }
 
-TEST(AutoQuality, RaisesSubstepsUntilTheOverlapIsSmallEnough) {
+TEST(AutoQuality, RaisesSubstepsToMeetTheOverlap) {
     World world = holding(QualityGoal::Kind::Overlap, 0.005);
     world.read(100);
     EXPECT_LE(1 / (1.0 * world.substeps * world.substeps), 0.005);
     EXPECT_LE(world.substeps, 23U) << "but not much further";
 }
 
-TEST(AutoQuality, LowersSubstepsWhereTheOverlapIsFarBelow) {
+TEST(AutoQuality, LowersSubstepsIfTheOverlapIsFarBelowTheGoal) {
     World world = holding(QualityGoal::Kind::Overlap, 0.05);
     world.substeps = 60;
     world.read(200);
@@ -93,13 +93,13 @@ TEST(AutoQuality, LowersSubstepsWhereTheOverlapIsFarBelow) {
     EXPECT_LT(world.substeps, 9U);
 }
 
-TEST(AutoQuality, ReadsNoOverlapWhereNothingTouches) {
+TEST(AutoQuality, IgnoresOverlapsWithoutContacts) {
     World world = holding(QualityGoal::Kind::Overlap, 0.005);
     world.read(100, 0);
     EXPECT_EQ(world.changes, 0);
 }
 
-TEST(AutoQuality, NeverLeavesItsRange) {
+TEST(AutoQuality, StaysInItsRange) {
     World world = holding(QualityGoal::Kind::Overlap, 1e-6);
     world.read(100);
     EXPECT_EQ(world.substeps, 64U);

@@ -48,14 +48,14 @@ TEST(QualityTable, IsSortedFromFastToAccurate) {
     EXPECT_EQ(table->rungs[1].curves.at("bed overlap").spheres, 101U);
 }
 
-TEST(QualityTable, OfTheProgramHasEveryModel) {
+TEST(QualityTable, BuiltInTableHasEveryModel) {
     const Table table = ownTable();
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate})
         EXPECT_GE(std::ranges::count(table.rungs, model, &Rung::model), 3);
     for (const Rung& rung : table.rungs) EXPECT_TRUE(rung.curves.contains("bed overlap"));
 }
 
-TEST(QualityTable, ThatIsWrongSaysWhereAndHowToMendIt) {
+TEST(QualityTable, ErrorsStatePlaceAndRemedy) {
     const std::string advice = "; `spherule measure --suite accuracy --out FOLDER` writes FOLDER/measure.json";
     EXPECT_EQ(refusalOf("{\n \"device\": }"), "t.json:2:12: is not JSON" + advice);
     EXPECT_EQ(refusalOf(""), "t.json:1:1: is not JSON" + advice);
@@ -86,7 +86,7 @@ TEST(QualityTable, ThatIsWrongSaysWhereAndHowToMendIt) {
     EXPECT_EQ(refusalOf(with("1e-6", "1e999")), "t.json: holds a number that is too large" + advice);
 }
 
-TEST(QualityTable, ThatCannotBeReadSaysSo) {
+TEST(QualityTable, ReadErrorsStateTheReason) {
     const auto missing = loadTable("/no/such/table.json");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().text().find("/no/such/table.json: there is no such file; `spherule measure"), 0U)
@@ -97,7 +97,7 @@ TEST(QualityTable, ThatCannotBeReadSaysSo) {
               0U);
 }
 
-TEST(Dial, HasTheRungsWithTheSubstepsOfTheScene) {
+TEST(Dial, HasPositionsWithTheSubstepsOfTheScene) {
     const auto table = parseTable(good, "t.json");
     ASSERT_TRUE(table);
     const v1::Dial dial = dialFor(*table, bounce());
@@ -114,7 +114,7 @@ TEST(Dial, HasTheRungsWithTheSubstepsOfTheScene) {
     EXPECT_FALSE(dial.calibrated());
 }
 
-TEST(Dial, EstimatesWhatASubstepCostsAndWhatEachSphereAdds) {
+TEST(Dial, EstimatesStepTimeFromSubstepsAndSpheres) {
     const auto table = parseTable(good, "t.json");
     ASSERT_TRUE(table);
     scene::Scene scene = bounce();
@@ -131,7 +131,7 @@ TEST(Dial, EstimatesWhatASubstepCostsAndWhatEachSphereAdds) {
     EXPECT_TRUE(calibrated(dial, 2.5).calibrated());
 }
 
-TEST(Dial, LeavesOutWhatASceneCannotHave) {
+TEST(Dial, OmitsModelsThatTheSceneDoesNotSupport) {
     scene::Scene scene = bounce();
     scene.materials.push_back({.name = "steel", .young = 1e9});
     const v1::Dial dial = dialFor(ownTable(), scene);

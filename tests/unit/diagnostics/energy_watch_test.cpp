@@ -12,14 +12,14 @@ int read(EnergyWatch& watch, double joules, int times = 1) {
     return said;
 }
 
-TEST(EnergyWatch, IsSilentWhileEnergyFallsOrStays) {
+TEST(EnergyWatch, DoesNotReportFallingOrConstantEnergy) {
     EnergyWatch watch;
     for (double joules = 100; joules > 1; joules *= 0.9) EXPECT_EQ(read(watch, joules), 0);
     EXPECT_EQ(read(watch, 1, 20), 0);
     EXPECT_FALSE(watch.alarmed());
 }
 
-TEST(EnergyWatch, TellsOfARiseOnceWithBothFigures) {
+TEST(EnergyWatch, ReportsARiseOnceWithBothEnergies) {
     EnergyWatch watch;
     read(watch, 100, 3);
     const auto told = watch.check({.step = 42, .kinetic = 60, .potential = 42});
@@ -29,13 +29,13 @@ TEST(EnergyWatch, TellsOfARiseOnceWithBothFigures) {
     EXPECT_EQ(read(watch, 110) + read(watch, 120) + read(watch, 140), 0) << "once until it is quiet";
 }
 
-TEST(EnergyWatch, LetsRoundingPass) {
+TEST(EnergyWatch, IgnoresRounding) {
     EnergyWatch watch;
     read(watch, 100, 3);
     EXPECT_EQ(read(watch, 100.9, 20), 0);
 }
 
-TEST(EnergyWatch, TellsAgainAfterAQuietTime) {
+TEST(EnergyWatch, ReportsAgainAfterAQuietPeriod) {
     EnergyWatch watch;
     read(watch, 100);
     EXPECT_EQ(read(watch, 105), 1);
@@ -44,7 +44,7 @@ TEST(EnergyWatch, TellsAgainAfterAQuietTime) {
     EXPECT_EQ(read(watch, 110), 1);
 }
 
-TEST(EnergyWatch, NoticesWhatRisesSlowly) {
+TEST(EnergyWatch, ReportsASlowRise) {
     EnergyWatch watch;
     int said = 0;
     double joules = 100;
@@ -52,7 +52,7 @@ TEST(EnergyWatch, NoticesWhatRisesSlowly) {
     EXPECT_GE(said, 1);
 }
 
-TEST(EnergyWatch, IsNotFooledByWhatContactsHoldForAMoment) {
+TEST(EnergyWatch, IgnoresEnergyStoredBrieflyInContacts) {
     EnergyWatch watch;
     for (int k = 0; k < 20; ++k) {
         EXPECT_EQ(read(watch, 100), 0);
@@ -60,14 +60,14 @@ TEST(EnergyWatch, IsNotFooledByWhatContactsHoldForAMoment) {
     }
 }
 
-TEST(EnergyWatch, CountsWhatTheSpringsOfSoftSpheresHold) {
+TEST(EnergyWatch, IncludesElasticEnergy) {
     EnergyWatch watch;
     EXPECT_FALSE(watch.check({.kinetic = 60, .elastic = 40})) << "in the middle of an impact";
     EXPECT_FALSE(watch.check({.kinetic = 100}));
     EXPECT_TRUE(watch.check({.kinetic = 100, .elastic = 10}));
 }
 
-TEST(EnergyWatch, OfASqueezedBedReadsSeveralBeforeItTells) {
+TEST(EnergyWatch, WaitsAfterAReadingOfSoftSpheres) {
     EnergyWatch watch;
     EXPECT_FALSE(watch.check({.kinetic = 60, .soft = true}));
     EXPECT_EQ(read(watch, 70), 0) << "it expands";
@@ -75,7 +75,7 @@ TEST(EnergyWatch, OfASqueezedBedReadsSeveralBeforeItTells) {
     EXPECT_EQ(read(watch, 80), 1);
 }
 
-TEST(EnergyWatch, StartsAnewAfterACommand) {
+TEST(EnergyWatch, RestartsAfterACommand) {
     EnergyWatch watch;
     read(watch, 100, 10);
     watch.invalidateBaseline();
@@ -83,7 +83,7 @@ TEST(EnergyWatch, StartsAnewAfterACommand) {
     EXPECT_FALSE(watch.alarmed());
 }
 
-TEST(EnergyWatch, MeasuresFarFallsByWhatTheyAreMadeOf) {
+TEST(EnergyWatch, UsesAThresholdRelativeToBothEnergies) {
     EnergyWatch watch;
     watch.check({.step = 1, .kinetic = 1000, .potential = -999});
     EXPECT_FALSE(watch.check({.step = 2, .kinetic = 2000, .potential = -1998.5})) << "half a joule of 4000 is rounding";

@@ -7,7 +7,7 @@
 namespace spherule::diagnostics {
 namespace {
 
-TEST(OverlapWatch, TellsOnceUntilThereHasBeenNoneForAWhile) {
+TEST(OverlapWatch, ReportsOnceUntilAQuietPeriod) {
     OverlapWatch watch;
     EXPECT_FALSE(watch.check(1, 0.5));
     const auto told = watch.check(2, 0.7);
@@ -20,7 +20,7 @@ TEST(OverlapWatch, TellsOnceUntilThereHasBeenNoneForAWhile) {
     EXPECT_TRUE(watch.check(7, 0.6));
 }
 
-TEST(OverlapWatch, IsSilentOfWhatIsNoNumber) {
+TEST(OverlapWatch, IgnoresNaN) {
     EXPECT_FALSE(OverlapWatch().check(1, std::numeric_limits<double>::quiet_NaN()));
 }
 

@@ -24,7 +24,7 @@ std::set<std::string> commandsWith(Rule rule) {
 
 using Names = std::set<std::string>;
 
-TEST(CommandRules, EveryCommandHasThem) {
+TEST(CommandRules, ExistForEveryCommand) {
     ASSERT_GE(commandFields().size(), 13U);
     for (const auto* const kind : commandFields()) {
         EXPECT_TRUE(kind->options().HasExtension(v1::command_rules))
@@ -40,7 +40,7 @@ struct Row {
 
 class RulesOf : public testing::TestWithParam<Row> {};
 
-TEST_P(RulesOf, AreThoseOfControlProto) {
+TEST_P(RulesOf, MatchControlProto) {
     const Row& row = GetParam();
     const auto* const kind = v1::Command::descriptor()->FindFieldByName(row.command);
     ASSERT_NE(kind, nullptr);
@@ -67,14 +67,14 @@ INSTANTIATE_TEST_SUITE_P(CommandRules, RulesOf,
                                          Row{"stop_recording", no, no, no, no, no}, Row{"cancel", no, no, no, no, no}),
                          [](const auto& row) { return std::string(row.param.command); });
 
-TEST(CommandRules, NoCommandOfAViewerChangesAnything) {
+TEST(CommandRules, CommandsOfViewersChangeNothing) {
     const auto wrong = [](const v1::CommandRules& rules) {
         return rules.viewer_may() && (rules.changes_world() || rules.ends_steps() || rules.while_playing());
     };
     EXPECT_EQ(commandsWith(wrong), Names());
 }
 
-TEST(CommandRules, NameEachCommand) {
+TEST(CommandRules, NameOfACommandIsItsField) {
     v1::Command command;
     EXPECT_EQ(nameOf(command), "");
     EXPECT_FALSE(rulesOf(command).viewer_may());
@@ -85,7 +85,7 @@ TEST(CommandRules, NameEachCommand) {
 }
 
 // A command with help takes its fields as words, so each field has a type that can be read from one.
-TEST(CommandRules, HelpMakesACommandOneOfTheShell) {
+TEST(CommandRules, CommandsWithHelpAreParsedFromWords) {
     for (const std::string& name : commandsWith([](const auto& rules) { return !rules.help().empty(); })) {
         const auto& type = *v1::Command::descriptor()->FindFieldByName(name)->message_type();
         std::vector<std::string> words{name};

@@ -29,7 +29,7 @@ class SceneCsv : public ::testing::Test {
 
 constexpr const char* radius = R"(, "radius": {"constant": 0.1}, "velocity": [0, 0, 2], "spin": [3, 0, 0])";
 
-TEST_F(SceneCsv, GivesPositionsNextToTheSceneFile) {
+TEST_F(SceneCsv, DefinesPositions) {
     const auto scene = loaded("x,y,z\n0.2,0.3,0.4\n0.5, 6e-1 ,0.5\r\n", radius);
     ASSERT_TRUE(scene) << scene.error().text();
     ASSERT_EQ(scene->spheres.size(), 2U);
@@ -40,7 +40,7 @@ TEST_F(SceneCsv, GivesPositionsNextToTheSceneFile) {
     EXPECT_EQ(scene->spheres[1].radius, 0.1F);
 }
 
-TEST_F(SceneCsv, GivesVelocitiesAndRadii) {
+TEST_F(SceneCsv, DefinesVelocitiesAndRadii) {
     const auto scene = loaded("x,y,z,vx,vy,vz,radius\n0.2,0.3,0.4,1,2,3,0.05", radius);
     ASSERT_TRUE(scene) << scene.error().text();
     EXPECT_EQ(scene->spheres.at(0).velocity, glm::vec3(1, 2, 3));
@@ -50,11 +50,11 @@ TEST_F(SceneCsv, GivesVelocitiesAndRadii) {
     EXPECT_EQ(noVelocity->spheres.at(0).radius, 0.05F);
 }
 
-TEST_F(SceneCsv, MayHoldNoSpheres) {
+TEST_F(SceneCsv, MayHaveNoSpheres) {
     EXPECT_TRUE(loaded("x,y,z,radius\n"));
 }
 
-TEST_F(SceneCsv, TellsTheLineAndColumnOfAnError) {
+TEST_F(SceneCsv, ErrorsHaveLineAndColumn) {
     EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,0.4,0.1\n0.2,abc,0.4,0.1\n"),
               "balls.csv:3:5: y is \"abc\", must be a number");
     EXPECT_EQ(refusal("x,y,z,radius\n0.2,0.3,nan,0.1\n"), "balls.csv:2:9: z is nan, must be a finite number");
@@ -67,7 +67,7 @@ TEST_F(SceneCsv, TellsTheLineAndColumnOfAnError) {
     EXPECT_EQ(refusal("x,y,z\n1e999,0,0\n", radius), "balls.csv:2:1: x is \"1e999\", must be a number");
 }
 
-TEST_F(SceneCsv, TellsTheLineOfASphereWithoutAPlace) {
+TEST_F(SceneCsv, ErrorHasTheLineOfASphereOutsideTheBounds) {
     EXPECT_EQ(refusal("x,y,z,radius\n0.5,0.5,0.5,0.1\n0.5,0.5,3,0.1\n"),
               "balls.csv:3:1: the sphere at (0.5, 0.5, 3) with radius 0.1 reaches z = 3.1, outside the bounds, which "
               "are 0 to 1");
@@ -78,7 +78,7 @@ TEST_F(SceneCsv, NeedsAKnownHeader) {
     EXPECT_EQ(refusal(""), "balls.csv:1:1: the header is \"\", must be x,y,z[,vx,vy,vz][,radius]");
 }
 
-TEST_F(SceneCsv, NeedsARadiusFromSomewhere) {
+TEST_F(SceneCsv, NeedsARadius) {
     const auto scene = loaded("x,y,z\n0.5,0.5,0.5\n");
     ASSERT_FALSE(scene);
     EXPECT_TRUE(scene.error().where.ends_with("scene.json: groups[0].radius")) << scene.error().where;
@@ -92,7 +92,7 @@ TEST_F(SceneCsv, MustExist) {
     EXPECT_TRUE(scene.error().text().ends_with("none.csv: there is no such file")) << scene.error().text();
 }
 
-TEST_F(SceneCsv, MayBeginWithAByteOrderMark) {
+TEST_F(SceneCsv, MayStartWithAByteOrderMark) {
     const auto scene = loaded("\xef\xbb\xbfx,y,z\n0.2,0.3,0.4\n", radius);
     ASSERT_TRUE(scene) << scene.error().text();
     EXPECT_EQ(scene->spheres.size(), 1U);
@@ -100,12 +100,12 @@ TEST_F(SceneCsv, MayBeginWithAByteOrderMark) {
               "balls.csv:1:1: the header is \"x,y,u\", must be x,y,z[,vx,vy,vz][,radius]");
 }
 
-TEST_F(SceneCsv, ALineThatIsTooLongIsNotTheEnd) {
+TEST_F(SceneCsv, TooLongLineIsAnError) {
     EXPECT_EQ(refusal("x,y,z\n0.2,0.3,0.4\n" + std::string(100'000, ' ') + "0.5,0.5,0.5\n", radius),
               "balls.csv:3: the line is longer than 4096 bytes");
 }
 
-TEST_F(SceneCsv, AFileThatFailsToBeReadIsNotTheEnd) {
+TEST_F(SceneCsv, ReadErrorIsNotEndOfFile) {
     const auto scene = load(folder_.write("scene.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [
         {"csv": {"file": "/proc/self/mem"}}]})"),
                             "software");

@@ -41,7 +41,7 @@ TEST(SceneDamping, HasItsKnownValues) {
     EXPECT_NEAR(dampingRatio(std::exp(-2.0)), 1, 1e-9) << "critical";
 }
 
-TEST(SceneDamping, GivesItsRestitutionToLinearSprings) {
+TEST(SceneDamping, ReproducesRestitutionWithLinearSprings) {
     for (const double e : restitutions) {
         const double z = dampingRatio(e);
         EXPECT_NEAR(restitutionUnder([z](double x, double v) { return -x - 2 * z * v; }), e, 2e-4) << e;
@@ -50,7 +50,7 @@ TEST(SceneDamping, GivesItsRestitutionToLinearSprings) {
 
 // The dashpot is proportional to the fourth root of the overlap. With the factor sqrt(5), the impact has the same
 // restitution as a linear spring and dashpot with the same damping ratio.
-TEST(SceneDamping, GivesItsRestitutionUnderHertzsLaw) {
+TEST(SceneDamping, ReproducesRestitutionUnderHertzsLaw) {
     for (const double e : restitutions) {
         const double z = dampingRatio(e);
         const auto acceleration = [z](double x, double v) {
@@ -61,7 +61,7 @@ TEST(SceneDamping, GivesItsRestitutionUnderHertzsLaw) {
     }
 }
 
-TEST(SceneDamping, RisesAsRestitutionFallsAndEndsAtAThousandth) {
+TEST(SceneDamping, RisesUntilRestitutionIsAThousandth) {
     double above = -1;
     for (double e = 1; e > 0.001; e -= 0.001) {
         EXPECT_GT(dampingRatio(e), above) << e;

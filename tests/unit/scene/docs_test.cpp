@@ -19,7 +19,7 @@ std::string blockOf(const std::string& language) {
     return page.substr(text, page.find(fence, text) - text);
 }
 
-TEST(SceneDocs, TheCompleteExampleLoads) {
+TEST(SceneDocs, CompleteExampleLoads) {
     const TemporaryFolder folder;
     (void)folder.write("everything.csv", blockOf("csv"));
     const auto scene = load(folder.write("everything.json", blockOf("json")), "software");

@@ -26,19 +26,19 @@ std::size_t overlapsIn(const Scene& scene) {
     return count;
 }
 
-TEST(SceneFill, PlacesItsCountWithoutOverlaps) {
+TEST(SceneFill, PlacesAllSpheresWithoutOverlaps) {
     const Scene scene = sceneWith(fill(R"("count": 1500)", R"({"constant": 0.03})"));
     EXPECT_EQ(scene.spheres.size(), 1500U);
     EXPECT_EQ(overlapsIn(scene), 0U);
 }
 
-TEST(SceneFill, MixesVeryDifferentRadiiWithoutOverlaps) {
+TEST(SceneFill, PlacesVeryDifferentRadiiWithoutOverlaps) {
     const Scene scene = sceneWith(fill(R"("count": 800)", R"({"uniform": {"min": 0.002, "max": 0.06}})"));
     EXPECT_EQ(scene.spheres.size(), 800U);
     EXPECT_EQ(overlapsIn(scene), 0U);
 }
 
-TEST(SceneFill, KeepsRadiiInTheOrderDrawn) {
+TEST(SceneFill, KeepsTheOrderOfRadii) {
     // Large spheres are placed first, but ids keep the order in which radii are drawn.
     const Scene scene = sceneWith(fill(R"("count": 100)", R"({"uniform": {"min": 0.01, "max": 0.05}})"));
     const auto rises = [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; };
@@ -47,7 +47,7 @@ TEST(SceneFill, KeepsRadiiInTheOrderDrawn) {
     EXPECT_FALSE(std::is_sorted(scene.spheres.begin(), scene.spheres.end(), falls));
 }
 
-TEST(SceneFill, KeepsClearOfEarlierGroupsAndObstacles) {
+TEST(SceneFill, AvoidsEarlierGroupsAndObstacles) {
     const Scene scene = sceneWith(R"(
         "obstacles": [{"box": {"min": [0.4, 0, 0], "max": [0.6, 1, 1]}},
                       {"plane": {"point": [0, 0, 0.2], "normal": [0, 0, 1]}}],
@@ -60,7 +60,7 @@ TEST(SceneFill, KeepsClearOfEarlierGroupsAndObstacles) {
     }
 }
 
-TEST(SceneFill, FollowsItsSeed) {
+TEST(SceneFill, DependsOnTheSeed) {
     const auto first = [](const std::string& seed, const Overrides& overrides = {}) {
         return sceneWith(fill(R"("count": 5, "seed": )" + seed, R"({"constant": 0.03})"), overrides)
             .spheres[4]
@@ -71,13 +71,13 @@ TEST(SceneFill, FollowsItsSeed) {
     EXPECT_EQ(first("1", {.seed = 2}), first("2"));
 }
 
-TEST(SceneFill, RefusesAtOnceWhatTheVolumeCannotHold) {
+TEST(SceneFill, RefusesMoreSpheresThanTheVolumeHolds) {
     EXPECT_NE(refusalOf(fill(R"("count": 5000)", R"({"constant": 0.05})"))
                   .find("groups[0].fill.count: asks for 5000 spheres, at least 2.62 of the volume"),
               std::string::npos);
 }
 
-TEST(SceneFill, KeepsClearOfEveryEarlierGroup) {
+TEST(SceneFill, AvoidsHundredsOfEarlierGroups) {
     std::string groups =
         R"({"lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.4}, "radius": {"constant": 0.1}})";
     for (int k = 0; k < 300; ++k)
@@ -88,13 +88,13 @@ TEST(SceneFill, KeepsClearOfEveryEarlierGroup) {
     EXPECT_EQ(overlapsIn(scene), 0U);
 }
 
-TEST(SceneFill, GivesUpWhenThereIsNoRoom) {
+TEST(SceneFill, FailsWhenThereIsNoSpace) {
     const std::string text = refusalOf(fill(R"("count": 720)", R"({"constant": 0.05})"));
     EXPECT_EQ(text.substr(0, 78), "groups[0].fill.count: asks for 720 spheres, but no free place was found after ")
         << text;
 }
 
-TEST(SceneFill, RefusesWhatCannotBe) {
+TEST(SceneFill, RefusesInvalidValues) {
     EXPECT_EQ(refusalOf(fill(R"("seed": 1)", R"({"constant": 0.05})")),
               "groups[0].fill.count: is 0 or missing, must be at least 1");
     EXPECT_EQ(refusalOf(fill(R"("count": 1)", R"({"constant": 0.6})")),
@@ -105,7 +105,7 @@ TEST(SceneFill, RefusesWhatCannotBe) {
         std::string::npos);
 }
 
-TEST(SceneFill, OccupancyAgreesWithAllPairs) {
+TEST(SceneFill, OccupancyAgreesWithBruteForce) {
     Random random(3);
     Occupancy occupancy(0.15);  // smaller than the largest radius: slower, with the same results
     std::vector<std::pair<glm::dvec3, double>> taken;

@@ -5,7 +5,7 @@
 namespace spherule::scene::testing {
 namespace {
 
-TEST(SceneGroups, ListSpheresTakeWhatTheyDoNotSayFromTheGroup) {
+TEST(SceneGroups, ListSpheresInheritPropertiesOfTheGroup) {
     const Scene scene =
         sceneWith(R"("materials": [{"restitution": 0.3, "density": 500}, {"name": "b", "restitution": 0.9}], "groups": [
         {"name": "a", "colour": "#102030", "velocity": [1, 2, 3], "spin": [4, 5, 6], "radius": {"constant": 0.1},
@@ -41,7 +41,7 @@ TEST(SceneGroups, OverlapsBetweenSpheresAreAllowed) {
               "accepted");
 }
 
-TEST(SceneGroups, AnEmptyListIsAccepted) {
+TEST(SceneGroups, EmptyListIsAccepted) {
     EXPECT_EQ(refusalOf(group(R"("list": {})")), "accepted");
 }
 
@@ -50,7 +50,7 @@ TEST(SceneGroups, NeedASource) {
               "groups[0]: has no spheres, must have one of list, lattice, fill, csv");
 }
 
-TEST(SceneGroups, NeedARadiusWhereTheSourceGivesNone) {
+TEST(SceneGroups, NeedARadiusIfTheSourceHasNone) {
     const std::string missing = "groups[0].radius: is missing; give a constant, a uniform or a normal radius";
     EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})")), missing);
     EXPECT_EQ(refusalOf(group(R"("fill": {"min": [0,0,0], "max": [1,1,1], "count": 1})")), missing);
@@ -79,7 +79,7 @@ TEST(SceneGroups, RadiiArePositive) {
               "groups[0].list.spheres[0].radius: is -1, must be positive");
 }
 
-TEST(SceneGroups, EverySourceGivesTheGroupsVelocityAndSpin) {
+TEST(SceneGroups, SpheresOfEverySourceHaveTheVelocityAndSpinOfTheGroup) {
     for (const std::string source : {R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})",
                                      R"("lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.5})",
                                      R"("fill": {"min": [0,0,0], "max": [1,1,1], "count": 3})"}) {
@@ -109,7 +109,7 @@ TEST(SceneGroups, SphereVectorsAreChecked) {
               "groups[0].spin[1]: is nan, must be a finite number");
 }
 
-TEST(SceneGroups, TogetherAreLimitedInNumber) {
+TEST(SceneGroups, LimitTheTotalNumberOfSpheres) {
     const std::string text = refusalOf(R"("groups": [
         {"list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]}, "radius": {"constant": 0.001}},
         {"fill": {"min": [0,0,0], "max": [1,1,1], "count": 16000000}, "radius": {"constant": 0.001}}])");
@@ -118,7 +118,7 @@ TEST(SceneGroups, TogetherAreLimitedInNumber) {
               "15999999");
 }
 
-TEST(SceneGroups, MayNotMeetTooManyObstacles) {
+TEST(SceneGroups, LimitThePairsOfSpheresAndObstacles) {
     std::string obstacles = R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})";
     for (std::uint32_t k = 1; k < maxObstacles; ++k)
         obstacles += R"(, {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})";
@@ -146,14 +146,14 @@ TEST(SceneGroups, AreLimitedInNumberAndName) {
     EXPECT_EQ(spawned.error().text(), "group: is one too many, a scene has at most 10000");
 }
 
-TEST(SceneGroups, AnInlineSceneMayNotNameFiles) {
+TEST(SceneGroups, InlineSceneMayNotNameFiles) {
     EXPECT_EQ(
         refusalOf(group(R"("csv": {"file": "/etc/passwd"})")),
         "groups[0].csv: names the file \"/etc/passwd\", but only a scene file may name files; give the spheres as a "
         "list");
 }
 
-TEST(SceneGroups, ASpawnedGroupKeepsToTheScene) {
+TEST(SceneGroups, SpawnedGroupObeysTheRulesOfTheScene) {
     const Scene scene = sceneWith(R"("materials": [{"name": "a"}, {"name": "b", "restitution": 0.7}],
         "obstacles": [{"plane": {"point": [0, 0, 0.3], "normal": [0, 0, 1]}}])");
     const auto spawned = [&](const std::string& members) {

@@ -36,7 +36,7 @@ TEST(SceneLattice, StopsAtItsCount) {
         "groups[0].lattice.count: asks for 28 spheres, but 3 x 3 x 3 fit between min and max at a spacing of 0.4 m");
 }
 
-TEST(SceneLattice, LeavesRoomForTheLargestRadiusAndJitter) {
+TEST(SceneLattice, ReservesSpaceForTheLargestRadiusAndJitter) {
     EXPECT_EQ(sceneWith(lattice(R"("spacing": 0.4, "jitter": 0.01)")).spheres.size(), 8U);
     EXPECT_EQ(sceneWith(lattice(R"("spacing": 0.4)", R"({"uniform": {"min": 0.05, "max": 0.11}})")).spheres.size(), 8U);
 }
@@ -60,26 +60,26 @@ TEST(SceneLattice, JitterIsBoundedAndFollowsTheSeed) {
     EXPECT_GT(largest, 0.018);
 }
 
-TEST(SceneLattice, AnAbsentSeedIsOne) {
+TEST(SceneLattice, DefaultSeedIsOne) {
     const Scene absent = sceneWith(lattice(R"("spacing": 0.3, "jitter": 0.02)"));
     const Scene one = sceneWith(lattice(R"("spacing": 0.3, "jitter": 0.02, "seed": 1)"));
     EXPECT_EQ(absent.spheres[5].position, one.spheres[5].position);
 }
 
-TEST(SceneLattice, AGivenSeedReplacesEverySeed) {
+TEST(SceneLattice, OverrideReplacesTheSeed) {
     const std::string members = lattice(R"("spacing": 0.3, "jitter": 0.02, "seed": 1)");
     const Scene two = sceneWith(lattice(R"("spacing": 0.3, "jitter": 0.02, "seed": 2)"));
     EXPECT_EQ(sceneWith(members, {.seed = 2}).spheres[5].position, two.spheres[5].position);
 }
 
-TEST(SceneLattice, GroupsWithOneSeedDiffer) {
+TEST(SceneLattice, GroupsWithTheSameSeedDiffer) {
     const std::string one = R"({"lattice": {"min": [0,0,0], "max": [1,1,1], "spacing": 0.3, "jitter": 0.02},
                                 "radius": {"constant": 0.1}})";
     const Scene scene = sceneWith("\"groups\": [" + one + "," + one + "]");
     EXPECT_NE(scene.spheres[0].position, scene.spheres[27].position);
 }
 
-TEST(SceneLattice, RefusesWhatCannotBe) {
+TEST(SceneLattice, RefusesInvalidValues) {
     EXPECT_EQ(refusalOf(lattice(R"("spacing": -0.1)")), "groups[0].lattice.spacing: is -0.1, must be positive");
     EXPECT_EQ(refusalOf(lattice(R"("jitter": 0)")), "groups[0].lattice.spacing: is 0, must be positive");
     EXPECT_EQ(refusalOf(lattice(R"("spacing": 0.3, "jitter": -1)")),
@@ -96,7 +96,7 @@ TEST(SceneLattice, RefusesWhatCannotBe) {
         std::string::npos);
 }
 
-TEST(SceneLattice, OfEndlessPlacesOnOneAxisAndNoneOnAnotherIsRefused) {
+TEST(SceneLattice, RefusesInfiniteSitesOnOneAxisAndNoneOnAnother) {
     EXPECT_NE(refusalOf(group(R"("lattice": {"min": [0,0,0], "max": [1e9,0.01,1e9], "spacing": 1e-300, "count": 5},
                                  "radius": {"constant": 0.05})"))
                   .find("fit between min and max"),

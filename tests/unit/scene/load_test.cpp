@@ -26,7 +26,7 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
     }
 }
 
-TEST(SceneLoad, NamesAreSortedAndHoldTheExamples) {
+TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
     const std::vector<std::string> expected{"billiards", "bounce",    "box",        "box-10k",
                                             "box-4k",    "box-50k",   "cradle",     "cradle-touching",
                                             "pour",      "stress-1m", "two-spheres"};
@@ -39,7 +39,7 @@ TEST(SceneLoad, BoxDependsOnTheDevice) {
     EXPECT_EQ(load("box", "software")->spheres.size(), 4'000U);
 }
 
-TEST(SceneLoad, AMillionSpheresLoadInSeconds) {
+TEST(SceneLoad, OneMillionSpheresLoadWithinSeconds) {
     const auto start = std::chrono::steady_clock::now();
     const auto scene = load("stress-1m", "software");
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -48,7 +48,7 @@ TEST(SceneLoad, AMillionSpheresLoadInSeconds) {
     EXPECT_LT(seconds.count(), 10);
 }
 
-TEST(SceneLoad, CradlesAreWhatTheirNamesSay) {
+TEST(SceneLoad, CradlesHaveTheNamedProperties) {
     const Scene apart = *load("cradle", "cpu");
     const Scene touching = *load("cradle-touching", "cpu");
     for (std::size_t i = 1; i < 5; ++i) {
@@ -81,7 +81,7 @@ TEST(SceneLoad, OnlyRegularFilesAreRead) {
     EXPECT_EQ(load("/proc/self/mem", "gpu").error().text(), "/proc/self/mem: cannot be read: Input/output error");
 }
 
-TEST(SceneLoad, FilesThatAreTooLargeAreRefusedBeforeTheyAreRead) {
+TEST(SceneLoad, TooLargeFilesAreRefusedBeforeReading) {
     const TemporaryFolder folder;
     const std::string path = folder.write("large.json", "{}");
     std::filesystem::resize_file(path, 2ULL << 30U);  // a sparse file, which takes no space on the disk
@@ -93,7 +93,7 @@ TEST(SceneLoad, FilesThatAreTooLargeAreRefusedBeforeTheyAreRead) {
               "fill");
 }
 
-TEST(SceneLoad, AFileMayBeginWithAByteOrderMark) {
+TEST(SceneLoad, FileMayStartWithAByteOrderMark) {
     const TemporaryFolder folder;
     const std::string scene = "\xef\xbb\xbf{\"bounds\": {\"min\": [0,0,0], \"max\": [1,1,1]}";
     EXPECT_EQ(refusalOfFile(folder, scene + "}"), "accepted");
@@ -101,14 +101,14 @@ TEST(SceneLoad, AFileMayBeginWithAByteOrderMark) {
               "falling.json:1:45: is not JSON: Expected , or } after key:value pair.");
 }
 
-TEST(SceneLoad, AFileWithoutANameIsNamedAfterItself) {
+TEST(SceneLoad, SceneWithoutANameHasTheFileName) {
     const TemporaryFolder folder;
     const auto scene = load(folder.write("quiet.json", R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}})"), "gpu");
     ASSERT_TRUE(scene) << scene.error().text();
     EXPECT_EQ(scene->name, "quiet");
 }
 
-TEST(SceneLoad, ErrorsCarryFileAndFieldPath) {
+TEST(SceneLoad, ErrorsIncludeFileAndFieldPath) {
     const TemporaryFolder folder;
     EXPECT_EQ(
         refusalOfFile(folder, R"({"bounds": {"min": [0,0,0], "max": [1,1,1]}, "groups": [{"list": {}}, {"list": {}},
@@ -134,7 +134,7 @@ TEST(SceneLoad, WrongTypesAreNamed) {
               "falling.json: bounds.open[0]: invalid value \"TOP\" for type type.googleapis.com/spherule.v1.Face");
 }
 
-TEST(SceneLoad, SyntaxErrorsCarryLineAndColumn) {
+TEST(SceneLoad, SyntaxErrorsIncludeLineAndColumn) {
     const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, "{\n  \"gravity\": [1, 2, 3\n  \"bounds\": {}\n}"),
               "falling.json:3:3: is not JSON: Expected , or ] after array value.");
@@ -144,7 +144,7 @@ TEST(SceneLoad, SyntaxErrorsCarryLineAndColumn) {
               "falling.json:2:1: is not JSON: Unexpected end of string. Expected an object key or }.");
 }
 
-TEST(SceneLoad, ASyntaxErrorWhoseTextOccursTwiceHasNoLine) {
+TEST(SceneLoad, SyntaxErrorWithRepeatedTextHasNoLine) {
     const std::string row = std::string(30, ' ') + "{\"a\" 1}" + std::string(30, ' ') + ",";
     const TemporaryFolder folder;
     EXPECT_EQ(refusalOfFile(folder, "{\"groups\": [" + row + row + "]}"),

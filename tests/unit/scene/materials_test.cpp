@@ -42,7 +42,7 @@ TEST(SceneMaterials, AreRead) {
     EXPECT_EQ(steel.poisson, 0.3);
 }
 
-TEST(SceneMaterials, TheFirstIsThatOfAllThatNameNone) {
+TEST(SceneMaterials, FirstMaterialIsTheDefault) {
     const Scene scene = sceneWith(R"("materials": [{"name": "felt"}, {"name": "steel"}],
         "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}], "groups": [
             {"list": {"spheres": [{"position": [0.3, 0.3, 0.3], "radius": 0.1}]}},
@@ -63,14 +63,14 @@ TEST(SceneMaterials, UnknownNamesAreRefusedWithTheKnownOnes) {
               R"(groups[0].material: is "stell", which is no material of the scene; it has none with a name)");
 }
 
-TEST(SceneMaterials, OnlyTheFirstGoesWithoutAName) {
+TEST(SceneMaterials, OnlyTheFirstMayHaveNoName) {
     EXPECT_EQ(refusalOf(R"("materials": [{"name": "felt"}, {}])"),
               "materials[1].name: is missing; only the first material may go without");
     EXPECT_EQ(refusalOf(R"("materials": [{}, {}])"),
               "materials[1].name: is missing; only the first material may go without");
 }
 
-TEST(SceneMaterials, NamesDiffer) {
+TEST(SceneMaterials, NamesAreUnique) {
     EXPECT_EQ(refusalOf(R"("materials": [{"name": "felt"}, {"name": "steel"}, {"name": "felt"}])"),
               R"(materials[2].name: is "felt", the name of an earlier material)");
     EXPECT_EQ(refusalOf(R"("materials": [{"name": "felt"}, {"name": "Felt"}])"), "accepted");
@@ -95,7 +95,7 @@ TEST(SceneMaterials, PropertiesHaveARange) {
     EXPECT_EQ(refusalOfMaterial(R"("poisson": 0.51)"), "materials[0].poisson: is 0.51, must be -0.99 to 0.5");
 }
 
-TEST(SceneMaterials, PropertiesMayLieOnTheirLimits) {
+TEST(SceneMaterials, PropertiesMayEqualTheirLimits) {
     EXPECT_EQ(refusalOfMaterial(R"("density": 1e-6, "restitution": 0, "friction": 0, "rollingResistance": 0,
                                    "spinningResistance": 0, "young": 1e-3, "poisson": -0.99)"),
               "accepted");
@@ -104,7 +104,7 @@ TEST(SceneMaterials, PropertiesMayLieOnTheirLimits) {
               "accepted");
 }
 
-TEST(SceneMaterials, AreCheckedWhetherUsedOrNot) {
+TEST(SceneMaterials, AreCheckedEvenIfUnused) {
     EXPECT_EQ(refusalOf(R"("materials": [{}, {"name": "felt"}, {"name": "steel", "restitution": 2}])"),
               "materials[2].restitution: is 2, must be 0 to 1");
 }

@@ -19,7 +19,7 @@ std::string refusalOfPairs(const std::string& pairs) {
     return refusalOf(std::string(materials) + R"(, "pairs": [)" + pairs + "]");
 }
 
-TEST(ScenePairs, AMaterialWithItselfHasItsOwnLaw) {
+TEST(ScenePairs, MaterialWithItselfHasItsOwnParameters) {
     const ContactParameters contact = contactParametersBetween(withPairs(""), 1, 1);
     EXPECT_EQ(contact.restitution, 0.8);
     EXPECT_DOUBLE_EQ(contact.friction, 0.1);
@@ -27,7 +27,7 @@ TEST(ScenePairs, AMaterialWithItselfHasItsOwnLaw) {
     EXPECT_DOUBLE_EQ(contact.spinningResistance, 0.0025);
 }
 
-TEST(ScenePairs, TakeTheSmallerRestitutionAndTheGeometricMeanOfTheRest) {
+TEST(ScenePairs, UseTheSmallerRestitutionAndGeometricMeans) {
     const Scene scene = withPairs("");
     for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
         const ContactParameters contact =
@@ -40,7 +40,7 @@ TEST(ScenePairs, TakeTheSmallerRestitutionAndTheGeometricMeanOfTheRest) {
     EXPECT_EQ(contactParametersBetween(scene, 0, 2).friction, 0) << "nothing rubs on what is without friction";
 }
 
-TEST(ScenePairs, OverrideWhatTheyGiveInBothOrders) {
+TEST(ScenePairs, OverrideGivenPropertiesInBothOrders) {
     const Scene scene = withPairs(R"({"a": "steel", "b": "felt", "restitution": 0.7, "friction": 0})");
     for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
         const ContactParameters contact =
@@ -78,7 +78,7 @@ TEST(ScenePairs, NameTwoMaterials) {
               R"(pairs[0].b: is "stell", which is no material of the scene; it has "felt", "steel", "ice")");
 }
 
-TEST(ScenePairs, AreOnePerPair) {
+TEST(ScenePairs, AreUnique) {
     EXPECT_EQ(refusalOfPairs(R"({"a": "felt", "b": "steel"}, {"a": "ice", "b": "ice"}, {"a": "steel", "b": "felt"})"),
               R"(pairs[2]: is of "steel" and "felt", as an earlier one is)");
     EXPECT_EQ(refusalOfPairs(R"({"a": "felt", "b": "felt"}, {"a": "felt", "b": "felt"})"),

@@ -15,7 +15,7 @@ constexpr const char* halfKnown = R"("materials": [{"young": 1e7}, {"name": "fel
 constexpr const char* felt =
     "materials[1].young: is missing; with one material's modulus given, accurate needs all of them";
 
-TEST(SceneQuality, IsBalancedUnlessGiven) {
+TEST(SceneQuality, DefaultsToBalanced) {
     EXPECT_EQ(sceneWith("").quality.model, Model::Balanced);
     EXPECT_EQ(sceneWith(quality("")).quality.model, Model::Balanced);
     EXPECT_EQ(sceneWith("").quality.overlap, 0.1);
@@ -42,7 +42,7 @@ TEST(SceneQuality, NamesAndMessagesAgree) {
     EXPECT_FALSE(modelNamed(""));
 }
 
-TEST(SceneQuality, ACallersModelReplacesTheScenes) {
+TEST(SceneQuality, OverrideReplacesTheModel) {
     const std::string fast = quality(R"("model": "FAST")");
     EXPECT_EQ(sceneWith(fast).quality.substeps, 2U);
     const Quality changed = sceneWith(fast, {.model = Model::Balanced}).quality;
@@ -58,7 +58,7 @@ TEST(SceneQuality, SubstepsHaveARange) {
     EXPECT_EQ(sceneWith(quality(R"("substeps": 20000)")).quality.substeps, 20'000U);
 }
 
-TEST(SceneQuality, ADefaultOfTooManySubstepsIsRefusedWithItsReason) {
+TEST(SceneQuality, TooLargeDefaultSubstepsAreRefused) {
     const std::string sphere = group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.01}]})");
     const std::string reason = "must be at most 1000000; shorten the step or give substeps";
     const std::string heavy = R"("gravity": [0, 0, -1e9], "step": 1, )" + sphere;
@@ -77,7 +77,7 @@ TEST(SceneQuality, OverlapHasARange) {
     EXPECT_EQ(refusalOf(quality(R"("overlap": -0.01)")), "quality.overlap: is -0.01, must be 1e-06 to 0.5");
 }
 
-TEST(SceneQuality, AutoHasOneGoalWithARange) {
+TEST(SceneQuality, AutoGoalHasARange) {
     EXPECT_FALSE(sceneWith("").quality.goal);
     EXPECT_EQ(sceneWith(quality(R"("auto": {"budgetMs": 16})")).quality.goal,
               (QualityGoal{QualityGoal::Kind::StepTime, 16}));
@@ -90,7 +90,7 @@ TEST(SceneQuality, AutoHasOneGoalWithARange) {
     EXPECT_EQ(refusalOf(quality(R"("auto": {"overlap": 0.6})")), "quality.auto.overlap: is 0.6, must be 1e-06 to 0.5");
 }
 
-TEST(SceneQuality, ACallersModelOrSubstepsEndTheScenesAuto) {
+TEST(SceneQuality, OverrideOfModelOrSubstepsRemovesTheAutoGoal) {
     const std::string held = quality(R"("auto": {"budgetMs": 16})");
     EXPECT_FALSE(sceneWith(held, {.substeps = 4}).quality.goal);
     EXPECT_FALSE(sceneWith(held, {.model = Model::Fast}).quality.goal);
@@ -98,7 +98,7 @@ TEST(SceneQuality, ACallersModelOrSubstepsEndTheScenesAuto) {
     EXPECT_EQ(sceneWith(held, {.substeps = 4, .goal = other}).quality.goal, other);
 }
 
-TEST(SceneQuality, AModelIsOfUseWithinARange) {
+TEST(SceneQuality, ModelsHaveASubstepRange) {
     const Scene scene = sceneWith("");
     EXPECT_EQ(substepRange(scene, Model::Balanced).fewest, 4U);
     EXPECT_EQ(substepRange(scene, Model::Balanced).most, 64U);
@@ -115,7 +115,7 @@ TEST(SceneQuality, AModelIsOfUseWithinARange) {
     EXPECT_FALSE(substepsFor(sceneWith(halfKnown), Model::Accurate));
 }
 
-TEST(SceneQuality, AccurateNeedsEveryModulusOrNone) {
+TEST(SceneQuality, AccurateNeedsModuliOfAllMaterialsOrNone) {
     const std::string accurate = quality(R"("model": "ACCURATE")");
     EXPECT_EQ(refusalOf(std::string(halfKnown) + ", " + accurate), felt);
     EXPECT_EQ(refusalOf(halfKnown, {.model = Model::Accurate}), felt);
@@ -123,7 +123,7 @@ TEST(SceneQuality, AccurateNeedsEveryModulusOrNone) {
     EXPECT_EQ(refusalOf(R"("materials": [{"young": 1e7}, {"name": "felt", "young": 1e6}], )" + accurate), "accepted");
 }
 
-TEST(SceneQuality, OtherModelsReadNoModulus) {
+TEST(SceneQuality, OtherModelsIgnoreModuli) {
     for (const Model model : {Model::Fast, Model::Balanced}) {
         Scene scene = sceneWith(halfKnown, {.model = model});
         EXPECT_TRUE(checkModel(scene));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int draws = 200'000;
 
-TEST(SceneRandom, IsTheSameEverywhere) {
+TEST(SceneRandom, IsTheSameOnAllPlatforms) {
     // The C++ standard (mt19937_64) and IEEE 754 determine these values. Other values would change all scenes with a
     // seed.
     Random random(1);
@@ -21,7 +21,7 @@ TEST(SceneRandom, IsTheSameEverywhere) {
     EXPECT_DOUBLE_EQ(Random(1).normal(), 0.96852829754777836);
 }
 
-TEST(SceneRandom, UniformFillsItsRange) {
+TEST(SceneRandom, UniformCoversItsRange) {
     Random random(5);
     double sum = 0;
     double low = 9;
@@ -77,7 +77,7 @@ TEST(SceneRadii, StayWithinTheirLimits) {
     EXPECT_NEAR(normalSum / draws, 0.12 + 0.02 * 0.24197 / 0.84134, 0.0005);
 }
 
-TEST(SceneRadii, AConstantDrawsNothing) {
+TEST(SceneRadii, ConstantRadiusUsesNoRandomNumbers) {
     Random random(8);
     const RadiusDistribution constant{.min = 0.1, .max = 0.1, .bell = {}};
     EXPECT_EQ(constant.draw(random), 0.1F);

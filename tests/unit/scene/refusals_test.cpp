@@ -6,7 +6,7 @@
 namespace spherule::scene::testing {
 namespace {
 
-TEST(SceneRefusals, AnEmptySceneWithBoundsIsAccepted) {
+TEST(SceneRefusals, EmptySceneWithBoundsIsAccepted) {
     const Scene scene = sceneWith("");
     EXPECT_TRUE(scene.spheres.empty());
     EXPECT_EQ(scene.forces.gravity, glm::dvec3(0, 0, -9.81));
@@ -87,7 +87,7 @@ TEST(SceneRefusals, TextInAMessageIsCutAndPrintable) {
     EXPECT_EQ(text, "groups[0].colour: is \"?" + std::string(39, 'x') + "...\", must be #rrggbb in hexadecimal");
 }
 
-TEST(SceneRefusals, TheFirstOfSeveralErrorsIsReported) {
+TEST(SceneRefusals, FirstOfSeveralErrorsIsReported) {
     EXPECT_EQ(refusalOf(R"("gravity": [1], "materials": [{"restitution": 7}])"),
               "gravity: has 1 number, must have three: x, y, z");
 }

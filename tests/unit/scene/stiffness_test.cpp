@@ -45,7 +45,7 @@ double contactUnder(auto force, double mass, double speed, double h) {
     return time;
 }
 
-TEST(SceneStiffness, FollowsHertzWhereThereIsAModulus) {
+TEST(SceneStiffness, FollowsHertzIfAModulusIsGiven) {
     EXPECT_FALSE(followsHertz(flying(1)));
     EXPECT_TRUE(followsHertz(flying(1, R"("young": 1e7)")));
     EXPECT_TRUE(followsHertz(sceneWith(R"("materials": [{}, {"name": "steel", "young": 1e7}])")));
@@ -53,7 +53,7 @@ TEST(SceneStiffness, FollowsHertzWhereThereIsAModulus) {
     EXPECT_EQ(springModulus(flying(1, R"("young": 1e7)")), 0);
 }
 
-TEST(SceneStiffness, LinearSpringsYieldByTheOverlapAskedForAtTheFastestImpact) {
+TEST(SceneStiffness, FastestImpactReachesTheGivenOverlap) {
     for (const double overlap : {0.01, 0.002}) {
         const Scene scene = flying(2, R"("density": 2500)", std::to_string(overlap));
         const auto r = static_cast<double>(scene.spheres[0].radius);
@@ -64,7 +64,7 @@ TEST(SceneStiffness, LinearSpringsYieldByTheOverlapAskedForAtTheFastestImpact) {
     }
 }
 
-TEST(SceneStiffness, LinearSpringsStiffenWithTheSquareOfSpeedOverOverlap) {
+TEST(SceneStiffness, StiffnessScalesWithTheSquareOfSpeedOverOverlap) {
     const double one = lawOf(flying(1)).normal;
     EXPECT_NEAR(lawOf(flying(2)).normal / one, 4, 1e-6);
     EXPECT_NEAR(lawOf(flying(10)).normal / one, 100, 1e-4);
@@ -73,7 +73,7 @@ TEST(SceneStiffness, LinearSpringsStiffenWithTheSquareOfSpeedOverOverlap) {
     EXPECT_NEAR(lawOf(flying(1e-3)).normal / one, 1e-6, 1e-12) << "however slow it is";
 }
 
-TEST(SceneStiffness, LinearSpringsBearThePileWithAFifthOfTheOverlap) {
+TEST(SceneStiffness, WeightOfAPileCausesAFifthOfTheOverlap) {
     const std::string pile = R"("quality": {"model": "ACCURATE", "overlap": 0.5}, )" +
                              group(R"("lattice": {"min": [0, 0, 0], "max": [1, 1, 1], "spacing": 0.1},
                                       "radius": {"constant": 0.05})");
@@ -85,12 +85,12 @@ TEST(SceneStiffness, LinearSpringsBearThePileWithAFifthOfTheOverlap) {
     EXPECT_NEAR(load / (lawOf(scene).normal * r) / r, 0.2 * 0.5, 1e-6);
 }
 
-TEST(SceneStiffness, TangentialSpringsKeepTimeWithTheNormalOnes) {
+TEST(SceneStiffness, TangentialIsTwoSeventhsOfNormal) {
     const Stiffness law = lawOf(flying(1));
     EXPECT_DOUBLE_EQ(law.tangential, 2.0 / 7 * law.normal);
 }
 
-TEST(SceneStiffness, HertzAndMindlinTakeTheEffectiveModuliOfTheTwo) {
+TEST(SceneStiffness, HertzAndMindlinUseEffectiveModuli) {
     const Scene scene = sceneWith(R"("materials": [{"young": 2e8, "poisson": 0.3},
                                                    {"name": "felt", "young": 1e6, "poisson": 0.45}])");
     const auto shear = [](double young, double poisson) { return young / (2 * (1 + poisson)); };
@@ -105,7 +105,7 @@ TEST(SceneStiffness, HertzAndMindlinTakeTheEffectiveModuliOfTheTwo) {
     EXPECT_NEAR(alike.tangential / (shear(2e8, 0.3) / (2 * (2 - 0.3))), 1, 1e-12);
 }
 
-TEST(SceneStiffness, DampingIsThatOfThePairsRestitution) {
+TEST(SceneStiffness, DampingFollowsFromTheRestitutionOfThePair) {
     const Scene scene = sceneWith(R"("materials": [{"name": "felt", "restitution": 0.2}, {"name": "steel"},
         {"name": "ice"}], "pairs": [{"a": "steel", "b": "ice", "restitution": 0.9}])");
     EXPECT_EQ(lawOf(scene, 0, 1).damping, dampingRatio(0.2));
@@ -113,7 +113,7 @@ TEST(SceneStiffness, DampingIsThatOfThePairsRestitution) {
     EXPECT_EQ(lawOf(scene, 2, 1).damping, dampingRatio(0.9));
 }
 
-TEST(SceneContactTime, ExpectsTheSpeedsAndTheFallThereMayBe) {
+TEST(SceneContactTime, ExpectsInitialSpeedsAndFalls) {
     EXPECT_NEAR(contactTimeOf(flying(0)).speed, 0.05 / 30 * 60, 1e-6) << "a thirtieth of its radius in a step";
     EXPECT_NEAR(contactTimeOf(flying(3)).speed, 3, 1e-6);
     Scene scene = flying(3);
@@ -125,7 +125,7 @@ TEST(SceneContactTime, ExpectsTheSpeedsAndTheFallThereMayBe) {
     EXPECT_NEAR(contactTimeOf(scene).speed, std::sqrt(9 + 2 * 9.81 * 0.8), 1e-6) << "down is where gravity points";
 }
 
-TEST(SceneContactTime, ExpectsSpheresToMeetHeadOn) {
+TEST(SceneContactTime, ExpectsHeadOnCollisions) {
     Scene scene = flying(3);
     scene.spheres.push_back(scene.spheres[0]);
     scene.spheres[1].velocity = {0, 0, -1};
@@ -166,7 +166,7 @@ void move(Scene& scene, const glm::vec3& by) {
     for (Sphere& sphere : scene.spheres) sphere.velocity += by;
 }
 
-TEST(SceneContactTime, DoesNotDependOnWhatMotionAllHaveInCommon) {
+TEST(SceneContactTime, DoesNotDependOnCommonMotion) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         Scene scene = swarm(seed);
         const ContactTime at = contactTimeOf(scene);
@@ -180,7 +180,7 @@ TEST(SceneContactTime, DoesNotDependOnWhatMotionAllHaveInCommon) {
     }
 }
 
-TEST(SceneContactTime, TakesASlideAlongASmoothFloorForNothing) {
+TEST(SceneContactTime, IgnoresMotionAlongFrictionlessPlanes) {
     Scene scene = swarm(4);
     scene.bounds.open[ZMin] = false;
     scene.obstacles.push_back({Plane{{0, -1, 0}, {0, 1, 0}}, 0, ""});
@@ -231,7 +231,7 @@ double depthAfter(const Scene& scene, double speed) {
     return std::pow(15 * massOf(scene) * speed * speed / (16 * lawOf(scene).normal * std::sqrt(r)), 0.4) / r;
 }
 
-TEST(SceneYoung, IsRefusedWhereSpheresWouldFallThroughTheFloor) {
+TEST(SceneYoung, IsRefusedIfSpheresWouldFallThroughTheFloor) {
     const std::string falling = R"("materials": [{"young": 1e3}], "quality": {"model": "ACCURATE"}, )" +
                                 group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.9], "radius": 0.05}]})");
     const std::string refusal = refusalOf(falling);
@@ -262,7 +262,7 @@ TEST(SceneYoung, IsRefusedWhereSpheresWouldFallThroughTheFloor) {
     EXPECT_TRUE(fitSubsteps(enough)) << "there is nothing to fall on";
 }
 
-TEST(SceneYoung, BearsThePile) {
+TEST(SceneYoung, SupportsThePile) {
     // The impacts of falling spheres are weak, but the lowest 100 spheres carry 1,000.
     const std::string pile = group(R"("lattice": {"min": [0, 0, 0], "max": [1, 1, 1], "spacing": 0.1},
                                       "radius": {"constant": 0.05})");
@@ -279,7 +279,7 @@ TEST(SceneYoung, BearsThePile) {
     EXPECT_FALSE(fitSubsteps(scene));
 }
 
-TEST(SceneYoung, BlamesTheSofterOfTwo) {
+TEST(SceneYoung, ErrorNamesTheSofterMaterial) {
     Scene scene = flying(5, R"("young": 1e9)");
     scene.materials.push_back({.name = "felt", .young = 1e3});
     EXPECT_TRUE(fitSubsteps(scene)) << "nothing is of felt";
@@ -292,7 +292,7 @@ TEST(SceneYoung, BlamesTheSofterOfTwo) {
     EXPECT_TRUE(fitSubsteps(scene));
 }
 
-TEST(SceneContactTime, IsThatOfLinearSprings) {
+TEST(SceneContactTime, MatchesLinearSprings) {
     const Scene scene = flying(1);
     const double stiffness = lawOf(scene).normal * static_cast<double>(scene.spheres[0].radius);
     const ContactTime time = contactTimeOf(scene);
@@ -300,7 +300,7 @@ TEST(SceneContactTime, IsThatOfLinearSprings) {
     EXPECT_NEAR(contactUnder(force, massOf(scene) / 2, time.speed, 1e-4 * time.contact) / time.contact, 1, 0.001);
 }
 
-TEST(SceneContactTime, IsThatOfHertz) {
+TEST(SceneContactTime, MatchesHertz) {
     for (const std::string material : {R"("young": 1e7)", R"("young": 2e9, "poisson": 0.4, "density": 3000)"}) {
         const Scene scene = flying(1, material);
         const double reduced = static_cast<double>(scene.spheres[0].radius) / 2;
@@ -312,7 +312,7 @@ TEST(SceneContactTime, IsThatOfHertz) {
     }
 }
 
-TEST(SceneContactTime, SeventySubstepsPassInAContact) {
+TEST(SceneContactTime, ContactHasSeventySubsteps) {
     for (const std::string material : {"", R"("young": 2e8)", R"("young": 1e11, "poisson": 0.45)"}) {
         for (const double speed : {0.0, 1.0, 50.0}) {
             const Scene scene = flying(speed, material);
@@ -324,7 +324,7 @@ TEST(SceneContactTime, SeventySubstepsPassInAContact) {
     }
 }
 
-TEST(SceneContactTime, ASubstepIsATenthOfTheRayleighTime) {
+TEST(SceneContactTime, SubstepIsATenthOfTheRayleighTime) {
     const Scene scene = flying(0, R"("young": 1e10, "poisson": 0.3, "density": 2000)");
     const double shear = 1e10 / (2 * 1.3);
     const double rayleigh = pi * 0.05 * std::sqrt(2000 / shear) / (0.163 * 0.3 + 0.8766);
@@ -332,7 +332,7 @@ TEST(SceneContactTime, ASubstepIsATenthOfTheRayleighTime) {
     EXPECT_GT(contactTimeOf(scene).contact / 70, rayleigh / 10) << "so slow an impact takes longer";
 }
 
-TEST(SceneContactTime, IsThatOfTheSmallestSphereAndTheStiffestSurface) {
+TEST(SceneContactTime, UsesTheSmallestSphereAndTheStiffestSurface) {
     const std::string spheres = R"("groups": [
         {"list": {"spheres": [{"position": [0.3, 0.5, 0.5], "radius": 0.1}]}},
         {"list": {"spheres": [{"position": [0.7, 0.5, 0.5], "radius": 0.01}]}}])";
@@ -352,7 +352,7 @@ TEST(SceneContactTime, IsThatOfTheSmallestSphereAndTheStiffestSurface) {
     EXPECT_NEAR(large / soft, 10, 1e-3);
 }
 
-TEST(SceneContactTime, LeavesTheStepWholeWhereNothingMeets) {
+TEST(SceneContactTime, WithoutContactsIsInfiniteWithOneSubstep) {
     const ContactTime time = contactTimeOf(sceneWith(R"("quality": {"model": "ACCURATE"})"));
     EXPECT_TRUE(std::isinf(time.contact));
     EXPECT_EQ(time.substep, 1.0 / 60);

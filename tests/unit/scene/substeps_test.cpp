@@ -29,14 +29,14 @@ std::string refusalBy(Scene& scene) {
     return fits ? "accepted" : fits.error().text();
 }
 
-TEST(SceneSubsteps, ArePinnedByTheSceneAndByTheCaller) {
+TEST(SceneSubsteps, AreFixedByTheSceneOrAnOverride) {
     EXPECT_FALSE(sceneOf("").quality.substepsFixed);
     EXPECT_TRUE(sceneOf(R"("substeps": 8)").quality.substepsFixed);
     EXPECT_TRUE(sceneOf("", "", {.substeps = 8}).quality.substepsFixed);
     EXPECT_FALSE(sceneOf("", "", {.model = Model::Fast}).quality.substepsFixed);
 }
 
-TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
+TEST(SceneSubsteps, AreRecomputedUnlessFixed) {
     Scene chosen = sceneOf("");
     ASSERT_EQ(chosen.quality.substeps, 8U);
     chosen.forces.gravity *= 4;
@@ -59,7 +59,7 @@ TEST(SceneSubsteps, AreChosenAnewUnlessPinned) {
     EXPECT_EQ(pinned.quality.substeps, 4U);
 }
 
-TEST(SceneSubsteps, AreRefusedOutOfTheirRange) {
+TEST(SceneSubsteps, HaveARange) {
     Scene scene = sceneOf(R"("substeps": 3)");
     scene.quality.substeps = 0;
     EXPECT_EQ(refusalBy(scene), "quality.substeps: is 0, must be 1 to 19996 for the 2 spheres of this scene");
@@ -72,7 +72,7 @@ TEST(SceneSubsteps, AreRefusedOutOfTheirRange) {
     EXPECT_EQ(refusalBy(scene).find("quality.substeps: would be "), 0U) << refusalBy(scene);
 }
 
-TEST(SceneSubsteps, OfKnownMaterialsTakeAtLeastTenForAContact) {
+TEST(SceneSubsteps, AreAtLeastTenPerContactOfGivenModuli) {
     const double contact = contactTimeOf(sceneOf(accurate, rubber)).contact;
     const auto fewest = static_cast<std::uint32_t>(std::ceil(10 / 60.0 / contact));
     ASSERT_GT(fewest, 10U);
@@ -89,7 +89,7 @@ TEST(SceneSubsteps, OfKnownMaterialsTakeAtLeastTenForAContact) {
     }
 }
 
-TEST(SceneSubsteps, OfKnownMaterialsAreCheckedAsASceneIsBuilt) {
+TEST(SceneSubsteps, WithGivenModuliAreCheckedWhenASceneIsBuilt) {
     const std::string half = R"("model": "ACCURATE", "substeps": 2)";
     EXPECT_EQ(refusalOf("\"quality\": " + object(half) + R"(, "materials": [{"young": 1e9}], )" +
                         group(R"("list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.05}]})"))
@@ -97,7 +97,7 @@ TEST(SceneSubsteps, OfKnownMaterialsAreCheckedAsASceneIsBuilt) {
               0U);
 }
 
-TEST(SceneSubsteps, SpringsAreNotSoSoftThatSpheresPassThroughEachOther) {
+TEST(SceneSubsteps, HaveAMinimumThatLimitsOverlaps) {
     Scene softest = sceneOf(R"("model": "ACCURATE", "overlap": 0.5)");
     const std::uint32_t fewest = softest.quality.substeps;
     EXPECT_EQ(minSubstepsFor(sceneOf(accurate), Model::Accurate), fewest) << "whatever overlap is asked for";
@@ -112,7 +112,7 @@ TEST(SceneSubsteps, SpringsAreNotSoSoftThatSpheresPassThroughEachOther) {
     EXPECT_EQ(softest.quality.substeps, fewest);
 }
 
-TEST(SceneSubsteps, SpringsAreAsStiffAsPinnedOnesAllow) {
+TEST(SceneSubsteps, FixedSubstepsDetermineTheStiffness) {
     for (const std::uint32_t substeps : {100U, 400U, 1000U}) {
         const Scene scene = sceneOf(accurate, "", {.substeps = substeps});
         const double substep = scene.step / substeps;
@@ -123,7 +123,7 @@ TEST(SceneSubsteps, SpringsAreAsStiffAsPinnedOnesAllow) {
     }
 }
 
-TEST(SceneSubsteps, PinnedOnesMakeSpringsThatOverlapAndSpeedDoNotChange) {
+TEST(SceneSubsteps, FixedSubstepsMakeStiffnessIndependentOfOverlapAndSpeed) {
     const Scene scene = sceneOf(accurate, "", {.substeps = 500});
     const double modulus = springModulus(scene);
     Scene changed = scene;
@@ -138,7 +138,7 @@ TEST(SceneSubsteps, PinnedOnesMakeSpringsThatOverlapAndSpeedDoNotChange) {
     EXPECT_NEAR(springModulus(changed) / modulus, 4, 1e-9);
 }
 
-TEST(SceneSubsteps, PinnedOnesSufficeForTheSmallestAndTheLightest) {
+TEST(SceneSubsteps, FixedSubstepsSufficeForTheSmallestAndLightestSphere) {
     Scene scene = sceneOf(accurate, "", {.substeps = 500});
     const double modulus = springModulus(scene);
     scene.materials.push_back({.name = "cork", .density = 250});
@@ -150,7 +150,7 @@ TEST(SceneSubsteps, PinnedOnesSufficeForTheSmallestAndTheLightest) {
     EXPECT_NEAR(contactTimeOf(scene).contact, 70 * scene.step / 500, 1e-9);
 }
 
-TEST(SceneSubsteps, ChosenOnesFitTheSpringsThatAreChosen) {
+TEST(SceneSubsteps, AutomaticSubstepsMatchTheContactTime) {
     for (const std::string overlap : {"0.1", "0.01"}) {
         const Scene scene = sceneOf(accurate + (R"(, "overlap": )" + overlap));
         const double contact = contactTimeOf(scene).contact;

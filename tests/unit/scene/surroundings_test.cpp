@@ -37,7 +37,7 @@ TEST(SceneBounds, OpenFacesAreNamed) {
               "bounds.open[0]: is 0, must be X_MIN, X_MAX, Y_MIN, Y_MAX, Z_MIN or Z_MAX");
 }
 
-TEST(SceneBounds, AreOfTheFirstMaterialUnlessTheyNameOne) {
+TEST(SceneBounds, HaveTheFirstMaterialByDefault) {
     const std::string materials = R"("materials": [{"restitution": 0.3}, {"name": "felt", "restitution": 0.9}])";
     const Scene scene = sceneWith(materials);
     EXPECT_EQ(scene.materials[scene.bounds.material].restitution, 0.3);
@@ -48,7 +48,7 @@ TEST(SceneBounds, AreOfTheFirstMaterialUnlessTheyNameOne) {
               R"(bounds.material: is "ice", which is no material of the scene; it has "felt")");
 }
 
-TEST(SceneBounds, HoldEverySphereOnEveryFace) {
+TEST(SceneBounds, ContainEverySphere) {
     EXPECT_EQ(
         refusalOf(ballAt("[0.05, 0.5, 0.5]")),
         "groups[0].list.spheres[0]: is at (0.05, 0.5, 0.5) with radius 0.1 and reaches x = -0.05, outside the bounds, "
@@ -59,7 +59,7 @@ TEST(SceneBounds, HoldEverySphereOnEveryFace) {
     }
 }
 
-TEST(SceneBounds, HoldEverySphereBehindOpenFacesToo) {
+TEST(SceneBounds, ContainEverySphereAtOpenFaces) {
     const std::string text =
         refusalOfBounds(R"("min": [0,0,0], "max": [1,1,1], "open": ["Z_MAX"])", ", " + ballAt("[0.5, 0.5, 0.95]"));
     EXPECT_NE(text.find("reaches z = 1.05, outside the bounds, which are 0 to 1"), std::string::npos) << text;
@@ -70,7 +70,7 @@ TEST(SceneBounds, MayBeTouched) {
         EXPECT_EQ(refusalOf(ballAt(corner)), "accepted");
 }
 
-TEST(SceneBounds, AreNoLargerThanFloat32Resolves) {
+TEST(SceneBounds, AreLimitedByTheResolutionOfFloat32) {
     // The resolution is 2000 m / 2 / 2^23 = 1.19e-4 m. The limit is 1e-4 of the radius: 1 m is too small, 1.2 m is not.
     const std::string bounds = R"("min": [-1000, 0, 0], "max": [1000, 10, 10])";
     EXPECT_EQ(refusalOfBounds(bounds, ", " + ballAt("[5, 5, 5]", "1.2")), "accepted");
@@ -100,7 +100,7 @@ TEST(SceneObstacles, AreChecked) {
               R"(obstacles[0].colour: is "x", must be #rrggbb in hexadecimal)");
 }
 
-TEST(SceneObstacles, AreOfTheMaterialTheyName) {
+TEST(SceneObstacles, HaveTheMaterialOfTheirName) {
     const Scene scene = sceneWith(R"("materials": [{}, {"name": "felt"}], "obstacles": [
         {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "material": "felt"},
         {"box": {"min": [0, 0, 0], "max": [0.1, 0.1, 0.1]}},
@@ -117,7 +117,7 @@ TEST(SceneObstacles, AreLimitedInNumber) {
     EXPECT_EQ(refusalOf("\"obstacles\": [" + list + "]"), "obstacles: has 1001 entries, must have at most 1000");
 }
 
-TEST(SceneObstacles, TakeNoSphereInside) {
+TEST(SceneObstacles, MayNotOverlapSpheres) {
     const std::string box = R"("obstacles": [{"plane": {"point": [0,0,0], "normal": [0,0,1]}},
                                              {"box": {"min": [0.4, 0.4, 0.4], "max": [0.6, 0.6, 0.6]}}], )";
     EXPECT_EQ(refusalOf(box + ballAt("[0.5, 0.5, 0.69]")),
@@ -129,7 +129,7 @@ TEST(SceneObstacles, TakeNoSphereInside) {
     EXPECT_EQ(refusalOf(box + ballAt("[0.2, 0.2, 0.1]")), "accepted") << "resting on the plane";
 }
 
-TEST(SceneObstacles, APlaneIsSolidBehind) {
+TEST(SceneObstacles, PlaneIsSolidBehindItsSurface) {
     const std::string plane = R"("obstacles": [{"plane": {"point": [0, 0, 0.5], "normal": [0, 0, 1]}}], )";
     EXPECT_NE(refusalOf(plane + ballAt("[0.5, 0.5, 0.3]")).find("reaches into obstacles[0]"), std::string::npos);
     EXPECT_EQ(refusalOf(plane + ballAt("[0.5, 0.5, 0.6]")), "accepted");

@@ -27,7 +27,7 @@ TEST(SceneTiming, FiveCentimetresOnEarthTakeEightSubsteps) {
     EXPECT_EQ(substepsFor(frame, 9.81, 0.05), 8);
 }
 
-TEST(SceneTiming, LargeOrWeightlessSpheresTakeTheLongestSubstep) {
+TEST(SceneTiming, LargeOrWeightlessSpheresHaveTheLongestSubstep) {
     EXPECT_EQ(substepsFor(frame, 9.81, 5), 8);
     EXPECT_EQ(substepsFor(frame, 0, 0.001), 8);
     EXPECT_EQ(substepsFor(frame, 9.81, 0), 8) << "no spheres yet";
@@ -42,21 +42,21 @@ TEST(SceneTiming, SubstepsGrowWithTheRootOfGravityOverRadius) {
     EXPECT_EQ(substepsFor(frame, 9.81, 0.005), 26);  // 25.32
 }
 
-TEST(SceneTiming, TheSmallestSphereDecides) {
+TEST(SceneTiming, SmallestSphereDeterminesSubsteps) {
     Scene scene;
     scene.forces.gravity = {0, 0, -9.81};
     for (const float radius : {0.05F, 0.0125F, 0.1F}) scene.spheres.push_back({.radius = radius});
     EXPECT_EQ(defaultSubsteps(scene), 16);
 }
 
-TEST(SceneTiming, FastTakesAQuarter) {
+TEST(SceneTiming, FastModelNeedsAQuarterOfTheSubsteps) {
     EXPECT_EQ(substepsFor(frame, 9.81, 0.05, Model::Fast), 2);
     EXPECT_EQ(substepsFor(frame, 9.81, 0.0125, Model::Fast), 4);
     EXPECT_EQ(substepsFor(frame, 9.81, 0.005, Model::Fast), 7);  // 6.33
     EXPECT_EQ(substepsFor(1.0 / 480, 0, 1, Model::Fast), 1);
 }
 
-TEST(SceneTiming, AccurateTakesSeventySubstepsForAContact) {
+TEST(SceneTiming, AccurateModelNeedsSeventySubstepsPerContact) {
     // The slowest expected impact (0.1 m/s) compresses the spring by 0.01 * 5 cm. The contact time is then pi * 5 ms:
     // 74.27 substeps.
     const auto substeps = [](const std::string& overlap) {
@@ -68,13 +68,13 @@ TEST(SceneTiming, AccurateTakesSeventySubstepsForAContact) {
     EXPECT_EQ(substeps("0.1"), 8U);
 }
 
-TEST(SceneTiming, AbsurdSubstepsDoNotOverflow) {
+TEST(SceneTiming, HugeSubstepCountsDoNotOverflow) {
     const double expected = 1 / std::sqrt(8.5e-4 * 1e-6 / 1e30);
     EXPECT_NEAR(substepsFor(1, 1e30, 1e-6) / expected, 0.99, 1e-6);
     EXPECT_GT(expected, maxSubsteps);
 }
 
-TEST(SceneTiming, GivenSubstepsReplaceTheRule) {
+TEST(SceneTiming, GivenSubstepsReplaceTheDefault) {
     EXPECT_EQ(sceneWith(R"("quality": {"substeps": 3})").quality.substeps, 3U);
     EXPECT_EQ(sceneWith(R"("quality": {"substeps": 3})", {.substeps = 5}).quality.substeps, 5U);
     EXPECT_EQ(sceneWith(R"("quality": {"substeps": 3, "model": "ACCURATE"})").quality.substeps, 3U);

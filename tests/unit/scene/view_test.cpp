@@ -35,7 +35,7 @@ double reachInPicture(const Camera& camera, const Bounds& bounds, double aspect)
     return reach;
 }
 
-TEST(SceneView, TheDefaultCameraFramesTheBounds) {
+TEST(SceneView, DefaultCameraShowsTheBounds) {
     for (const Box& box : {Box{{0, 0, 0}, {1, 1, 1}}, Box{{-10, 5, 0}, {30, 6, 0.5}}, Box{{0, 0, -7}, {0.1, 0.1, 3}}}) {
         Bounds bounds;
         bounds.min = box.min;
@@ -48,7 +48,7 @@ TEST(SceneView, TheDefaultCameraFramesTheBounds) {
     }
 }
 
-TEST(SceneView, AGivenCameraIsTaken) {
+TEST(SceneView, GivenCameraIsUsed) {
     const Scene scene = sceneWith(R"("camera": {"eye": [1, 2, 3], "target": [4, 5, 6], "fieldOfView": 60})");
     EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 2, 3));
     EXPECT_EQ(scene.camera.target, glm::dvec3(4, 5, 6));
@@ -80,7 +80,7 @@ Bounds contentsOf(const Scene& scene) {
     return contents;
 }
 
-TEST(SceneView, ExampleScenesAreSeenWhole) {
+TEST(SceneView, ExampleScenesAreFullyVisible) {
     for (const std::string& name : names()) {
         const Scene scene = *load(name, "software");
         const double reach = reachInPicture(scene.camera, contentsOf(scene), 16.0 / 9);

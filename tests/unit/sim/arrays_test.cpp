@@ -63,14 +63,14 @@ std::string refusalOf(std::vector<BufferDeclaration> buffers, std::vector<Alias>
     return bound ? "" : bound.error().text();
 }
 
-TEST(SimArrays, AreBoundByNameInWhateverOrder) {
+TEST(SimArrays, AreBoundByNameInAnyOrder) {
     const LaunchSpec launch{.pass = Pass::Integrate, .kernel = "fake.comp", .aliases = {{"values", Array::CellStart}}};
     const auto bound = arraysFor(launch, FakeKernel({{"vec4", "velocity"}, {"uint", "values"}, {"vec4", "position"}}));
     ASSERT_TRUE(bound);
     EXPECT_EQ(*bound, (std::vector<Array>{Array::Velocity, Array::CellStart, Array::Position}));
 }
 
-TEST(SimArrays, ThatCannotBeBoundAreRefusedWithASentence) {
+TEST(SimArrays, InvalidBindingsAreRefusedWithAMessage) {
     EXPECT_EQ(refusalOf({{"vec4", "postion"}}),
               "fake.comp: declares the buffer postion, but sim/arrays.def has no array of that name");
     EXPECT_EQ(refusalOf({{"uint", "position"}}),
@@ -83,7 +83,7 @@ TEST(SimArrays, ThatCannotBeBoundAreRefusedWithASentence) {
               "fake.comp: is launched with an alias for positions, which it does not declare");
 }
 
-TEST(SimLayout, WordsAreReadFromTheText) {
+TEST(SimLayout, WordsAreReadFromTheSource) {
     EXPECT_EQ(layout::wordsOf("ContactParams"), "rrrrrrrr");
     EXPECT_EQ(layout::wordsOf("Obstacle"), "rrrrrrrr");
     EXPECT_EQ(layout::wordsOf("Parameters").size() * 4, sizeof(layout::Parameters));

@@ -68,28 +68,28 @@ Features bareWith(std::initializer_list<Feature> more) {
     return features;
 }
 
-TEST(SimFeatures, ABareSceneHasOnlyContacts) {
+TEST(SimFeatures, MinimalSceneHasOnlyContacts) {
     EXPECT_EQ(namesOf(bareWith({})), Names({"contacts", "open faces", "balanced", "velocity before", "impacts"}));
 }
 
-TEST(SimFeatures, ContactsAreKeptForSpheresToCome) {
+TEST(SimFeatures, ContactsDoNotRequireSpheres) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_groups(); }), bareWith({}));
     EXPECT_EQ(namesOf(featuresAfter([](v1::Scene& s) { s.set_sphere_contacts(false); })),
               Names({"open faces", "balanced"}));
 }
 
-TEST(SimFeatures, GravityIsWhatIsNotZero) {
+TEST(SimFeatures, GravityRequiresANonZeroVector) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.set_gravity(1, 0.5); }), bareWith({Gravity}));
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_gravity(); }), bareWith({Gravity}));
 }
 
-TEST(SimFeatures, RadiiMayDiffer) {
+TEST(SimFeatures, RadiiRequireDifferentRadii) {
     EXPECT_EQ(
         featuresAfter([](v1::Scene& s) { s.mutable_groups(0)->mutable_list()->mutable_spheres(1)->set_radius(0.2); }),
         bareWith({Radii}));
 }
 
-TEST(SimFeatures, RestitutionIsAnythingThatBounces) {
+TEST(SimFeatures, RestitutionRequiresAPairWithNonZeroRestitution) {
     const Features open = bareWith({Restitution});
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.mutable_materials(0)->set_restitution(0.1); }), open);
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
@@ -107,7 +107,7 @@ TEST(SimFeatures, RestitutionIsAnythingThatBounces) {
               walls);
 }
 
-TEST(SimFeatures, NothingBouncesOffWhatDoesNot) {
+TEST(SimFeatures, RestitutionIsTheSmallerOneOfAPair) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
                   add(s, "rubber").set_restitution(0.9);
                   closeTop(s, "rubber");
@@ -116,7 +116,7 @@ TEST(SimFeatures, NothingBouncesOffWhatDoesNot) {
         << "the smaller of the two counts";
 }
 
-TEST(SimFeatures, OpenFacesAreOfNoMaterial) {
+TEST(SimFeatures, OpenFacesHaveNoMaterial) {
     const auto rubber = [](v1::Scene& s) {
         add(s, "rubber");
         v1::MaterialPair& pair = addPair(s, "clay", "rubber");
@@ -131,7 +131,7 @@ TEST(SimFeatures, OpenFacesAreOfNoMaterial) {
                 }).has(Friction));
 }
 
-TEST(SimFeatures, MaterialsDifferBetweenSpheresOnly) {
+TEST(SimFeatures, MaterialsRequireSpheresOfDifferentMaterials) {
     Features expected = bareWith({Restitution});
     expected.set(Materials);
     EXPECT_EQ(featuresAfter([](v1::Scene& s) {
@@ -142,11 +142,11 @@ TEST(SimFeatures, MaterialsDifferBetweenSpheresOnly) {
               expected);
 }
 
-TEST(SimFeatures, OneClosedFaceMakesWalls) {
+TEST(SimFeatures, OneClosedFaceAddsWalls) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.mutable_bounds()->mutable_open()->RemoveLast(); }), bareWith({Walls}));
 }
 
-TEST(SimFeatures, ObstaclesAreOfTwoKinds) {
+TEST(SimFeatures, ObstaclesArePlanesOrBoxes) {
     const v1::Scene donor = parsed(R"({"obstacles": [{"plane": {"point": [0,0,0], "normal": [0,0,1]}},
         {"box": {"min": [0.8, 0.8, 0.8], "max": [1, 1, 1]}, "material": "rubber"}]})");
     EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(0); }), bareWith({Planes}));
@@ -160,11 +160,11 @@ TEST(SimFeatures, ObstaclesAreOfTwoKinds) {
               boxes);
 }
 
-TEST(SimFeatures, NothingRestsWithoutGravity) {
+TEST(SimFeatures, SleepNeedsGravity) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_sleep(); }), bareWith({}));
 }
 
-TEST(SimFeatures, TheModelIsTheScenes) {
+TEST(SimFeatures, ModelComesFromTheScene) {
     const std::pair<Model, Names> cases[] = {
         {Model::Fast, {"contacts", "open faces", "fast", "impacts"}},
         {Model::Balanced, {"contacts", "open faces", "balanced", "velocity before", "impacts"}},
@@ -175,17 +175,17 @@ TEST(SimFeatures, TheModelIsTheScenes) {
             names);
 }
 
-TEST(SimFeatures, EachHasTheModuleOfItsName) {
+TEST(SimFeatures, EachHasAModule) {
     for (const Feature feature : allFeatures())
         EXPECT_EQ(modules().at(static_cast<std::size_t>(feature))->feature, feature) << nameOf(feature);
 }
 
-TEST(SimFeatures, EachHasARowInTheTableOfCostsOrAReason) {
+TEST(SimFeatures, EachHasACostRowOrAReasonForNone) {
     for (const Module* module : modules())
         EXPECT_NE(module->cost.row.empty(), module->cost.reason.empty()) << nameOf(module->feature);
 }
 
-TEST(SimFeatures, TheRowsOfCostsSwitchThem) {
+TEST(SimFeatures, CostComparisonsSwitchTheFeature) {
     v1::Scene bed = parsed(bare);
     bed.mutable_bounds()->clear_open();
     bed.clear_gravity();
@@ -213,7 +213,7 @@ TEST(SimFeatures, OnlyAccurateFollowsHertz) {
     }
 }
 
-TEST(SimFeatures, NothingSleepsUnderAccurate) {
+TEST(SimFeatures, AccurateHasNoSleep) {
     for (const Model model : {Model::Fast, Model::Balanced, Model::Accurate}) {
         const Features features = featuresAfter([&](v1::Scene& s) {
             s.mutable_quality()->set_model(scene::messageOf(model));
@@ -246,13 +246,13 @@ std::string pairOf(const std::string& a, const std::string& b, const std::string
     return R"(, "pairs": [{"a": ")" + a + R"(", "b": ")" + b + R"(", )" + members + "}]";
 }
 
-TEST(SimFriction, IsOfSpheresWithEachOther) {
+TEST(SimFriction, RequiresFrictionBetweenSpheres) {
     EXPECT_FALSE(featuresWith(smooth, smooth).has(Feature::Friction));
     EXPECT_TRUE(featuresWith(rough, smooth).has(Feature::Friction));
     EXPECT_FALSE(featuresWith(rough, smooth, apart).has(Feature::Friction)) << "they never meet";
 }
 
-TEST(SimFriction, OfAWallCountsWithTheSpheres) {
+TEST(SimFriction, CountsForPairsOfWallAndSphere) {
     EXPECT_TRUE(featuresWith(rough, rough, apart).has(Feature::Friction));
     EXPECT_FALSE(featuresWith(smooth, rough).has(Feature::Friction)) << "the geometric mean is zero";
     EXPECT_TRUE(featuresWith(smooth, smooth, pairOf("wall", "ball", rough)).has(Feature::Friction));
@@ -260,13 +260,13 @@ TEST(SimFriction, OfAWallCountsWithTheSpheres) {
     EXPECT_FALSE(featuresWith(rough, rough, apart + pairOf("ball", "wall", smooth)).has(Feature::Friction));
 }
 
-TEST(SimFriction, OfAnObstacleCountsWithTheSpheres) {
+TEST(SimFriction, CountsForPairsOfObstacleAndSphere) {
     const std::string plate = R"(, "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "material": )";
     EXPECT_TRUE(featuresWith(rough, smooth, apart + plate + R"("ball"}])").has(Feature::Friction));
     EXPECT_FALSE(featuresWith(rough, smooth, apart + plate + R"("wall"}])").has(Feature::Friction));
 }
 
-TEST(SimFriction, OfMaterialsThatNoSphereHasDoesNotCount) {
+TEST(SimFriction, IgnoresMaterialsWithoutSpheres) {
     EXPECT_FALSE(featuresWith(smooth, smooth, pairOf("wall", "wall", rough)).has(Feature::Friction))
         << "a wall meets no wall";
     const Features features = featuresOf(
@@ -281,7 +281,7 @@ TEST(SimFriction, OfMaterialsThatNoSphereHasDoesNotCount) {
     EXPECT_FALSE(features.has(Feature::Hertz));
 }
 
-TEST(SimFriction, RollingResistanceNeedsIt) {
+TEST(SimFriction, RollingResistanceNeedsFriction) {
     const std::string rolling = R"(, "rollingResistance": 0.1)";
     const std::string spinning = R"(, "spinningResistance": 0.1)";
     EXPECT_FALSE(featuresWith(rough, rough).has(Feature::Rolling));

@@ -60,7 +60,7 @@ class SimMemory : public testing::Test {
     std::unique_ptr<compute::Device> device_ = std::move(*compute::openDevice("cpu:1"));
 };
 
-TEST_F(SimMemory, WhatIsCountedIsWhatIsTaken) {
+TEST_F(SimMemory, ClaimedMemoryMatchesAllocatedMemory) {
     for (const double friction : {0.0, 0.3}) {
         auto scene = scene::build(latticeOf(200'000, friction));
         ASSERT_TRUE(scene) << scene.error().text();
@@ -79,7 +79,7 @@ TEST_F(SimMemory, WhatIsCountedIsWhatIsTaken) {
 }
 
 // This test has more spheres than the others, so that an earlier peak does not hide its own peak.
-TEST_F(SimMemory, ASceneIsMadeWithoutASecondCopyOfItsSpheres) {
+TEST_F(SimMemory, SceneIsBuiltWithoutASecondCopyOfItsSpheres) {
     constexpr std::uint32_t spheres = 4'000'000;
     const std::uint64_t before = held();
     const auto scene = scene::build(latticeOf(spheres, 0.3));
@@ -87,7 +87,7 @@ TEST_F(SimMemory, ASceneIsMadeWithoutASecondCopyOfItsSpheres) {
     EXPECT_LT(mostHeld(), before + 13 * std::uint64_t{spheres} * sizeof(scene::Sphere) / 10);
 }
 
-TEST_F(SimMemory, ASceneWithoutRoomIsRefusedBeforeItIsMade) {
+TEST_F(SimMemory, TooLargeSceneIsRefusedBeforeAllocation) {
     memory::setLimit(held() + 100 * mebi);
     const std::uint64_t before = mostHeld();
     const auto scene = scene::build(latticeOf(16'000'000, 0));
@@ -99,7 +99,7 @@ TEST_F(SimMemory, ASceneWithoutRoomIsRefusedBeforeItIsMade) {
     EXPECT_LT(mostHeld(), before + 20 * mebi);
 }
 
-TEST_F(SimMemory, ASimulationWithoutRoomIsRefusedBeforeItIsMade) {
+TEST_F(SimMemory, TooLargeSimulationIsRefusedBeforeAllocation) {
     auto scene = scene::build(latticeOf(400'000, 0));
     ASSERT_TRUE(scene);
     memory::setLimit(held() + 150 * mebi);
@@ -113,7 +113,7 @@ TEST_F(SimMemory, ASimulationWithoutRoomIsRefusedBeforeItIsMade) {
     EXPECT_EQ(memory::claimed().promised, 0U);
 }
 
-TEST_F(SimMemory, BothWorldsCountWhileOneTakesThePlaceOfTheOther) {
+TEST_F(SimMemory, OldAndNewSimulationCountDuringReplacement) {
     auto scene = scene::build(latticeOf(200'000, 0));
     ASSERT_TRUE(scene);
     const auto running = Simulation::create(*device_, std::move(*scene));
@@ -128,7 +128,7 @@ TEST_F(SimMemory, BothWorldsCountWhileOneTakesThePlaceOfTheOther) {
     EXPECT_TRUE((*running)->step()) << "it goes on";
 }
 
-TEST_F(SimMemory, CommandsThatCopyAreRefusedAndChangeNothing) {
+TEST_F(SimMemory, CommandsWithoutMemoryAreRefusedAndChangeNothing) {
     auto scene = scene::build(latticeOf(100'000, 0));
     ASSERT_TRUE(scene);
     const auto simulation = Simulation::create(*device_, std::move(*scene));
