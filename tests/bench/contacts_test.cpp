@@ -44,7 +44,7 @@ class Contacts : public testing::Test {
     sim::State state_;
 };
 
-TEST_F(Contacts, EveryBroadPhaseFindsThoseOfBruteForce) {
+TEST_F(Contacts, EveryBroadPhaseMatchesBruteForce) {
     const std::uint64_t all = contactsOf(bruteForce(setting()));
     EXPECT_EQ(all, expected());
     EXPECT_GT(all, 2000U);
@@ -54,7 +54,7 @@ TEST_F(Contacts, EveryBroadPhaseFindsThoseOfBruteForce) {
     EXPECT_EQ(contactsOf(sweepAndPrune(setting())), all);
 }
 
-TEST_F(Contacts, LaterSubstepsStartFromTheStateThatTheEarlierOnesLeft) {
+TEST_F(Contacts, SubstepsStartFromThePreviousState) {
     auto brute = bruteForce(setting()).value();
     auto sweep = sweepAndPrune(setting()).value();
     auto grid = slotsGrid(setting(), fineGrid(setting(), 64)).value();
@@ -69,7 +69,7 @@ TEST_F(Contacts, LaterSubstepsStartFromTheStateThatTheEarlierOnesLeft) {
     EXPECT_NEAR(static_cast<double>(grid->contacts()), all, 0.002 * all);
 }
 
-TEST_F(Contacts, SpheresThatFindNoSlotAreCounted) {
+TEST_F(Contacts, SpheresWithoutASlotAreCounted) {
     auto method = slotsGrid(setting(), {.cells = glm::uvec3(1), .slots = 1900, .localSize = 64}).value();
     method->upload(state_);
     method->substep();
@@ -77,7 +77,7 @@ TEST_F(Contacts, SpheresThatFindNoSlotAreCounted) {
     EXPECT_EQ(method->note(), "100 spheres per substep found their cell full");
 }
 
-TEST_F(Contacts, AGridThatTheDeviceHasNoRoomForIsRefusedWithItsSize) {
+TEST_F(Contacts, TooLargeGridIsRefusedWithItsSize) {
     auto method = slotsGrid(setting(), {.cells = glm::uvec3(512), .slots = 4096, .localSize = 1});
     ASSERT_FALSE(method.has_value());
     EXPECT_EQ(method.error().kind, ErrorKind::Refused);
@@ -89,7 +89,7 @@ TEST(MeanOverlap, IsTheMeanOverPairsThatOverlap) {
     EXPECT_NEAR(meanOverlap(positions), 0.3, 1e-6);
 }
 
-TEST(Arrangements, LieInsideTheBoxAndBarelyTouchOrNotAtAll) {
+TEST(Arrangements, LieInTheBoxWithSmallOverlaps) {
     const scene::Scene scene = box(3000).value();
     const sim::State state = arranged(scene, dense);
     const glm::vec3 half = 0.5F * glm::vec3(scene.bounds.max - scene.bounds.min);

@@ -11,7 +11,7 @@ TEST_F(DeviceTest, NewBufferIsZero) {
     EXPECT_EQ(contents(*fresh), std::vector<std::uint32_t>(1000, 0));
 }
 
-TEST_F(DeviceTest, NewBufferIsZeroWhereAnotherWasBefore) {
+TEST_F(DeviceTest, NewBufferIsZeroInReusedMemory) {
     for (int round = 0; round < 20; ++round) {
         const auto reused = buffer(1 << 14);
         EXPECT_EQ(contents(*reused), std::vector<std::uint32_t>(1 << 12, 0));
@@ -19,14 +19,14 @@ TEST_F(DeviceTest, NewBufferIsZeroWhereAnotherWasBefore) {
     }
 }
 
-TEST_F(DeviceTest, UploadedBytesComeBack) {
+TEST_F(DeviceTest, DownloadReturnsUploadedBytes) {
     std::vector<std::uint32_t> values(1001);
     std::iota(values.begin(), values.end(), 7U);
     const auto filled = buffer(values);
     EXPECT_EQ(contents(*filled), values);
 }
 
-TEST_F(DeviceTest, UploadAndDownloadKeepToTheirRange) {
+TEST_F(DeviceTest, UploadAndDownloadAccessOnlyTheirRange) {
     const auto target = buffer(std::vector<std::uint32_t>{1, 2, 3, 4});
     const std::vector<std::uint32_t> middle{20, 30};
     device_->upload(*target, 4, std::as_bytes(std::span(middle)));
@@ -36,7 +36,7 @@ TEST_F(DeviceTest, UploadAndDownloadKeepToTheirRange) {
     EXPECT_EQ(last, 4U);
 }
 
-TEST_F(DeviceTest, DownloadLargerThanOneChunkIsWhole) {
+TEST_F(DeviceTest, DownloadLargerThanOneChunkIsComplete) {
     std::vector<std::uint32_t> values(std::size_t{10} << 20U);
     std::iota(values.begin(), values.end(), 0U);
     EXPECT_EQ(contents(*buffer(values)), values);
@@ -71,7 +71,7 @@ TEST_F(DeviceTest, BuffersMayOutliveTheDevice) {
     EXPECT_EQ(contents(*buffer(64)), std::vector<std::uint32_t>(16, 0));
 }
 
-TEST_F(DeviceTest, TwoDevicesOnOneThreadKeepTheirOwnState) {
+TEST_F(DeviceTest, TwoDevicesOnOneThreadAreIndependent) {
     const auto mine = buffer(std::vector<std::uint32_t>{1});
     const auto other = openTestDevice();
     const auto theirs = other->createBuffer("other", 4).value();

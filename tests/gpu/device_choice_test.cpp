@@ -27,7 +27,7 @@ TEST(DeviceChoice, AutoPrefersGpuAndReportsReason) {
     }
 }
 
-TEST(DeviceChoice, CpuTakesAnyNumberOfThreads) {
+TEST(DeviceChoice, CpuSupportsAnyNumberOfThreads) {
     for (const auto& [choice, threads] :
          {std::pair{"cpu:1", "1 thread"}, {"cpu:3", "3 threads"}, {"cpu-double:2", "2 threads, double precision"}}) {
         const auto device = openDevice(choice);
@@ -55,7 +55,7 @@ TEST(DeviceChoice, UnknownDevicesAreRefusedWithTheChoices) {
     }
 }
 
-TEST(DeviceChoice, DevicesCanBeOpenedAgainAndAgain) {
+TEST(DeviceChoice, DevicesCanBeOpenedRepeatedly) {
     for (int round = 0; round < 10; ++round) EXPECT_TRUE(openDevice("software").has_value());
 }
 

@@ -37,7 +37,7 @@ TEST_F(DeviceTest, CompileErrorNamesFileAndLine) {
     EXPECT_NE(result.error().message.find("unheardOf"), std::string::npos) << result.error().text();
 }
 
-TEST_F(DeviceTest, CompileErrorAfterAnIncludeNamesTheLineOfTheIncluder) {
+TEST_F(DeviceTest, CompileErrorAfterAnIncludeNamesTheLineOfTheIncludingFile) {
     const MapSources sources{
         {"bad.comp", "#include \"shared/head.h\"\nvoid main() {\n    wrong = 1;\n}\n"},
         {"shared/head.h", kernelHead},
@@ -47,7 +47,7 @@ TEST_F(DeviceTest, CompileErrorAfterAnIncludeNamesTheLineOfTheIncluder) {
     EXPECT_NE(result.error().message.find("bad.comp:3"), std::string::npos) << result.error().text();
 }
 
-TEST_F(DeviceTest, ParametersAreTheUniformBlock) {
+TEST_F(DeviceTest, ParametersAreBoundAsTheUniformBlock) {
     const auto scale = kernel(R"(
         layout(std140, binding = 0) uniform Parameters { uint factor; uint offset; };
         layout(std430, binding = 2) buffer Values { uint values[]; };
@@ -69,7 +69,7 @@ TEST_F(DeviceTest, ParametersAreTheUniformBlock) {
     EXPECT_EQ(contents(*values), (std::vector<std::uint32_t>{2, 9, 16}));
 }
 
-TEST_F(DeviceTest, KernelThatNeedsNeitherPhaseNorCountRuns) {
+TEST_F(DeviceTest, KernelWithoutPhaseAndCountRuns) {
     const auto ones = kernel(R"(
         layout(std430, binding = 0) buffer Values { uint values[]; };
         void main() { if (self() < 2u) values[self()] = 1u; })");
@@ -78,7 +78,7 @@ TEST_F(DeviceTest, KernelThatNeedsNeitherPhaseNorCountRuns) {
     EXPECT_EQ(contents(*values), (std::vector<std::uint32_t>{1, 1, 0}));
 }
 
-TEST_F(DeviceTest, KernelWithOneInvocationPerGroupRunsOnceForEachOfTheCount) {
+TEST_F(DeviceTest, KernelWithOneInvocationPerGroupRunsOncePerElement) {
     constexpr std::uint32_t count = 70000;  // more work groups than one row of a launch has
     const MapSources sources{{"single.comp", R"(
         layout(local_size_x = 1) in;
@@ -99,7 +99,7 @@ TEST_F(DeviceTest, KernelWithOneInvocationPerGroupRunsOnceForEachOfTheCount) {
     EXPECT_EQ(got[count], 0U);
 }
 
-TEST_F(DeviceTest, KernelsThatBreakTheConventionsAreRefused) {
+TEST_F(DeviceTest, KernelsThatViolateTheConventionsAreRefused) {
     const std::array<std::pair<const char*, const char*>, 4> cases{{
         {"layout(local_size_x = 32) in;\nvoid main() {}", "local size of 32 x 1 x 1"},
         {"layout(local_size_x = 64) in;\nlayout(std140, binding = 3) uniform P { uint p; };\n"

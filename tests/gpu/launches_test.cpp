@@ -9,7 +9,7 @@ constexpr const char* countUp = R"(
     layout(std430, binding = 0) buffer Values { uint values[]; };
     void main() { uint i = self(); if (i < invocations) values[i] += i + 1u; })";
 
-TEST_F(DeviceTest, EveryInvocationRunsOnceAtAnyCount) {
+TEST_F(DeviceTest, EveryInvocationRunsOnceForAnyCount) {
     const auto up = kernel(countUp);
     for (const std::uint32_t count : {1U, 63U, 64U, 65U, 1000U}) {
         const auto values = buffer((count + 1) * 4);
@@ -20,14 +20,14 @@ TEST_F(DeviceTest, EveryInvocationRunsOnceAtAnyCount) {
     }
 }
 
-TEST_F(DeviceTest, LaunchOfNoneDoesNothing) {
+TEST_F(DeviceTest, LaunchWithCountZeroDoesNothing) {
     const auto up = kernel(countUp);
     const auto values = buffer(4);
     launch(*up, 0, {values.get()});
     EXPECT_EQ(contents(*values), std::vector<std::uint32_t>{0});
 }
 
-TEST_F(DeviceTest, CountsBeyondOneRowOfGroupsRunOnceEach) {
+TEST_F(DeviceTest, EveryInvocationRunsOnceBeyondOneRowOfGroups) {
     constexpr std::uint32_t count = 32768 * 64 + 777;
     const auto up = kernel(countUp);
     const auto values = buffer(count * 4);
@@ -38,7 +38,7 @@ TEST_F(DeviceTest, CountsBeyondOneRowOfGroupsRunOnceEach) {
     EXPECT_EQ(wrong, 0U);
 }
 
-TEST_F(DeviceTest, LaunchSeesWhatTheLaunchBeforeWrote) {
+TEST_F(DeviceTest, LaunchReadsTheResultOfThePreviousLaunch) {
     const auto shift = kernel(R"(
         layout(std430, binding = 0) buffer From { uint from[]; };
         layout(std430, binding = 1) buffer To { uint to[]; };
@@ -62,7 +62,7 @@ TEST_F(DeviceTest, PhaseChangesBetweenLaunches) {
     EXPECT_EQ(contents(*values), (std::vector<std::uint32_t>{10, 11, 12}));
 }
 
-TEST_F(DeviceTest, IndirectLaunchTakesItsCountFromTheDevice) {
+TEST_F(DeviceTest, IndirectLaunchReadsItsCountFromABuffer) {
     const auto plan = kernel(R"(
         layout(std430, binding = 0) buffer Arguments { uint arguments[]; };
         void main() {
@@ -96,7 +96,7 @@ TEST_F(DeviceTest, IndirectLaunchTakesItsCountFromTheDevice) {
     EXPECT_EQ(contents(*values), expected);
 }
 
-TEST_F(DeviceTest, IndirectLaunchOfNoGroupsDoesNothing) {
+TEST_F(DeviceTest, IndirectLaunchWithoutGroupsDoesNothing) {
     const auto work = kernel(R"(
         layout(std430, binding = 0) buffer Values { uint values[]; };
         void main() { values[0] = 1u; })");

@@ -32,7 +32,7 @@ TEST(Probe, TextAndJsonNameTheRenderer) {
     EXPECT_NE(json.find("\"limits\":{\"maxBufferBytes\":"), std::string::npos) << json;
 }
 
-TEST(Probe, JsonOfNothingHasEveryKeyAndEscapes) {
+TEST(Probe, JsonOfAnEmptyProbeHasEveryKeyAndEscapes) {
     Probe nothing;
     nothing.choice = "gpu";
     nothing.problem = "a \"quoted\" problem\n";

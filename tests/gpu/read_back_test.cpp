@@ -20,7 +20,7 @@ std::vector<std::byte> bytesOf(const std::vector<std::uint32_t>& values) {
     return {bytes.begin(), bytes.end()};
 }
 
-TEST_F(DeviceTest, ReadBackBringsWhatTheLaunchWrote) {
+TEST_F(DeviceTest, ReadBackReturnsTheResultOfALaunch) {
     const auto square = kernel(R"(
         layout(std430, binding = 0) buffer Values { uint values[]; };
         void main() { uint i = self(); if (i < invocations) values[i] = i * i; })");
@@ -31,7 +31,7 @@ TEST_F(DeviceTest, ReadBackBringsWhatTheLaunchWrote) {
     EXPECT_EQ(waitFor(*copy), bytesOf({0, 1, 4}));
 }
 
-TEST_F(DeviceTest, TwoReadBacksAreUnderWayAndAThirdIsNot) {
+TEST_F(DeviceTest, AtMostTwoReadBacksAreActive) {
     const auto values = buffer(std::vector<std::uint32_t>{1, 2});
     auto first = device_->startReadBack(*values, 8);
     device_->fill(*values, 9);
@@ -49,7 +49,7 @@ TEST_F(DeviceTest, TwoReadBacksAreUnderWayAndAThirdIsNot) {
     EXPECT_EQ(waitFor(*second), bytesOf({9, 9}));
 }
 
-TEST_F(DeviceTest, ReadBackGrowsWithItsBuffer) {
+TEST_F(DeviceTest, ReadBackSupportsBuffersOfAnySize) {
     for (const std::size_t words : {std::size_t{4}, std::size_t{1} << 20U, std::size_t{16}}) {
         const auto values = buffer(std::vector<std::uint32_t>(words, 3));
         const auto copy = device_->startReadBack(*values, words * 4);

@@ -15,7 +15,7 @@ constexpr const char* busyLoop = R"(
         values[i] = x;
     })";
 
-TEST_F(DeviceTest, TimesAreBySlotAndStartAnew) {
+TEST_F(DeviceTest, TimesArePerSlotAndResetWhenTaken) {
     const auto busy = kernel(busyLoop);
     const auto values = buffer(4096 * 4);
     device_->beginTimer(1);
@@ -33,7 +33,7 @@ TEST_F(DeviceTest, TimesAreBySlotAndStartAnew) {
     EXPECT_TRUE(device_->takeTimes().empty());
 }
 
-TEST_F(DeviceTest, TimeIsThatOfTheLaunchesInside) {
+TEST_F(DeviceTest, TimeIncludesTheLaunchesBetweenBeginAndEnd) {
     const auto busy = kernel(busyLoop);
     const auto values = buffer(65536 * 4);
     launch(*busy, 65536, {values.get()}, 1);
@@ -49,7 +49,7 @@ TEST_F(DeviceTest, TimeIsThatOfTheLaunchesInside) {
     EXPECT_GE(measured, 0.5 * wall.count());
 }
 
-TEST_F(DeviceTest, TimesOfOneSlotAddUpOverManyTimers) {
+TEST_F(DeviceTest, TimersOfOneSlotAreSummed) {
     const auto busy = kernel(busyLoop);
     const auto values = buffer(256);
     for (int i = 0; i < 10000; ++i) {

@@ -22,7 +22,7 @@ TEST(KernelSources, LinesKeepTheirOrigin) {
     EXPECT_EQ(expanded->files, (std::vector<std::string>{"<defines>", "a.comp", "b.h"}));
 }
 
-TEST(KernelSources, FileIncludedTwiceIsThereTwiceUnderOneIndex) {
+TEST(KernelSources, FileIncludedTwiceIsExpandedTwiceUnderOneIndex) {
     const MapSources sources{{"a.comp", "#include \"b.h\"\n#include \"b.h\"\n"}, {"b.h", "x\n"}};
     const auto expanded = expandSource(sources, "a.comp", {});
     ASSERT_TRUE(expanded.has_value()) << expanded.error().text();

@@ -51,7 +51,7 @@ struct Cells {
     std::vector<uint> id, start, place, order;
 };
 
-TEST(KernelsAsCpp, SpheresOfACrowdedCellComeInIdOrder) {
+TEST(KernelsAsCpp, SpheresOfACrowdedCellAreSortedById) {
     Cells cells(std::vector<vec4>(1000, vec4(0.5F, 0.5F, 0.5F, 0.1F)));
     cells.sort();
     std::vector<uint> wanted(1000);
@@ -59,7 +59,7 @@ TEST(KernelsAsCpp, SpheresOfACrowdedCellComeInIdOrder) {
     EXPECT_EQ(cells.idsOf(0), wanted);
 }
 
-TEST(KernelsAsCpp, EverySphereIsInTheCellOfItsPlaceOnTheTorus) {
+TEST(KernelsAsCpp, EverySphereIsInItsPeriodicCell) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> coordinate(-9, 9);
     std::vector<vec4> positions(500);

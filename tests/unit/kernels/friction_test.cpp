@@ -48,7 +48,7 @@ struct Conserved {
     vec3 angularMomentum;
 };
 
-TEST(KernelsAsCpp, FrictionStopsTheSlipOfSurfacesThatArePressedHardEnough) {
+TEST(KernelsAsCpp, FrictionStopsSlipUnderEnoughPressure) {
     Bed bed = slidingPair(0.5F);
     const Conserved conserved(bed);
     const float energy = bed.energy();
@@ -61,7 +61,7 @@ TEST(KernelsAsCpp, FrictionStopsTheSlipOfSurfacesThatArePressedHardEnough) {
     EXPECT_LT(bed.energy(), energy);
 }
 
-TEST(KernelsAsCpp, FrictionTakesNoMoreThanCoulombAllows) {
+TEST(KernelsAsCpp, FrictionIsLimitedByCoulombsLaw) {
     const float friction = 0.5F;
     const float pressing = 0.02F;
     Bed bed = slidingPair(friction);
@@ -75,7 +75,7 @@ TEST(KernelsAsCpp, FrictionTakesNoMoreThanCoulombAllows) {
     conserved.expectIn(bed);
 }
 
-TEST(KernelsAsCpp, NothingRubsThatIsNotPressed) {
+TEST(KernelsAsCpp, NoFrictionWithoutPressure) {
     for (const float pressing : {0.0F, -1.0F}) {
         Bed bed = slidingPair(0.5F);
         const auto before = bed.velocity;
@@ -102,7 +102,7 @@ Bed unequalPair(vec4 law, std::uint64_t features) {
     return bed;
 }
 
-TEST(KernelsAsCpp, FrictionKnowsSizesMassesAndMaterials) {
+TEST(KernelsAsCpp, FrictionUsesRadiiMassesAndMaterials) {
     Bed sticking = unequalPair(vec4(0, 0.5F, 0, 0), 0);
     const Conserved conserved(sticking);
     rub(sticking, plenty);
@@ -134,7 +134,7 @@ float inertiaOf(const Bed& bed, uint id) {
 
 constexpr float lever = 0.5F * 0.3F / (0.5F + 0.3F);  // effective radius of the unequal pair (m)
 
-TEST(KernelsAsCpp, RollingIsSlowedByNoMoreThanItsResistance) {
+TEST(KernelsAsCpp, RollingIsSlowedByItsResistance) {
     const float resistance = 0.1F;
     const float pressing = 0.2F;
     Bed bed = unequalPair(vec4(0, 10, resistance, 0), Feature::ROLLING);
@@ -151,7 +151,7 @@ TEST(KernelsAsCpp, RollingIsSlowedByNoMoreThanItsResistance) {
     conserved.expectIn(bed);
 }
 
-TEST(KernelsAsCpp, SpinningAboutTheNormalIsSlowedByNoMoreThanItsResistance) {
+TEST(KernelsAsCpp, SpinningAboutTheNormalIsSlowedByItsResistance) {
     const float resistance = 0.1F;
     const float pressing = 0.2F;
     for (const float direction : {1.0F, -1.0F}) {

@@ -62,7 +62,7 @@ void mirror(Bed& bed) {
     for (uint id = 0; id < bed.count; ++id) bed.setPlace(id, -bed.at(id));
 }
 
-TEST(KernelsAsCpp, ContactsFindTheirHistoryAfterARebuild) {
+TEST(KernelsAsCpp, ContactsKeepTheirHistoryAfterARebuild) {
     for (const std::uint64_t features : {std::uint64_t{0}, std::uint64_t{Feature::RADII}}) {
         Bed bed(cluster(), Feature::FRICTION | Feature::LOW_BITS | features);
         for (uint id = 0; id < bed.count; ++id) bed.setSpin(id, vec3(static_cast<float>(id)));
@@ -79,7 +79,7 @@ TEST(KernelsAsCpp, ContactsFindTheirHistoryAfterARebuild) {
     }
 }
 
-TEST(KernelsAsCpp, APairThatHasTurnedRoundFindsItsSlipTheOtherWayRound) {
+TEST(KernelsAsCpp, SlipChangesSignWhenAPairIsReversed) {
     Bed bed({vec4(0.6F, 0.5F, 0.5F, 0.5F), vec4(1.5F, 0.5F, 0.5F, 0.5F)}, Feature::FRICTION);
     bed.rebuild();
     ASSERT_EQ(bed.listed().size(), 1U);
@@ -94,7 +94,7 @@ TEST(KernelsAsCpp, APairThatHasTurnedRoundFindsItsSlipTheOtherWayRound) {
     EXPECT_EQ(bed.tangentialSlip[bed.listed()[0]], vec4(-1, -2, -3, 1));
 }
 
-TEST(KernelsAsCpp, APairThatIsListedAnewRemembersNothing) {
+TEST(KernelsAsCpp, NewPairHasNoHistory) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.9F, 0, 0, 0.5F), vec4(1.8F, 0, 0, 0.5F)}, Feature::FRICTION);
     bed.rebuild();
     ASSERT_EQ(bed.listed().size(), 2U);
@@ -111,7 +111,7 @@ TEST(KernelsAsCpp, APairThatIsListedAnewRemembersNothing) {
     EXPECT_EQ(after.at({1, 2}), vec4(0));
 }
 
-TEST(KernelsAsCpp, AContactAddsUpItsSlipUntilItEnds) {
+TEST(KernelsAsCpp, SlipAccumulatesUntilTheContactEnds) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.99F, 0, 0, 0.5F)}, Feature::FRICTION | Feature::LOW_BITS);
     bed.parameters.contact = vec4(1, 100, 0, 0);
     bed.parameters.stiffness = vec4(1e5F, 0, 3e4F, 0);
@@ -133,7 +133,7 @@ TEST(KernelsAsCpp, AContactAddsUpItsSlipUntilItEnds) {
     EXPECT_EQ(remembered(bed).at({0, 1}), vec4(0));
 }
 
-TEST(KernelsAsCpp, ASlidingContactStretchesItsSpringNoFurtherThanFrictionHolds) {
+TEST(KernelsAsCpp, SlipIsLimitedByFriction) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.99F, 0, 0, 0.5F)}, Feature::FRICTION | Feature::LOW_BITS);
     const float friction = 0.3F;
     bed.parameters.contact = vec4(1, friction, 0, 0);

@@ -36,7 +36,7 @@ void expectNear(vec3 value, vec3 wanted, float within = 1e-5F) {
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(value[axis], wanted[axis], within) << "axis " << axis;
 }
 
-TEST(KernelsAsCpp, APairPartsWithItsRestitution) {
+TEST(KernelsAsCpp, PairSeparatesWithItsRestitution) {
     for (const float restitution : {0.0F, 0.3F, 0.8F, 1.0F}) {
         Bed bed = pairWith(vec4(restitution, 0, 0, 0), bouncing);
         bed.setVelocity(0, {-3, -1, 0.5F});
@@ -54,7 +54,7 @@ TEST(KernelsAsCpp, APairPartsWithItsRestitution) {
     }
 }
 
-TEST(KernelsAsCpp, AnImpactWithoutAListIsTheSame) {
+TEST(KernelsAsCpp, ImpactOfAnUnlistedPairIsTheSame) {
     Bed bed = pairWith(vec4(0.8F, 0, 0, 0), bouncing);
     bed.parameters.pairCapacity = 0;
     bed.rebuild();
@@ -64,7 +64,7 @@ TEST(KernelsAsCpp, AnImpactWithoutAListIsTheSame) {
     EXPECT_NEAR(partingSpeed(bed), 1.6F, 2e-6F);
 }
 
-TEST(KernelsAsCpp, OverlapsAreMovedApartWithoutBecomingSpeed) {
+TEST(KernelsAsCpp, OverlapsAreRemovedWithoutChangingVelocities) {
     Bed bed = pairWith(vec4(1, 0, 0, 0), bouncing);
     bed.setVelocity(0, 2.0F * across);
     const auto velocity = bed.velocity;
@@ -75,7 +75,7 @@ TEST(KernelsAsCpp, OverlapsAreMovedApartWithoutBecomingSpeed) {
     expectNear(1.0F / 4 * bed.at(0) + 3.0F / 4 * bed.at(1), centre, 1e-6F);
 }
 
-TEST(KernelsAsCpp, WhatMeetsWithinTheDeadBandDoesNotBounce) {
+TEST(KernelsAsCpp, ImpactsWithinTheDeadBandDoNotBounce) {
     Bed bed = pairWith(vec4(1, 0, 0, 0), bouncing);
     bed.parameters.deadBand = 0.1F;
     bed.setVelocity(0, -0.09F * across);
@@ -89,7 +89,7 @@ TEST(KernelsAsCpp, WhatMeetsWithinTheDeadBandDoesNotBounce) {
     EXPECT_NEAR(partingSpeed(bed), 0.11F, 1e-7F);
 }
 
-TEST(KernelsAsCpp, AnImpactRubsWithinCoulombsLimit) {
+TEST(KernelsAsCpp, FrictionOfAnImpactIsLimitedByCoulombsLaw) {
     const vec3 speed = -2.0F * across + glm::cross(across, vec3(1, 2, 3));
     for (const float friction : {0.1F, 10.0F}) {
         Bed bed = pairWith(vec4(0.5F, friction, 0, 0), bouncing | Feature::FRICTION);

@@ -21,7 +21,7 @@ TEST(KernelsAsCpp, PairsWithinTheMarginAreListedOnce) {
     EXPECT_EQ(bed.counters[COUNTER_UNLISTED], 0U);
 }
 
-TEST(KernelsAsCpp, AnOverlappingPairIsPushedApartToTouchingTheLighterOneFurther) {
+TEST(KernelsAsCpp, OverlapIsRemovedInProportionToInverseMass) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.9F, 0, 0, 0.5F)});
     bed.velocity[1].w = 3;  // inverse mass
     bed.rebuild();
@@ -33,7 +33,7 @@ TEST(KernelsAsCpp, AnOverlappingPairIsPushedApartToTouchingTheLighterOneFurther)
     EXPECT_NEAR(bed.momentum().x, 0, 1e-5F);
 }
 
-TEST(KernelsAsCpp, OnlyPairsThatOverlapTouchWithTheImpulseThatPartsThem) {
+TEST(KernelsAsCpp, OnlyOverlappingPairsHaveContactsAndImpulses) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.9F, 0, 0, 0.5F), vec4(1.95F, 0, 0, 0.5F)}, Feature::FRICTION);
     bed.rebuild();
     ASSERT_EQ(bed.listed().size(), 2U);
@@ -44,7 +44,7 @@ TEST(KernelsAsCpp, OnlyPairsThatOverlapTouchWithTheImpulseThatPartsThem) {
     EXPECT_NEAR(bed.normalImpulses[touching[0]], 0.05F * 480, 1e-3F);
 }
 
-TEST(KernelsAsCpp, GroupsWithoutRoomForTheirPairsArePushedApartAllTheSame) {
+TEST(KernelsAsCpp, UnlistedPairsAreAlsoSeparated) {
     Bed bed({vec4(0, 0, 0, 0.5F), vec4(0.9F, 0, 0, 0.5F)});
     bed.parameters.pairCapacity = 0;
     bed.rebuild();

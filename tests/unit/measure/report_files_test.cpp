@@ -39,7 +39,7 @@ std::size_t linesOf(const std::string& text) {
     return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
-TEST(ReportFiles, ErrorsAreRelativeToWhatIsExpectedOrToAScale) {
+TEST(ReportFiles, ErrorsAreRelativeToTheExpectedValueOrAScale) {
     EXPECT_DOUBLE_EQ(*against("", 1.5, 2, "").error, 0.25);
     EXPECT_DOUBLE_EQ(*against("", 0.5, 0, "", 10).error, 0.05);
     EXPECT_FALSE(plain("", 1, "").error);
@@ -70,7 +70,7 @@ TEST(ReportFiles, JsonHasCurvesByModelAndRungAndEveryVerdict) {
     EXPECT_EQ(json.at("verdicts").size(), 2U);
 }
 
-TEST(ReportFiles, AChartShowsEveryPointInsideAndEscapesNames) {
+TEST(ReportFiles, ChartContainsEveryPointAndEscapesNames) {
     const std::string svg = logChart("a < b & c", "x", "y", {{"one", {{1, 1e-3}, {10, 0}, {100, 1e2}}}, {"two", {}}});
     EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
     std::size_t circles = 0;
@@ -81,7 +81,7 @@ TEST(ReportFiles, AChartShowsEveryPointInsideAndEscapesNames) {
     EXPECT_NE(logChart("none", "x", "y", {}).find("</svg>"), std::string::npos);
 }
 
-TEST(ReportFiles, APlotHasALinePerModel) {
+TEST(ReportFiles, PlotHasALinePerModel) {
     const std::vector<Plot> plots = plotsOf(sample());
     ASSERT_EQ(plots.size(), 1U);
     EXPECT_EQ(plots[0].name, "bounce apex");
