@@ -68,7 +68,7 @@ TEST(DeviceChoice, SoftwareIsSurfacelessWithoutEglDevices) {
     EXPECT_EQ(opened->context->display().name(), "EGL without a surface");
 }
 
-TEST(DeviceChoice, ExtensionNamesAreMatchedWhole) {
+TEST(DeviceChoice, OnlyCompleteExtensionNamesMatch) {
     EXPECT_TRUE(gl::hasExtension("EGL_A EGL_B EGL_C", "EGL_B"));
     EXPECT_TRUE(gl::hasExtension("EGL_AB EGL_A", "EGL_A"));
     EXPECT_FALSE(gl::hasExtension("EGL_AB XEGL_A", "EGL_A"));

@@ -36,7 +36,7 @@ class InputFiles : public ::testing::Test {
     fs::path path_;
 };
 
-TEST_F(InputFiles, AreReadWhole) {
+TEST_F(InputFiles, AreReadCompletely) {
     EXPECT_EQ(readFile(write(""), 10).value(), "");
     EXPECT_EQ(readFile(write("0123456789"), 10).value(), "0123456789");
     EXPECT_EQ(readFile(write("0123456789a"), 10).error().message, "has 11 bytes, at most 10 are allowed");

@@ -129,7 +129,7 @@ TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneLoads) {
     }
 }
 
-TEST(SimulationProducer, NewLoadReplacesTheLoadUnderWay) {
+TEST(SimulationProducer, NewLoadReplacesTheLoadInProgress) {
     TestSessions desk;
     const auto first = desk.give(packed);
     const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);

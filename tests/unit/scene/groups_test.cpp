@@ -93,7 +93,7 @@ TEST(SceneGroups, SpheresOfEverySourceHaveTheVelocityAndSpinOfTheGroup) {
     }
 }
 
-TEST(SceneGroups, SphereVectorsAreChecked) {
+TEST(SceneGroups, VectorsAreChecked) {
     EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0, 0], "radius": 0.1}]})")),
               "groups[0].list.spheres[0].position: has 2 numbers, must have three: x, y, z");
     EXPECT_EQ(refusalOf(group(R"("list": {"spheres": [{"position": [0.5, 0.5, "NaN"], "radius": 0.1}]})")),
