@@ -4,7 +4,6 @@
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
-#include "shared/id_and_material.h"
 
 BUFFER(readonly, uint, cellStart)
 BUFFER(restrict, uint, cellOrder)

@@ -22,7 +22,8 @@ KERNEL(params.blocks) {
         if (size % 2u != 0u) frame[to + whole] = (blockWords[from + whole] & 0xffffu) | behind;
     } else {
         int whole = int((size - 1u) / 2u);
-        for (int k = 0; k < whole; ++k) frame[to + k] = (blockWords[from + k] >> 16u) | (blockWords[from + k + 1] << 16u);
+        for (int k = 0; k < whole; ++k)
+            frame[to + k] = (blockWords[from + k] >> 16u) | (blockWords[from + k + 1] << 16u);
         if (size % 2u == 0u) frame[to + whole] = (blockWords[from + whole] >> 16u) | behind;
     }
 }

@@ -6,7 +6,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 #include "shared/outside.h"
 
 BUFFER(restrict, vec4, position)

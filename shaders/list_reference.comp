@@ -5,7 +5,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)

@@ -7,7 +7,6 @@ PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
-#include "shared/id_and_material.h"
 #include "shared/contact.h"
 #include "shared/wake.h"
 #include "shared/friction.h"

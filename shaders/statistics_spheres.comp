@@ -5,7 +5,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -23,7 +22,7 @@ PRIVATE(uint, wallSphere)
 PRIVATE(vec3, displacement)
 PRIVATE(float, springs)
 
-#include "shared/wall_contact_params.h"
+#include "shared/contact_params.h"
 #include "shared/spring.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
@@ -40,7 +39,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float radius = radiusOf(position[wallSphere]);
     float speed = dot3(vec3(velocity[wallSphere]), normal);
     springs += springEnergy(overlapWithSpeed(overlap, speed), radius,
-                            contactParams[wallContactIndex(wallMaterial)].stiffness, displacement);
+                            contactParams[wallContactIndex(wallSphere, wallMaterial)].stiffness, displacement);
 }
 
 #include "shared/walls.h"

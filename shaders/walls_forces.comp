@@ -5,7 +5,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 #include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
@@ -34,7 +33,7 @@ PRIVATE(vec3, displacement)
 PRIVATE(float, sphereInverseMass)
 PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere still touches
 
-#include "shared/wall_contact_params.h"
+#include "shared/contact_params.h"
 #include "shared/deltas.h"
 #include "shared/spring.h"
 
@@ -83,7 +82,7 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float overlap = depth - dot3(residual, normal);
     if (!(overlap > 0.0f)) return;
-    uint index = wallContactIndex(wallMaterial);
+    uint index = wallContactIndex(wallSphere, wallMaterial);
     float speed = dot3(sphereVelocity, normal);
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = vec3(params.gravity) * (0.5f * params.substep);

@@ -4,7 +4,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 #include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
@@ -21,13 +20,14 @@ PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, solvedVelocity)  // m/s
 PRIVATE(vec3, omega)           // rad/s
 
-#include "shared/wall_contact_params.h"
+#include "shared/contact_params.h"
 #include "shared/friction_wall.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float normalImpulse = dot3(vec3(wallImpulse[wallSphere]), normal);
     if (normalImpulse > 0.0f)
-        applyWallFriction(normal, wallRadius, normalImpulse, contactParams[wallContactIndex(wallMaterial)].contact);
+        applyWallFriction(normal, wallRadius, normalImpulse,
+                          contactParams[wallContactIndex(wallSphere, wallMaterial)].contact);
 }
 
 #include "shared/walls.h"

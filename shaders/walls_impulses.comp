@@ -6,7 +6,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 #include "shared/friction.h"
 
 BUFFER(restrict, vec4, position)
@@ -24,7 +23,7 @@ PRIVATE(vec3, solvedVelocity)  // m/s
 PRIVATE(vec3, omega)           // rad/s
 PRIVATE(bool, touched)
 
-#include "shared/wall_contact_params.h"
+#include "shared/contact_params.h"
 #include "shared/friction_wall.h"
 
 // The change of the normal speed in an impact (m/s). `speed` is the normal speed before the impact (m/s, negative).
@@ -38,7 +37,7 @@ float impactChange(float speed, float pull, float depth, float restitution) {
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     touched = true;
-    vec4 contact = contactParams[wallContactIndex(wallMaterial)].contact;
+    vec4 contact = contactParams[wallContactIndex(wallSphere, wallMaterial)].contact;
     float push = max(depth, 0.0f);
     wallPoint = wallPoint + normal * push;
     float speed = dot3(solvedVelocity, normal);

@@ -6,7 +6,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -24,7 +23,7 @@ PRIVATE(vec3, solvedVelocity)  // velocity with the pushes (m/s)
 PRIVATE(vec3, pushes)
 PRIVATE(bool, touched)
 
-#include "shared/wall_contact_params.h"
+#include "shared/contact_params.h"
 
 // Static friction by position: undoes the motion along the wall by gravity, which friction would have prevented.
 // (walls_velocities.comp handles velocities. Between spheres this is left out: in a pile, it would increase the jitter
@@ -38,7 +37,7 @@ void holdByFriction(vec3 n, float most) {
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     touched = true;
-    vec4 contact = contactParams[wallContactIndex(wallMaterial)].contact;
+    vec4 contact = contactParams[wallContactIndex(wallSphere, wallMaterial)].contact;
     if (HAS(RESTITUTION)) {
         float h = params.substep;
         float startSpeed = dot3(bounceVelocity, normal);

@@ -5,7 +5,6 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
-#include "shared/id_and_material.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -22,10 +21,10 @@ PRIVATE(vec3, bounceVelocity)
 PRIVATE(vec3, solvedVelocity)
 PRIVATE(vec3, pushes)
 
-#include "shared/wall_contact_params.h"
+#include "shared/contact_params.h"
 
 void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    vec4 contact = contactParams[wallContactIndex(wallMaterial)].contact;
+    vec4 contact = contactParams[wallContactIndex(wallSphere, wallMaterial)].contact;
     float speed = dot3(solvedVelocity, normal);
     precise float target = max(speed, 0.0f);
     if (HAS(RESTITUTION)) {

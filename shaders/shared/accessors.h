@@ -153,3 +153,12 @@ uint firstCell(uvec4 cells) {
 float largestRadius(uint level) {
     return params.levelSize[level].y;
 }
+
+// A row of `idAndMaterial`: the id of the sphere in the low 24 bits, its material above them.
+uint idOf(uint word) {
+    return word & 0xffffffu;
+}
+
+uint materialOf(uint word) {
+    return word >> 24u;
+}
