@@ -27,7 +27,7 @@ KERNEL(params.spheres) {
     if (isAsleep(v)) return;
     vec4 u = velocityBefore[invocation];
     float squared = dot3(vec3(v), vec3(v));
-    float quietTime = squared < params.wakeSpeed * params.wakeSpeed ? max(restTime(u), 0.0f) + params.substep : 0.0f;
+    float quietTime = squared < params.wakeSpeed * params.wakeSpeed ? max(quietTimeOf(u), 0.0f) + params.substep : 0.0f;
     bool fallsAsleep = quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
     if (HAS(GRAVITY)) {
         vec3 pull = vec3(params.gravity) * params.substep;

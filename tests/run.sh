@@ -71,7 +71,7 @@ needed() {
 }
 
 check_format() {
-    find server tests \( \( -name node_modules -o -name kernels \) -prune \) -o \( -name '*.cpp' -o -name '*.h' \) -print0 |
+    find server tests \( \( -name node_modules -o -path tests/bench/kernels \) -prune \) -o \( -name '*.cpp' -o -name '*.h' \) -print0 |
         xargs -0 clang-format --dry-run -Werror
 }
 

@@ -6,8 +6,8 @@
 
 #include "core/result.h"
 
-// Messages for errors of the command line and of the environment variables that set options. All have one form:
-// "spherule: WHERE: WHAT; see `spherule COMMAND --help`", where WHERE is the option or the variable.
+// Prints the errors of the program as "spherule: WHERE: WHAT". If WHERE is an option, or the environment variable that
+// set it, the message also names the help of the command.
 namespace spherule::cli {
 
 // For a command line that could not be parsed.

@@ -15,7 +15,7 @@ namespace spherule::cli {
 
 namespace {
 
-constexpr std::chrono::seconds patience{5};
+constexpr std::chrono::seconds timeout{5};
 
 struct HealthOptions {
     std::string listen;
@@ -35,7 +35,7 @@ int health(const HealthOptions& options) {
                                        .host = reachable(endpoint->host),
                                        .port = std::to_string(endpoint->port),
                                        .path = "/readyz"},
-                                      patience);
+                                      timeout);
     if (!answer) return printError(answer.error());
     fmt::print("{}", answer->body);
     return answer->status == 200 ? exitDone : exitRefused;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <array>
 
 #include "cli/errors.h"
 #include "cli/exit_codes.h"

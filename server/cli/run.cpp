@@ -45,10 +45,12 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Measures a run in stretches. The time of reports between two stretches is not counted. The time of dumps is.
-class Watch {
+// Measures a run in intervals. The time of reports between two intervals is not counted. The time of dumps is.
+class IntervalTimer {
   public:
-    Watch(sim::Simulation& simulation, compute::Device& device) : simulation_(simulation), device_(device) { start(); }
+    IntervalTimer(sim::Simulation& simulation, compute::Device& device) : simulation_(simulation), device_(device) {
+        start();
+    }
 
     void start() {
         static_cast<void>(device_.takeTimes());
@@ -152,7 +154,7 @@ struct Times {
 
 // Output files for states.
 struct Outputs {
-    std::optional<Dump> dump;
+    std::optional<StateDump> dump;
     std::unique_ptr<host::RunRecorder> recorder;
 };
 
@@ -163,34 +165,34 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
     const auto steps = static_cast<std::uint64_t>(std::llround(times.duration / step));
     const auto stride = every > 0 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(every / step)))
                                   : std::max<std::uint64_t>(1, steps);
-    Watch watch(simulation, device);
+    IntervalTimer timer(simulation, device);
     host::RunRecorder* const recorder = outputs.recorder.get();
     if (!outputs.dump) {
         if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
         diagnostics::OverlapWatch overlap;
         const auto report = [&]() -> Result<void> {
-            const Interval interval = watch.take();
+            const Interval interval = timer.take();
             if (const auto alarm = overlap.check(simulation.steps(), interval.end.deepest()))
                 spdlog::warn("{}", *alarm);
             print(options, device.info(), simulation, interval);
-            watch.start();
+            timer.start();
             return {};
         };
         return steps == 0 ? report() : runSteps(simulation, recorder, interrupt, steps, stride, report);
     }
-    Dump& dump = *outputs.dump;
+    StateDump& dump = *outputs.dump;
     const auto write = [&] { return dump.write(simulation); };
     if (auto done = write(); !done) return done;
     if (steps > 0)
         if (auto done = runSteps(simulation, recorder, interrupt, steps, stride, write); !done) return done;
-    print(options, device.info(), simulation, watch.take());
+    print(options, device.info(), simulation, timer.take());
     return {};
 }
 
 Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulation, compute::Device& device) {
     Outputs outputs;
     if (!options.dump.empty()) {
-        auto dump = Dump::create(options.dump, options.record.replace);
+        auto dump = StateDump::create(options.dump, options.record.replace);
         if (!dump) return tl::unexpected(dump.error());
         outputs.dump.emplace(std::move(*dump));
     }
@@ -244,8 +246,8 @@ Result<void> run(const RunOptions& options) {
     if (!every) return tl::unexpected(every.error());
     if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
 
-    host::Watchdog watchdog{
-        host::Watchdog::Seconds(options.watchdog)};  // outlives the device, whose destructor may hang
+    // The watchdog outlives the device, whose destructor may hang.
+    host::Watchdog watchdog{host::Watchdog::Seconds(options.watchdog)};
     watchdog.start([](const Error& error) { host::endNow(printError(error)); });
     auto device = compute::openDevice(options.scene.device);
     if (!device) return tl::unexpected(device.error());

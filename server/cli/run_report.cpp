@@ -40,7 +40,7 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"steps", simulation.steps()},
         {"substepsPerStep", simulation.scene().quality.substeps},
         {"simSeconds", simulation.time()},
-        {"stretchSeconds", interval.simSeconds},
+        {"intervalSeconds", interval.simSeconds},
         {"wallSeconds", interval.wallSeconds},
         {"realTimeFactor", realTimeFactor(interval)},
         {"deviceSeconds", std::accumulate(interval.passSeconds.begin(), interval.passSeconds.end(), 0.0)},

@@ -9,7 +9,7 @@
 
 namespace spherule::cli {
 
-// Times and figures of a interval of a run.
+// Times and figures of an interval of a run.
 struct Interval {
     double simSeconds = 0;
     double wallSeconds = 0;

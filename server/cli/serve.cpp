@@ -19,15 +19,15 @@ struct ServeOptions {
 
 Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, const diagnostics::Table& table,
                                                   const host::ProducerIo& io) {
-    auto world = host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides);
-    if (!world) return tl::unexpected(world.error());
+    auto simulation = host::SimulationHost::open(options.scene.device, options.scene.scene, options.scene.overrides);
+    if (!simulation) return tl::unexpected(simulation.error());
     io.board.update([&](host::ServerStatus& current) {
-        current.device = (*world)->device().info();
+        current.device = (*simulation)->device().info();
         current.scenes = scene::names();
-        current.scene = (*world)->simulation().scene().name;
-        current.spheres = (*world)->simulation().count();
+        current.scene = (*simulation)->simulation().scene().name;
+        current.spheres = (*simulation)->simulation().count();
     });
-    return std::make_unique<host::SimulationProducer>(std::move(*world), io, table, options.recordings);
+    return std::make_unique<host::SimulationProducer>(std::move(*simulation), io, table, options.recordings);
 }
 
 int serve(const ServeOptions& options) {

@@ -9,7 +9,6 @@
 
 #include "cli/errors.h"
 #include "cli/exit_codes.h"
-#include "cli/options.h"
 #include "core/log.h"
 #include "host/host.h"
 
@@ -27,10 +26,10 @@ class Signals {
         sigaddset(&set_, SIGHUP);
         pthread_sigmask(SIG_BLOCK, &set_, nullptr);
     }
-    // Waits up to `patience` (ms). Returns the signal; -1 if none came.
-    [[nodiscard]] int wait(long patience) const {
-        const timespec timeout{0, patience * 1'000'000};
-        return sigtimedwait(&set_, nullptr, &timeout);
+    // Waits up to `timeout` (ms). Returns the signal; -1 if none came.
+    [[nodiscard]] int wait(long timeout) const {
+        const timespec longest{0, timeout * 1'000'000};
+        return sigtimedwait(&set_, nullptr, &longest);
     }
     // From now on, SIGINT and SIGTERM end the program at once. The handler is for the first process of a container,
     // which the default action would not end.
@@ -47,7 +46,7 @@ class Signals {
     sigset_t set_{};
 };
 
-std::string_view doorOf(const net::Options& options) {
+std::string_view accessText(const net::Options& options) {
     if (options.open) return "everybody who reaches it may watch and command";
     if (!net::requiresToken(options.credentials)) return "only this machine reaches it";
     return options.credentials.controllerToken.empty() ? "it asks for a token; nobody may command"
@@ -60,7 +59,7 @@ void announce(const host::Host& server, const net::Options& options, const std::
     const std::string host = any ? "127.0.0.1" : options.host;
     const std::string shown = host.find(':') == std::string::npos ? host : "[" + host + "]";
     fmt::print("spherule {} {} ({} spheres) on {}\n  {}\n  {}\n  stop with Ctrl-C\n  open {}://{}:{}/\n", what,
-               status.scene, status.spheres, status.device.renderer, status.device.reason, doorOf(options),
+               status.scene, status.spheres, status.device.renderer, status.device.reason, accessText(options),
                options.credentials.certificate.empty() ? "http" : "https", shown, server.port());
     std::fflush(stdout);
 }
@@ -84,9 +83,9 @@ int serveUntilSignal(const host::ProducerFactory& create, const ServerOptions& s
     logInBackground();
     auto server = host::Host::start(create, *options, host::Watchdog::Seconds(serving.watchdog), printError);
     if (!server) return printError(server.error());
-    // Waits for a signal up to `patience` (ms). Returns true when the program has to stop.
-    const auto stopsWithin = [&](long patience) {
-        const int signal = signals.wait(patience);
+    // Waits for a signal up to `timeout` (ms). Returns true when the program has to stop.
+    const auto stopsWithin = [&](long timeout) {
+        const int signal = signals.wait(timeout);
         // Without credential files, SIGHUP means that the terminal has closed.
         if (signal != SIGHUP || !hasFiles(serving)) return signal > 0;
         reload(**server, serving);

@@ -9,7 +9,7 @@
 
 namespace spherule::cli {
 
-// Options of the command line for serving a show: address, access and limits.
+// Options of the command line of a server: address, access and limits.
 struct ServerOptions {
     std::string listen = "127.0.0.1:8080";
     std::string viewerTokenFile, controllerTokenFile;

@@ -8,15 +8,15 @@
 
 namespace spherule::cli {
 
-Result<Dump> Dump::create(const std::string& path, bool replace) {
+Result<StateDump> StateDump::create(const std::string& path, bool replace) {
     auto file = recording::OutputFile::create(path, replace);
     if (!file) return tl::unexpected(file.error());
-    Dump dump(std::move(*file));
+    StateDump dump(std::move(*file));
     if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius\n"); !done) return tl::unexpected(done.error());
     return dump;
 }
 
-Result<void> Dump::write(sim::Simulation& simulation) {
+Result<void> StateDump::write(sim::Simulation& simulation) {
     const sim::State state = simulation.snapshot();
     const heartbeat::Pause writing;
     const glm::dvec3 centre = simulation.scene().bounds.centre();

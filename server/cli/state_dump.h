@@ -10,15 +10,15 @@ namespace spherule::cli {
 
 // Writes states as text: time,id,x,y,z,vx,vy,vz,radius in SI units, world coordinates. After write() the state is in
 // the file. Without a state there is no file.
-class Dump {
+class StateDump {
   public:
     // See OutputFile::create().
-    static Result<Dump> create(const std::string& path, bool replace);
+    static Result<StateDump> create(const std::string& path, bool replace);
     Result<void> write(sim::Simulation& simulation);
     Result<void> finish() { return file_.close(); }
 
   private:
-    explicit Dump(recording::OutputFile file) : file_(std::move(file)) {}
+    explicit StateDump(recording::OutputFile file) : file_(std::move(file)) {}
 
     recording::OutputFile file_;
 };

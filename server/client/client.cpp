@@ -160,9 +160,9 @@ Result<std::optional<v1::ServerMessage>> Client::receive(Timeout timeout) {
     if (!connection.wait(connection.readDone, timeout)) return std::nullopt;
     connection.reading = false;
     if (*connection.readDone) {
-        const auto& reason = connection.stream.reason();
+        const auto& closeReason = connection.stream.reason();
         const bool clean = *connection.readDone == websocket::error::closed;
-        connection.closed = clean ? CloseFrame{reason.code, {reason.reason.data(), reason.reason.size()}}
+        connection.closed = clean ? CloseFrame{closeReason.code, {closeReason.reason.data(), closeReason.reason.size()}}
                                   : CloseFrame{closedAbnormally, connection.readDone->message()};
         return tl::unexpected(connection.error("closed with " + std::to_string(connection.closed->code) + ": " +
                                                connection.closed->reason));

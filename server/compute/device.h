@@ -37,7 +37,7 @@ constexpr std::size_t maxKernelBuffers = 16;
 
 // A buffer as a kernel declares it: `BUFFER(access, type, name)`.
 struct BufferDeclaration {
-    std::string_view type;  // of its elements: "vec4", "uint", "Law"
+    std::string_view type;  // of its elements: "vec4", "uint", "ContactParams"
     std::string_view name;
 };
 

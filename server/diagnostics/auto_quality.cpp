@@ -33,7 +33,7 @@ std::uint32_t AutoQuality::wanted(double over, std::uint32_t substeps) const {
     return static_cast<std::uint32_t>(std::clamp<double>(whole, range_.fewest, range_.most));
 }
 
-std::string AutoQuality::toldOf(const Reading& reading) const {
+std::string AutoQuality::describe(const Reading& reading) const {
     if (goal_.kind == scene::QualityGoal::Kind::StepTime)
         return fmt::format("a step takes {:.3g} ms, and may take {:.3g}", reading.stepMs, goal_.max);
     return fmt::format("the mean overlap is {:.2g} % of the radius, and may be {:.2g}", 100 * reading.overlapMean,
@@ -57,12 +57,13 @@ std::optional<Decision> AutoQuality::take(const Reading& reading, std::uint32_t 
     const bool down = time == missing;
     if (down ? next < substeps : next > substeps) {
         gaveUp_ = false;
-        return Decision{next, fmt::format("{} substeps per step in place of {}: {}", next, substeps, toldOf(reading))};
+        return Decision{next,
+                        fmt::format("{} substeps per step in place of {}: {}", next, substeps, describe(reading))};
     }
     if (!missing || gaveUp_) return std::nullopt;
     gaveUp_ = true;
     return Decision{substeps, fmt::format("the goal is out of reach even with {} substeps per step: {}", substeps,
-                                          toldOf(reading))};
+                                          describe(reading))};
 }
 
 }  // namespace spherule::diagnostics

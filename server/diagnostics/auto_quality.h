@@ -33,7 +33,7 @@ class AutoQuality {
     [[nodiscard]] bool readable(const Reading& reading) const;
     [[nodiscard]] double overGoal(const Reading& reading) const;
     [[nodiscard]] std::uint32_t wanted(double over, std::uint32_t substeps) const;
-    [[nodiscard]] std::string toldOf(const Reading& reading) const;
+    [[nodiscard]] std::string describe(const Reading& reading) const;
 
     scene::QualityGoal goal_;
     scene::SubstepRange range_;

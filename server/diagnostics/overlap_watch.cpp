@@ -15,11 +15,11 @@ constexpr std::size_t quietReadings = 10;
 
 std::optional<std::string> OverlapWatch::check(std::uint64_t step, double largest) {
     if (!(largest > tolerated)) {
-        if (told_ && ++quiet_ >= quietReadings) told_ = false;
+        if (reported_ && ++quiet_ >= quietReadings) reported_ = false;
         return std::nullopt;
     }
     quiet_ = 0;
-    if (std::exchange(told_, true)) return std::nullopt;
+    if (std::exchange(reported_, true)) return std::nullopt;
     return fmt::format(
         "at step {}, spheres are in each other, or in a wall, by up to {:.2g} radii: the model is beyond its range "
         "here; "

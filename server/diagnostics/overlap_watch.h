@@ -15,7 +15,7 @@ class OverlapWatch {
     std::optional<std::string> check(std::uint64_t step, double largest);
 
   private:
-    bool told_ = false;
+    bool reported_ = false;
     std::size_t quiet_ = 0;  // readings since the last overlap that was too large
 };
 

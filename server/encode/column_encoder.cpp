@@ -181,30 +181,30 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
     parameters.fromState = kind == Kind::Resync ? 1 : 0;
     context_.device_.upload(*context_.parameters_, 0, std::as_bytes(std::span(&parameters, 1)));
 
-    using T = EncoderContext;
-    EncoderContext& t = context_;
-    compute::Buffer* const slotOf = source.slotOf == nullptr ? t.order_.get() : source.slotOf;
-    const std::uint32_t sums = over(t.groups_, SCAN_BLOCK);
-    t.run(T::Choose,
-          {{"position", source.values},
-           {"slotOf", slotOf},
-           {"order", t.order_.get()},
-           {"newest", newest_.get()},
-           {"before", before_.get()},
-           {"blockWords", t.blockWords_.get()},
-           {"scratch", t.scratch_.get()}},
-          t.blocks_);
+    using enum EncoderContext::Kernel;
+    compute::Buffer* const slotOf = source.slotOf == nullptr ? context_.order_.get() : source.slotOf;
+    const std::uint32_t sums = over(context_.groups_, SCAN_BLOCK);
+    context_.run(Choose,
+                 {{"position", source.values},
+                  {"slotOf", slotOf},
+                  {"order", context_.order_.get()},
+                  {"newest", newest_.get()},
+                  {"before", before_.get()},
+                  {"blockWords", context_.blockWords_.get()},
+                  {"scratch", context_.scratch_.get()}},
+                 context_.blocks_);
     if (kind != Kind::Resync) std::swap(newest_, before_);
-    compute::Buffer* const groupWords = t.groupWords_.get();
-    compute::Buffer* const scratch = t.scratch_.get();
+    compute::Buffer* const groupWords = context_.groupWords_.get();
+    compute::Buffer* const scratch = context_.scratch_.get();
     compute::Buffer* const frame = frame_.get();
-    t.run(T::Sum, {{"scratch", scratch}, {"groupWords", groupWords}}, t.groups_);
-    t.run(T::Reduce, {{"values", groupWords}, {"sums", t.sums_.get()}}, sums, t.groups_);
-    t.run(T::Top, {{"sums", t.sums_.get()}}, 1, sums);
-    t.run(T::Spread, {{"values", groupWords}, {"sums", t.sums_.get()}}, sums, t.groups_);
-    t.run(T::Layout, {{"scratch", scratch}, {"groupStart", groupWords}, {"frame", frame}}, t.groups_);
-    t.run(T::Place, {{"blockWords", t.blockWords_.get()}, {"scratch", scratch}, {"frame", frame}}, t.blocks_);
-    if (hash) t.run(T::Hash, {{"newest", newest_.get()}, {"frame", frame}}, t.blocks_);
+    context_.run(Sum, {{"scratch", scratch}, {"groupWords", groupWords}}, context_.groups_);
+    context_.run(Reduce, {{"values", groupWords}, {"sums", context_.sums_.get()}}, sums, context_.groups_);
+    context_.run(Top, {{"sums", context_.sums_.get()}}, 1, sums);
+    context_.run(Spread, {{"values", groupWords}, {"sums", context_.sums_.get()}}, sums, context_.groups_);
+    context_.run(Layout, {{"scratch", scratch}, {"groupStart", groupWords}, {"frame", frame}}, context_.groups_);
+    context_.run(Place, {{"blockWords", context_.blockWords_.get()}, {"scratch", scratch}, {"frame", frame}},
+                 context_.blocks_);
+    if (hash) context_.run(Hash, {{"newest", newest_.get()}, {"frame", frame}}, context_.blocks_);
 }
 
 std::size_t ColumnEncoder::headBytes() const {

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -34,8 +36,8 @@ class EncoderContext {
     // slot. Refused if there is no room.
     static Result<std::unique_ptr<EncoderContext>> create(compute::Device& device, std::uint32_t spheres, bool slots);
 
-    // Sets the ids in codec order, a permutation of 0 .. spheres - 1. Every encoder must
-    // encode a keyframe next.
+    // Sets the ids in codec order, a permutation of 0 .. spheres - 1. Every encoder must encode
+    // a keyframe next.
     void setOrder(std::span<const std::uint32_t> order);
 
     [[nodiscard]] std::uint32_t spheres() const { return spheres_; }
@@ -77,8 +79,8 @@ class ColumnEncoder {
     // `context` must outlive the encoder. Refused if there is no room.
     static Result<std::unique_ptr<ColumnEncoder>> create(EncoderContext& context, const Grid& grid);
 
-    // Encode a frame. With `hash`, the frame carries the hash of its state. A keyframe begins a chain, and deltas of
-    // the positions follow it. A resync is a keyframe of the newest frame's state, with the same number.
+    // Encode a frame. With `hash`, the frame carries the hash of its state. A keyframe begins a chain, and deltas
+    // follow it. A resync is a keyframe of the newest frame's state, with the same number.
     void encodeKeyframe(const ColumnSource& source, bool hash = false);
     void encodeDelta(const ColumnSource& source, bool hash = false);
     void encodeResync(bool hash = false);

@@ -1,9 +1,14 @@
 #include "encode/frame_encoder.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "compute/check.h"
 #include "sim/array.h"
+#include "sim/simulation.h"
 
 namespace spherule::encode {
 
@@ -17,34 +22,42 @@ std::string textOf(const std::vector<std::byte>& bytes) {
 
 FrameSource sourceOf(sim::Simulation& simulation) {
     FrameSource source{.slotOf = simulation.buffer(sim::Array::SlotOf)};
-    for (std::size_t column = 0; column < codec::columnCount; ++column)
-        source.columns[column] = simulation.buffer(sim::arrayNamed(codec::columns[column].name).value());
+    for (std::size_t column = 0; column < codec::columnCount; ++column) {
+        const std::string_view name = codec::columns[column].name;
+        const auto array = sim::arrayNamed(name);
+        source.columns[column] = array ? simulation.buffer(*array) : nullptr;
+        if (source.columns[column] == nullptr)
+            compute::programError(fmt::format("there is no array {} to encode", name));
+    }
     return source;
 }
 
 Result<std::unique_ptr<FrameEncoder>> FrameEncoder::create(EncoderContext& context, v1::Tier tier,
                                                            double smallestRadius) {
-    std::unique_ptr<FrameEncoder> frames(new FrameEncoder);
+    std::unique_ptr<FrameEncoder> encoder(new FrameEncoder);
     for (std::size_t column = 0; column < codec::columnCount; ++column) {
-        frames->quanta_[column] = codec::columns[column].quantumFor(tier, smallestRadius);
-        auto encoder = ColumnEncoder::create(context, {.quantum = frames->quanta_[column]});
-        if (!encoder) return tl::unexpected(encoder.error());
-        frames->encoders_[column] = std::move(*encoder);
+        encoder->quanta_[column] = codec::columns[column].quantumFor(tier, smallestRadius);
+        auto made = ColumnEncoder::create(context, {.quantum = encoder->quanta_[column]});
+        if (!made) return tl::unexpected(made.error());
+        encoder->encoders_[column] = std::move(*made);
     }
-    return frames;
+    return encoder;
 }
 
 void FrameEncoder::encodeKeyframe(const FrameSource& source, bool hash) {
+    arrived_ = {};
     for (std::size_t column = 0; column < codec::columnCount; ++column)
         encoders_[column]->encodeKeyframe({source.columns[column], source.slotOf}, hash);
 }
 
 void FrameEncoder::encodeDelta(const FrameSource& source, bool hash) {
+    arrived_ = {};
     for (std::size_t column = 0; column < codec::columnCount; ++column)
         encoders_[column]->encodeDelta({source.columns[column], source.slotOf}, hash);
 }
 
 void FrameEncoder::encodeResync(bool hash) {
+    arrived_ = {};
     for (const auto& encoder : encoders_) encoder->encodeResync(hash);
 }
 

@@ -8,7 +8,10 @@
 #include "codec/columns.h"
 #include "core/result.h"
 #include "encode/column_encoder.h"
-#include "sim/simulation.h"
+
+namespace spherule::sim {
+class Simulation;
+}
 
 namespace spherule::encode {
 

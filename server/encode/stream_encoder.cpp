@@ -97,10 +97,10 @@ Result<StreamEncoder::Chain*> StreamEncoder::chainOf(const codec::Rendition& ren
     if (const auto known = chains_.find(rendition); known != chains_.end()) return &known->second;
     if (input.epoch != epoch_)
         if (auto done = prepare(input); !done) return tl::unexpected(done.error());
-    auto frames = FrameEncoder::create(*context_, rendition.tier, input.smallestRadius);
-    if (!frames) return tl::unexpected(frames.error());
+    auto encoder = FrameEncoder::create(*context_, rendition.tier, input.smallestRadius);
+    if (!encoder) return tl::unexpected(encoder.error());
     Chain& chain = chains_[rendition];
-    chain.frames = std::move(*frames);
+    chain.encoder = std::move(*encoder);
     return &chain;
 }
 
@@ -109,7 +109,7 @@ Result<StreamEncoder::Chain*> StreamEncoder::chainOf(const codec::Rendition& ren
 void StreamEncoder::begin(const codec::Subscription& subscription, Chain& chain, const EncoderInput& input,
                           Clock::time_point now) {
     using enum codec::EncodedFrame::Kind;
-    const bool begun = chain.frames->number() > 0;
+    const bool begun = chain.encoder->number() > 0;
     const bool due = now >= chain.next && chain.version != input.version;
     const auto since = now - chain.keyframe;
     const bool waits =
@@ -134,13 +134,13 @@ void StreamEncoder::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Fram
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
     switch (kind) {
         case codec::EncodedFrame::Kind::Keyframe:
-            chain.frames->encodeKeyframe(source, hash);
+            chain.encoder->encodeKeyframe(source, hash);
             break;
         case codec::EncodedFrame::Kind::Delta:
-            chain.frames->encodeDelta(source, hash);
+            chain.encoder->encodeDelta(source, hash);
             break;
         case codec::EncodedFrame::Kind::Resync:
-            chain.frames->encodeResync(hash);
+            chain.encoder->encodeResync(hash);
             break;
     }
     device_.endTimer();
@@ -152,14 +152,14 @@ void StreamEncoder::start(Chain& chain, codec::EncodedFrame::Kind kind, v1::Fram
 
 void StreamEncoder::collect(const codec::Rendition& rendition, Chain& chain) {
     if (!chain.inProgress) return;
-    if (!chain.frames->poll(*chain.inProgress)) return;
+    if (!chain.encoder->poll(*chain.inProgress)) return;
     v1::ServerMessage message;
     v1::Frame& made = *message.mutable_frame();
     made = std::move(*chain.inProgress);
     chain.inProgress.reset();
     made.set_sequence(++sequence_);
     made.set_stamp_us(microsecondsNow());
-    publish_({rendition, chain.kind, chain.frames->number(), codec::share(std::move(message))});
+    publish_({rendition, chain.kind, chain.encoder->number(), codec::share(std::move(message))});
 }
 
 std::optional<StreamEncoder::Clock::time_point> StreamEncoder::due() const {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "codec/rendition.h"
 #include "compute/device.h"
 #include "encode/frame_encoder.h"
@@ -27,7 +29,7 @@ struct EncoderInput {
 };
 
 // Encodes the frames of each rendition that somebody requests, as a chain: a keyframe, then deltas. Each chain has its
-// own FrameEncoder on the device. Nothing is encoded, copied or kept for other renditions. Used by the producer's
+// own FrameEncoder on the device. Nothing is encoded, copied or kept for other renditions. Used by the simulation
 // thread.
 //
 // The way of a frame, from the device to the socket of a session:
@@ -65,7 +67,7 @@ class StreamEncoder {
   private:
     // One chain, and its frame that is being encoded.
     struct Chain {
-        std::unique_ptr<FrameEncoder> frames;
+        std::unique_ptr<FrameEncoder> encoder;
         std::optional<v1::Frame> inProgress;
         codec::EncodedFrame::Kind kind = codec::EncodedFrame::Kind::Keyframe;
         std::uint64_t version = 0;     // version of the world in the newest frame

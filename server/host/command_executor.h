@@ -17,7 +17,7 @@ namespace spherule::host {
 
 // Carries out the commands of sessions on a simulation, and answers each of them once. A command that begins a change
 // is answered at the end of the change, and a step command after its last step. Commands that need the end of a change
-// wait for it, in order. Used by the producer's thread.
+// wait for it, in order. Used by the simulation thread.
 class CommandExecutor : private ProducerCommands {
   public:
     using Clock = SimulationHost::Clock;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -31,7 +30,7 @@ class FrameProducer {
     virtual Result<void> run(const std::stop_token& stop) = 0;
 };
 
-// Opens the device and the scene or file, and fills in their entries on the board. Runs on the producer's thread.
+// Opens the device and the scene or file, and fills in their entries on the board. Runs on the simulation thread.
 using ProducerFactory = std::function<Result<std::unique_ptr<FrameProducer>>(const ProducerIo& io)>;
 
 }  // namespace spherule::host

@@ -101,7 +101,7 @@ net::Handlers Host::handlers() {
 }
 
 bool Host::drain() {
-    beginToEnd(failure());
+    beginShutdown(failure());
     thread_.request_stop();
     std::unique_lock lock(mutex_);
     const bool ended = changed_.wait_for(lock, longestWaitForEnd, [this] { return ended_; });
@@ -116,12 +116,12 @@ bool Host::drain() {
 // Called on the watchdog's thread. The recording is not finished, but its file can be played.
 void Host::hung(const Error& error) {
     const int exitCode = printError_(error);
-    beginToEnd(error);
+    beginShutdown(error);
     server_->drain();
     endNow(exitCode);
 }
 
-void Host::beginToEnd(const std::optional<Error>& failure) {
+void Host::beginShutdown(const std::optional<Error>& failure) {
     board_.update([&](ServerStatus& current) { current.state = failure ? "failed" : "draining"; });
     server_->stopAccepting();
     v1::ServerMessage message;

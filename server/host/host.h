@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -17,8 +19,9 @@
 
 namespace spherule::host {
 
-// Serves the frames of a producer: owns its thread, the server and the watchdog, and joins them. After a device loss
-// the producer is not destroyed, because its driver might hang. End the program with endNow() then.
+// Serves the frames of a producer: owns its thread (the simulation thread, also while a recording is played), the
+// server and the watchdog, and joins them. After a device loss the producer is not destroyed, because its driver might
+// hang. End the program with endNow() then.
 class Host {
   public:
     // Reports an error on the terminal. Returns the exit code of the program.
@@ -51,7 +54,7 @@ class Host {
     void runThread(const std::stop_token& stop, const ProducerFactory& create);
     Result<void> run(const std::stop_token& stop, const ProducerFactory& create);
     void hung(const Error& error);
-    void beginToEnd(const std::optional<Error>& failure);
+    void beginShutdown(const std::optional<Error>& failure);
     void refuseWaiting();
     net::Handlers handlers();
 

@@ -45,16 +45,16 @@ net::HttpAnswer health(const Watchdog& watchdog, const std::string& slow) {
                         silence.count(), watchdog.limit().count())};
 }
 
-net::HttpAnswer readiness(const ServerStatus& live) {
-    const nlohmann::ordered_json json = {{"state", live.state},
-                                         {"device", live.device.kind},
-                                         {"renderer", live.device.renderer},
-                                         {"reason", live.device.reason},
-                                         {"scene", live.scene},
-                                         {"spheres", live.spheres},
-                                         {"steps", live.steps},
-                                         {"realTimeFactor", live.status.real_time_factor()}};
-    const bool ready = live.state == "running" || live.state == "paused";
+net::HttpAnswer readiness(const ServerStatus& status) {
+    const nlohmann::ordered_json json = {{"state", status.state},
+                                         {"device", status.device.kind},
+                                         {"renderer", status.device.renderer},
+                                         {"reason", status.device.reason},
+                                         {"scene", status.scene},
+                                         {"spheres", status.spheres},
+                                         {"steps", status.steps},
+                                         {"realTimeFactor", status.status.real_time_factor()}};
+    const bool ready = status.state == "running" || status.state == "paused";
     return {ready ? 200 : 503, "application/json",
             json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"};
 }

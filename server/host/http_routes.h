@@ -12,7 +12,7 @@ namespace spherule::host {
 // Answers GET: the page and its files, /healthz, /readyz and /metrics. Used by the io thread.
 class HttpRoutes {
   public:
-    HttpRoutes(StatusBoard& live, const Watchdog& watchdog) : board_(live), watchdog_(watchdog) {}
+    HttpRoutes(StatusBoard& board, const Watchdog& watchdog) : board_(board), watchdog_(watchdog) {}
     // `counters`: of the server that calls.
     net::HttpAnswer get(const std::string& path, const net::Counters& counters);
 

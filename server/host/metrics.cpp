@@ -28,32 +28,32 @@ struct Metrics::Families {
 Metrics::Metrics() : families_(std::make_unique<Families>()) {}
 Metrics::~Metrics() = default;
 
-std::string Metrics::text(const ServerStatus& live, const net::Counters& net) {
+std::string Metrics::text(const ServerStatus& status, const net::Counters& net) {
     Families& to = *families_;
     const auto count = [](const net::Counters::Count& value) { return static_cast<double>(value.load()); };
 
     to.gauge("spherule_device_info", "The device, as labels", 1,
-             {{"device", live.device.kind}, {"renderer", live.device.renderer}});
-    to.gauge("spherule_spheres", "Spheres in the scene", live.spheres);
-    to.gauge("spherule_sleeping_spheres", "Spheres asleep, while a viewer watches", live.status.sleeping());
-    to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while a viewer watches", live.status.outside());
-    to.gauge("spherule_non_finite_spheres", "Spheres without finite state", live.status.non_finite());
-    to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", live.status.real_time_factor());
-    to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(live.steps));
-    to.gauge("spherule_simulated_seconds", "Simulated time since the scene began", live.simSeconds);
-    to.gauge("spherule_list_rebuilds", "Rebuilds of the pair lists since the scene last changed", live.rebuilds);
-    to.counter("spherule_states_produced_total", "State frames produced", static_cast<double>(live.framesProduced));
-    for (std::size_t pass = 0; pass < live.passSeconds.size(); ++pass)
-        to.counter("spherule_pass_seconds_total", "Device time per pass", live.passSeconds[pass],
+             {{"device", status.device.kind}, {"renderer", status.device.renderer}});
+    to.gauge("spherule_spheres", "Spheres in the scene", status.spheres);
+    to.gauge("spherule_sleeping_spheres", "Spheres asleep, while a viewer watches", status.status.sleeping());
+    to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while a viewer watches", status.status.outside());
+    to.gauge("spherule_non_finite_spheres", "Spheres without finite state", status.status.non_finite());
+    to.gauge("spherule_real_time_factor", "Simulated seconds per wall second", status.status.real_time_factor());
+    to.gauge("spherule_steps", "Steps since the scene began", static_cast<double>(status.steps));
+    to.gauge("spherule_simulated_seconds", "Simulated time since the scene began", status.simSeconds);
+    to.gauge("spherule_list_rebuilds", "Rebuilds of the pair lists since the scene last changed", status.rebuilds);
+    to.counter("spherule_states_produced_total", "State frames produced", static_cast<double>(status.framesProduced));
+    for (std::size_t pass = 0; pass < status.passSeconds.size(); ++pass)
+        to.counter("spherule_pass_seconds_total", "Device time per pass", status.passSeconds[pass],
                    {{"pass", std::string(sim::nameOf(static_cast<sim::Pass>(pass)))}});
 
-    to.gauge("spherule_recording_active", "1 while a recording is made", live.recording.active() ? 1 : 0);
+    to.gauge("spherule_recording_active", "1 while a recording is made", status.recording.active() ? 1 : 0);
     to.gauge("spherule_recording_bytes", "Size of that recording, or of the last",
-             static_cast<double>(live.recording.bytes()));
+             static_cast<double>(status.recording.bytes()));
     to.counter("spherule_recording_frames_lost_total", "Frames left out of recordings: the disk was too slow",
-               static_cast<double>(live.recordingFramesLost));
+               static_cast<double>(status.recordingFramesLost));
 
-    if (live.diagnostics) addDiagnostics(*live.diagnostics);
+    if (status.diagnostics) addDiagnostics(*status.diagnostics);
 
     to.gauge("spherule_sessions", "Open sessions", count(net.sessions));
     to.counter("spherule_sessions_accepted_total", "Sessions ever", count(net.accepted));

@@ -16,7 +16,7 @@ class Metrics {
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
-    std::string text(const ServerStatus& live, const net::Counters& net);
+    std::string text(const ServerStatus& status, const net::Counters& net);
 
   private:
     void addDiagnostics(const v1::Diagnostics& diagnostics);

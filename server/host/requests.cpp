@@ -4,7 +4,7 @@
 
 namespace spherule::host {
 
-Requests::WhyNot Requests::push(Request request) {
+Requests::Refusal Requests::push(Request request) {
     const std::lock_guard lock(mutex_);
     if (request.command.has_query()) {
         std::size_t& waiting = queriesOf_[request.session];
@@ -24,12 +24,12 @@ Requests::WhyNot Requests::push(Request request) {
     return std::nullopt;
 }
 
-Requests::WhyNot Requests::refuses(std::uint64_t session, std::size_t bytes) const {
+Requests::Refusal Requests::refuses(std::uint64_t session, std::size_t bytes) const {
     const std::lock_guard lock(mutex_);
     return refusesLocked(session, bytes);
 }
 
-Requests::WhyNot Requests::refusesLocked(std::uint64_t session, std::size_t bytes) const {
+Requests::Refusal Requests::refusesLocked(std::uint64_t session, std::size_t bytes) const {
     if (commands_ >= limits_.commands || bytes_ + bytes > limits_.bytes) return "the command queue is full";
     const auto row = rows_.find(session);
     if (row != rows_.end() && (row->second.waiting.size() >= limits_.commandsPerSession ||

@@ -33,15 +33,15 @@ class Requests {
         std::size_t bytesPerSession = std::size_t{32} << 20U;
         std::size_t queriesPerSession = 16;
     };
-    using WhyNot = std::optional<std::string>;  // the reason, for the sender; nullopt if accepted
+    using Refusal = std::optional<std::string>;  // the reason, for the sender; nullopt if accepted
 
     Requests() = default;
     explicit Requests(const Limits& limits) : limits_(limits) {}
 
     // Queues a request. Returns the reason if there is no room.
-    [[nodiscard]] WhyNot push(Request request);
+    [[nodiscard]] Refusal push(Request request);
     // Returns the reason if push() would refuse a command of this size now. The command has not been parsed yet.
-    [[nodiscard]] WhyNot refuses(std::uint64_t session, std::size_t bytes) const;
+    [[nodiscard]] Refusal refuses(std::uint64_t session, std::size_t bytes) const;
 
     // Returns the next command; nullopt if there is none.
     std::optional<Request> tryPop();
@@ -56,7 +56,7 @@ class Requests {
         std::size_t bytes = 0;
     };
 
-    [[nodiscard]] WhyNot refusesLocked(std::uint64_t session, std::size_t bytes) const;
+    [[nodiscard]] Refusal refusesLocked(std::uint64_t session, std::size_t bytes) const;
     std::optional<Request> popLocked();
 
     const Limits limits_{};

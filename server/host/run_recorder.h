@@ -14,7 +14,8 @@
 
 namespace spherule::host {
 
-// Records a running simulation. The file does not depend on the clock. Used by the simulation thread.
+// Records a running simulation. The file does not depend on the clock. Used by the thread that owns the
+// device.
 class RunRecorder {
   public:
     // Begins with the present state. `device`: the device of the simulation. Both must outlive the recorder. Refused if

@@ -25,13 +25,13 @@ Result<std::unique_ptr<SimulationHost>> SimulationHost::open(const std::string& 
                                                              const scene::Overrides& overrides) {
     auto device = compute::openDevice(deviceChoice);
     if (!device) return tl::unexpected(device.error());
-    std::unique_ptr<SimulationHost> world(new SimulationHost(std::move(*device), overrides));
-    const std::string kind = world->device_->info().kind;
+    std::unique_ptr<SimulationHost> host(new SimulationHost(std::move(*device), overrides));
+    const std::string kind = host->device_->info().kind;
     auto preparation = std::make_unique<sim::Preparation>(
-        *world->device_, builderOf([=](Progress& progress) { return scene::load(scene, kind, overrides, &progress); }));
+        *host->device_, builderOf([=](Progress& progress) { return scene::load(scene, kind, overrides, &progress); }));
     if (auto done = preparation->finish(); !done) return tl::unexpected(done.error());
-    world->adopt(std::move(preparation));
-    return world;
+    host->adopt(std::move(preparation));
+    return host;
 }
 
 void SimulationHost::adopt(std::unique_ptr<sim::Preparation> preparation) {

@@ -11,7 +11,7 @@
 
 namespace spherule::host {
 
-// The latest status of the producer thread, for health pages and metrics.
+// The latest status of the simulation thread, for health pages and metrics.
 struct ServerStatus {
     std::string state = "starting";  // starting, running or paused; draining and failed are final
     std::string slow;                // why commands or states may be late; empty: they are not
@@ -35,17 +35,17 @@ struct ServerStatus {
     }
 };
 
-// Holds the latest report. Any thread.
+// Holds the latest status. Any thread.
 class StatusBoard {
   public:
     template <class Change>
     void update(Change change) {
         const std::lock_guard lock(mutex_);
-        change(report_);
+        change(status_);
     }
     [[nodiscard]] ServerStatus read() const {
         const std::lock_guard lock(mutex_);
-        return report_;
+        return status_;
     }
 
     // Records that a client reads the figures, and will want newer ones soon.
@@ -61,7 +61,7 @@ class StatusBoard {
   private:
     mutable std::mutex mutex_;
     std::optional<std::chrono::steady_clock::time_point> read_;
-    ServerStatus report_;
+    ServerStatus status_;
 };
 
 }  // namespace spherule::host

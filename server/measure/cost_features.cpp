@@ -14,7 +14,7 @@ using SimulationPtr = std::unique_ptr<sim::Simulation>;
 
 // A row of the table, in terms of a module's CostComparison.
 struct Row {
-    sim::CostComparison scenes;
+    sim::CostComparison comparison;
     bool statistics = false;  // the simulation with the feature computes statistics after every step
     bool observed = false;    // the simulation without the feature does not observe impacts; otherwise both do
 };
@@ -61,9 +61,9 @@ Result<double> timed(Bench& bench, sim::Simulation& simulation, int substeps, bo
 }
 
 Result<void> compare(Bench& bench, const scene::Scene& scene, const sim::State& state, const Row& row) {
-    auto without = open(bench, scene, state, row.scenes.without);
+    auto without = open(bench, scene, state, row.comparison.without);
     if (!without) return tl::unexpected(without.error());
-    auto with = open(bench, scene, state, row.scenes.with);
+    auto with = open(bench, scene, state, row.comparison.with);
     if (!with) return tl::unexpected(with.error());
     if (row.observed) (*without)->observe(false);
     const int rounds = bench.quick() ? 9 : 21;
@@ -79,7 +79,7 @@ Result<void> compare(Bench& bench, const scene::Scene& scene, const sim::State& 
         off.push_back(*first);
         on.push_back(*second);
     }
-    const std::string name(row.scenes.row);
+    const std::string name(row.comparison.name);
     bench.add(plain(name + ": substep without", medianOf(off) * 1e6, "us"));
     bench.add(plain(name + ": substep with", medianOf(on) * 1e6, "us"));
     bench.add(plain(name + ": with over without", medianOf(on) / medianOf(off), ""));
@@ -95,9 +95,9 @@ Result<void> compare(Bench& bench, const scene::Scene& scene, const sim::State& 
 std::vector<Row> rows() {
     std::vector<Row> all;
     for (const sim::Module* module : sim::modules())
-        if (!module->cost.row.empty())
-            all.push_back({.scenes = module->cost, .observed = module->feature == sim::Feature::Impacts});
-    all.push_back({.scenes = {.row = "statistics every substep"}, .statistics = true});
+        if (!module->cost.name.empty())
+            all.push_back({.comparison = module->cost, .observed = module->feature == sim::Feature::Impacts});
+    all.push_back({.comparison = {.name = "statistics every substep"}, .statistics = true});
     return all;
 }
 

@@ -37,7 +37,7 @@ enum class RejectReason : std::uint8_t {
     CommandCost,   // needs too much memory
     UnfitCommand,  // unknown field or invalid value
     ViewersCommand,
-    ControlsHeld,  // by another session
+    ControlHeld,  // by another session
 };
 
 constexpr std::array<std::string_view, 26> rejectReasonNames = {"connections",
@@ -65,7 +65,7 @@ constexpr std::array<std::string_view, 26> rejectReasonNames = {"connections",
                                                                 "command_cost",
                                                                 "unfit_command",
                                                                 "viewers_command",
-                                                                "controls_held"};
+                                                                "control_held"};
 
 constexpr std::string_view nameOf(RejectReason cause) {
     return rejectReasonNames[static_cast<std::size_t>(cause)];

@@ -48,7 +48,7 @@ void Session::onCommand(v1::Command command, std::size_t cost) {
             return refuse(id, RejectReason::ViewersCommand,
                           "a viewer may not command: that takes the controllers' token");
         if (state_.exclusiveControl && !state_.controlLock.acquire(id_, client_))
-            return refuse(id, RejectReason::ControlsHeld,
+            return refuse(id, RejectReason::ControlHeld,
                           state_.controlLock.state().holder().client() + " (session " +
                               std::to_string(state_.controlLock.state().holder().session()) +
                               ") has control: ask for it");

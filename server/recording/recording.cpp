@@ -10,7 +10,7 @@ namespace spherule::recording {
 namespace {
 
 constexpr double sameTime = 1e-9;  // s; times that differ by less are equal
-constexpr std::size_t mostPassed = 64;
+constexpr std::size_t mostSkippedEvents = 64;
 constexpr int mostTries = 64;  // each may read another order
 
 // Returns true when the message fits the kind of the record.
@@ -76,7 +76,7 @@ Result<void> Recording::seek(double time) {
         if (from == nullptr || entry.time <= time + sameTime) from = &entry;
     }
     if (from == nullptr) return fail(ErrorKind::Input, file_.path(), "has no keyframe");
-    const bool forward = decoded() && !decoders_[0]->wantsKeyframe() && time >= time_ && from->offset < offset_;
+    const bool forward = hasDecoders() && !decoders_[0]->wantsKeyframe() && time >= time_ && from->offset < offset_;
     if (!forward)
         if (auto done = startAt(from->offset); !done) return done;
     return advanceTo(time);
@@ -133,7 +133,7 @@ Result<bool> Recording::next() {
 void Recording::collectEvent(const Record& record) {
     v1::ServerMessage message;
     if (!message.ParseFromString(record.payload) || !message.has_event()) return;
-    if (skippedEvents_.size() == mostPassed) skippedEvents_.erase(skippedEvents_.begin());
+    if (skippedEvents_.size() == mostSkippedEvents) skippedEvents_.erase(skippedEvents_.begin());
     skippedEvents_.push_back(std::move(message));
 }
 
@@ -173,7 +173,7 @@ Result<void> Recording::ensureDecoders(std::uint64_t offset) {
         table_ = std::move(*table);
         order_.reset();
     }
-    if (decoded()) return {};
+    if (hasDecoders()) return {};
     for (auto& decoder : decoders_) decoder = std::make_unique<codec::Decoder>(table_->spheres());
     return {};
 }
@@ -194,7 +194,7 @@ Result<void> Recording::decode(const v1::Frame& frame, std::uint64_t offset) {
 }
 
 Snapshot Recording::now() {
-    if (table_ && decoded()) {
+    if (table_ && hasDecoders()) {
         const glm::dvec3 centre = 0.5 * (table_->low + table_->high);
         const auto cells = decoders_[0]->newest();
         positions_.resize(cells.size());

@@ -60,7 +60,7 @@ class Recording {
     // Time of the next frame (s); nullopt at the end.
     [[nodiscard]] Result<std::optional<double>> nextTime() const;
     // Returns true when now() has positions. False after an error, until a keyframe has been read.
-    [[nodiscard]] bool shows() const { return table_ && decoded() && !decoders_[0]->wantsKeyframe(); }
+    [[nodiscard]] bool shows() const { return table_ && hasDecoders() && !decoders_[0]->wantsKeyframe(); }
     // Offset in the file of the current scene facts. Another offset means another scene, even with the same epoch.
     [[nodiscard]] std::uint64_t sceneOffset() const { return sceneOffset_; }
     // The values of a column (see codec/columns.h): quantum(column) * cells(column), in codec order.
@@ -82,7 +82,7 @@ class Recording {
     Result<void> decode(const v1::Frame& frame, std::uint64_t offset);
     Result<void> ensureDecoders(std::uint64_t offset);
     void dropDecoders() { decoders_ = {}; }
-    [[nodiscard]] bool decoded() const { return decoders_[0] != nullptr; }
+    [[nodiscard]] bool hasDecoders() const { return decoders_[0] != nullptr; }
     [[nodiscard]] tl::unexpected<Error> bad(std::uint64_t offset, const std::string& what) const;
 
     RecordFile file_;

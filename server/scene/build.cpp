@@ -25,7 +25,7 @@ double smallestRadiusOf(const std::vector<Sphere>& spheres) {
     return static_cast<double>(std::min_element(spheres.begin(), spheres.end(), byRadius)->radius);
 }
 
-// Returns the largest radius that the group draws; smallestRadius if it has no law of radii. Ignores errors:
+// Returns the largest radius that the group draws; smallestRadius if it has no distribution of radii. Ignores errors:
 // readGroup() reports them.
 double largestRadiusOf(const v1::Group& group) {
     Check check;

@@ -4,7 +4,7 @@
 
 namespace spherule::scene {
 
-// The forces on every sphere besides contacts. This file is the only one of server/scene that a new force changes.
+// The forces on every sphere besides contacts. This file is the only one that reads them from a scene.
 struct Forces {
     glm::dvec3 gravity{};  // m/s^2
 

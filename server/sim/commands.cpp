@@ -77,7 +77,7 @@ Result<void> setSubsteps(scene::Scene& scene, const Set& set) {
     return {};
 }
 
-Result<void> setTarget(scene::Scene& scene, const Set& set) {
+Result<void> setGoal(scene::Scene& scene, const Set& set) {
     if (set.goal) scene.quality.goal = *set.goal;
     return {};
 }
@@ -143,7 +143,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& se
     const bool disturbs = set.gravity || set.restitution || set.friction || set.model;
     if (!disturbs && !set.substeps && !set.goal) return {};
     scene::Scene changed = simulation_.scene_;
-    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setTarget})
+    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
         if (auto done = part(changed, set); !done) return tl::unexpected(done.error());
     return simulation_.change(std::move(changed), disturbs);
 }

@@ -10,7 +10,8 @@ namespace {
 constexpr std::uint64_t cellsPerSphere = 2;
 constexpr std::uint64_t fewestCells = 4096;
 constexpr std::uint32_t mostPerAxis = 1U << 16U;
-// A crowd has many times more spheres in a cell than fit without overlap: a heap under load must never count as one.
+// An overfull cell has many times more spheres than fit without overlap. A cell of a heap under load must never count
+// as overfull.
 constexpr double thresholdInFull = 4;
 constexpr double smallestThreshold = 64;
 

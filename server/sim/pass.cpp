@@ -6,7 +6,7 @@ namespace spherule::sim {
 
 std::string_view nameOf(Pass pass) {
     static constexpr std::array<std::string_view, passCount> names = {
-        "integrate", "grid",           "lists",      "history",         "impulses", "wall-impulses",
+        "integrate", "grid",           "lists",      "slip-memory",     "impulses", "wall-impulses",
         "positions", "wall-positions", "velocities", "wall-velocities", "friction", "wall-friction",
         "forces",    "wall-forces",    "sleep",      "statistics",      "pack",
     };

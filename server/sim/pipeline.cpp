@@ -285,7 +285,8 @@ std::vector<glm::vec4> Pipeline::takeImpacts() {
 
 void Pipeline::runStatistics() {
     if (listsPending_) {
-        // Reading statistics must not change the simulation: the next lists of a crowd depend on these two counters.
+        // Reading statistics must not change the simulation: the next lists of overfull cells depend on these two
+        // counters.
         const auto before = read<std::uint32_t>(Array::Counters);
         run(substep_, LaunchSet::Rebuild);
         for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})

@@ -103,7 +103,7 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
         plan.pairCapacity = pairCapacity != 0 ? pairCapacity : std::max(fewestPairs, pairsPerSphere * spheres);
         plan.dispatchSizes = launchTable(plan);
     }
-    if (features.has(Feature::Accurate) && features.hasSurfaces())
+    if (features.has(Feature::Accurate) && features.hasSurfaceFeature())
         plan.maxWallHistory =
             std::min<std::uint32_t>(wallHistoryLimit, 6 + static_cast<std::uint32_t>(scene.obstacles.size()));
     PlanBuilder builder(plan, scene);

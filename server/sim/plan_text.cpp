@@ -50,10 +50,10 @@ std::string contactText(const scene::Scene& scene) {
     const scene::ContactTime time = scene::contactTimeOf(scene);
     const double substep = scene.step / scene.quality.substeps;
     const double modulus = scene::springModulus(scene);
-    const std::string law =
+    const std::string model =
         modulus > 0 ? fmt::format("linear springs, k = 2 R* x {:.3g} Pa", modulus) : std::string("Hertz and Mindlin");
-    return fmt::format("contacts   {}\n           at least {:.3g} s at {:.3g} m/s, {:.3g} substeps of {:.3g} s\n", law,
-                       time.contact, time.speed, time.contact / substep, substep);
+    return fmt::format("contacts   {}\n           at least {:.3g} s at {:.3g} m/s, {:.3g} substeps of {:.3g} s\n",
+                       model, time.contact, time.speed, time.contact / substep, substep);
 }
 
 double perSphere(const Plan& plan, std::uint64_t bytes) {

@@ -107,8 +107,8 @@ Simulation::Outcome Simulation::prepare(ResetScope scope, memory::Claim copies, 
 Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     if (resetScope_ == ResetScope::World) {
         steps_ = 0;
-        restBegin_ = 0;
-        restLeft_ = 0;
+        remainderBegin_ = 0;
+        substepsLeft_ = 0;
     }
     install(*preparation);
     if (resetScope_ != ResetScope::Nothing) {
@@ -124,24 +124,26 @@ void Simulation::upload(const State& state) {
 
 // Uses the length of the substeps that are left in the step under way, or else of the next step's substeps.
 void Simulation::uploadParameters() {
-    const double substep = restLeft_ > 0 ? (1 - restBegin_) * scene_.step / restSubsteps_ : scene_.step / substeps_;
+    const double substep =
+        substepsLeft_ > 0 ? (1 - remainderBegin_) * scene_.step / remainderSubsteps_ : scene_.step / substeps_;
     pipeline_->setParameters(parametersFor(scene_, plan(), radii_, substep));
 }
 
 // A step under way is completed with substeps of the new length, or a little shorter.
 void Simulation::useSubsteps(std::uint32_t substeps) {
     constexpr double rounding = 1e-9;
-    restBegin_ = shareOfStep();
+    remainderBegin_ = shareOfStep();
     substeps_ = substeps;
-    if (restLeft_ > 0)
-        restSubsteps_ = restLeft_ =
-            static_cast<std::uint32_t>(std::max(1.0, std::ceil((1 - restBegin_) * substeps - rounding)));
+    if (substepsLeft_ > 0)
+        remainderSubsteps_ = substepsLeft_ =
+            static_cast<std::uint32_t>(std::max(1.0, std::ceil((1 - remainderBegin_) * substeps - rounding)));
     uploadParameters();
 }
 
 double Simulation::shareOfStep() const {
-    if (restLeft_ == 0) return 0;
-    return restBegin_ + (1 - restBegin_) * static_cast<double>(restSubsteps_ - restLeft_) / restSubsteps_;
+    if (substepsLeft_ == 0) return 0;
+    return remainderBegin_ +
+           (1 - remainderBegin_) * static_cast<double>(remainderSubsteps_ - substepsLeft_) / remainderSubsteps_;
 }
 
 double Simulation::time() const {
@@ -163,15 +165,15 @@ Result<void> Simulation::step() {
 }
 
 Result<bool> Simulation::advance() {
-    if (restLeft_ == 0) {
-        restSubsteps_ = restLeft_ = substeps_;
+    if (substepsLeft_ == 0) {
+        remainderSubsteps_ = substepsLeft_ = substeps_;
         stepObserved_ = observing_ && steps_ % observedEvery == 0;
     }
     pipeline_->substep(stepObserved_);
-    if (--restLeft_ > 0) return false;
+    if (--substepsLeft_ > 0) return false;
     ++steps_;
     // The next step has its full length again.
-    if (std::exchange(restBegin_, 0) > 0) uploadParameters();
+    if (std::exchange(remainderBegin_, 0) > 0) uploadParameters();
     if (auto done = checkStep(); !done) return tl::unexpected(done.error());
     return true;
 }
@@ -231,8 +233,8 @@ std::string Simulation::divergence() const {
 void Simulation::rollback() {
     upload(inIdOrder(lastFinite_));
     steps_ = lastFiniteStep_;
-    restBegin_ = 0;
-    restLeft_ = 0;
+    remainderBegin_ = 0;
+    substepsLeft_ = 0;
     counters_ = {};
 }
 

@@ -31,7 +31,7 @@ class Simulation {
     // Does the remaining substeps of the step.
     Result<void> step();
     // Returns true between two substeps of one step.
-    [[nodiscard]] bool midStep() const { return restLeft_ > 0; }
+    [[nodiscard]] bool midStep() const { return substepsLeft_ > 0; }
     [[nodiscard]] double shareOfStep() const;  // share of the step under way that is done, 0 to 1
 
     // The outcome of a command: it is done, or it needs `preparation`. Pass the preparation to adopt() once it is done.
@@ -66,7 +66,7 @@ class Simulation {
     struct Counters {
         std::uint32_t pairs = 0;                // listed
         std::uint32_t unlisted = 0;             // cell groups without room for their pairs; served, but slowly
-        std::uint32_t sampled = 0;              // cell groups so crowded that only some of their pairs are listed
+        std::uint32_t sampled = 0;              // cell groups of which only a sample of the pairs is listed
         std::uint32_t droppedWallContacts = 0;  // contacts with walls that found no room for their slip
         bool nonFinite = false;                 // some sphere has become non-finite
         std::uint32_t firstNonFinite = 0;       // the smallest id of such a sphere
@@ -78,7 +78,7 @@ class Simulation {
     // Returns the substeps of the next step: the scene's number, or more while a sphere moves too far in a substep.
     [[nodiscard]] std::uint32_t substeps() const { return substeps_; }
 
-    // Sets the number of substeps that the scene's target requires, also for the rest of a step under way. Wakes no
+    // Sets the number of substeps that the scene's goal requires, also for the rest of a step under way. Wakes no
     // sphere.
     Result<void> chooseSubsteps(std::uint32_t substeps);
 
@@ -140,11 +140,11 @@ class Simulation {
     SlotState lastFinite_;  // the last state that was found finite
     std::uint64_t lastFiniteStep_ = 0;
     std::uint64_t steps_ = 0;
-    // The step under way, and its rest since its substeps were last chosen. restBegin_: the share of the step that was
-    // done then. restSubsteps_: the substeps of the rest. restLeft_: those that remain.
-    double restBegin_ = 0;
-    std::uint32_t restSubsteps_ = 0;
-    std::uint32_t restLeft_ = 0;
+    // The step under way, and its remainder since its substeps were last chosen. remainderBegin_: the share of the step
+    // that was done then. remainderSubsteps_: the substeps of the remainder. substepsLeft_: those that remain.
+    double remainderBegin_ = 0;
+    std::uint32_t remainderSubsteps_ = 0;
+    std::uint32_t substepsLeft_ = 0;
     bool stepObserved_ = false;
     ResetScope resetScope_ = ResetScope::Nothing;  // for the preparation under way
     std::uint32_t generation_ = 0;

@@ -52,8 +52,8 @@ vec4 sleepToggled(vec4 v) {
     return vec4(vec3(v), -v.w);
 }
 
-// A row of `velocityBefore`: w is the time that the sphere has spent in one place (s), or MOVED_AWAY.
-float restTime(vec4 before) {
+// A row of `velocityBefore`: w is the quiet time, for which the sphere has stayed in one place (s), or MOVED_AWAY.
+float quietTimeOf(vec4 before) {
     return before.w;
 }
 

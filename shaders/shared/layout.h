@@ -87,7 +87,7 @@ struct SphereStatistics {
 #define COUNTER_SUBSTEPS 6u     // since the start
 #define COUNTER_DROPPED_WALLS 7u  // contacts with walls without room for their tangential slip, since the start
 #define COUNTER_LARGEST_MOTION 8u  // in a substep, in radii, as bits of a float; 0: none beyond SAFE_MOTION
-#define COUNTER_SAMPLED 9u      // cell groups so crowded that only some of their pairs are listed
+#define COUNTER_SAMPLED 9u      // cell groups of which only a sample of the pairs is listed
 #define COUNTER_OUTSIDE 10u     // spheres outside the bounds when the lists were built, without lost ones
 #define COUNTER_FRAME_FALLS 11u // not 0: the frame of the spheres outside moves
 #define COUNTER_FRAME_VELOCITY 12u  // three words, bits of floats (m/s)

@@ -86,7 +86,7 @@ def race_ours(path, options):
     row = {}
     for window, (begin, end) in WINDOWS.items():
         inside = [s for s in stretches if begin < s["simSeconds"] - 0.25 < end]
-        row[window] = sum(s["wallSeconds"] for s in inside) / sum(s["stretchSeconds"] for s in inside)
+        row[window] = sum(s["wallSeconds"] for s in inside) / sum(s["intervalSeconds"] for s in inside)
     last = stretches[-1]
     return row | {key: last[key] for key in ("overlapMean", "overlapMax", "speedRms", "sleeping")}
 

@@ -82,9 +82,9 @@ class Overlay:
         paths = {probe: self.container[probe]["httpGet"]["path"]
                  for probe in ("startupProbe", "readinessProbe", "livenessProbe")}
         self.assertEqual(paths, {"startupProbe": "/readyz", "readinessProbe": "/readyz", "livenessProbe": "/healthz"})
-        site = read("server/host/http_routes.cpp")
+        routes = read("server/host/http_routes.cpp")
         for path in paths.values():
-            self.assertIn(f'path == "{path}"', site)
+            self.assertIn(f'path == "{path}"', routes)
 
     def test_it_has_the_folders_that_it_writes_and_the_tokens(self):
         volumes = {volume["name"]: volume for volume in self.spec["volumes"]}

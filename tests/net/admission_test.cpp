@@ -121,7 +121,7 @@ TEST_F(Tokens, GivesControlToOneSessionAtATime) {
     const auto second = joinAs(controllers);
     EXPECT_TRUE(give(*first, pause()).has_applied());
     EXPECT_NE(give(*second, pause()).refused().reason().find("session " + std::to_string(holder)), std::string::npos);
-    EXPECT_EQ(rejected(RejectReason::ControlsHeld), 1U);
+    EXPECT_EQ(rejected(RejectReason::ControlHeld), 1U);
     first->close();
     EXPECT_TRUE(eventually([&] { return give(*second, pause()).has_applied(); }));
 }

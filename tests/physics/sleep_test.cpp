@@ -50,8 +50,8 @@ TEST(Sleep, DoesNotStartAtTheTopOfAFlight) {
     }
 }
 
-// The sphere moves by less than the creep, and is slow at each apex. But it never is slow and supported at the same
-// time.
+// The sphere moves by less than the move-away distance, and is slow at each apex. But it never is slow and supported at
+// the same time.
 TEST(Sleep, DoesNotStartForABouncingSphere) {
     scene::Scene scene = sleepyBox(2);
     scene.spheres = {at({0, 0, -0.948})};
@@ -116,7 +116,7 @@ TEST(Sleep, EndsWhenTheSupportLeavesWithinASubstep) {
     push(*simulation, 0, {40, 0, 0});  // 83 mm a substep
     run(*simulation, 0.08);
     EXPECT_LT(positionOf(simulation->snapshot(), 1).z, -0.95 + 0.1 - 0.025) << "it falls from the first substep on";
-    // Each other sphere falls when its support has sunk by the creep (5 mm), after 32 ms.
+    // Each other sphere falls when its support has sunk by the move-away distance (5 mm), after 32 ms.
     run(*simulation, 0.05);
     const sim::State state = simulation->snapshot();
     for (std::uint32_t id = 2; id < 4; ++id) EXPECT_LT(positionOf(state, id).z, -0.95 + 0.1 * id - 0.01) << id;

@@ -60,8 +60,8 @@ reference::SoftBody bodyOf(const sim::State& state, std::uint32_t id) {
 }
 
 reference::SoftLaw lawOf(const scene::Scene& scene, std::uint8_t a, std::uint8_t b, double friction) {
-    const scene::Stiffness law = scene::stiffnessBetween(scene, a, b, scene::springModulus(scene));
-    return {scene::followsHertz(scene), law.normal, law.tangential, law.damping, friction};
+    const scene::Stiffness stiffness = scene::stiffnessBetween(scene, a, b, scene::springModulus(scene));
+    return {scene::followsHertz(scene), stiffness.normal, stiffness.tangential, stiffness.damping, friction};
 }
 
 // Places rows of pairs, or of spheres above the floor. The contacts of a row are equal, except that they begin at

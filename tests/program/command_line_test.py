@@ -17,7 +17,7 @@ from serving import Server
 
 DEVICE = sys.argv.pop()
 BINARY = sys.argv.pop()
-KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds stretchSeconds wallSeconds realTimeFactor
+KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds intervalSeconds wallSeconds realTimeFactor
 deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy elasticEnergy potentialEnergy pushWork momentum angularMomentum contacts
 overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite impacts restitution
 restitutionAsked stateHash""".split()
@@ -96,7 +96,7 @@ class Run(unittest.TestCase):
     def test_every_reports_each_stretch(self):
         done = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE, "--json")
         reports = [json.loads(line) for line in done.stdout.splitlines()]
-        self.assertEqual([round(report["stretchSeconds"], 3) for report in reports], [0.1, 0.1, 0.05])
+        self.assertEqual([round(report["intervalSeconds"], 3) for report in reports], [0.1, 0.1, 0.05])
         self.assertAlmostEqual(sum(reports[0]["passSeconds"].values()), reports[0]["deviceSeconds"])
         self.assertGreater(reports[0]["passSeconds"]["integrate"], 0)
         rows = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE).stdout.splitlines()
@@ -191,7 +191,7 @@ class Interrupted(FolderTestCase):
         self.assertEqual(running.returncode, 0)
         reports = [json.loads(line) for line in lines + rest.splitlines()]
         for before, after in zip(reports, reports[1:]):
-            self.assertAlmostEqual(after["simSeconds"], before["simSeconds"] + after["stretchSeconds"], places=6)
+            self.assertAlmostEqual(after["simSeconds"], before["simSeconds"] + after["intervalSeconds"], places=6)
 
     def test_the_second_signal_ends_it_at_once(self):
         os.mkfifo(self.dump)  # the pipe fills up, so that the program cannot finish
@@ -252,9 +252,7 @@ class Others(unittest.TestCase):
 
 class Serve(unittest.TestCase):
     def setUp(self):
-        self.server = Server(BINARY, "serve", "cradle", "--device", DEVICE)
-        self.server.__enter__()
-        self.addCleanup(self.server.end, kill=True)
+        self.server = self.enterContext(Server(BINARY, "serve", "cradle", "--device", DEVICE))
         self.get = self.server.get
 
     def ctl(self, *words):

@@ -64,7 +64,7 @@ const Module moduleContacts{
 const Module moduleRadii{
     .feature = Feature::Radii,
     .required = [](const scene::Scene& scene, const Features& /*others*/) { return differ(scene.spheres); },
-    .cost = {.row = "radii that differ",
+    .cost = {.name = "radii that differ",
              // Varies radii by at most 1e-5, so that both scenes have the same contacts.
              .with =
                  [](scene::Scene& scene) {
@@ -93,7 +93,7 @@ const Module moduleOpenFaces{
             if (plan.has(Feature::Contacts))
                 plan.onRebuild(Stage::Outside, Pass::Lists, "list_outside.comp", LAUNCH_OUTSIDE);
         },
-    .cost = {.row = "open top",
+    .cost = {.name = "open top",
              .without = [](scene::Scene& scene) { scene.bounds.open[scene::ZMax] = false; },
              .with = [](scene::Scene& scene) { scene.bounds.open[scene::ZMax] = true; }},
 };

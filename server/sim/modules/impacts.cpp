@@ -16,7 +16,7 @@ const Module moduleImpacts{
             plan.observeSpheres(Stage::BeforeSolve, "velocity_before_solve.comp", aliases);
             plan.observeGroups(Stage::AfterSolve, "statistics_impacts.comp", aliases);
         },
-    .cost = {.row = "impacts observed"},
+    .cost = {.name = "impacts observed"},
 };
 
 }  // namespace spherule::sim

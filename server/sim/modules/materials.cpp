@@ -12,11 +12,7 @@ bool anyContact(const scene::Scene& scene, bool (*holds)(const scene::ContactPar
 }
 
 // For the comparisons of costs.
-void setRestitution(scene::Scene& scene, double restitution) {
-    for (scene::Material& material : scene.materials) material.restitution = restitution;
-}
-
-void setFriction(scene::Scene& scene) {
+void addFriction(scene::Scene& scene) {
     for (scene::Material& material : scene.materials) material.friction = 0.3;
 }
 
@@ -29,9 +25,7 @@ const Module moduleRestitution{
         [](const scene::Scene& scene, const Features& /*others*/) {
             return anyContact(scene, [](const auto& contact) { return contact.restitution > 0; });
         },
-    .cost = {.row = "restitution",
-             .without = [](scene::Scene& scene) { setRestitution(scene, 0); },
-             .with = [](scene::Scene& scene) { setRestitution(scene, 0.5); }},
+    .cost = {.reason = "restitution changes the damping, and thereby the substeps of `accurate`"},
 };
 
 // Spheres have more than one material: kernels look up the contact parameters by pair of materials.
@@ -43,7 +37,7 @@ const Module moduleMaterials{
                 scene.spheres, [&](const scene::Sphere& s) { return s.material != scene.spheres.front().material; });
         },
     .declare = [](PlanBuilder& plan) { plan.arrays({Array::ContactParams}); },
-    .cost = {.row = "two materials",
+    .cost = {.name = "two materials",
              .with =
                  [](scene::Scene& scene) {
                      scene.materials.push_back(scene.materials.front());
@@ -82,7 +76,7 @@ const Module moduleFriction{
                 plan.overSpheres(Stage::Friction, Pass::WallFriction, "walls_friction.comp");
             }
         },
-    .cost = {.row = "friction", .with = setFriction},
+    .cost = {.name = "friction", .with = addFriction},
 };
 
 // Some contact in the scene resists rolling or spinning.
@@ -94,11 +88,11 @@ const Module moduleRolling{
                        return contact.rollingResistance > 0 || contact.spinningResistance > 0;
                    });
         },
-    .cost = {.row = "rolling resistance",
-             .without = setFriction,
+    .cost = {.name = "rolling resistance",
+             .without = addFriction,
              .with =
                  [](scene::Scene& scene) {
-                     setFriction(scene);
+                     addFriction(scene);
                      for (scene::Material& material : scene.materials) material.rollingResistance = 0.05;
                  }},
 };

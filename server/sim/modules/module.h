@@ -44,7 +44,7 @@ class PlanBuilder {
 
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] bool has(Feature feature) const { return plan_.features.has(feature); }
-    [[nodiscard]] bool hasSurfaces() const { return plan_.features.hasSurfaces(); }
+    [[nodiscard]] bool hasSurfaces() const { return plan_.features.hasSurfaceFeature(); }
 
     // Adds arrays to the plan. Each module declares all arrays that it needs; duplicates are ignored.
     void arrays(std::initializer_list<Array> needed);
@@ -91,7 +91,7 @@ struct ParameterSource {
 
 // How `spherule measure` finds the cost of a feature: it compares a bed of equal spheres at rest with and without it.
 struct CostComparison {
-    std::string_view row{};                    // its name in the table; empty if the table has no row
+    std::string_view name{};                   // of its row in the table; empty if the table has no row
     void (*without)(scene::Scene&) = nullptr;  // changes the scene of the bed; nullptr: not at all
     void (*with)(scene::Scene&) = nullptr;
     std::string_view reason{};  // why the table has no row
@@ -104,7 +104,7 @@ struct Module {
     bool (*required)(const scene::Scene& scene, const Features& others);
     void (*declare)(PlanBuilder& plan) = nullptr;
     void (*upload)(const ParameterSource& from, layout::Parameters& parameters) = nullptr;
-    CostComparison cost{};  // with a row or a reason
+    CostComparison cost{};  // with a name or a reason
 };
 
 // One per feature, defined in sim/modules/.

@@ -51,7 +51,7 @@ const Module moduleSleep{
         },
     .declare = declareSleep,
     .upload = uploadSleep,
-    .cost = {.row = "sleep, nobody asleep",
+    .cost = {.name = "sleep, nobody asleep",
              .with =
                  [](scene::Scene& scene) {
                      scene.sleep.enabled = true;

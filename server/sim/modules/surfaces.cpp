@@ -40,7 +40,7 @@ const Module modulePlanes{
     .declare = declareObstacles,
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.planes = count<scene::Plane>(from.scene); },
     .cost =
-        {.row = "a plane",
+        {.name = "a plane",
          .with =
              [](scene::Scene& scene) {
                  const glm::dvec3 below = scene.bounds.min - glm::dvec3(1);
@@ -53,7 +53,7 @@ const Module moduleBoxes{
     .required = hasAny<scene::Box>,
     .declare = declareObstacles,
     .upload = [](const ParameterSource& from, layout::Parameters& p) { p.boxes = count<scene::Box>(from.scene); },
-    .cost = {.row = "a box",
+    .cost = {.name = "a box",
              .with =
                  [](scene::Scene& scene) {
                      const glm::dvec3 corner = scene.bounds.min;

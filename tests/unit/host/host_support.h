@@ -4,19 +4,19 @@
 
 namespace spherule::host {
 
-// A host without recordings, in which nothing can be cancelled.
-class NoHost : public ProducerCommands {
+// A producer without recordings, in which nothing can be cancelled.
+class NoProducerCommands : public ProducerCommands {
     Result<void> startRecording() override { return none(); }
     Result<void> stopRecording() override { return none(); }
     Result<void> cancel() override { return none(); }
 
-    static Result<void> none() { return fail(ErrorKind::Refused, "", "there is no host"); }
+    static Result<void> none() { return fail(ErrorKind::Refused, "", "there is no producer"); }
 };
 
-// Applies a command to a world without recordings.
-inline std::optional<Result<sim::Applied>> give(SimulationHost& world, const v1::Command& command) {
-    NoHost host;
-    return dispatch(command, world, host);
+// Applies a command to a simulation without recordings.
+inline std::optional<Result<sim::Applied>> give(SimulationHost& host, const v1::Command& command) {
+    NoProducerCommands commands;
+    return dispatch(command, host, commands);
 }
 
 }  // namespace spherule::host

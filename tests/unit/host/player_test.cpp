@@ -327,7 +327,7 @@ TEST_F(PlayerTest, ConvertsFileNamesToUtf8) {
     EXPECT_EQ(player.timeline().file(), "bed-\xEF\xBF\xBD.sph");
 }
 
-TEST(Player, ShowsOneOfSeveralFramesWithEqualTimes) {
+TEST_F(PlayerTest, ShowsOneOfSeveralFramesWithEqualTimes) {
     const recording::TemporaryFolder folder;
     recording::filmWithRepeatedTimes(folder / "film.sph");
     Player::Clock::time_point now{};

@@ -93,15 +93,15 @@ constexpr const char* packed = R"({"load":{"scene":{"name":"packed","bounds":{"m
     "groups":[{"radius":{"constant":0.01},"fill":{"min":[-1,-1,-1],"max":[1,1,1],"count":700000}}]}}})";
 
 TEST(SimulationProducer, StepCommandIsAnsweredWhenItsStepsAreDone) {
-    TestSessions desk;
-    const auto first = desk.give(R"({"step":{"count":30}})");
-    const auto second = desk.give(R"({"step":{"count":4}})");
-    const auto pause = desk.give(R"({"pause":{}})");
-    desk.run();
+    TestSessions sessions;
+    const auto first = sessions.give(R"({"step":{"count":30}})");
+    const auto second = sessions.give(R"({"step":{"count":4}})");
+    const auto pause = sessions.give(R"({"pause":{}})");
+    sessions.run();
     // The pause ends both, because it comes before they are done.
-    EXPECT_NE(desk.refusal(first).find("of 30 steps"), std::string::npos) << desk.refusal(first);
-    EXPECT_EQ(desk.refusal(second).rfind("0 of 4 steps", 0), 0U) << desk.refusal(second);
-    EXPECT_TRUE(desk.answer(pause).has_applied());
+    EXPECT_NE(sessions.refusal(first).find("of 30 steps"), std::string::npos) << sessions.refusal(first);
+    EXPECT_EQ(sessions.refusal(second).rfind("0 of 4 steps", 0), 0U) << sessions.refusal(second);
+    EXPECT_TRUE(sessions.answer(pause).has_applied());
 
     TestSessions other;
     const auto many = other.give(R"({"step":{"count":30}})");
@@ -113,50 +113,50 @@ TEST(SimulationProducer, StepCommandIsAnsweredWhenItsStepsAreDone) {
 
 TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneLoads) {
     for (const char* scene : {crowd, packed}) {
-        TestSessions desk;
-        const auto load = desk.give(scene);
-        const auto pause = desk.give(R"({"pause":{}})", 2);
-        const auto resume = desk.give(R"({"resume":{}})", 2);
-        const auto cancel = desk.give(R"({"cancel":{}})", 2);
-        const auto again = desk.give(R"({"cancel":{}})", 2);
-        desk.run();
-        EXPECT_TRUE(desk.answer(pause).has_applied());
-        EXPECT_TRUE(desk.answer(resume).has_applied());
-        EXPECT_TRUE(desk.answer(cancel).has_applied());
-        EXPECT_EQ(desk.refusal(load), "cancelled");
-        EXPECT_NE(desk.refusal(again).find("nothing is under way"), std::string::npos);
-        EXPECT_LT(desk.placeOf(pause), desk.placeOf(load));
+        TestSessions sessions;
+        const auto load = sessions.give(scene);
+        const auto pause = sessions.give(R"({"pause":{}})", 2);
+        const auto resume = sessions.give(R"({"resume":{}})", 2);
+        const auto cancel = sessions.give(R"({"cancel":{}})", 2);
+        const auto again = sessions.give(R"({"cancel":{}})", 2);
+        sessions.run();
+        EXPECT_TRUE(sessions.answer(pause).has_applied());
+        EXPECT_TRUE(sessions.answer(resume).has_applied());
+        EXPECT_TRUE(sessions.answer(cancel).has_applied());
+        EXPECT_EQ(sessions.refusal(load), "cancelled");
+        EXPECT_NE(sessions.refusal(again).find("nothing is under way"), std::string::npos);
+        EXPECT_LT(sessions.placeOf(pause), sessions.placeOf(load));
     }
 }
 
 TEST(SimulationProducer, NewLoadReplacesTheLoadInProgress) {
-    TestSessions desk;
-    const auto first = desk.give(packed);
-    const auto waits = desk.give(R"({"set":{"gravity":[0,0,1]}})", 3);
-    const auto second = desk.give(crowd, 2);
-    const auto wrong = desk.give(R"({"load":{"name":"nothing"}})");
-    const auto third = desk.give(R"({"load":{"name":"cradle"}})");
-    desk.run();
-    EXPECT_NE(desk.refusal(first).find("session 2 has asked for load crowd"), std::string::npos);
-    EXPECT_NE(desk.refusal(waits).find(" has asked for load "), std::string::npos);
-    EXPECT_NE(desk.refusal(second).find("session 1 has asked for load cradle"), std::string::npos);
-    EXPECT_NE(desk.refusal(wrong).find("known are"), std::string::npos);
-    EXPECT_TRUE(desk.answer(third).has_applied());
+    TestSessions sessions;
+    const auto first = sessions.give(packed);
+    const auto waits = sessions.give(R"({"set":{"gravity":[0,0,1]}})", 3);
+    const auto second = sessions.give(crowd, 2);
+    const auto wrong = sessions.give(R"({"load":{"name":"nothing"}})");
+    const auto third = sessions.give(R"({"load":{"name":"cradle"}})");
+    sessions.run();
+    EXPECT_NE(sessions.refusal(first).find("session 2 has asked for load crowd"), std::string::npos);
+    EXPECT_NE(sessions.refusal(waits).find(" has asked for load "), std::string::npos);
+    EXPECT_NE(sessions.refusal(second).find("session 1 has asked for load cradle"), std::string::npos);
+    EXPECT_NE(sessions.refusal(wrong).find("known are"), std::string::npos);
+    EXPECT_TRUE(sessions.answer(third).has_applied());
 }
 
 TEST(SimulationProducer, CommandsWaitForAChangeAndAreRefusedIfItTakesLong) {
-    TestSessions desk;
-    const auto load = desk.give(packed);
-    const auto set = desk.give(R"({"set":{"gravity":[0,0,1]}})", 2);
-    const auto push = desk.give(R"({"push":{"sphere":0,"impulse":[0,0,0.1]}})", 2);
-    desk.run([&] { return desk.answers.size() == 2; });
+    TestSessions sessions;
+    const auto load = sessions.give(packed);
+    const auto set = sessions.give(R"({"set":{"gravity":[0,0,1]}})", 2);
+    const auto push = sessions.give(R"({"push":{"sphere":0,"impulse":[0,0,0.1]}})", 2);
+    sessions.run([&] { return sessions.answers.size() == 2; });
     for (const auto id : {set, push}) {
-        EXPECT_NE(desk.refusal(id).find("load packed is under way (placing spheres"), std::string::npos)
-            << desk.refusal(id);
-        EXPECT_NE(desk.refusal(id).find("cancel"), std::string::npos);
+        EXPECT_NE(sessions.refusal(id).find("load packed is under way (placing spheres"), std::string::npos)
+            << sessions.refusal(id);
+        EXPECT_NE(sessions.refusal(id).find("cancel"), std::string::npos);
     }
     // When the loop ends, it refuses pending commands.
-    EXPECT_EQ(desk.refusal(load), "the server is stopping");
+    EXPECT_EQ(sessions.refusal(load), "the server is stopping");
 
     TestSessions quick;
     const auto friction = quick.give(R"({"set":{"friction":0.3}})");  // needs other arrays and kernels
@@ -173,23 +173,24 @@ TEST(SimulationProducer, CommandsWaitForAChangeAndAreRefusedIfItTakesLong) {
 // Commands of one session run in order. A later pause or resume ends a step that waits for a load.
 TEST(SimulationProducer, PauseOrResumeEndsStepsThatWaitForAChange) {
     for (const char* later : {R"({"resume":{}})", R"({"pause":{}})"}) {
-        TestSessions desk;
-        const auto load = desk.give(R"({"load":{"name":"cradle"}})");
-        const auto step = desk.give(R"({"step":{"count":10}})");
-        const auto end = desk.give(later);
-        desk.run();
-        EXPECT_TRUE(desk.answer(load).has_applied());
-        EXPECT_TRUE(desk.answer(end).has_applied());
-        EXPECT_NE(desk.refusal(step).find("none of its steps were done"), std::string::npos) << desk.refusal(step);
+        TestSessions sessions;
+        const auto load = sessions.give(R"({"load":{"name":"cradle"}})");
+        const auto step = sessions.give(R"({"step":{"count":10}})");
+        const auto end = sessions.give(later);
+        sessions.run();
+        EXPECT_TRUE(sessions.answer(load).has_applied());
+        EXPECT_TRUE(sessions.answer(end).has_applied());
+        EXPECT_NE(sessions.refusal(step).find("none of its steps were done"), std::string::npos)
+            << sessions.refusal(step);
     }
 }
 
 TEST(SimulationProducer, BroadcastsTheProgressOfALongChange) {
-    TestSessions desk;
-    desk.give(packed, 7);
-    desk.run([&] { return desk.changes.size() >= 3; });
-    ASSERT_GE(desk.changes.size(), 3U);
-    for (const v1::Change& change : desk.changes) {
+    TestSessions sessions;
+    sessions.give(packed, 7);
+    sessions.run([&] { return sessions.changes.size() >= 3; });
+    ASSERT_GE(sessions.changes.size(), 3U);
+    for (const v1::Change& change : sessions.changes) {
         EXPECT_EQ(change.what(), "load packed");
         EXPECT_EQ(change.doing(), "placing spheres");
         EXPECT_EQ(change.session(), 7U);

@@ -120,8 +120,9 @@ TEST(SimModules, AreAbsentFromAPlanThatDoesNotRequireThem) {
             const Plan plan = planWith(fewer);
             const bool smaller = plan.bytes() < whole.bytes() || plan.substep.size() < whole.substep.size();
             // Walls and obstacles share all arrays and launches, so the plan is not smaller without one of them.
-            if (!all.hasSurfaces() || (module->feature != Feature::Walls && module->feature != Feature::Planes &&
-                                       module->feature != Feature::Boxes && module->feature != Feature::Materials)) {
+            if (!all.hasSurfaceFeature() ||
+                (module->feature != Feature::Walls && module->feature != Feature::Planes &&
+                 module->feature != Feature::Boxes && module->feature != Feature::Materials)) {
                 EXPECT_TRUE(smaller) << nameOf(module->feature) << " of " << model;
             }
             for (const ArraySpec& spec : plan.arrays) EXPECT_TRUE(whole.has(spec.array)) << nameOf(spec.array);

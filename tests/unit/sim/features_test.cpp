@@ -182,7 +182,7 @@ TEST(SimFeatures, EachHasAModule) {
 
 TEST(SimFeatures, EachHasACostRowOrAReasonForNone) {
     for (const Module* module : modules())
-        EXPECT_NE(module->cost.row.empty(), module->cost.reason.empty()) << nameOf(module->feature);
+        EXPECT_NE(module->cost.name.empty(), module->cost.reason.empty()) << nameOf(module->feature);
 }
 
 TEST(SimFeatures, CostComparisonsSwitchTheFeature) {
@@ -193,13 +193,13 @@ TEST(SimFeatures, CostComparisonsSwitchTheFeature) {
     ASSERT_TRUE(scene) << scene.error().text();
     for (const Module* module : modules()) {
         const CostComparison& cost = module->cost;
-        if (cost.row.empty() || module->feature == Feature::Impacts) continue;  // observing needs no other scene
+        if (cost.name.empty() || module->feature == Feature::Impacts) continue;  // observing needs no other scene
         scene::Scene without = *scene;
         scene::Scene with = *scene;
         if (cost.without != nullptr) cost.without(without);
         if (cost.with != nullptr) cost.with(with);
-        EXPECT_FALSE(featuresOf(without).has(module->feature)) << cost.row;
-        EXPECT_TRUE(featuresOf(with).has(module->feature)) << cost.row;
+        EXPECT_FALSE(featuresOf(without).has(module->feature)) << cost.name;
+        EXPECT_TRUE(featuresOf(with).has(module->feature)) << cost.name;
     }
 }
 

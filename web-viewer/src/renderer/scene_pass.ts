@@ -27,7 +27,7 @@ const colourNow = [
   "switch (u_mode) {",
   ...modes.map((mode, index) => {
     const { glsl, scale } = quantityOf(mode);
-    return `case ${index}: return ${scale ? `scaled(${glsl})` : glsl};`;
+    return `case ${index}: return ${scale ? `colourOf(${glsl})` : glsl};`;
   }),
   "}",
   "return vec3(0.0);",

@@ -1,7 +1,7 @@
 import type { Commands } from "../connection/commands";
 import type { Recording } from "../gen/spherule/v1/control_pb";
-import { h, setText } from "./dom";
 import { bytes, clockTime } from "../format";
+import { h, setText } from "./dom";
 
 /** A button that starts and stops a recording on the server, and shows its duration and size. */
 export class RecordButton {

@@ -1,6 +1,6 @@
 import type { Timeline } from "../gen/spherule/v1/control_pb";
-import { h, setText } from "./dom";
 import { recordingTime } from "../format";
+import { h, setText } from "./dom";
 
 const longStep = 0.1; // of the recording, at most
 

@@ -1,9 +1,9 @@
 import type { Diagnostics, Settings } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
+import { count, figure, seconds, vector } from "../format";
 import { impactLabels, mergeImpacts } from "./dial_labels";
 import type { Impacts } from "./dial_labels";
 import { fillTable, h } from "./dom";
-import { count, figure, seconds, vector } from "../format";
 
 const impactTitle =
   "Measured over impacts of two spheres, in every 16th step. It is lower than specified if a sphere has several " +

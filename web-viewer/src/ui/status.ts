@@ -1,6 +1,6 @@
 import type { Session } from "../model/session";
-import { h, setText } from "./dom";
 import { bytesPerSecond, count, figure, seconds } from "../format";
+import { h, setText } from "./dom";
 import { reductionLabel } from "./stream_labels";
 
 /** The status line at the foot of the page. */

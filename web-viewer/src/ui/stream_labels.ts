@@ -2,8 +2,8 @@ import type { ViewRequest } from "../connection/messages";
 import type { Stream } from "../gen/spherule/v1/control_pb";
 import { Tier } from "../gen/spherule/v1/frame_pb";
 import type { Rates } from "../model/traffic";
-import type { Row } from "./dom";
 import { bitsPerSecond, count, figure } from "../format";
+import type { Row } from "./dom";
 
 /** The precisions of positions. `error`: the largest error on each axis, as a fraction of the smallest radius. */
 export const tiers = [

@@ -16,7 +16,7 @@ vec3 rampAt(float at) {
 }
 
 // The colour of a value on the scale.
-vec3 scaled(float value) { return rampAt((value - u_range.x) / max(u_range.y - u_range.x, 1e-12)); }
+vec3 colourOf(float value) { return rampAt((value - u_range.x) / max(u_range.y - u_range.x, 1e-12)); }
 
 uint scrambled(uint x) {
     x ^= x >> 16; x *= 0x7feb352du;

@@ -19,7 +19,7 @@ std::string noticesOf(sim::Simulation& simulation) {
     return all;
 }
 
-TEST(Relax, SpheresAtOnePointSeparateSlowlyInEveryModel) {
+TEST(InitialOverlaps, SpheresAtOnePointSeparateSlowlyInEveryModel) {
     for (const scene::Model model : {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate}) {
         scene::Scene scene = fineStepBox(4);
         scene.forces.gravity = {};
@@ -37,7 +37,7 @@ TEST(Relax, SpheresAtOnePointSeparateSlowlyInEveryModel) {
     }
 }
 
-TEST(Relax, CompressedBedRisesSlowlyAfterAChangeToSprings) {
+TEST(InitialOverlaps, CompressedBedRisesSlowlyAfterAChangeToSprings) {
     scene::Scene scene = measure::lattice(600, 0.05, 6);
     scene.bounds.open.fill(false);
     scene.step = 1.0 / 60;
