@@ -18,14 +18,18 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint8_t binaryFrame = 0x82;
 
 std::unique_ptr<host::Host> serve() {
+    Options options = quickOptions();
+    options.commandsPerSecond = 0;  // the viewers keep to the default limit by themselves
+
     auto server = host::Host::start(
         [](const host::ProducerIo& io) -> Result<std::unique_ptr<host::FrameProducer>> {
-            auto host = host::SimulationHost::open("cpu:1", "box-4k", {});
+            // Without sleep, a step takes as long at the end as at the beginning.
+            auto host = host::SimulationHost::open("cpu:1", "box-4k", {.noSleep = true});
             if (!host) return tl::unexpected(host.error());
             return std::make_unique<host::SimulationProducer>(std::move(*host), io, diagnostics::ownTable(),
                                                               recording::LiveOptions());
         },
-        quickOptions(), host::Watchdog::Seconds(0), [](const Error&) { return 1; });
+        options, host::Watchdog::Seconds(0), [](const Error&) { return 1; });
     if (!server) throw std::runtime_error(server.error().text());
     EXPECT_TRUE(eventually([&] { return (*server)->opened(); }));
     return std::move(*server);

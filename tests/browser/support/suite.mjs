@@ -7,8 +7,8 @@ import { launch } from "./browser.mjs";
 import { stopAll } from "./server.mjs";
 
 /**
- * Starts a browser and creates a folder before the tests of a file; afterwards closes the browser, stops all servers and
- * removes the folder. `setUp` runs in between, and is given both. Returns an object that has them as `browser` and
+ * Starts a browser and creates a folder before the tests of a file. Afterwards closes the browser, stops all servers
+ * and removes the folder. `setUp` runs in between, and is given both. Returns an object that has them as `browser` and
  * `folder` while the tests run.
  */
 export function browserSuite(setUp = () => {}) {

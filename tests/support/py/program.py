@@ -10,7 +10,7 @@ def runner(binary, *first, timeout=120):
     """Returns a function that runs the program with the arguments `first` and its own, for at most `timeout` s."""
     def call(*arguments, preexec_fn=None, **variables):
         """`variables`: further variables of the environment, in capitals. Returns the result of subprocess.run()."""
-        if wrong := [name for name in variables if not name.isupper()]:
+        if wrong := [name for name in variables if not name.isupper() and name not in os.environ]:
             raise TypeError(f"no variables of the environment: {wrong}")
         return subprocess.run([binary, *first, *arguments], capture_output=True, text=True, timeout=timeout,
                               check=False, env={**os.environ, **variables}, preexec_fn=preexec_fn)
