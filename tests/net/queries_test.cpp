@@ -113,7 +113,7 @@ TEST(Queries, FromFortyViewersDoNotDelayCommands) {
     const auto host = serve();
     Viewers viewers(host->port(), 40);
     Controller controller(host->port());
-    (void)controller.give(R"("set":{"speed":100,"substeps":120})");
+    (void)controller.give(R"("set":{"speed":100,"substeps":400})");
     std::vector<double> ratios;
     for (int round = 0; round < 5; ++round) {
         std::vector<Clock::duration> times[2];
