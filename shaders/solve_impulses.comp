@@ -1,6 +1,7 @@
 // The model `fast`: one sweep over the listed pairs (Gauss-Seidel). A pair that approaches gets the impulse of
-// restitution and friction. An overlap is removed by moving positions alone, so that it never becomes speed. Both
-// conserve momentum, and no impulse adds energy. `phase` is the level and the colour of the groups.
+// restitution and friction at its moment of impact, and flies on from there. An overlap that is left is removed by
+// moving positions alone, so that it never becomes speed. Both conserve momentum, and no impulse adds energy. `phase`
+// is the level and the colour of the groups.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -25,6 +26,18 @@ BUFFER(readonly, ContactParams, contactParams)
 #include "shared/friction_pair.h"
 #include "shared/wake_pair.h"
 
+// An impact may be found late, because the sweep visits a pair once, perhaps before other impacts change its course.
+// Courses are followed back for this number of substeps at most: farther back, other impacts have bent them.
+#define LATEST_IMPACT 2.0f
+
+// The time since two centres were as near as the sum of their radii (s). `along` is the product of their distance and
+// relative velocity (m^2/s). `squared` is that velocity squared (m^2/s^2). `missing` is the squared sum of the radii
+// without the squared distance (m^2, positive). Neither form subtracts nearly equal numbers.
+float timeSinceTouch(float along, float squared, float missing) {
+    float root = sqrt(along * along + squared * missing);
+    return along < 0.0f ? missing / (root - along) : (along + root) / max(squared, 1.0e-30f);
+}
+
 void visitPair(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
@@ -48,22 +61,51 @@ void visitPair(uint a, uint b) {
     float mb = effectiveInverseMass(vb);
     if (ma + mb == 0.0f) return;
     float effectiveMass = 1.0f / (ma + mb);
-    vec4 normal = normalAndDistance(d, squared, a, b);
-    vec3 n = vec3(normal);
-    vec3 push = n * ((reach - distanceOf(normal)) * effectiveMass);
-    if (ma > 0.0f) position[a] = withXyz(pa, vec3(pa) + push * ma);
-    if (mb > 0.0f) position[b] = withXyz(pb, vec3(pb) - push * mb);
-    float speed = dot3(vec3(va) - vec3(vb), n);
-    if (speed >= 0.0f) return;
-    vec4 contact = contactOf(a, b);
-    // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce.
-    float e = HAS(RESTITUTION) && speed < -params.deadBand ? restitutionOf(contact) : 0.0f;
-    float normalImpulse = -(1.0f + e) * speed * effectiveMass;
-    vec3 impulse = n * normalImpulse;
-    if (ma > 0.0f) velocity[a] = withXyz(va, vec3(va) + impulse * ma);
-    if (mb > 0.0f) velocity[b] = withXyz(vb, vec3(vb) - impulse * mb);
-    if (HAS(FRICTION))
-        applyPairFriction(a, b, n, radiusOf(pa), radiusOf(pb), normalImpulse, contact);
+    vec3 n = vec3(normalAndDistance(d, squared, a, b));
+    vec3 difference = vec3(va) - vec3(vb);
+    float speed = dot3(difference, n);
+    // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce. Spheres
+    // that touched in this substep may part already: they have met at the edge.
+    float since = timeSinceTouch(dot3(d, difference), dot3(difference, difference), reach * reach - squared);
+    bool impact = false;
+    if (speed < -params.deadBand || since <= params.substep) {
+        since = min(since, LATEST_IMPACT * params.substep);
+        vec3 met = d - difference * since;
+        vec3 normal = vec3(normalAndDistance(met, dot3(met, met), a, b));
+        float approach = dot3(difference, normal);
+        impact = approach < -params.deadBand;
+        if (impact) {
+            n = normal;
+            speed = approach;
+        }
+    }
+    vec3 xa = vec3(pa);
+    vec3 xb = vec3(pb);
+    if (speed < 0.0f) {
+        vec4 contact = contactOf(a, b);
+        float e = HAS(RESTITUTION) && impact ? restitutionOf(contact) : 0.0f;
+        float normalImpulse = -(1.0f + e) * speed * effectiveMass;
+        vec3 impulse = n * normalImpulse;
+        if (ma > 0.0f) velocity[a] = withXyz(va, vec3(va) + impulse * ma);
+        if (mb > 0.0f) velocity[b] = withXyz(vb, vec3(vb) - impulse * mb);
+        if (HAS(FRICTION))
+            applyPairFriction(a, b, n, radiusOf(pa), radiusOf(pb), normalImpulse, contact);
+        if (impact) {
+            // Both fly on from the point of impact at their new velocities. This keeps angular momentum.
+            xa = xa + (vec3(velocity[a]) - vec3(va)) * since;
+            xb = xb + (vec3(velocity[b]) - vec3(vb)) * since;
+            d = xa - xb;
+            squared = dot3(d, d);
+        }
+    }
+    if (squared < reach * reach) {
+        vec4 normal = normalAndDistance(d, squared, a, b);
+        vec3 push = vec3(normal) * ((reach - distanceOf(normal)) * effectiveMass);
+        xa = xa + push * ma;
+        xb = xb - push * mb;
+    }
+    if (ma > 0.0f) position[a] = withXyz(pa, xa);
+    if (mb > 0.0f) position[b] = withXyz(pb, xb);
 }
 
 #include "shared/group.h"

@@ -30,7 +30,18 @@ void visitPair(uint a, uint b) {
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
     float reach = radiusSum(pa, pb) * (1.0f + TOUCH_TOLERANCE);
-    if (!(squared < reach * reach)) return;
+    if (!(squared < reach * reach)) {
+        // `fast` lets spheres fly on after an impact. Follows them back to the point where they parted.
+        if (!HAS(FAST)) return;
+        vec3 difference = vec3(velocity[a]) - vec3(velocity[b]);
+        float along = dot3(d, difference);
+        float root = along * along - dot3(difference, difference) * (squared - reach * reach);
+        if (!(along > 0.0f) || !(root >= 0.0f)) return;
+        float since = (squared - reach * reach) / (along + sqrt(root));
+        if (!(since <= params.substep)) return;
+        d = d - difference * since;
+        squared = dot3(d, d);
+    }
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
     float approach = dot3(vec3(velocityBeforeSolve[b]) - vec3(velocityBeforeSolve[a]), n);
     if (!(approach > WEIGHTLESS * params.deadBand)) return;
