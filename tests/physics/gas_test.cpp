@@ -206,8 +206,8 @@ double coolingBetween(double before, double after, double seconds) {
     return (1 / std::sqrt(after) - 1 / std::sqrt(before)) / seconds;
 }
 
-// Returns the cooling of the simulation over that of the reference, which has the same spheres at the start.
-// `settling`: time before the measurement (s). `seconds`: duration of the measurement.
+// Returns the ratio of cooling in the simulation to cooling in the reference, from the same start. `settling`: time
+// before the measurement (s). `seconds`: duration of the measurement.
 double relativeCooling(const scene::Scene& scene, double settling, double seconds) {
     settling = std::round(settling / scene.step) * scene.step;
     seconds = std::round(seconds / scene.step) * scene.step;
