@@ -56,8 +56,8 @@ struct PairCase {
     double friction = 0;
 };
 
-// Two spheres in a random direction and a moving frame. They meet at 0 to 80 degrees to their line of centres, `phase`
-// of a substep after the start of the tenth.
+// Two spheres in a random direction and a moving frame. They meet at 0 to 86 degrees to their line of centres, more
+// often at large angles, at `phase` (0 to 1) of the eleventh substep.
 struct Meeting {
     scene::Scene scene;
     glm::dvec3 normal{};    // at the impact, from the second sphere to the first
@@ -75,7 +75,7 @@ Meeting meeting(const PairCase& one, double phase, scene::Random& random) {
     const double substep = scene.step / scene.quality.substeps;
     meeting.normal = randomDirection(random);
     const glm::dvec3 across = glm::normalize(glm::cross(meeting.normal, randomDirection(random)));
-    const double angle = random.uniform(0, 80) * std::numbers::pi / 180;
+    const double angle = 86 * std::sqrt(random.uniform()) * std::numbers::pi / 180;
     meeting.approach = random.uniform(0.8, 1.2) * (std::sin(angle) * across - std::cos(angle) * meeting.normal);
     const glm::dvec3 drift = randomDirection(random);
     const double flight = (10 + phase) * substep;
