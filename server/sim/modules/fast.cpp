@@ -2,7 +2,7 @@
 
 namespace spherule::sim {
 
-// The model `fast`: impulses with restitution, positions corrected.
+// The model `fast`: impulses with restitution at the moment of impact, other overlaps corrected by position.
 const Module moduleFast{
     .feature = Feature::Fast,
     .required = [](const scene::Scene& scene,
