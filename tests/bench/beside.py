@@ -8,7 +8,10 @@ two blocks that follow each other, so a change of the machine's load affects bot
 
 A scene is settled-N or falling-N; N may end with k or m. A settled bed has come to rest for 5 s under the law of
 its own side. One of more than 50,000 spheres is composed of tiles of 50,000. A falling bed is timed from 0.2 to 0.5
-s after its release. A device is a device of spherule; with cpu:1 and cpu:N the gain from N threads is reported."""
+s after its release, in six blocks.
+
+A device is a device of spherule. All threads of cpu:1 and of software run on one processor, which changes after
+each pair of blocks. With cpu:1 and cpu:N the gain from N threads is reported."""
 import argparse
 import array
 import dataclasses
@@ -38,7 +41,9 @@ RATE = STEP_RATE * SUBSTEPS
 SETTLE = 5 * RATE  # substeps
 WARM = RATE // 2  # substeps after a state was loaded, in which contacts regain their memory
 FALL_BEGIN, FALL_END = RATE // 5, RATE // 2  # substeps after the release
+BLOCKS_OF_FALL = 6
 TILE = 50_000
+ON_ONE_PROCESSOR = ("cpu:1", "software")
 COLUMNS = 3  # of a state: positions, velocities, spins; four floats each
 
 
@@ -53,8 +58,12 @@ class Bed:
     def block(self):
         """The substeps of a block."""
         if self.falling:
-            return (FALL_END - FALL_BEGIN) // 6
+            return (FALL_END - FALL_BEGIN) // BLOCKS_OF_FALL
         return 128 if self.spheres <= 20_000 else 64 if self.spheres <= 100_000 else 32
+
+    def rounded(self, blocks):
+        """The number of blocks, rounded up to whole falls."""
+        return math.ceil(blocks / BLOCKS_OF_FALL) * BLOCKS_OF_FALL if self.falling else blocks
 
 
 def bed_of(name):
@@ -154,8 +163,9 @@ class Stepper:
         self.process.stdout.close()
 
     def move_to(self, processor):
-        """Binds the main thread to a processor. For programs with one thread."""
-        os.sched_setaffinity(self.process.pid, {processor})
+        """Binds all threads to a processor."""
+        for thread in pathlib.Path(f"/proc/{self.process.pid}/task").iterdir():
+            os.sched_setaffinity(int(thread.name), {processor})
 
     def ask(self, *words):
         print(*words, file=self.process.stdin, flush=True)
@@ -228,14 +238,14 @@ def raced(programs, bed, devices, blocks, environment):
             for (_, side), stepper in steppers.items():
                 stepper.ask("load", start[side])
                 stepper.ask("run", WARM)
-        for number in range(blocks):
-            if bed.falling and number * bed.block % (FALL_END - FALL_BEGIN) == 0:
+        for number in range(bed.rounded(blocks)):
+            if bed.falling and number % BLOCKS_OF_FALL == 0:
                 for stepper in steppers.values():
                     stepper.ask("start")
                     stepper.ask("run", FALL_BEGIN)
             for device in devices:
                 for side in SIDES if number % 2 == 0 else reversed(SIDES):
-                    if device == "cpu:1":  # processors may differ in speed, so both sides use each of them
+                    if device in ON_ONE_PROCESSOR:  # processors may differ in speed, so both sides use each of them
                         steppers[device, side].move_to(processors[number % len(processors)])
                     results[device]["blocks"][side].append(steppers[device, side].ask("run", bed.block))
         for (device, side), stepper in steppers.items():
@@ -265,7 +275,8 @@ def report(bed, results):
     threads = {device: gains(results["cpu:1"]["blocks"], results[device]["blocks"])
                for device in several if "cpu:1" in results}
     hashes = {side: {result["state"][side]["hash"] for result in results.values()} for side in SIDES}
-    return {"scene": bed.name, "spheres": bed.spheres, "block": bed.block,
+    count = len(next(iter(results.values()))["blocks"]["old"])
+    return {"scene": bed.name, "spheres": bed.spheres, "block": bed.block, "blocks": count,
             "devices": rows, "threads": threads, "equalHashes": {side: len(hashes[side]) == 1 for side in SIDES}}
 
 
@@ -273,7 +284,7 @@ def text_of(figures):
     def spread(figure):
         return f"{figure['median']:.3g} ({figure['low']:.3g} to {figure['high']:.3g})"
 
-    lines = [f"### {figures['scene']}, blocks of {figures['block']} substeps", "",
+    lines = [f"### {figures['scene']}, {figures['blocks']} blocks of {figures['block']} substeps", "",
              "| device | processor ms per substep: old | new | old / new | wall ms per substep: old | new | old / new "
              "| real-time factor: old | new |", "|---|--:|--:|--:|--:|--:|--:|--:|--:|"]
     for device, row in figures["devices"].items():
@@ -327,8 +338,8 @@ def main():
     programs = {"old": options.old or built(options.commit, options.flags, options.jobs), "new": options.new}
     environment = dict(pair.split("=", 1) for pair in options.environment)
     heads = {"old": options.commit, "new": run_quietly("git", "describe", "--always", "--dirty", cwd=ROOT)}
-    print(f"{processor()}. Old: {heads['old']}, new: {heads['new']}. Medians of {options.blocks} blocks; brackets give "
-          "the quartiles.\n")
+    print(f"{processor()}. Old: {heads['old']}, new: {heads['new']}. Medians of blocks; brackets give the "
+          "quartiles.\n")
     scenes = []
     for bed in options.beds:
         results = raced(programs, bed, options.devices.split(","), options.blocks, environment)

@@ -61,7 +61,9 @@ class Beds(unittest.TestCase):
 
     def test_blocks_of_a_fall_divide_it(self):
         bed = beside.bed_of("falling-10k")
-        self.assertEqual((beside.FALL_END - beside.FALL_BEGIN) % bed.block, 0)
+        self.assertEqual(bed.block * beside.BLOCKS_OF_FALL, beside.FALL_END - beside.FALL_BEGIN)
+        self.assertEqual([bed.rounded(count) for count in (1, 6, 7)], [6, 6, 12])
+        self.assertEqual(beside.bed_of("settled-10k").rounded(7), 7)
         for name in ("settled-10k", "settled-50k", "settled-1m", "falling-10k"):
             self.assertEqual(beside.bed_of(name).block % beside.SUBSTEPS, 0, name)
 
@@ -85,7 +87,7 @@ class Beds(unittest.TestCase):
 class Race(FolderTestCase):
     def test_a_program_beside_itself_has_equal_states_on_all_devices(self):
         call = runner(sys.executable, SCRIPT, "HEAD", "--old", STEPPER, "--new", STEPPER)
-        done = call("--scenes", "settled-1k,falling-1k", "--devices", "cpu:1,cpu:2", "--blocks", "7", "--json",
+        done = call("--scenes", "settled-1k,falling-1k", "--devices", "cpu:1,cpu:2", "--blocks", "5", "--json",
                     self.at("figures.json"), SPHERULE_BESIDE=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Gain of cpu:2 over cpu:1", done.stdout)
@@ -96,8 +98,9 @@ class Race(FolderTestCase):
             self.assertEqual(len({state["hash"] for state in states}), 1)
             for row in scene["devices"].values():
                 self.assertGreater(row["processor"]["median"], 0)
+            count = {"settled-1k": 5, "falling-1k": 6}[scene["scene"]]
             for blocks_by_side in (result["blocks"] for result in scene["results"].values()):
-                self.assertEqual([len(blocks_by_side[side]) for side in beside.SIDES], [7, 7])
+                self.assertEqual([len(blocks_by_side[side]) for side in beside.SIDES], [count, count])
 
     def test_a_state_of_other_spheres_is_refused(self):
         scene = self.write("bed.json", json.dumps(beside.scene_of(beside.bed_of("settled-1k"))))
