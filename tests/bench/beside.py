@@ -39,7 +39,9 @@ STEP_RATE = 60
 SUBSTEPS = 8  # per step
 RATE = STEP_RATE * SUBSTEPS
 SETTLE = 5 * RATE  # substeps
-WARM = RATE // 2  # substeps after a state was loaded, in which contacts regain their memory
+# Substeps after a state was loaded, in which contacts regain their memory: of a single bed, and of tiles.
+WARM = RATE // 2
+WARM_TILES = RATE // 4
 FALL_BEGIN, FALL_END = RATE // 5, RATE // 2  # substeps after the release
 BLOCKS_OF_FALL = 6
 TILE = 50_000
@@ -237,7 +239,7 @@ def raced(programs, bed, devices, blocks, environment):
         if not bed.falling:
             for (_, side), stepper in steppers.items():
                 stepper.ask("load", start[side])
-                stepper.ask("run", WARM)
+                stepper.ask("run", WARM if bed.tiles == (1, 1) else WARM_TILES)
         for number in range(bed.rounded(blocks)):
             if bed.falling and number % BLOCKS_OF_FALL == 0:
                 for stepper in steppers.values():
