@@ -256,6 +256,16 @@ def raced(programs, bed, devices, blocks, environment):
     return results
 
 
+def working_tree():
+    """The commit of this checkout; unknown outside a repository."""
+    try:
+        done = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=True,
+                              cwd=ROOT)
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+    return done.stdout.strip()
+
+
 def processor():
     facts = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
     names = re.findall(r"^model name\s*: (.*)$", facts, re.MULTILINE)
@@ -339,7 +349,7 @@ def main():
         sys.exit(f"{options.new} is missing: cmake --build build/release --target spherule_stepper")
     programs = {"old": options.old or built(options.commit, options.flags, options.jobs), "new": options.new}
     environment = dict(pair.split("=", 1) for pair in options.environment)
-    heads = {"old": options.commit, "new": run_quietly("git", "describe", "--always", "--dirty", cwd=ROOT)}
+    heads = {"old": options.commit, "new": working_tree()}
     print(f"{processor()}. Old: {heads['old']}, new: {heads['new']}. Medians of blocks; brackets give the "
           "quartiles.\n")
     scenes = []
