@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Compares Spherule and LAMMPS on the same bed:
-peers.py [--sizes 10000,50000] [--rounds 3] [--friction 0.3] [--rest SECONDS] [--markdown FILE]
+peers.py [--sizes 10000,50000] [--rounds 3] [--friction 0.3] [--only PATTERN] [--rest SECONDS] [--markdown FILE]
 
 N spheres (r = 5 cm, 1000 kg/m3, e = 0.5) fall from a jittered lattice of 1.25 d into an open box of the width
 d sqrt(N / 20). Each round runs every contestant from the same positions, one after the other. Needs Debian's `lammps` and
-`openmpi-bin`, and build/release/spherule. Overlaps of both are measured by Spherule, from the positions at the end.
+`openmpi-bin`, and build/release/spherule. The times are those of the fall, 0 to 1 s, and of the settled bed, 5 to 6 s.
+Overlaps of both are measured by Spherule, from the positions at the end. Speeds are ratios to LAMMPS at its usual
+stiffness in the same round; above 1, a contestant is faster. With --only, the others take part only if their names match
+the regular expression.
 
 With --rest, the beds fall for 10 s instead and are then watched for so long: how far they sink, and how they move.
 """
@@ -28,7 +31,8 @@ RESTITUTION = 0.5
 GRAVITY = 9.81
 THREADS = os.cpu_count()
 BINARY = os.environ.get("SPHERULE", "build/release/spherule")
-WINDOWS = {"fall": (0, 1), "settled": (3, 3.5)}
+WINDOWS = {"fall": (0, 1), "settled": (5, 6)}  # s
+INTERVAL = 0.5  # s, of the reports of Spherule
 
 SETTLED_AFTER = 10  # s, before a bed at rest is watched
 
@@ -42,6 +46,8 @@ LAMMPS = {
     f"LAMMPS, {THREADS} ranks, k = 5e5 N/m, 1e-4 s": (5e5, 1e-4),
     f"LAMMPS, {THREADS} ranks, k = 5e4 N/m, 3e-4 s": (5e4, 3e-4),
 }
+
+USUAL = next(iter(LAMMPS))
 
 
 def bed(count):
@@ -82,10 +88,10 @@ def reports(path, *options):
 
 
 def race_ours(path, options):
-    stretches = reports(path, "--for", "3.5s", "--every", "0.5s", *options)
+    stretches = reports(path, "--for", f"{WINDOWS['settled'][1]}s", "--every", f"{INTERVAL}s", *options)
     row = {}
     for window, (begin, end) in WINDOWS.items():
-        inside = [s for s in stretches if begin < s["simSeconds"] - 0.25 < end]
+        inside = [s for s in stretches if begin < s["simSeconds"] - INTERVAL / 2 < end]
         row[window] = sum(s["wallSeconds"] for s in inside) / sum(s["intervalSeconds"] for s in inside)
     last = stretches[-1]
     return row | {key: last[key] for key in ("overlapMean", "overlapMax", "speedRms", "sleeping")}
@@ -154,11 +160,12 @@ def rms_of(rows):
 
 
 def race_lammps(folder, spheres, width, friction, stiffness, step):
-    loops, ends = run_lammps(folder, spheres, width, friction, stiffness, step, (1, 2, 0.5))
+    (_, fall), (begin, end) = WINDOWS["fall"], WINDOWS["settled"]
+    loops, ends = run_lammps(folder, spheres, width, friction, stiffness, step, (fall, begin - fall, end - begin))
     # Soft spheres may overlap walls, but a scene must not, so its bounds are larger and the positions are shifted.
     raised = [[axis + 1 for axis in row[1:4]] for row in ends[-1]]
     overlaps = reports(scene_of(folder, "lammps_end", raised, width + 2, friction), "--device", "cpu", "--quality", "fast", "--for", "0s")[0]
-    return {"fall": loops[0], "settled": 2 * loops[2], "speedRms": rms_of(ends[-1]), "sleeping": 0,
+    return {"fall": loops[0] / fall, "settled": loops[2] / (end - begin), "speedRms": rms_of(ends[-1]), "sleeping": 0,
             "overlapMean": overlaps["overlapMean"], "overlapMax": overlaps["overlapMax"]}
 
 
@@ -185,13 +192,17 @@ def rest_table(count, seconds, results):
     return "\n".join(lines) + "\n"
 
 
+def chosen(contestants, pattern):
+    return [(name, how) for name, how in contestants.items() if name == USUAL or re.search(pattern, name)]
+
+
 def race(folder, path, spheres, width, options):
     results = {}
     for number in range(options.rounds):
-        for name, more in OURS.items():
+        for name, more in chosen(OURS, options.only):
             results.setdefault(name, []).append(race_ours(path, more))
             print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
-        for name, (stiffness, step) in LAMMPS.items():
+        for name, (stiffness, step) in chosen(LAMMPS, options.only):
             results.setdefault(name, []).append(race_lammps(folder, spheres, width, options.friction, stiffness, step))
             print(f"round {number + 1}: {name}", results[name][-1], file=sys.stderr)
     return table(len(spheres), results)
@@ -199,22 +210,30 @@ def race(folder, path, spheres, width, options):
 
 def rest(folder, path, spheres, width, options):
     results = {}
-    for name, more in OURS.items():
+    for name, more in chosen(OURS, options.only):
         results[name] = rest_ours(path, more, options.rest)
         print(name, results[name], file=sys.stderr)
-    for name, (stiffness, step) in LAMMPS.items():
+    for name, (stiffness, step) in chosen(LAMMPS, options.only):
         results[name] = rest_lammps(folder, spheres, width, options.friction, stiffness, step, options.rest)
         print(name, results[name], file=sys.stderr)
     return rest_table(len(spheres), options.rest, results)
 
 
+def speed(rows, usual, window):
+    """The median of the speeds over those of the usual contestant, round by round."""
+    return statistics.median(other[window] / row[window] for row, other in zip(rows, usual, strict=True))
+
+
 def table(count, results):
     lines = [f"### {count:,} spheres", "",
-             "| | wall s per simulated s: fall | settled | real-time factor: fall | settled | overlap, % of r: mean | max | rms speed, m/s | asleep |",
-             "|---|--:|--:|--:|--:|--:|--:|--:|--:|"]
+             "| | wall s per simulated s: fall | settled | real-time factor: fall | settled | speed, LAMMPS = 1: fall | settled "
+             "| overlap, % of r: mean | max | rms speed, m/s | asleep |",
+             "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"]
     for name, rows in results.items():
         m = {key: statistics.median(row[key] for row in rows) for key in rows[0]}
+        fall, settled = (speed(rows, results[USUAL], window) for window in WINDOWS)
         lines.append(f"| {name} | {m['fall']:.3g} | {m['settled']:.3g} | {1 / m['fall']:.3g} | {1 / m['settled']:.3g} "
+                     f"| {fall:.3g} | {settled:.3g} "
                      f"| {100 * m['overlapMean']:.3g} | {100 * m['overlapMax']:.3g} | {m['speedRms']:.3g} | {m['sleeping']:.0f} |")
     return "\n".join(lines) + "\n"
 
@@ -224,6 +243,7 @@ def main():
     parser.add_argument("--sizes", default="10000,50000")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--friction", type=float, default=0.3)
+    parser.add_argument("--only", default="", metavar="PATTERN")
     parser.add_argument("--rest", type=int, metavar="SECONDS")
     parser.add_argument("--markdown")
     options = parser.parse_args()
