@@ -5,6 +5,8 @@ PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
+#include "shared/cell_of.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(coherent, uint, cellStart)

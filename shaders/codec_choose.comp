@@ -81,11 +81,11 @@ void takePositions(int first) {
 }
 
 void predict(uint predictor) {
-    uint mask = predictor == CODEC_LINEAR ? 0xffffffffu : 0u;
+    uint keptBits = predictor == CODEC_LINEAR ? 0xffffffffu : 0u;
     if (predictor == CODEC_HALF)
         for (int k = 0; k < 192; ++k) residual[k] = change[k] - uint(int(step[k]) >> 1);
     else
-        for (int k = 0; k < 192; ++k) residual[k] = change[k] - (step[k] & mask);
+        for (int k = 0; k < 192; ++k) residual[k] = change[k] - (step[k] & keptBits);
 }
 
 // The values of four residuals of a run around `middle`, joined by OR.
@@ -198,15 +198,15 @@ void writeBlock(uint block) {
     scratch[block * CODEC_SCRATCH + CODEC_HEADER] = packBlock(block * CODEC_PACKED);
 }
 
-// Writes the positions in change[] to `before`, and sets step[]. Then subtracts the newest positions, masked by `mask`,
-// from change[].
-void takeState(int first, uint mask) {
+// Writes the positions in change[] to `before`, and sets step[]. Then subtracts the newest positions, masked by
+// `keptBits`, from change[].
+void takeState(int first, uint keptBits) {
     for (int k = 0; k < 192; ++k) {
         uint now = change[k];
         uint last = newest[first + k];
         step[k] = last - before[first + k];
         before[first + k] = now;
-        change[k] = now - (last & mask);
+        change[k] = now - (last & keptBits);
     }
 }
 

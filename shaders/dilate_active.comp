@@ -1,50 +1,37 @@
-// Sets whether each group is active: whether it or a group around it holds an awake sphere. These groups hold all
-// spheres that an awake sphere touches, and all neighbours of those. The solvers skip inactive groups.
+// Sets whether each bundle is active: whether one of its blocks or a block around it holds an awake sphere. Active
+// bundles have all pairs of the awake spheres, and all pairs of their neighbours. The solvers skip the others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
-#include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
 
 BUFFER(readonly, uint, counters)
-BUFFER(readonly, uint, activeGroup)
-BUFFER(restrict, uvec4, groupRange)
+BUFFER(readonly, uint, activeBlock)
+BUFFER(restrict, uint, bundles)
 
-// Neighbours on a ring of `count` places.
-uint lower(uint at, uint count) {
-    return at == 0u ? count - 1u : at - 1u;
+// Place `k` (0 .. 2) of a place and its two neighbours on a ring of `count` places.
+uint around(uint at, uint k, uint count) {
+    uint shifted = at + k;
+    if (shifted == 0u) return count - 1u;
+    return shifted - 1u == count ? 0u : shifted - 1u;
 }
 
-uint upper(uint at, uint count) {
-    return at + 1u == count ? 0u : at + 1u;
-}
-
-KERNEL(params.groups * 8u) {
-    uvec4 range = groupRange[invocation];
-    if (listedPairs(range) == 0u) return;  // no pairs
-    uvec4 cells = cellsOf(levelOfGroup(invocation));
-    uint first = firstCell(cells) / 8u;
-    uint gx = cells.x / 2u;
-    uint gy = cells.y / 2u;
-    uint gz = cells.z / 2u;
+KERNEL(params.bundles) {
+    if (bundles[invocation * BUNDLE_WORDS + 1u] == 0u) return;  // no pairs
+    uint level = levelOfBundle(invocation);
+    uvec4 cells = cellsOf(level);
     uint substep = counters[COUNTER_SUBSTEPS];
-    uint row = (invocation - first) / gx;
-    uint x = invocation - first - row * gx;
-    uint west = lower(x, gx);
-    uint east = upper(x, gx);
-    uint y = lower(row / gz, gy);
-    uint below = lower(row % gz, gz);
-    bool anyActive = false;
-    for (uint k = 0u; k < 3u && !anyActive; ++k) {
-        uint z = below;
-        for (uint j = 0u; j < 3u && !anyActive; ++j) {
-            uint start = first + (y * gz + z) * gx;
-            anyActive = activeGroup[start + west] == substep || activeGroup[start + x] == substep ||
-                        activeGroup[start + east] == substep;
-            z = upper(z, gz);
+    bool anyAwake = false;
+    for (uint part = 0u; part < BLOCKS_PER_BUNDLE && !anyAwake; ++part) {
+        BlockPlace block = blockOfBundle(invocation, level, part);
+        for (uint k = 0u; k < 27u && block.exists && !anyAwake; ++k) {
+            uint x = around(block.x, k % 3u, cells.x / 4u);
+            uint y = around(block.y, k / 3u % 3u, cells.y / 4u);
+            uint z = around(block.z, k / 9u, cells.z / 4u);
+            anyAwake = activeBlock[blockNumber(cells, x, y, z)] == substep;
         }
-        y = upper(y, gy);
     }
-    groupRange[invocation] = uvec4(firstPair(range), listedPairs(range), 0u, anyActive ? 1u : 0u);
+    bundles[invocation * BUNDLE_WORDS + 2u] = anyAwake ? 1u : 0u;
 }

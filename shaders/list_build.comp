@@ -1,42 +1,69 @@
-// Lists the pairs of each group whose gap is below the margin. One walk fills a local array, which is then copied to a
-// range of the pair array. A group with more pairs walks a second time. If a group finds no room, no group has a list
-// (list_fit.comp), and the solvers then walk the cells themselves.
+// Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin: the candidates. One walk fills a
+// local array, which is then copied. A group with more pairs walks a second time.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
+#include "shared/limits.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)
+BUFFER(readonly, float, sortedX)
+BUFFER(readonly, float, sortedY)
+BUFFER(readonly, float, sortedZ)
+BUFFER(readonly, float, sortedRadius)
 BUFFER(readonly, uint, cellStart)
 BUFFER(coherent, uint, counters)
-BUFFER(writeonly, uvec2, pairs)
-BUFFER(writeonly, uvec4, groupRange)  // first pair, listed, touching, 1 if the group is active
+BUFFER(writeonly, uvec2, candidates)  // slots; the high bit of the first is set if the pair is far
+BUFFER(writeonly, uvec2, groupRange)  // first candidate, candidates
 
 #define LOCAL_PAIRS 192u
+// Pairs with a gap above this share of the smaller radius are far. They come last in their batch, so that pairs that
+// touch are together in the lanes of the solver.
+#define FAR_GAP 0.05f
 PRIVATE(uint, found)
 PRIVATE(uint, base)      // index of the first pair; UNLISTED during the first walk
 PRIVATE(uvec2, local[LOCAL_PAIRS])
 
-void visitPair(uint a, uint b) {
-    vec4 pa = position[a];
-    vec4 pb = position[b];
-    vec3 d = vec3(pa) - vec3(pb);
-    float reach = radiusSum(pa, pb) + params.margin;
-    if (!(dot3(d, d) < reach * reach) || lost(pa) || lost(pb)) return;
+PRIVATE(uint, visited)   // the sphere whose range is visited
+
+void addPair(uint b, bool isFar) {
+    uvec2 pair = uvec2(isFar ? visited | 0x80000000u : visited, b);
     if (base != UNLISTED) {
-        pairs[base + found] = uvec2(a, b);
+        candidates[base + found] = pair;
     } else if (found < LOCAL_PAIRS) {
-        local[found] = uvec2(a, b);
+        local[found] = pair;
     }
     found = found + 1u;
 }
 
+void visitRange(uint a, uint begin, uint end) {
+    visited = a;
+    vec4 sphere = position[a];
+    if (lost(sphere)) return;
+    real4 pa = real4(sphere);
+    for (uint b = begin; b < end; b += LANES) {
+        uintRow at = ROWS_UP_TO(b, end);
+        real radius = HAS(RADII) ? ROW(sortedRadius, at) : real(params.radius);
+        real4 pb = real4(ROW(sortedX, at), ROW(sortedY, at), ROW(sortedZ, at), radius);
+        real3 d = real3(pa) - real3(pb);
+        real touch = radiusSum(pa, pb);
+        real reach = touch + params.margin;
+        real squared = dot3(d, d);
+        mask listed = IN_ROWS(at) && squared < reach * reach;
+        if (!anyLane(listed)) continue;
+        listed = listed && !lost(pb);
+        real close = touch + smallerRadius(pa, pb) * FAR_GAP;
+        EACH_LANE_WITH(listed, squared >= close * close, addPair, at)
+    }
+}
+
 #include "shared/group.h"
 
-KERNEL(params.groups * 8u) {
+LANE_LOOP_KERNEL(allCells() / 8u) {
     found = 0u;
     base = UNLISTED;
     uint sampleRound = counters[COUNTER_REBUILDS];
@@ -47,19 +74,12 @@ KERNEL(params.groups * 8u) {
         atomicAdd(counters[COUNTER_SAMPLED], 1u);
         atomicOr(counters[COUNTER_REBUILD], 1u);
     }
-    uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_PAIRS], count);
-    if (count > params.pairCapacity || start > params.pairCapacity - count) {
-        groupRange[invocation] = uvec4(0u, UNLISTED, 0u, 1u);
-        return;
-    }
-    groupRange[invocation] = uvec4(start, count, 0u, 1u);
+    uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_CANDIDATES], count);
+    bool fits = count <= params.pairCapacity && start <= params.pairCapacity - count;
+    groupRange[invocation] = uvec2(start, fits ? count : 0u);
+    if (!fits) return;  // list_order.comp makes no lists then
     if (count <= LOCAL_PAIRS) {
-        // Alternates between the two halves, so that a solver need not wait for the result of the pair before.
-        uint middle = (count + 1u) / 2u;
-        for (uint k = 0u; k < middle; ++k) {
-            pairs[start + 2u * k] = local[k];
-            if (middle + k < count) pairs[start + 2u * k + 1u] = local[middle + k];
-        }
+        for (uint k = 0u; k < count; ++k) candidates[start + k] = local[k];
     } else {
         found = 0u;
         base = start;

@@ -1,14 +1,21 @@
-// If there is no room for all pairs, no group has a list. Otherwise the groups that find room would depend on the
-// device's order of execution.
+// If there is no room for all pairs, no bundle has a list, and the solvers walk the cells themselves. Otherwise the
+// bundles that find room would depend on the device's order of execution.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 
 BUFFER(coherent, uint, counters)
-BUFFER(restrict, uvec4, groupRange)
+BUFFER(writeonly, uint, bundles)
+BUFFER(readonly, uvec4, dispatchSizes)
+BUFFER(writeonly, uvec4, dispatchArgs)
 
-KERNEL(params.groups * 8u) {
-    if (counters[COUNTER_PAIRS] <= params.pairCapacity || groupRange[invocation].y == 0u) return;
+KERNEL(params.bundles) {
+    if (max(counters[COUNTER_PAIRS], counters[COUNTER_CANDIDATES]) <= params.pairCapacity) {
+        if (invocation == 0u) dispatchArgs[LAUNCH_UNLISTED] = uvec4(0u, 1u, 1u, 0u);
+        return;
+    }
     atomicAdd(counters[COUNTER_UNLISTED], 1u);
-    groupRange[invocation] = uvec4(counters[COUNTER_REBUILDS], UNLISTED, 0u, 1u);
+    bundles[invocation * BUNDLE_WORDS] = counters[COUNTER_REBUILDS];
+    bundles[invocation * BUNDLE_WORDS + 1u] = UNLISTED;
+    if (invocation == 0u) dispatchArgs[LAUNCH_UNLISTED] = dispatchSizes[LAUNCH_UNLISTED];
 }

@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/limits.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)

@@ -1,21 +1,46 @@
-// Records the positions of the spheres when the lists are built, and the slot of each id. Collects the spheres outside
-// the bounds in `cellOrder`, which is no longer needed for sorting.
+// Records the positions of the spheres when the lists are built, the slot of each id, the box of velocities, and the
+// columns of the positions. Collects the spheres outside the bounds in `cellOrder`, which is no longer needed for
+// sorting.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/limits.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(writeonly, vec4, listReference)
 BUFFER(writeonly, uint, slotOf)
+BUFFER(writeonly, uint, busyBatches)
+BUFFER(writeonly, float, sortedX)
+BUFFER(writeonly, float, sortedY)
+BUFFER(writeonly, float, sortedZ)
+BUFFER(writeonly, float, sortedRadius)
 BUFFER(coherent, uint, counters)
 BUFFER(writeonly, uint, cellOrder)
 
+#include "shared/ordered_key.h"
+
+void raise(uint word, uint key) {
+    if (counters[word] < key) atomicMax(counters[word], key);
+}
+
+// The keys of x, y, z, then of -x, -y, -z.
+void addToDriftBox(vec3 v) {
+    raise(COUNTER_DRIFT_BOX, keyOf(v.x));
+    raise(COUNTER_DRIFT_BOX + 1u, keyOf(v.y));
+    raise(COUNTER_DRIFT_BOX + 2u, keyOf(v.z));
+    raise(COUNTER_DRIFT_BOX + 3u, keyOf(-v.x));
+    raise(COUNTER_DRIFT_BOX + 4u, keyOf(-v.y));
+    raise(COUNTER_DRIFT_BOX + 5u, keyOf(-v.z));
+}
+
 KERNEL(params.spheres) {
     vec4 sphere = position[invocation];
+    vec4 v = velocity[invocation];
     float room = 0.0f;
     if (finite3(vec3(sphere)) && beyond(vec3(sphere)) > 0.0f) {
         room = lost(sphere) ? UNLIMITED_ROOM : -params.margin;
@@ -23,4 +48,14 @@ KERNEL(params.spheres) {
     }
     listReference[invocation] = vec4(vec3(sphere), room);
     slotOf[idOf(idAndMaterial[invocation])] = invocation;
+    busyBatches[invocation] = 0u;
+    sortedX[invocation] = sphere.x;
+    sortedY[invocation] = sphere.y;
+    sortedZ[invocation] = sphere.z;
+    if (HAS(RADII)) sortedRadius[invocation] = storedRadius(sphere);
+    if (HAS(SLEEP) && isAsleep(v)) {
+        atomicOr(counters[COUNTER_RESTING], RESTS);
+    } else if (room == 0.0f && finite3(vec3(v)) && finite3(vec3(sphere))) {
+        addToDriftBox(vec3(v));
+    }
 }

@@ -1,26 +1,42 @@
-// Marks the groups that hold an awake sphere, by the number of the substep. It marks the sphere's group on its own
-// level and on the coarser ones, whose groups have its pairs with larger spheres. It does not mark finer levels,
-// because the sphere's own group has these pairs. A smaller sphere that it wakes marks its own group in the next
-// substep. A sphere that is in no list marks no group.
+// Marks the blocks that hold an awake sphere, by the number of the substep. It marks the sphere's block on its own
+// level and on the coarser ones, whose blocks have its pairs with larger spheres. It does not mark finer levels,
+// because the sphere's own block has these pairs. A smaller sphere that it wakes marks its own block in the next
+// substep. A sphere that is in no list marks no block. Also marks the blocks that hold a restless sphere (sleep.comp):
+// an awake one that has not been quiet for the sleep time and carries others.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
+#include "shared/cell_of.h"
+#include "shared/limits.h"
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's cell
 BUFFER(readonly, uint, counters)
-BUFFER(coherent, uint, activeGroup)
+BUFFER(coherent, uint, activeBlock)
 BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, restReference)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(coherent, uint, restlessBlock)
+BUFFER(readonly, vec4, heldVelocity)
+
+// A sphere with fewer contacts lies on others. It may roll about for long without changing what they carry.
+#define RESTLESS_PAIRS 5.0f
 
 KERNEL(params.spheres) {
     if (isAsleep(velocity[invocation])) return;
     vec4 reference = listReference[invocation];
     uint levels = HAS(LEVELS) ? params.levels : 1u;
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
-    for (uint level = levelOf(storedRadius(position[invocation])); level < levels; ++level)
-        atomicExchange(activeGroup[groupAt(vec3(reference), level)], counters[COUNTER_SUBSTEPS]);
+    uint substep = counters[COUNTER_SUBSTEPS];
+    uint own = levelOf(storedRadius(position[invocation]));
+    if (HAS(BALANCED) && heldPairs(heldVelocity[invocation]) >= RESTLESS_PAIRS &&
+        quietTimeOf(restReference[idOf(idAndMaterial[invocation])]) < params.sleepTime)
+        atomicExchange(restlessBlock[blockAt(vec3(reference), own)], substep);
+    for (uint level = own; level < levels; ++level)
+        atomicExchange(activeBlock[blockAt(vec3(reference), level)], substep);
 }

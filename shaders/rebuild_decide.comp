@@ -1,5 +1,5 @@
 // Sets the sizes of a rebuild's launches, either all of them or none, so that the host never waits for the decision.
-// Also counts the substep and moves the frame of the spheres outside.
+// Also counts the substep, and moves the drift and the frame of the spheres outside.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -7,8 +7,17 @@ PARAMETERS
 BUFFER(coherent, uint, counters)
 BUFFER(readonly, uvec4, dispatchSizes)
 BUFFER(writeonly, uvec4, dispatchArgs)
+BUFFER(writeonly, uint, bundles)
 
+#include "shared/drift.h"
 #include "shared/falling_frame.h"
+
+// Sets the path of the drift (m).
+void setDriftPath(vec3 to) {
+    counters[COUNTER_DRIFT_PATH] = floatBitsToUint(to.x);
+    counters[COUNTER_DRIFT_PATH + 1u] = floatBitsToUint(to.y);
+    counters[COUNTER_DRIFT_PATH + 2u] = floatBitsToUint(to.z);
+}
 
 void setFrame(vec3 velocity, vec3 path) {
     setFrameVector(COUNTER_FRAME_VELOCITY, velocity);
@@ -16,6 +25,7 @@ void setFrame(vec3 velocity, vec3 path) {
 }
 
 KERNEL(1u) {
+    setDriftPath(driftPath());
     if (counters[COUNTER_FRAME_FALLS] != 0u) {
         vec3 path = framePath();
         vec3 velocity = frameVector(COUNTER_FRAME_VELOCITY);
@@ -23,17 +33,31 @@ KERNEL(1u) {
         setFrame(velocity, path);
     }
     counters[COUNTER_SUBSTEPS] = counters[COUNTER_SUBSTEPS] + 1u;
+    uint words = params.bundles * BUNDLE_WORDS;
+    bundles[words + WORD_FASTEST] = 0u;
     bool rebuild = counters[COUNTER_REBUILD] != 0u;
-    for (uint row = 0u; row < LAUNCH_ROWS; ++row)
-        dispatchArgs[row] = rebuild ? dispatchSizes[row] : uvec4(0u, 1u, 1u, 0u);
+    for (uint row = 0u; row < LAUNCH_ROWS; ++row) {
+        bool launched = rebuild && row < LAUNCH_LOST_SPHERES;
+        if (row == LAUNCH_UNLISTED) launched = counters[COUNTER_UNLISTED] != 0u;
+        dispatchArgs[row] = launched ? dispatchSizes[row] : uvec4(0u, 1u, 1u, 0u);
+    }
     if (rebuild) {
         counters[COUNTER_REBUILD] = 0u;
         counters[COUNTER_PAIRS] = 0u;
+        counters[COUNTER_CANDIDATES] = 0u;
         counters[COUNTER_UNLISTED] = 0u;
         counters[COUNTER_SAMPLED] = 0u;
         counters[COUNTER_OUTSIDE] = 0u;
+        counters[COUNTER_CARRIED] = 0u;
+        counters[COUNTER_RESTORED] = 0u;
+        if (counters[COUNTER_RESTING] != 0u) counters[COUNTER_RESTING] = RESTED_BEFORE;
+        for (uint k = 0u; k < 6u; ++k) counters[COUNTER_DRIFT_BOX + k] = 0u;
+        setDriftPath(vec3(0.0f, 0.0f, 0.0f));  // list_drift.comp sets the drift
         counters[COUNTER_FRAME_FALLS] = 0u;
         setFrame(vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
         counters[COUNTER_REBUILDS] = counters[COUNTER_REBUILDS] + 1u;
+        uint lists = counters[COUNTER_LISTS] + 1u;
+        counters[COUNTER_LISTS] = lists;
+        bundles[words + WORD_HALF] = (lists & 1u) * params.pairCapacity;
     }
 }

@@ -1,52 +1,97 @@
-// Puts a sphere to sleep if it has stayed in one place for the sleep time, and if it is slow and carried now.
+// Puts a sphere to sleep if it has been quiet for the sleep time, and if it is carried now.
 //
-// A sphere stays in one place if it neither moves away nor reaches the wake speed. It need not be slow in every
-// substep: under load, the solver's pushes make it jitter in place.
+// With friction, spheres of `balanced` fall asleep together: once in SLEEP_INTERVAL substeps, in blocks that are calm.
+// A block is calm if neither it nor a block around it holds a restless sphere (mark_active.comp). The sleepers of other
+// blocks wake. Sleepers beside spheres that still settle would get unbalanced loads, and jump when they wake.
 //
-// A slow sphere in one place may also be at the top of its flight in weak gravity. A sphere therefore counts as carried
-// only if contacts took up at least half of gravity's pull in this substep.
+// A sphere also keeps a rest reference, and wakes the sleepers around it when it has moved away from it. That is not
+// the list reference, which is reset whenever any sphere needs new lists: a slow sphere would then never have moved
+// away.
+//
+// A slow sphere may also be at the top of its flight. A sphere therefore counts as carried only if contacts took up at
+// least half of gravity's pull in this substep.
 //
 // A spin about the normal of a sphere's only contact with friction takes long to end. The longer a sphere has stayed,
-// the faster it may therefore turn. A sphere that falls asleep outside the bounds asks for new lists, because it would
-// not notice that the frame moves away from it.
+// the faster it may therefore turn. A sphere asks for new lists if it falls asleep outside the bounds or while the
+// lists drift, because it would not notice that their frame moves away from it.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/bundles.h"
+#include "shared/cell_of.h"
+#include "shared/limits.h"
 #include "shared/outside.h"
 
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
-BUFFER(restrict, vec4, velocityBefore)  // w: time spent in one place (s), or MOVED_AWAY
+BUFFER(restrict, vec4, velocityBefore)
+BUFFER(restrict, vec4, restReference)  // by id; w: see accessors.h
 BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, vec4, listReference)  // position for which the lists were built: it gives the sphere's block
+BUFFER(readonly, uint, restlessBlock)
 BUFFER(coherent, uint, counters)
+
+#include "shared/drift.h"
+
+// Returns true if no sphere around the block was restless at the beginning of the substep.
+bool isCalm(uint sphere, uint substep) {
+    vec3 place = vec3(listReference[sphere]);
+    uint level = levelOf(storedRadius(position[sphere]));
+    float width = 4.0f / inverseCellOf(level);
+    for (uint k = 0u; k < 27u; ++k) {
+        vec3 step = vec3(float(k % 3u) - 1.0f, float(k / 3u % 3u) - 1.0f, float(k / 9u) - 1.0f);
+        if (restlessBlock[blockAt(place + step * width, level)] == substep) return false;
+    }
+    return true;
+}
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
-    if (isAsleep(v)) return;
+    bool together = HAS(BALANCED) && HAS(FRICTION);
+    uint substep = counters[COUNTER_SUBSTEPS];
+    bool inTime = !together || substep % SLEEP_INTERVAL == 0u;
+    uint id = idOf(idAndMaterial[invocation]);
+    if (isAsleep(v)) {
+        if (together && inTime && !isCalm(invocation, substep)) {
+            velocity[invocation] = sleepToggled(v);
+            restReference[id].w = params.sleepTime;  // it is not restless
+        }
+        return;
+    }
+    vec3 p = vec3(position[invocation]);
     vec4 u = velocityBefore[invocation];
+    vec4 rest = restReference[id];
     float squared = dot3(vec3(v), vec3(v));
-    float quietTime = squared < params.wakeSpeed * params.wakeSpeed ? max(quietTimeOf(u), 0.0f) + params.substep : 0.0f;
-    bool fallsAsleep = quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
+    bool quiet = squared < params.quietSpeed * params.quietSpeed;
+    float quietTime = quiet ? quietTimeOf(rest) + params.substep : 0.0f;
+    vec3 sinceRest = p - vec3(rest);
+    if (dot3(sinceRest, sinceRest) > params.moveAwayDistance * params.moveAwayDistance) {
+        restReference[id] = movedAway(p, together ? quietTime : 0.0f);
+        return;
+    }
+    bool fallsAsleep = inTime && quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
     if (HAS(GRAVITY)) {
         vec3 pull = vec3(params.gravity) * params.substep;
         vec3 contactChange = vec3(v) - vec3(u) - pull;
         fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > 0.25f * dot3(pull, pull);
     }
     if (HAS(FRICTION)) {
-        vec3 spin = vec3(angularVelocity[invocation]) *
-                    radiusOf(position[invocation]);
+        vec3 spin = vec3(angularVelocity[invocation]) * radiusOf(position[invocation]);
         float maxSpin = params.sleepSpeed * min(quietTime / params.sleepTime, 4.0f);
         fallsAsleep = fallsAsleep && dot3(spin, spin) < maxSpin * maxSpin;
     }
-    if (!fallsAsleep) {
-        velocityBefore[invocation] = vec4(vec3(u), quietTime);
-        return;
-    }
-    if (beyond(vec3(position[invocation])) > 0.0f) atomicOr(counters[COUNTER_REBUILD], 1u);
+    if (fallsAsleep && together) fallsAsleep = isCalm(invocation, substep);
+    restReference[id] = vec4(vec3(rest), fallsAsleep ? 0.0f : quietTime);
+    if (!fallsAsleep) return;
+    atomicOr(counters[COUNTER_RESTING], RESTS);
+    vec3 drift = driftVelocity();
+    if (beyond(p) > 0.0f || dot3(drift, drift) > 0.0f) atomicOr(counters[COUNTER_REBUILD], 1u);
     // The velocity before the substep is zero too: neighbours bounce off a sphere at rest.
-    velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    velocityBefore[invocation] = vec4(0.0f, 0.0f, 0.0f, u.w);
     velocity[invocation] = sleepToggled(withXyz(v, vec3(0.0f, 0.0f, 0.0f)));
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }

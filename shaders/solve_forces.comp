@@ -1,13 +1,14 @@
 // The model `accurate`: adds up the forces between overlapping soft spheres on both sides, while velocities stay
 // unchanged. (If velocities changed at once, each pair would see the incomplete sum of the other forces, take it for
 // slip, and load its spring.) The displacement of the tangential spring is stored with the listed pair. `phase` is the
-// level and the colour of the groups.
+// level and the colour of the bundles.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
 #include "shared/contact.h"
 #include "shared/friction.h"
 
@@ -15,13 +16,16 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, angularVelocity)
-BUFFER(restrict, vec4, deltaVelocity)
-BUFFER(restrict, vec4, deltaOmega)
+BUFFER(coherent, vec4, deltaVelocity)
+BUFFER(coherent, vec4, deltaOmega)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
-BUFFER(restrict, uvec4, groupRange)
+BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(restrict, vec4, tangentialSlip)  // per listed pair: displacement of the first (m); w: 1 in touch
+BUFFER(restrict, float, contactX)
+BUFFER(restrict, float, contactY)
+BUFFER(restrict, float, contactZ)
+BUFFER(readonly, uint, counters)
 BUFFER(readonly, ContactParams, contactParams)
 
 PRIVATE(vec3, displacement)
@@ -89,28 +93,32 @@ void visitPair(uint a, uint b) {
     if (HAS(FRICTION)) applySpringFriction(a, b, n, ra, rb, distanceOf(normal) / reach, spring, contactOf(a, b));
 }
 
+#include "shared/bundle_words.h"
+#include "shared/contact_memory.h"
+#include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(groupsOfPhase()) {
-    uint group = groupOfPhase(invocation);
-    uvec4 range = groupRange[group];
-    listed = hasList(range);
-    if (!listed) {
-        visitGroupNumber(group, unlistedRound(range));
+bool beginBundle(uint bundle) {
+    listed = hasList(bundle);
+    if (listed) return listedPairs(bundle) > 0u;
+    if (FIRST_THREAD) visitBundle(bundle, firstPair(bundle));
+    return false;
+}
+
+void visitPairs(uint a, uint b, uint at) {
+    if (!HAS(FRICTION)) {
+        visitPair(a, b);
         return;
     }
-    uint touched = 0u;
-    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
-        uvec2 pair = pairs[k];
-        if (HAS(FRICTION)) displacement = vec3(tangentialSlip[k]);
-        visitPair(pair.x, pair.y);
-        if (touches) touched = touched + 1u;
-        if (HAS(FRICTION)) {
-            if (touches)
-                tangentialSlip[k] = vec4(displacement, 1.0f);
-            else if (hasSlip(tangentialSlip[k]))
-                tangentialSlip[k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-        }
-    }
-    groupRange[group] = withTouching(range, touched);
+    uint memory = presentHalf() + at;
+    displacement = vec3(contactX[memory], contactY[memory], contactZ[memory]);
+    vec3 old = displacement;
+    visitPair(a, b);
+    if (!touches) displacement = vec3(0.0f, 0.0f, 0.0f);
+    if (!touches && old.x == 0.0f && old.y == 0.0f && old.z == 0.0f) return;
+    contactX[memory] = displacement.x;
+    contactY[memory] = displacement.y;
+    contactZ[memory] = displacement.z;
 }
+
+PAIR_KERNEL

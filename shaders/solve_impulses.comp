@@ -1,30 +1,28 @@
 // The model `fast`: one sweep over the listed pairs (Gauss-Seidel). A pair that approaches gets the impulse of
 // restitution and friction at its moment of impact, and flies on from there. An overlap that is left is removed by
 // moving positions alone, so that it never becomes speed. Both conserve momentum, and no impulse adds energy. `phase`
-// is the level and the colour of the groups.
+// is the level and the colour of the bundles.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
 #include "shared/contact.h"
-#include "shared/wake.h"
 #include "shared/friction.h"
 
-BUFFER(restrict, vec4, position)
-BUFFER(restrict, vec4, velocity)
-BUFFER(restrict, vec4, angularVelocity)
+BUFFER(coherent, vec4, position)
+BUFFER(coherent, vec4, velocity)
+BUFFER(coherent, vec4, angularVelocity)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
-BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(readonly, vec4, velocityBefore)
 BUFFER(readonly, ContactParams, contactParams)
 
 #include "shared/contact_params.h"
 #include "shared/friction_pair.h"
-#include "shared/wake_pair.h"
 
 // An impact may be found late, because the sweep visits a pair once, perhaps before other impacts change its course.
 // Courses are followed back for this number of substeps at most: farther back, other impacts have bent them.
@@ -47,16 +45,7 @@ void visitPair(uint a, uint b) {
     vec3 d = vec3(pa) - vec3(pb);
     float squared = dot3(d, d);
     float reach = radiusSum(pa, pb);
-    if (HAS(SLEEP)) {
-        float wakeReach = reach + wakeGap();
-        if (!(squared < wakeReach * wakeReach)) return;
-        wake(a, b, va, vb);
-    }
     if (!(squared < reach * reach)) return;
-    if (HAS(SLEEP)) {
-        va = velocity[a];
-        vb = velocity[b];
-    }
     float ma = effectiveInverseMass(va);
     float mb = effectiveInverseMass(vb);
     if (ma + mb == 0.0f) return;
@@ -108,15 +97,19 @@ void visitPair(uint a, uint b) {
     if (mb > 0.0f) position[b] = withXyz(pb, xb);
 }
 
+#include "shared/bundle_words.h"
+#include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(groupsOfPhase()) {
-    uint group = groupOfPhase(invocation);
-    uvec4 range = groupRange[group];
-    if (HAS(SLEEP) && !isActive(range)) return;
-    if (!hasList(range)) {
-        visitGroupNumber(group, unlistedRound(range));
-        return;
-    }
-    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) visitPair(pairs[k].x, pairs[k].y);
+bool beginBundle(uint bundle) {
+    if (HAS(SLEEP) && !isActive(bundle)) return false;
+    if (hasList(bundle)) return listedPairs(bundle) > 0u;
+    if (FIRST_THREAD) visitBundle(bundle, firstPair(bundle));
+    return false;
 }
+
+void visitPairs(uint a, uint b, uint at) {
+    visitPair(a, b);
+}
+
+PAIR_KERNEL

@@ -1,14 +1,15 @@
-// Adds up the overlaps of the pairs of each group. The host adds up the groups.
+// Adds up the overlaps of the pairs of each bundle. The host adds up the bundles.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, cellStart)
-BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(writeonly, vec4, overlaps)  // contacts, sum and largest of overlap / r, energy in springs (J)
 
@@ -29,18 +30,18 @@ void visitPair(uint a, uint b) {
     largest = max(largest, overlap);
 }
 
+#include "shared/bundle_words.h"
+#include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(params.groups * 8u) {
+KERNEL(params.bundles) {
     contacts = 0.0f;
     sum = 0.0f;
     largest = 0.0f;
-    uvec4 range = groupRange[invocation];
-    if (!hasList(range)) {
-        visitGroupNumber(invocation, unlistedRound(range));
-    } else {
-        for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k)
-            visitPair(pairs[k].x, pairs[k].y);
+    if (!hasList(invocation)) {
+        visitBundle(invocation, firstPair(invocation));
+    } else if (listedPairs(invocation) > 0u) {
+        for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) visitPair(pairs[k].x, pairs[k].y);
     }
     overlaps[invocation] = vec4(contacts, sum, largest, 0.0f);
 }

@@ -1,6 +1,6 @@
-// In an observed step, after the solver: adds up the speeds at which the pairs of each group that met approached and
-// parted. `fast` and `balanced` resolve an impact within one substep. Groups without lists are not observed. Approaches
-// as slow as the weight of a pile causes are not observed either, because `fast` gives them no bounce.
+// In an observed step, after the substep: adds up the speeds at which the pairs of each bundle that met approached and
+// parted. `fast` and `balanced` resolve an impact within one substep. Bundles without lists are not observed.
+// Approaches as slow as the weight of a pile causes are not observed either, because `fast` gives them no bounce.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -12,7 +12,7 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, velocityBeforeSolve)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, impacts)  // until the host takes them: impacts, sums of approach, parting, required parting
@@ -31,8 +31,7 @@ void visitPair(uint a, uint b) {
     float squared = dot3(d, d);
     float reach = radiusSum(pa, pb) * (1.0f + TOUCH_TOLERANCE);
     if (!(squared < reach * reach)) {
-        // `fast` lets spheres fly on after an impact. Follows them back to the point where they parted.
-        if (!HAS(FAST)) return;
+        // Spheres fly on after an impact. Follows them back to the point where they parted.
         vec3 difference = vec3(velocity[a]) - vec3(velocity[b]);
         float along = dot3(d, difference);
         float root = along * along - dot3(difference, difference) * (squared - reach * reach);
@@ -51,10 +50,11 @@ void visitPair(uint a, uint b) {
     sum = sum + vec4(1.0f, approach, parting, restitutionOf(contactOf(a, b)) * approach);
 }
 
-KERNEL(params.groups * 8u) {
-    uvec4 range = groupRange[invocation];
-    if (!hasList(range) || (HAS(SLEEP) && !isActive(range))) return;
+#include "shared/bundle_words.h"
+
+KERNEL(params.bundles) {
+    if (!hasList(invocation) || listedPairs(invocation) == 0u || (HAS(SLEEP) && !isActive(invocation))) return;
     sum = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) visitPair(pairs[k].x, pairs[k].y);
+    for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) visitPair(pairs[k].x, pairs[k].y);
     if (sum.x > 0.0f) impacts[invocation] = impacts[invocation] + sum;
 }

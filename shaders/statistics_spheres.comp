@@ -34,7 +34,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     if (HAS(FRICTION)) {
         uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
         for (uint k = first; k < first + params.maxWallHistory; ++k)
-            if (isSlipAt(wallSlip[k], surface)) displacement = vec3(wallSlip[k]);
+            if (isAtSurface(wallSlip[k], surface)) displacement = vec3(wallSlip[k]);
     }
     float radius = radiusOf(position[wallSphere]);
     float speed = dot3(vec3(velocity[wallSphere]), normal);

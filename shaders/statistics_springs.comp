@@ -1,5 +1,5 @@
-// Adds up the energies of the springs between the spheres of each group, in the model `accurate`. It runs after
-// statistics_contacts.comp and completes its rows. Groups without lists are left out.
+// Adds up the energies of the springs between the spheres of each bundle, in the model `accurate`. It runs after
+// statistics_contacts.comp and completes its rows. Bundles without lists are left out.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -11,9 +11,12 @@ BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, uint, idAndMaterial)
-BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(readonly, vec4, tangentialSlip)
+BUFFER(readonly, float, contactX)
+BUFFER(readonly, float, contactY)
+BUFFER(readonly, float, contactZ)
+BUFFER(readonly, uint, counters)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, overlaps)
 
@@ -38,15 +41,17 @@ float energyOf(uint a, uint b) {
                         displacement);
 }
 
-KERNEL(params.groups * 8u) {
-    uvec4 range = groupRange[invocation];
-    if (!hasList(range)) return;
+#include "shared/bundle_words.h"
+#include "shared/contact_memory.h"
+
+KERNEL(params.bundles) {
+    if (!hasList(invocation) || listedPairs(invocation) == 0u) return;
     float energy = 0.0f;
     displacement = vec3(0.0f, 0.0f, 0.0f);
-    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) {
-        uvec2 pair = pairs[k];
-        if (HAS(FRICTION)) displacement = vec3(tangentialSlip[k]);
-        energy += energyOf(pair.x, pair.y);
+    for (uint k = firstPair(invocation); k < endOfPairs(invocation); ++k) {
+        uint at = presentHalf() + k;
+        if (HAS(FRICTION)) displacement = vec3(contactX[at], contactY[at], contactZ[at]);
+        energy += energyOf(pairs[k].x, pairs[k].y);
     }
     vec4 row = overlaps[invocation];
     overlaps[invocation] = vec4(row.x, row.y, row.z, energy);

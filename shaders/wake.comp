@@ -1,47 +1,54 @@
-// Before the lists are rebuilt: flags the sleepers with a neighbour that leaves so fast that it is out of reach after
-// this one substep. The new lists do not hold such a pair, but the old ones do. The kernel runs over all groups at
-// once, so it only raises flags. wake_flagged.comp wakes the spheres.
+// Wakes the sleepers with a neighbour that comes or leaves. Runs before the contacts are solved, and also before the
+// lists are rebuilt: the new lists do not hold a neighbour that has left within one substep. `phase` is the level and
+// the colour of the bundles.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/grid.h"
+#include "shared/bundles.h"
 #include "shared/wake.h"
 
 BUFFER(readonly, vec4, position)
-BUFFER(readonly, vec4, velocity)
-BUFFER(readonly, vec4, velocityBefore)
+BUFFER(restrict, vec4, velocity)
+BUFFER(readonly, vec4, restReference)
+BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
-BUFFER(readonly, uvec4, groupRange)
+BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(coherent, uint, wakeFlags)
+BUFFER(readonly, uint, counters)
 
-// Flags the sleeper if the mover was within its wake gap when the substep began.
-void flagIfLeft(uint sleeper, uint mover) {
-    vec4 u = velocityBefore[mover];
-    if (!canWake(u)) return;
+#include "shared/bundle_words.h"
+
+// Wakes the sleeper if the mover is, or was or will be within a substep, within its wake gap.
+void wakeBy(uint sleeper, uint mover) {
+    vec4 v = velocity[mover];
+    if (!canWake(v, restReference[idOf(idAndMaterial[mover])])) return;
     vec4 pa = position[sleeper];
     vec4 pb = position[mover];
-    vec3 d = vec3(pb) - vec3(u) * params.substep - vec3(pa);
-    float wakeReach = radiusSum(pa, pb) + wakeGap();
-    if (dot3(d, d) < wakeReach * wakeReach) atomicOr(wakeFlags[sleeper], 1u);
+    vec3 d = vec3(pa) - vec3(pb);
+    float reach = radiusSum(pa, pb) + wakeGap() + sqrt(dot3(vec3(v), vec3(v))) * params.substep;
+    if (dot3(d, d) < reach * reach) velocity[sleeper] = sleepToggled(velocity[sleeper]);
 }
 
 void visitPair(uint a, uint b) {
     bool aSleeps = isAsleep(velocity[a]);
     bool bSleeps = isAsleep(velocity[b]);
     if (aSleeps == bSleeps) return;
-    flagIfLeft(aSleeps ? a : b, aSleeps ? b : a);
+    wakeBy(aSleeps ? a : b, aSleeps ? b : a);
 }
 
+#include "shared/visit_range.h"
 #include "shared/group.h"
 
-KERNEL(params.groups * 8u) {
-    uvec4 range = groupRange[invocation];
-    if (!hasList(range)) {
-        visitGroupNumber(invocation, unlistedRound(range));
+KERNEL(bundlesOfPhase()) {
+    uint bundle = bundleOfPhase(invocation);
+    if (counters[COUNTER_RESTING] == 0u || !isActive(bundle)) return;
+    if (!hasList(bundle)) {
+        visitBundle(bundle, firstPair(bundle));
         return;
     }
-    for (uint k = firstPair(range); k < firstPair(range) + listedPairs(range); ++k) visitPair(pairs[k].x, pairs[k].y);
+    if (listedPairs(bundle) == 0u) return;
+    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) visitPair(pairs[k].x, pairs[k].y);
 }

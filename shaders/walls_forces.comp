@@ -44,7 +44,7 @@ uint slipEntry(uint surface) {
     uint freeEntry = NO_ENTRY;
     for (uint k = 0u; k < params.maxWallHistory; ++k) {
         vec4 stored = wallSlip[first + k];
-        if (isSlipAt(stored, surface)) return first + k;
+        if (isAtSurface(stored, surface)) return first + k;
         if (!hasSlip(stored) && freeEntry == NO_ENTRY) freeEntry = first + k;
     }
     return freeEntry;

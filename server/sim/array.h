@@ -22,11 +22,16 @@ constexpr std::size_t arrayCount = static_cast<std::size_t>(Array::Count);
 // An array has one element for each of these. "End": one element more.
 enum class Extent : std::uint8_t {
     Sphere,
-    SphereEnd,
+    PaddedSphere,    // with PAIR_PADDING more at the end
     RememberedWall,  // each wall contact that a sphere remembers
     CellEnd,
-    Group,  // of 2 x 2 x 2 cells
-    Pair,   // each listed pair; the array grows and keeps its content when the lists need room
+    Group,           // of 2 x 2 x 2 cells
+    Block,           // of 4 x 4 x 4 cells
+    Bundle,          // of blocks
+    BundleWord,      // BUNDLE_WORDS for each bundle and once more
+    Pair,            // each listed pair; the array grows and keeps its content when the lists need room
+    PairTwice,       // two halves with an element for each listed pair; grows in the same way
+    CarriedContact,  // CARRIED_MOST for each sphere
     ScanBlock,
     ScanSuperBlock,
     LaunchRow,

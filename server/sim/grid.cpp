@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/layout.h"
+
 namespace spherule::sim {
 
 namespace {
@@ -16,8 +18,8 @@ constexpr double thresholdInFull = 4;
 constexpr double smallestThreshold = 64;
 
 std::uint32_t cellsAlong(double extent, double cellSize) {
-    const double needed = std::ceil(extent / cellSize / 4) * 4;
-    return static_cast<std::uint32_t>(std::clamp(needed, 4.0, static_cast<double>(mostPerAxis)));
+    const double needed = std::ceil(extent / cellSize / 8) * 8;
+    return static_cast<std::uint32_t>(std::clamp(needed, 8.0, static_cast<double>(mostPerAxis)));
 }
 
 Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint64_t budget) {
@@ -32,7 +34,7 @@ Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint
         int longest = 0;
         for (int axis = 1; axis < 3; ++axis)
             if (level.cells[axis] > level.cells[longest]) longest = axis;
-        level.cells[longest] = level.cells[longest] / 8 * 4;
+        level.cells[longest] = level.cells[longest] / 16 * 8;
     }
     return level;
 }
@@ -46,7 +48,12 @@ double fullCell(const SizeClass& one, double cellSize) {
 
 }  // namespace
 
-Grid gridFor(glm::dvec3 extent, const RadiusStats& radii) {
+std::uint32_t Level::bundlesOfColour() const {
+    const std::uint32_t blocks = all() / 64 / 8;
+    return (blocks + BLOCKS_PER_BUNDLE - 1) / BLOCKS_PER_BUNDLE;
+}
+
+Grid gridFor(glm::dvec3 extent, const RadiusStats& radii, double marginInRadii) {
     Grid grid;
     const double margin = marginInRadii * (radii.classes.size() > 1 ? radii.listing : radii.mean);
     grid.margin = static_cast<float>(margin);
@@ -55,7 +62,10 @@ Grid gridFor(glm::dvec3 extent, const RadiusStats& radii) {
         const std::uint64_t budget = std::max(fewestCells / radii.classes.size(), cellsPerSphere * one.spheres);
         Level level = levelFor(extent, one.largest, margin, budget);
         level.spheres = one.spheres;
-        if (!grid.levels.empty()) level.first = grid.all();
+        if (!grid.levels.empty()) {
+            level.first = grid.all();
+            level.firstBundle = grid.bundles();
+        }
         const double sampleThreshold = std::ceil(thresholdInFull * fullCell(one, static_cast<double>(level.cellSize)));
         level.sampleThreshold = static_cast<float>(std::clamp(sampleThreshold, smallestThreshold, 1e6));
         grid.levels.push_back(level);

@@ -13,12 +13,15 @@ namespace spherule::sim {
 struct Level {
     float cellSize = 0;       // m
     float largest = 0;        // radius, m
-    glm::uvec3 cells{0};      // per axis, multiples of 4
+    glm::uvec3 cells{0};      // per axis, multiples of 8
     std::uint32_t first = 0;  // index of its first cell among the cells of all levels
+    std::uint32_t firstBundle = 0;
     std::uint32_t spheres = 0;
     float sampleThreshold = 0;  // a cell with more spheres than this has spheres that overlap deeply
 
     [[nodiscard]] std::uint32_t all() const { return cells.x * cells.y * cells.z; }
+    // Returns the number of bundles of each of the eight colours: see shaders/shared/bundles.h.
+    [[nodiscard]] std::uint32_t bundlesOfColour() const;
 };
 
 // The broad phase's cells.
@@ -27,11 +30,15 @@ struct Grid {
     std::vector<Level> levels = std::vector<Level>(1);  // from the finest to the coarsest; one if radii are similar
 
     [[nodiscard]] std::uint32_t all() const { return levels.back().first + levels.back().all(); }
+    [[nodiscard]] std::uint32_t bundles() const {
+        return levels.back().firstBundle + 8 * levels.back().bundlesOfColour();
+    }
     [[nodiscard]] const Level& coarsest() const { return levels.back(); }
 };
 
 // Returns cells as wide as the largest sphere plus the margin. They cover the domain, but there are at most about two
 // per sphere. In larger domains distant places share cells, which costs more tests and finds the same contacts.
-Grid gridFor(glm::dvec3 extent, const RadiusStats& radii);
+// `marginInRadii`: the gap up to which pairs are listed.
+Grid gridFor(glm::dvec3 extent, const RadiusStats& radii, double marginInRadii);
 
 }  // namespace spherule::sim

@@ -48,6 +48,7 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.materials = static_cast<std::uint32_t>(scene.materials.size());
     p.material = scene.spheres.empty() ? 0U : scene.spheres.front().material;
     p.wallMaterial = scene.bounds.material;
+    p.maxWallHistory = plan.maxWallHistory;
     const layout::ContactParams sphereContact = contactParamsFor(
         scene, static_cast<std::uint8_t>(p.material), static_cast<std::uint8_t>(p.material), springModulusOf(scene));
     p.contact = sphereContact.contact;

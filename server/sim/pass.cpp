@@ -6,9 +6,8 @@ namespace spherule::sim {
 
 std::string_view nameOf(Pass pass) {
     static constexpr std::array<std::string_view, passCount> names = {
-        "integrate", "grid",           "lists",      "slip-memory",     "impulses", "wall-impulses",
-        "positions", "wall-positions", "velocities", "wall-velocities", "friction", "wall-friction",
-        "forces",    "wall-forces",    "sleep",      "statistics",      "pack",
+        "integrate", "grid",   "lists",  "contact-memory", "impulses", "wall-impulses", "begin",
+        "contacts",  "finish", "forces", "wall-forces",    "sleep",    "statistics",    "pack",
     };
     return names.at(static_cast<std::size_t>(pass));
 }

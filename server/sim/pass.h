@@ -11,15 +11,12 @@ enum class Pass : std::uint8_t {
     Integrate,
     Grid,
     Lists,
-    SlipMemory,  // of `accurate`
-    Impulses,    // of `fast`
+    ContactMemory,
+    Impulses,  // of `fast`
     WallImpulses,
-    Positions,  // of `balanced`
-    WallPositions,
-    Velocities,
-    WallVelocities,
-    Friction,
-    WallFriction,
+    Begin,  // of `balanced`
+    Contacts,
+    Finish,
     Forces,  // of `accurate`
     WallForces,
     Sleep,
@@ -27,7 +24,7 @@ enum class Pass : std::uint8_t {
     Pack,
 };
 
-constexpr unsigned passCount = 17;
+constexpr unsigned passCount = 14;
 
 std::string_view nameOf(Pass pass);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ Error withTotalMemory(Error error, const Plan& plan) {
 }
 
 bool growsWithPairs(Array array) {
-    return typeOf(array).extent == Extent::Pair;
+    return typeOf(array).extent == Extent::Pair || typeOf(array).extent == Extent::PairTwice;
 }
 
 }  // namespace
@@ -82,7 +83,7 @@ Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Ke
 }
 
 Pipeline::Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {
-    for (const auto* launches : {&plan_.substep, &plan_.statistics})
+    for (const auto* launches : {&plan_.substep, &plan_.newSubstep, &plan_.statistics})
         for (const LaunchSpec& launch : *launches)
             if (std::ranges::find(kernelFiles_, launch.kernel) == kernelFiles_.end())
                 kernelFiles_.push_back(launch.kernel);
@@ -150,7 +151,8 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
 }
 
 Result<void> Pipeline::bindAll() {
-    for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_), {&plan_.statistics, &statistics_}})
+    for (const auto& [launches, bound] :
+         {std::pair(&plan_.substep, &substep_), {&plan_.newSubstep, &newSubstep_}, {&plan_.statistics, &statistics_}})
         for (const LaunchSpec& spec : *launches) {
             const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
             const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
@@ -161,8 +163,11 @@ Result<void> Pipeline::bindAll() {
     return {};
 }
 
-void Pipeline::setParameters(const layout::Parameters& parameters) {
+void Pipeline::setParameters(layout::Parameters parameters) {
+    const float before = std::exchange(substepLength_, parameters.substep);
+    parameters.substepRatio = before > 0 ? parameters.substep / before : 1;
     device_.upload(*parameters_, 0, std::as_bytes(std::span(&parameters, 1)));
+    if (parameters.substepRatio != 1) run(newSubstep_, LaunchSet::Substep);
 }
 
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
@@ -218,8 +223,9 @@ void Pipeline::applyImpulse(std::uint32_t id, glm::vec3 impulse) {
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
     if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must also wake the sleepers that the sphere touches.
-    constexpr glm::vec4 movedAway(0, 0, 0, MOVED_AWAY);
-    write<glm::vec4>(Array::VelocityBefore, std::span<const glm::vec4>(&movedAway, 1), slot);
+    constexpr float movedAway = MOVED_AWAY;
+    device_.upload(buffer(Array::RestReference), id * sizeof(glm::vec4) + 3 * sizeof movedAway,
+                   std::as_bytes(std::span(&movedAway, 1)));
 }
 
 void Pipeline::wakeAll() {
@@ -230,13 +236,14 @@ void Pipeline::wakeAll() {
 }
 
 // Copies in parts: a copy of the whole would need as much host memory again.
-void Pipeline::copy(compute::Buffer& from, compute::Buffer& to) {
+void Pipeline::copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to,
+                    std::size_t toBegin) {
     constexpr std::size_t most = 16U << 20U;
     std::vector<std::byte> part;
-    for (std::size_t first = 0; first < from.bytes(); first += part.size()) {
-        part.resize(std::min(most, from.bytes() - first));
-        device_.download(from, first, part);
-        device_.upload(to, first, part);
+    for (std::size_t done = 0; done < bytes; done += part.size()) {
+        part.resize(std::min(most, bytes - done));
+        device_.download(from, begin + done, part);
+        device_.upload(to, toBegin + done, part);
     }
 }
 
@@ -253,7 +260,10 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
         auto made = device_.createBuffer(nameOf(spec.array), grownBytes(spec), typeOf(spec.array).words);
         if (!made) return tl::unexpected(made.error());
         // The rebuild reads the old lists once more.
-        copy(buffer(spec.array), **made);
+        const std::size_t halves = typeOf(spec.array).extent == Extent::PairTwice ? 2 : 1;
+        const std::size_t half = spec.bytes / halves;
+        for (std::size_t k = 0; k < halves; ++k)
+            copy(buffer(spec.array), k * half, half, **made, k * (*made)->bytes() / halves);
         grown.push_back(std::move(*made));
     }
     auto next = grown.begin();
@@ -263,6 +273,8 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
         setBuffer(spec.array, std::move(*next++));
     }
     plan_.pairCapacity = capacity;
+    for (LaunchSpec& launch : plan_.newSubstep)
+        if (launch.forEachPair) launch.count = 2 * capacity;
     const std::uint32_t rebuild = 1;
     write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
     listsPending_ = true;
@@ -298,7 +310,7 @@ void Pipeline::runStatistics() {
 
 void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
     const auto skipped = [set](const LaunchSpec& spec) {
-        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::SlipMemory;
+        const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::ContactMemory;
         return set == LaunchSet::Rebuild ? !rebuild : spec.observing && set != LaunchSet::ObservedSubstep;
     };
     std::optional<Pass> timed;

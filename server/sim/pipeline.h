@@ -38,14 +38,15 @@ class Pipeline {
     Result<bool> makeNext();
     [[nodiscard]] double shareMade() const;  // of arrays and kernels, 0 to 1
 
-    void setParameters(const layout::Parameters& parameters);
+    // Scales what contacts hold if the length of the substep has changed.
+    void setParameters(layout::Parameters parameters);
     // Uploads the spheres. `state` and `materials` are in id order. The lists are rebuilt in the next substep.
     void upload(const State& state, std::span<const std::uint8_t> materials);
     [[nodiscard]] SlotState download();  // waits for the device
     void download(SlotState& slots);     // the same, reusing the memory of `slots`
 
     void substep(bool observed = false);
-    // Returns the impacts in the observed steps since the last call: one sum per cell group, as statistics_impacts.comp
+    // Returns the impacts in the observed steps since the last call: one sum per bundle, as statistics_impacts.comp
     // adds them up. Empty if no step was observed. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
     void runStatistics();  // of the current state; builds its lists first if they are out of date
@@ -86,7 +87,7 @@ class Pipeline {
     Result<void> makeArray(const ArraySpec& spec);
     Result<void> makeKernel(std::string_view file);
     void writeDispatchSizes();
-    void copy(compute::Buffer& from, compute::Buffer& to);
+    void copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to, std::size_t toBegin);
     std::uint32_t slotOf(std::uint32_t id);
     void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
     // A launch of the plan, its kernel, and the arrays to bind by slot.
@@ -111,7 +112,8 @@ class Pipeline {
     std::unique_ptr<compute::Buffer> absent_;
     std::unique_ptr<compute::Buffer> parameters_;
     std::vector<std::unique_ptr<compute::Kernel>> kernels_;
-    std::vector<BoundLaunch> substep_, statistics_;
+    std::vector<BoundLaunch> substep_, newSubstep_, statistics_;
+    float substepLength_ = 0;  // s; 0: none yet
 };
 
 }  // namespace spherule::sim

@@ -14,23 +14,39 @@ constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 5 
 constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t wallHistoryLimit = 8;
 
+// The gap up to which pairs are listed, in radii. A wider gap lists more pairs, a narrower gap causes more rebuilds.
+// `balanced` tests a pair at little cost.
+double marginInRadii(const Features& features) {
+    return features.has(Feature::Balanced) ? 0.6 : 0.3;
+}
+
 std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& scene) {
     const std::uint64_t n = plan.spheres;
     const std::uint32_t cells = plan.grid.all();
-    const std::uint32_t scanned = std::max(cells, plan.features.has(Feature::SlipMemory) ? plan.spheres : 0) + 1;
+    const std::uint32_t scanned = cells + 1;
     switch (extent) {
         case Extent::Sphere:
             return n;
-        case Extent::SphereEnd:
-            return n + 1;
+        case Extent::PaddedSphere:
+            return n + PAIR_PADDING;
         case Extent::RememberedWall:
             return n * plan.maxWallHistory;
         case Extent::CellEnd:
             return std::uint64_t{cells} + 1;
         case Extent::Group:
             return plan.groups();
+        case Extent::Block:
+            return cells / 64;
+        case Extent::Bundle:
+            return plan.grid.bundles();
+        case Extent::BundleWord:
+            return (std::uint64_t{plan.grid.bundles()} + 1) * BUNDLE_WORDS;
         case Extent::Pair:
             return plan.pairCapacity;
+        case Extent::PairTwice:
+            return 2 * std::uint64_t{plan.pairCapacity};
+        case Extent::CarriedContact:
+            return n * CARRIED_MOST;
         case Extent::ScanBlock:
             return blocksOf(scanned, SCAN_BLOCK);
         case Extent::ScanSuperBlock:
@@ -53,8 +69,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
 std::vector<std::uint32_t> launchTable(const Plan& plan) {
     const std::uint32_t cells = plan.grid.all() + 1;
     const std::uint32_t cellBlocks = blocksOf(cells, SCAN_BLOCK);
-    const std::uint32_t owners = plan.spheres + 1;
-    const std::uint32_t ownerBlocks = blocksOf(owners, SCAN_BLOCK);
+    std::uint32_t colour = 0;
+    for (const Level& level : plan.grid.levels) colour = std::max(colour, level.bundlesOfColour());
     std::vector<std::uint32_t> rows(LAUNCH_ROWS);
     rows[LAUNCH_SPHERES] = plan.spheres;
     rows[LAUNCH_CELLS] = cells;
@@ -63,9 +79,11 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
     rows[LAUNCH_ONE] = 1;
     rows[LAUNCH_GROUPS] = plan.groups();
     rows[LAUNCH_OUTSIDE] = MOST_OUTSIDE;
-    rows[LAUNCH_OWNERS] = owners;
-    rows[LAUNCH_OWNER_BLOCKS] = ownerBlocks;
-    rows[LAUNCH_OWNER_SUPERBLOCKS] = blocksOf(ownerBlocks, SCAN_BLOCK);
+    rows[LAUNCH_BUNDLES] = plan.grid.bundles();
+    rows[LAUNCH_COLOUR] = colour;
+    rows[LAUNCH_LOST_SPHERES] = plan.spheres;
+    rows[LAUNCH_LOST_COLOUR] = colour;
+    rows[LAUNCH_UNLISTED] = colour;
     return rows;
 }
 
@@ -98,17 +116,23 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     plan.model = scene.quality.model;
     plan.spheres = spheres;
     if (features.has(Feature::Contacts)) {
-        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii);
+        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii, marginInRadii(features));
         plan.features.set(Feature::Levels, plan.grid.levels.size() > 1);
-        plan.pairCapacity = pairCapacity != 0 ? pairCapacity : std::max(fewestPairs, pairsPerSphere * spheres);
+        plan.pairCapacity = pairCapacity != 0
+                                ? pairCapacity
+                                : std::max(fewestPairs, pairsPerSphere * spheres) +
+                                      8 * PAIR_PADDING * static_cast<std::uint32_t>(plan.grid.levels.size());
         plan.dispatchSizes = launchTable(plan);
     }
-    if (features.has(Feature::Accurate) && features.hasSurfaceFeature())
+    if (features.hasSurfaceFeature()) {
+        // `balanced` has one for each axis of the bounds, before the ones for obstacles.
+        const std::uint32_t faces = features.has(Feature::Balanced) ? 3 : 6;
         plan.maxWallHistory =
-            std::min<std::uint32_t>(wallHistoryLimit, 6 + static_cast<std::uint32_t>(scene.obstacles.size()));
+            std::min<std::uint32_t>(wallHistoryLimit, faces + static_cast<std::uint32_t>(scene.obstacles.size()));
+    }
     PlanBuilder builder(plan, scene);
     builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});
-    builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");
+    if (!features.has(Feature::Balanced)) builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");
     builder.statistics("statistics_spheres.comp", blocksOf(spheres, STATISTIC_BLOCK));
     for (const Module* module : modules())
         if (module->declare != nullptr && plan.features.has(module->feature)) module->declare(builder);

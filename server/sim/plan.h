@@ -39,7 +39,8 @@ struct LaunchSpec {
     std::optional<std::uint32_t> launchRow =
         std::nullopt;  // row of the launch table, for launches that only a rebuild needs
     std::uint32_t phase = 0;
-    bool observing = false;  // only in observed steps
+    bool observing = false;    // only in observed steps
+    bool forEachPair = false;  // `count` grows with the lists
     std::vector<Alias> aliases = {};
 };
 
@@ -54,6 +55,7 @@ struct Plan {
     std::uint32_t maxWallHistory = 0;          // remembered by each sphere
     std::vector<ArraySpec> arrays;             // in the order of sim/arrays.def
     std::vector<LaunchSpec> substep;           // in order
+    std::vector<LaunchSpec> newSubstep;        // when the length of the substep has changed
     std::vector<LaunchSpec> statistics;        // on demand
     std::vector<std::uint32_t> dispatchSizes;  // invocations per row of the launch table
 
@@ -62,7 +64,7 @@ struct Plan {
     [[nodiscard]] std::uint64_t bytes() const;
     // Returns the size of an array (bytes), whether the plan has it or not: at least one element.
     [[nodiscard]] std::uint64_t bytesFor(Array array, const scene::Scene& scene) const;
-    [[nodiscard]] std::uint32_t groups() const { return grid.all() / 8; }  // cell groups of all colours
+    [[nodiscard]] std::uint32_t groups() const { return grid.all() / 8; }  // of 2 x 2 x 2 cells
 };
 
 // Returns the number of blocks of `block` values that hold `values` values.

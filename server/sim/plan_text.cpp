@@ -3,6 +3,7 @@
 
 #include "scene/quality.h"
 #include "scene/stiffness.h"
+#include "sim/layout.h"
 #include "sim/memory_needs.h"
 #include "sim/plan.h"
 
@@ -15,18 +16,25 @@ struct Row {
     std::string_view kernel;
     std::uint32_t launches = 0;
     std::uint32_t invocations = 0;
-    bool onRebuild = false;
-    bool observing = false;
+    std::string when;
 };
+
+std::string whenOf(const LaunchSpec& launch) {
+    if (launch.observing) return fmt::format("every {}th step", observedEvery);
+    if (launch.pass == Pass::Statistics) return "on demand";
+    if (!launch.launchRow) return "every substep";
+    if (*launch.launchRow == LAUNCH_UNLISTED) return "without lists";
+    return *launch.launchRow >= LAUNCH_LOST_SPHERES ? "if contacts are lost" : "on rebuild";
+}
 
 // Successive launches of one kernel become one row of the plan.
 std::vector<Row> rowsOf(const Plan& plan) {
     std::vector<Row> rows;
-    for (const auto* launches : {&plan.substep, &plan.statistics}) {
+    for (const auto* launches : {&plan.substep, &plan.newSubstep, &plan.statistics}) {
         for (const LaunchSpec& launch : *launches) {
             if (rows.empty() || rows.back().kernel != launch.kernel)
-                rows.push_back(
-                    {launch.pass, launch.kernel, 0, launch.count, launch.launchRow.has_value(), launch.observing});
+                rows.push_back({launch.pass, launch.kernel, 0, launch.count,
+                                launches == &plan.newSubstep ? "new substep length" : whenOf(launch)});
             ++rows.back().launches;
         }
     }
@@ -58,12 +66,6 @@ std::string contactText(const scene::Scene& scene) {
 
 double perSphere(const Plan& plan, std::uint64_t bytes) {
     return plan.spheres == 0 ? 0.0 : static_cast<double>(bytes) / plan.spheres;
-}
-
-std::string whenOf(const Row& row) {
-    if (row.observing) return fmt::format("every {}th step", observedEvery);
-    if (row.pass == Pass::Statistics) return "on demand";
-    return row.onRebuild ? "on rebuild" : "every substep";
 }
 
 std::vector<MemoryPart> memoryOf(const Plan& plan, std::span<const MemoryPart> more) {
@@ -98,7 +100,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan, std::span<cons
     text += fmt::format("\n{:<17}{:<26}{:>9}{:>13}  {}\n", "pass", "kernel", "launches", "invocations", "when");
     for (const Row& row : rowsOf(plan))
         text += fmt::format("{:<17}{:<26}{:>9}{:>13}  {}\n", nameOf(row.pass), row.kernel, row.launches,
-                            row.invocations, whenOf(row));
+                            row.invocations, row.when);
     return text;
 }
 
@@ -141,7 +143,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<cons
                                   {"kernel", row.kernel},
                                   {"launches", row.launches},
                                   {"invocations", row.invocations},
-                                  {"when", whenOf(row)}});
+                                  {"when", row.when}});
     return json.dump();
 }
 

@@ -76,11 +76,11 @@ double costOf(const std::vector<SizeClass>& classes, double volume, double margi
 std::vector<SizeClass> classesOf(const scene::Scene& scene, const RadiusStats& radii, double volume) {
     const std::vector<SizeClass> bins = binsOf(scene, radii);
     std::vector<SizeClass> best = joined(bins, 0);
-    double least = costOf(best, volume, radii.mean * marginInRadii);
+    double least = costOf(best, volume, radii.mean * typicalMarginInRadii);
     for (std::uint32_t cuts = 1; cuts < 1U << (bins.size() - 1); ++cuts) {
         if (std::popcount(cuts) >= static_cast<int>(MOST_LEVELS)) continue;
         std::vector<SizeClass> classes = joined(bins, cuts);
-        const double cost = costOf(classes, volume, radii.listing * marginInRadii);
+        const double cost = costOf(classes, volume, radii.listing * typicalMarginInRadii);
         if (cost < least) {
             least = cost;
             best = std::move(classes);

@@ -14,8 +14,8 @@ struct SizeClass {
     std::uint32_t spheres = 0;
 };
 
-// The gap up to which pairs are listed, in radii. A wider gap lists more pairs, a narrower gap causes more rebuilds.
-constexpr double marginInRadii = 0.3;
+// The gap up to which pairs are listed, in radii, by which size classes are chosen.
+constexpr double typicalMarginInRadii = 0.3;
 
 struct RadiusStats {
     double smallest = 0;  // m

@@ -7,32 +7,32 @@ vec4 withXyz(vec4 row, vec3 xyz) {
 }
 
 // A row of `position`: w is the radius (m). A scene of equal radii has the radius in the parameters too.
-float storedRadius(vec4 sphere) {
+ANY_REAL storedRadius(ANY_REAL4 sphere) {
     return sphere.w;
 }
 
-float radiusOf(vec4 sphere) {
+ANY_REAL radiusOf(ANY_REAL4 sphere) {
     return HAS(RADII) ? sphere.w : params.radius;
 }
 
-float radiusSum(vec4 a, vec4 b) {
+ANY_REAL radiusSum(ANY_REAL4 a, ANY_REAL4 b) {
     return HAS(RADII) ? a.w + b.w : 2.0f * params.radius;
 }
 
-float smallerRadius(vec4 a, vec4 b) {
+ANY_REAL smallerRadius(ANY_REAL4 a, ANY_REAL4 b) {
     return HAS(RADII) ? min(a.w, b.w) : params.radius;
 }
 
 // A row of `velocity`: w is the inverse mass (1/kg), negative while the sphere is asleep.
-bool isAsleep(vec4 v) {
+ANY_MASK isAsleep(ANY_REAL4 v) {
     return v.w < 0.0f;
 }
 
-bool isAwake(vec4 v) {
+ANY_MASK isAwake(ANY_REAL4 v) {
     return v.w > 0.0f;
 }
 
-float inverseMassOf(vec4 v) {
+ANY_REAL inverseMassOf(ANY_REAL4 v) {
     return abs(v.w);
 }
 
@@ -43,7 +43,7 @@ float awakeInverseMass(vec4 v) {
 
 // The inverse mass with which a sphere takes part in a contact. It is 0 for a sleeper, so that its neighbours cannot
 // move it.
-float effectiveInverseMass(vec4 v) {
+ANY_REAL effectiveInverseMass(ANY_REAL4 v) {
     return max(v.w, 0.0f);
 }
 
@@ -52,13 +52,18 @@ vec4 sleepToggled(vec4 v) {
     return vec4(vec3(v), -v.w);
 }
 
-// A row of `velocityBefore`: w is the quiet time, for which the sphere has stayed in one place (s), or MOVED_AWAY.
-float quietTimeOf(vec4 before) {
-    return before.w;
+// A row of `restReference`: w is the quiet time, for which the sphere has been slow (s). It is negative, and less by 1,
+// in the substep after the sphere has moved away so far from the reference that it may no longer carry a sleeper.
+float quietTimeOf(vec4 rest) {
+    return rest.w < 0.0f ? -1.0f - rest.w : rest.w;
 }
 
-bool hasMovedAway(vec4 before) {
-    return before.w == MOVED_AWAY;
+bool hasMovedAway(vec4 rest) {
+    return rest.w < 0.0f;
+}
+
+vec4 movedAway(vec3 to, float quietTime) {
+    return vec4(to, -1.0f - quietTime);
 }
 
 // A row of `angularVelocity`: w is 1 while the sphere remembers the slip at a wall, in the model `accurate`.
@@ -66,64 +71,52 @@ bool remembersWall(vec4 spin) {
     return spin.w != 0.0f;
 }
 
-// A row of `tangentialSlip` or `wallSlip`: w is 0 if the row is empty.
+// A row of `wallSlip`, or of `wallImpulse`: w is the number of the surface plus 1. It is 0 if the row is empty.
 bool hasSlip(vec4 slip) {
     return slip.w != 0.0f;
 }
 
-// A row of `wallSlip`: w is the number of the surface plus 1.
-bool isSlipAt(vec4 slip, uint surface) {
-    return slip.w == float(surface + 1u);
+ANY_MASK isAtSurface(ANY_REAL4 row, uint surface) {
+    return row.w == float(surface + 1u);
 }
 
-// A row of `carriedSlip`: w is the id of the partner.
-float partnerOf(vec4 slip) {
-    return slip.w;
+// A row of `heldVelocity`: w is the number of pairs in which the sphere holds an impulse. If it also holds one at a
+// wall, w is that number plus 1, negative.
+ANY_MASK holdsAtWall(ANY_REAL4 held) {
+    return held.w < 0.0f;
 }
 
-// A row of `groupRange`. A group without a list has the round of its samples in place of the first pair.
-uint firstPair(uvec4 range) {
+ANY_REAL heldPairs(ANY_REAL4 held) {
+    return select(held.w < 0.0f, -held.w - 1.0f, held.w);
+}
+
+ANY_REAL withHeldPairs(ANY_REAL4 held, ANY_REAL number) {
+    return select(held.w < 0.0f, -1.0f - number, number);
+}
+
+// A row of `groupRange`: the candidates of a group of 2 x 2 x 2 cells.
+uint firstCandidate(uvec2 range) {
     return range.x;
 }
 
-uint unlistedRound(uvec4 range) {
-    return range.x;
-}
-
-uint listedPairs(uvec4 range) {
+uint candidatesOf(uvec2 range) {
     return range.y;
 }
 
-bool hasList(uvec4 range) {
-    return range.y != UNLISTED;
-}
-
-uint touchingPairs(uvec4 range) {
-    return range.z;
-}
-
-bool isActive(uvec4 range) {
-    return range.w != 0u;
-}
-
-uvec4 withTouching(uvec4 range, uint count) {
-    return uvec4(range.x, range.y, count, range.w);
-}
-
 // ContactParams.contact
-float restitutionOf(vec4 contact) {
+ANY_REAL restitutionOf(ANY_REAL4 contact) {
     return contact.x;
 }
 
-float frictionOf(vec4 contact) {
+ANY_REAL frictionOf(ANY_REAL4 contact) {
     return contact.y;
 }
 
-float rollingResistanceOf(vec4 contact) {
+ANY_REAL rollingResistanceOf(ANY_REAL4 contact) {
     return contact.z;
 }
 
-float spinningResistanceOf(vec4 contact) {
+ANY_REAL spinningResistanceOf(ANY_REAL4 contact) {
     return contact.w;
 }
 
@@ -155,10 +148,10 @@ float largestRadius(uint level) {
 }
 
 // A row of `idAndMaterial`: the id of the sphere in the low 24 bits, its material above them.
-uint idOf(uint word) {
+ANY_UINT idOf(ANY_UINT word) {
     return word & 0xffffffu;
 }
 
-uint materialOf(uint word) {
+ANY_UINT materialOf(ANY_UINT word) {
     return word >> 24u;
 }

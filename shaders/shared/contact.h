@@ -4,25 +4,27 @@
 // touching.
 #define TOUCH_TOLERANCE 1.0e-4f
 
-// A direction for coincident centres. It follows from the ids, so that it is the same in every run.
-vec3 directionFromIds(uint a, uint b) {
-    uint hash = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
-    hash ^= hash >> 15u;
-    hash *= 0x2c1b3c6du;
-    hash ^= hash >> 12u;
-    float x = float(hash & 0x3ffu) - 511.5f;
-    float y = float((hash >> 10u) & 0x3ffu) - 511.5f;
-    float z = float((hash >> 20u) & 0x3ffu) - 511.5f;
-    return vec3(x, y, z) * (1.0f / sqrt(x * x + y * y + z * z));
+// A direction for coincident centres. It follows from the slots, so that it is the same in every run.
+real3 directionFromSlots(uints a, uints b) {
+    uints hash = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
+    hash = hash ^ (hash >> 15u);
+    hash = hash * 0x2c1b3c6du;
+    hash = hash ^ (hash >> 12u);
+    real x = real(hash & 0x3ffu) - 511.5f;
+    real y = real((hash >> 10u) & 0x3ffu) - 511.5f;
+    real z = real((hash >> 20u) & 0x3ffu) - 511.5f;
+    return real3(x, y, z) * (1.0f / sqrt(x * x + y * y + z * z));
 }
 
 // The unit normal from b to a; w: the distance of the centres (m).
-vec4 normalAndDistance(vec3 difference, float squared, uint a, uint b) {
-    float distance = sqrt(squared);
-    if (distance < 1.0e-12f) return vec4(directionFromIds(a, b), 0.0f);
-    return vec4(difference * (1.0f / distance), distance);
+real4 normalAndDistance(real3 difference, real squared, uints a, uints b) {
+    real distance = sqrt(squared);
+    mask coincident = distance < 1.0e-12f;
+    real3 n = difference * (1.0f / max(distance, real(1.0e-12f)));
+    if (!anyLane(coincident)) return real4(n, distance);
+    return real4(select(coincident, directionFromSlots(a, b), n), select(coincident, real(0.0f), distance));
 }
 
-float distanceOf(vec4 normalAndDistance) {
+real distanceOf(real4 normalAndDistance) {
     return normalAndDistance.w;
 }

@@ -12,15 +12,15 @@ struct FrictionImpulse {
 
 // The moment about n that slows a spin of `about` (rad/s) about n, at most `most` (N s m). `c`: change of the spin per
 // moment.
-vec3 spinningMoment(vec3 n, float about, float c, float most) {
-    float moment = min(abs(about) / c, most);
-    return n * (about < 0.0f ? moment : -moment);
+ANY_REAL3 spinningMoment(ANY_REAL3 n, ANY_REAL about, ANY_REAL c, ANY_REAL most) {
+    ANY_REAL moment = min(abs(about) / c, most);
+    return n * select(about < 0.0f, moment, -moment);
 }
 
 // The moment that slows rolling at `roll` (rad/s, in the plane of the contact), at most `most` (N s m).
-vec3 rollingMoment(vec3 roll, float c, float most) {
-    float speed = sqrt(dot3(roll, roll));
-    return roll * (speed > 0.0f ? -min(speed / c, most) / speed : 0.0f);
+ANY_REAL3 rollingMoment(ANY_REAL3 roll, ANY_REAL c, ANY_REAL most) {
+    ANY_REAL speed = sqrt(dot3(roll, roll));
+    return roll * (-min(speed / c, most) / max(speed, 1.0e-30f));
 }
 
 // Finds the impulse and the moment that stop slip and roll together, where roll = (wa - wb) x n. Their limits are

@@ -1,10 +1,11 @@
 // The pairs of a group of 2 x 2 x 2 cells. Its cells are paired with themselves and with their 13 forward neighbours,
-// and its spheres with the spheres of finer levels. The includer defines `void visitPair(uint a, uint b)` before, and
-// binds `cellStart` and `position`.
+// and its spheres with the spheres of finer levels. The includer defines before
+// `void visitRange(uint a, uint b, uint end)`, which visits the pairs of a with the spheres b .. end - 1, and binds
+// `cellStart` and `position`.
 //
 // A smaller sphere within reach of a larger one lies at most one cell from the larger one's cell, on the larger one's
-// level. Two groups of one colour and level, whose cells are two or more apart, therefore never touch the same sphere.
-// (Without lists, both may visit the same sphere; it is far away from one of them.)
+// level. Two blocks of one colour and level, whose cells are more than two apart, therefore never touch the same
+// sphere. (Without lists, both may visit the same sphere; it is far away from one of them.)
 
 #include "shared/cell_runs.h"
 
@@ -19,7 +20,7 @@ PRIVATE(bool, sampled)  // some cells held so many spheres that not all of their
 PRIVATE(Reach, reached)
 PRIVATE(CellRun, chord)
 
-// Has only one call of visitPair: GLSL compilers copy the function to each call, which takes seconds.
+// Has only one call of visitRange: GLSL compilers copy the function to each call, which takes seconds.
 void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
     uvec4 cells = cellsOf(level);
     uint cell = cellIndex(cells, x, y, z);
@@ -80,7 +81,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
                         stop = min(b + sampleSize, stop);
                         sampled = true;
                     }
-                    for (; b < stop; ++b) visitPair(a, b);
+                    visitRange(a, b, stop);
                 }
             }
         }
@@ -101,4 +102,14 @@ void visitGroupNumber(uint group, uint sampleRound) {
     sampled = false;
     for (uint k = 0u; k < 8u; ++k)
         visitCell(level, 2u * x + (k & 1u), 2u * y + ((k >> 1u) & 1u), 2u * z + (k >> 2u), sampleRound);
+}
+
+// Visits all pairs of a bundle. The includer includes shared/bundles.h before.
+void visitBundle(uint bundle, uint sampleRound) {
+    uint level = levelOfBundle(bundle);
+    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
+        BlockPlace block = blockOfBundle(bundle, level, part);
+        for (uint k = 0u; k < 8u && block.exists; ++k)
+            visitGroupNumber(groupOfBlock(cellsOf(level), block, k), sampleRound);
+    }
 }

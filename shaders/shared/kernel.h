@@ -7,6 +7,32 @@
 //   HAS(FEATURE)                Is true if the scene requires the feature: a constant in GLSL, a value in C++.
 //   PREFETCH(element)           Announces that an element of a buffer is read soon. It has an effect on CPUs only.
 //   PRIVATE(type, name)         Declares a variable of the invocation that functions share.
+//
+// A kernel that begins with one of these macros does the same work for several lanes at once. GLSL has one lane per
+// invocation; C++ has 1, 4, 8 or 16. Results do not depend on the number of lanes.
+//
+//   LANE_KERNEL(count) { ... }  Defines the body; `invocation` is a uintRow that runs over 0 .. count - 1.
+//   LANE_LOOP_KERNEL(count) { ... }  Defines the body for one invocation, which uses lanes for its own loops.
+//   LANES                       The number of lanes.
+//   ROWS_UP_TO(first, end)      The uintRow from `first` on. Lanes with numbers from `end` on do not exist.
+//   IN_ROWS(at)                 The mask of the lanes that exist.
+//   LANE_PAIR_KERNEL            Visits the listed pairs of the bundles of the launch's colour, batch after batch
+//   PAIR_KERNEL                 (shared/bundles.h). The same with one lane in C++ too. The includer defines
+//                               `bool beginBundle(uint bundle)`, which returns false to skip the bundle, and
+//                               `void visitPairs(uints a, uints b, uintRow at)`, where `at` is the number of the pair.
+//
+//   real, real3, real4, mask    Values per lane: float, vec3, vec4 and bool in GLSL.
+//   uints                       A number per lane, such as the slot of a sphere.
+//   uintRow                     Consecutive numbers, one per lane.
+//   ANY_REAL, ANY_REAL3, ANY_REAL4, ANY_MASK, ANY_UINT  Types in functions for values per lane and for single values.
+//   ROW(array, at)              The elements of a buffer at `at`, a uints or a uintRow.
+//   SET_ROW(where, array, at, to, old)  Sets the elements of the lanes in `where`. `old`: their present values.
+//   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Lanes that do not exist must keep theirs.
+//   MEMBER(array, at, member)   A vec4 member of the structs of a buffer.
+//   RARE                        Before a function: keeps it out of the code around its calls.
+//   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.
+//   EACH_LANE_WITH(where, flag, function, at)  The same for a uintRow, in order, with the bool of a second mask.
+//   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 #ifndef __cplusplus
 
 #ifndef LOCAL_SIZE
@@ -27,5 +53,64 @@ layout(location = 0) uniform uint phase;
         if (invocation < (count)) kernelBody(invocation);                                        \
     }                                                                                            \
     void kernelBody(uint invocation)
+
+#define real float
+#define real3 vec3
+#define real4 vec4
+#define mask bool
+#define uints uint
+#define uintRow uint
+#define ANY_REAL float
+#define ANY_REAL3 vec3
+#define ANY_REAL4 vec4
+#define ANY_MASK bool
+#define ANY_UINT uint
+#define ROW(array, at) array[at]
+#define SET_ROW(where, array, at, to, old) if (where) array[at] = to;
+#define SET_ALL(array, at, to) array[at] = to;
+#define MEMBER(array, at, member) array[at].member
+#define EACH_LANE(where, function, at) if (where) function(at);
+#define RAISE_TO(where, word, value)                                                             \
+    if (where && word < floatBitsToUint(value)) atomicMax(word, floatBitsToUint(value));
+#define LANE_KERNEL(count) KERNEL(count)
+#define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
+#define ROWS_UP_TO(first, end) (first)
+#define IN_ROWS(at) true
+#define LANES 1u
+#define RARE
+#define LANE_LOOP_KERNEL(count) KERNEL(count)
+#define FIRST_THREAD (gl_LocalInvocationID.x == 0u)
+#define PAIR_KERNEL                                                                              \
+    void main() {                                                                                \
+        uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \
+        if (index >= bundlesOfPhase()) return;                                                   \
+        uint bundle = bundleOfPhase(index);                                                      \
+        if (!beginBundle(bundle)) return;                                                        \
+        uint from = firstPair(bundle);                                                           \
+        for (uint batch = 0u; batch < BATCHES; ++batch) {                                        \
+            uint to = endOfBatch(bundle, batch);                                                 \
+            if (from == to) continue;                                                            \
+            for (uint k = from + gl_LocalInvocationID.x; k < to; k += uint(LOCAL_SIZE))          \
+                visitPairs(pairs[k].x, pairs[k].y, k);                                           \
+            from = to;                                                                           \
+            memoryBarrierBuffer();                                                               \
+            barrier();                                                                           \
+        }                                                                                        \
+        if (FIRST_THREAD)                                                                        \
+            for (uint k = from; k < endOfPairs(bundle); ++k) visitPairs(pairs[k].x, pairs[k].y, k); \
+    }
+#define LANE_PAIR_KERNEL PAIR_KERNEL
+
+bool anyLane(bool m) { return m; }
+bool noLane() { return false; }
+bool liveLanes() { return true; }
+bool finiteLanes(vec3 a) {
+    return (floatBitsToUint(a.x) & 0x7f800000u) != 0x7f800000u && (floatBitsToUint(a.y) & 0x7f800000u) != 0x7f800000u &&
+           (floatBitsToUint(a.z) & 0x7f800000u) != 0x7f800000u;
+}
+float select(bool m, float yes, float no) { return m ? yes : no; }
+uint select(bool m, uint yes, uint no) { return m ? yes : no; }
+vec3 select(bool m, vec3 yes, vec3 no) { return m ? yes : no; }
+vec4 select(bool m, vec4 yes, vec4 no) { return m ? yes : no; }
 
 #endif

@@ -10,8 +10,9 @@ struct Parameters {
     vec4 contact;        // ContactParams.contact of two spheres, if all have one material
     vec4 stiffness;      // ContactParams.stiffness of these
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, sample threshold, 0; from fine to coarse
-    uvec4 cells;         // per axis, multiples of 4; w = cells of all levels together
-    uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 4; w = first cell of the level among all cells
+    uvec4 cells;         // per axis, multiples of 8; w = cells of all levels together
+    uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 8; w = first cell of the level among all cells
+    uvec4 levelBundles[MOST_LEVELS];  // first bundle of the level, bundles of one colour, 0, 0
 
     float substep;       // h
     float perSubstep;    // 1 / h
@@ -29,7 +30,7 @@ struct Parameters {
     float moveAwayDistance;  // m; a sphere that moves this far from its rest reference has moved away
 
     uint spheres;
-    uint groups;         // of 2 x 2 x 2 cells, of one colour, of all levels
+    uint bundles;        // of all colours and levels
     uint pairCapacity;
     uint closedFaces;    // one bit for each face: x- x+ y- y+ z- z+
 
@@ -42,6 +43,11 @@ struct Parameters {
     uint wallMaterial;   // of the bounds
     uint maxWallHistory; // contacts with walls that a sphere can remember
     uint levels;
+
+    float gravityChange; // m/s: change of the velocity by gravity in a substep
+    float substepRatio;  // present substep over the one before, while impulses are scaled to it
+    float quietSpeed;    // m/s; a sphere that stays below it is quiet
+    float unusedReal2;
 };
 
 // The contact parameters of two materials: row a, column b of `contactParams`.
@@ -74,25 +80,40 @@ struct SphereStatistics {
     uint unused;
 };
 
-// Replaces the quiet time of a sphere that has moved away so far that it may no longer carry a sleeper.
+// The w of a row of `restReference` that marks a sphere as moved away, with a quiet time of 0 (shared/accessors.h).
 #define MOVED_AWAY (-1.0f)
+
+// Once in this number of substeps, all spheres that can fall asleep do so together.
+#define SLEEP_INTERVAL 32u
 
 // Words of the `counters` buffer.
 #define COUNTER_REBUILD 0u      // lists are to be rebuilt
-#define COUNTER_PAIRS 1u        // listed
-#define COUNTER_UNLISTED 2u     // cell groups without room for their pairs
+#define COUNTER_PAIRS 1u        // listed, with the space between bundles
+#define COUNTER_UNLISTED 2u     // bundles without room for their pairs
 #define COUNTER_NON_FINITE 3u   // not zero: the state of a sphere became non-finite
 #define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
 #define COUNTER_REBUILDS 5u     // since the start
 #define COUNTER_SUBSTEPS 6u     // since the start
-#define COUNTER_DROPPED_WALLS 7u  // contacts with walls without room for their tangential slip, since the start
+#define COUNTER_DROPPED_WALLS 7u  // contacts with walls without room for their memory, since the start
 #define COUNTER_LARGEST_MOTION 8u  // in a substep, in radii, as bits of a float; 0: none beyond SAFE_MOTION
 #define COUNTER_SAMPLED 9u      // cell groups of which only a sample of the pairs is listed
 #define COUNTER_OUTSIDE 10u     // spheres outside the bounds when the lists were built, without lost ones
 #define COUNTER_FRAME_FALLS 11u // not 0: the frame of the spheres outside moves
 #define COUNTER_FRAME_VELOCITY 12u  // three words, bits of floats (m/s)
 #define COUNTER_FRAME_PATH 15u  // three words, bits of floats (m), since the lists were built
-#define COUNTER_WORDS 18u
+#define COUNTER_LISTS 18u       // times that lists were built, also for statistics
+#define COUNTER_CANDIDATES 19u  // pairs found by list_build.comp
+#define COUNTER_CARRIED 20u     // contacts remembered when the lists were rebuilt
+#define COUNTER_RESTORED 21u    // contacts among them that the new lists hold
+#define COUNTER_RESTING 22u     // bits RESTS and RESTED_BEFORE
+#define COUNTER_DRIFT_BOX 23u   // six words: the box of the velocities when the lists were built (list_drift.comp)
+#define COUNTER_DRIFT 29u       // three words, bits of floats (m/s)
+#define COUNTER_DRIFT_PATH 32u  // three words, bits of floats (m), since the lists were built
+#define COUNTER_WORDS 35u
+
+// Bits of COUNTER_RESTING.
+#define RESTS 1u                // spheres sleep, or have slept since the lists were built
+#define RESTED_BEFORE 2u        // the same for the lists before, while the lists are rebuilt
 
 // If more spheres are outside, their distances from each other are not computed, and each has a room of one margin.
 #define MOST_OUTSIDE 1024u
@@ -109,11 +130,27 @@ struct SphereStatistics {
 #define LAUNCH_ONE 4u
 #define LAUNCH_GROUPS 5u
 #define LAUNCH_OUTSIDE 6u
-#define LAUNCH_OWNERS 7u        // this row and the next two: owners of tangential slip
-#define LAUNCH_OWNER_BLOCKS 8u
-#define LAUNCH_OWNER_SUPERBLOCKS 9u
-#define LAUNCH_ROWS 10u
+#define LAUNCH_BUNDLES 7u       // an invocation for each bundle of all colours
+#define LAUNCH_COLOUR 8u        // an invocation for each bundle of one colour of the largest level
+#define LAUNCH_LOST_SPHERES 9u  // this row and the next: only if a contact is remembered that the new lists lack
+#define LAUNCH_LOST_COLOUR 10u
+#define LAUNCH_UNLISTED 11u     // as LAUNCH_COLOUR, in each substep while there are no lists
+#define LAUNCH_ROWS 12u
 
 #define SCAN_BLOCK 256u         // values that one invocation of the prefix sum adds up
-#define UNLISTED 0xffffffffu    // pair count of a group without a list
+#define UNLISTED 0xffffffffu    // pair count of a group or a bundle without a list
 #define STATISTIC_BLOCK 256u    // spheres per partial sum
+
+// The order of pairs: see shared/bundles.h.
+#define BLOCKS_PER_BUNDLE 4u
+#define HASHED_BATCHES 16u      // the hash of a pair chooses among these
+#define BATCHES 24u             // further pairs of a bundle come one by one
+#define BUNDLE_WORDS 32u        // first pair, listed pairs, active, 0, the ends of the batches, the end of all pairs
+// Words behind the last bundle, for the solver, which binds as many buffers as a kernel may.
+#define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float
+#define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
+#define PAIR_PADDING 16u        // unused pairs behind each bundle: lanes beyond the last pair lie here
+
+// A sphere carries over at most this many contacts when the lists are rebuilt. A sphere touches at most 12 others that
+// are no smaller.
+#define CARRIED_MOST 16u

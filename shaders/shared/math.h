@@ -1,13 +1,16 @@
 // Dot and cross products are written out, because compilers may contract or reorder the built-in ones differently on
 // each device.
-float dot3(vec3 a, vec3 b) {
-    precise vec3 products = a * b;
-    precise float total = products.x + products.y + products.z;
+ANY_REAL dot3(ANY_REAL3 a, ANY_REAL3 b) {
+    precise ANY_REAL3 products = a * b;
+    precise ANY_REAL total = products.x + products.y + products.z;
     return total;
 }
 
-vec3 cross3(vec3 a, vec3 b) {
-    precise vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+ANY_REAL3 cross3(ANY_REAL3 a, ANY_REAL3 b) {
+    precise ANY_REAL3 product = a;
+    product.x = a.y * b.z - a.z * b.y;
+    product.y = a.z * b.x - a.x * b.z;
+    product.z = a.x * b.y - a.y * b.x;
     return product;
 }
 

@@ -1,3 +1,5 @@
+// The includer has included shared/limits.h.
+//
 // Spheres outside the bounds have left through an open face. A sphere that is far from all others asks for no new
 // lists, however fast it is.
 //
@@ -24,9 +26,6 @@ float roomOf(vec4 reference) {
 // no other sphere.
 #define LOST_DISTANCE 8388.608f
 
-// A sphere beyond this distance (m) stays there for ever: the square of the distance is still finite.
-#define LAST_PLACE 1.0e18f
-
 float beyondFace(uint face, float distance) {
     return (params.closedFaces & (1u << face)) == 0u ? distance : -1.0f;
 }
@@ -50,10 +49,6 @@ bool beyondStrip(vec3 p) {
     return beyond(p) > strip();
 }
 
-float farthestAxis(vec3 p) {
-    return max(abs(p.x), max(abs(p.y), abs(p.z)));
-}
-
-bool lost(vec4 sphere) {
-    return farthestAxis(vec3(sphere)) > LOST_DISTANCE * radiusOf(sphere);
+ANY_MASK lost(ANY_REAL4 sphere) {
+    return max(abs(sphere.x), max(abs(sphere.y), abs(sphere.z))) > LOST_DISTANCE * radiusOf(sphere);
 }

@@ -1,10 +1,9 @@
-// A sphere wakes a sleeping neighbour if it has moved away from its place, or if it is faster than the solver makes a
-// support under load.
+// A sphere wakes a sleeping neighbour if it has moved away from its place, or if it is faster than a support under
+// load.
 
-// `v` is the sphere's row of `velocityBefore`: the velocity before the substep, because the present one contains
-// impulses of unfinished pushes.
-bool canWake(vec4 v) {
-    return hasMovedAway(v) || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
+// `v` and `rest` are the sphere's rows of `velocity` and `restReference`.
+bool canWake(vec4 v, vec4 rest) {
+    return hasMovedAway(rest) || dot3(vec3(v), vec3(v)) > params.wakeSpeed * params.wakeSpeed;
 }
 
 // A sphere wakes its neighbour up to this gap (m). The gap must exceed the distance that a sphere can move before it

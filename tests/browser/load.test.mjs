@@ -15,7 +15,7 @@ test("the page loads, connects, and shows scene and device", async () => {
   assert.equal(await page.textContent(control("scene-name")), "billiards");
   assert.equal(await page.textContent(control("connection")), "connected");
   await when(page, () => document.querySelector('[data-testid="status-spheres"]').textContent === "16");
-  assert.match(await page.textContent(control("status-renderer")), /^cpu · .*threads?$/);
+  assert.match(await page.textContent(control("status-renderer")), /^cpu · .*threads?, \d+ lanes$/);
   assert.match(await page.getAttribute(".field.renderer", "title"), /asked for as cpu/);
   assert.deepEqual(page.faults, []);
   await page.close();

@@ -28,12 +28,13 @@ TEST(DeviceChoice, AutoPrefersGpuAndReportsReason) {
 }
 
 TEST(DeviceChoice, CpuSupportsAnyNumberOfThreads) {
-    for (const auto& [choice, threads] :
-         {std::pair{"cpu:1", "1 thread"}, {"cpu:3", "3 threads"}, {"cpu-double:2", "2 threads, double precision"}}) {
+    for (const auto& [choice, threads] : {std::pair{"cpu:1", ", 1 thread, "},
+                                          {"cpu:3", ", 3 threads, "},
+                                          {"cpu-double:2", ", 2 threads, double precision"}}) {
         const auto device = openDevice(choice);
         ASSERT_TRUE(device.has_value()) << device.error().text();
         EXPECT_EQ((*device)->info().kind, "cpu");
-        EXPECT_TRUE((*device)->info().renderer.ends_with(threads)) << (*device)->info().renderer;
+        EXPECT_NE((*device)->info().renderer.find(threads), std::string::npos) << (*device)->info().renderer;
     }
 }
 

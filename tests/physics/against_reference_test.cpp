@@ -47,7 +47,7 @@ struct Difference {
 // Runs the simulation and the reference; returns their largest difference.
 Difference difference(sim::Simulation& simulation) {
     const sim::State start = simulation.snapshot();
-    reference::World world = referenceOf(simulation.scene(), start);
+    reference::World world = referenceOf(simulation);
     for (int k = 0; k < std::lround(seconds / simulation.scene().step); ++k) world.substep(simulation.scene().step);
     run(simulation, seconds);
     const sim::State end = simulation.snapshot();

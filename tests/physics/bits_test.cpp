@@ -36,7 +36,7 @@ std::uint64_t hashOn(const std::string& choice, const std::string& name) {
 
 TEST_P(SceneBits, AreTheSameOnAllDevices) {
     const std::uint64_t expected = hashOn("software", GetParam());
-    for (const char* const choice : {"cpu:1", "cpu:2", "cpu:3", "cpu:8"})
+    for (const char* const choice : {"cpu:1x1", "cpu:2x4", "cpu:3x8", "cpu:8"})
         EXPECT_EQ(hashOn(choice, GetParam()), expected) << choice;
 }
 
@@ -75,7 +75,7 @@ class Bits : public testing::TestWithParam<scene::Model> {};
 
 void expectTheSameBits(const scene::Scene& scene, double seconds) {
     std::optional<std::uint64_t> expected;
-    for (const char* const choice : {"software", "cpu:1", "cpu:2", "cpu:3", "cpu:8"}) {
+    for (const char* const choice : {"software", "cpu:1x1", "cpu:2x4", "cpu:3x8", "cpu:8"}) {
         const auto device = compute::openDevice(choice).value();
         auto simulation = simulate(scene, *device);
         run(*simulation, seconds);

@@ -12,13 +12,15 @@
 namespace spherule::physics {
 namespace {
 
+using measure::setFriction;
+
 constexpr double side = 0.5;  // m
 
-scene::Scene boxOf200() {
+scene::Scene boxOf200(std::uint64_t seed = 11) {
     scene::Scene scene = fineStepBox(2);
     scene.bounds.min = {-side / 2, -side / 2, -1};
     scene.bounds.max = {side / 2, side / 2, 1};
-    scene::Random random(11);
+    scene::Random random(seed);
     for (int k = 0; k < 200; ++k) {
         scene::Sphere sphere;
         sphere.radius = static_cast<float>(random.uniform(0.04, 0.05));
@@ -34,7 +36,7 @@ scene::Scene boxOf200() {
 struct Figures {
     double meanHeight = 0;  // m over the floor
     double energy = 0;      // J, zero at the floor
-    double contacts = 0;    // pairs pushed apart in the last substep
+    double contacts = 0;    // pairs that touch
 };
 
 Figures figuresOf(const reference::World& world, double floor, std::uint64_t contacts) {
@@ -62,7 +64,7 @@ TEST(BoxAgainstReference, OneSubstepDiffersByLessThanTheLargestOverlap) {
     for (int record = 0; record < 100; ++record) {
         SCOPED_TRACE(record);
         run(*simulation, 4 * scene.step);
-        reference::World world = referenceOf(scene, simulation->snapshot());
+        reference::World world = referenceOf(*simulation);
         world.substep(scene.step);
         run(*simulation, scene.step);
         const sim::State state = simulation->snapshot();
@@ -76,71 +78,84 @@ TEST(BoxAgainstReference, OneSubstepDiffersByLessThanTheLargestOverlap) {
     RecordProperty("worstOfLargestOverlap", std::to_string(worst));
 }
 
-// Returns the pairs (ids) of the last substep in the device's order: colour by colour, and group by group.
+// Returns the pairs (ids) of the last substep in the device's order.
 std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simulation) {
-    sim::Pipeline& pipeline = simulation.pipeline();
-    const auto span = pipeline.read<glm::uvec4>(sim::Array::GroupRange);
-    const auto pairs = pipeline.read<glm::uvec2>(sim::Array::Pairs);
-    const auto id = pipeline.read<std::uint32_t>(sim::Array::IdAndMaterial);  // all of one material
-    const glm::uvec3 groups = simulation.plan().grid.coarsest().cells / 2U;
+    const auto id = simulation.pipeline().read<std::uint32_t>(sim::Array::IdAndMaterial);  // all of one material
     std::vector<std::pair<std::size_t, std::size_t>> order;
-    for (unsigned colour = 0; colour < 8; ++colour) {
-        for (unsigned group = 0; group < span.size(); ++group) {
-            const unsigned x = group % groups.x;
-            const unsigned y = group / (groups.x * groups.z);
-            const unsigned z = group / groups.x % groups.z;
-            if ((x & 1U) + 2 * (y & 1U) + 4 * (z & 1U) != colour) continue;
-            for (unsigned k = span[group].x; k < span[group].x + span[group].y; ++k)
-                order.emplace_back(id[pairs[k].x], id[pairs[k].y]);
-        }
-    }
+    for (const auto& [a, b] : pairsInOrder(simulation)) order.emplace_back(id[a], id[b]);
     return order;
 }
 
 // Only the order of pairs differs: with the device's order, positions and velocities agree to the rounding of float32.
 // The test begins with the lattice; spheres fall, hit each other and the walls, and pile up. Rarely, two spheres that
-// barely touch do so only on the device or only in the reference.
-TEST(BoxAgainstReference, OneSubstepInTheOrderOfTheDeviceAgrees) {
-    const scene::Scene scene = boxOf200();
+// barely touch do so only on the device or only in the reference. A sphere that holds no impulse moves along an arc.
+bool holdsAny(const reference::Sphere& sphere) {
+    return sphere.heldVelocity != glm::dvec3(0);
+}
+
+void expectOneSubstepToAgree(const scene::Scene& scene) {
     const auto simulation = simulate(scene);
     double distance = 0;
+    double barelyHeld = 0;
     std::size_t others = 0;
     std::size_t touching = 0;
     for (int record = 0; record < 100; ++record) {
         run(*simulation, 4 * scene.step);
-        reference::World world = referenceOf(scene, simulation->snapshot());
+        reference::World world = referenceOf(*simulation);
         run(*simulation, scene.step);
         world.order = orderOf(*simulation);
         world.substep(scene.step);
         touching += world.touchingPairs();
         const sim::State state = simulation->snapshot();
+        const reference::World device = referenceOf(*simulation);
         for (std::uint32_t id = 0; id < state.count(); ++id) {
-            distance = std::max(distance, glm::length(positionOf(state, id) - world.spheres[id].x));
-            if (glm::length(velocityOf(state, id) - world.spheres[id].v) > 1e-3) ++others;
+            const reference::Sphere& sphere = world.spheres[id];
+            const double apart = glm::length(positionOf(state, id) - sphere.x);
+            if (holdsAny(sphere) == holdsAny(device.spheres[id]))
+                distance = std::max(distance, apart);
+            else
+                barelyHeld = std::max(barelyHeld, apart);
+            const glm::dvec3 rim = radiusOf(state, id) * (spinOf(state, id) - sphere.spin);
+            if (glm::length(velocityOf(state, id) - sphere.v) > 1e-3 || glm::length(rim) > 1e-3) ++others;
         }
     }
     EXPECT_GT(touching, 20000U) << "pairs in all";
     EXPECT_LT(distance, 1e-5 * 0.04) << "m, 1e-5 of the smallest radius";
+    EXPECT_LT(barelyHeld, 1.02 * 9.81 * scene.step * scene.step / 2) << "m, between an arc and its chord";
     EXPECT_LT(others, 20U) << "of 20,000 velocities differ by more than 1 mm/s";
-    RecordProperty("distance", std::to_string(distance * 1e9) + "e-9");
-    RecordProperty("othersOf20000", static_cast<int>(others));
+    testing::Test::RecordProperty("distance", std::to_string(distance * 1e9) + "e-9");
+    testing::Test::RecordProperty("othersOf20000", static_cast<int>(others));
 }
 
-// Runs both for 0.5 s from the same state, and compares averages over this time.
+TEST(BoxAgainstReference, OneSubstepInTheOrderOfTheDeviceAgrees) {
+    expectOneSubstepToAgree(boxOf200());
+}
+
+TEST(BoxAgainstReference, OneSubstepWithFrictionAgrees) {
+    scene::Scene scene = boxOf200();
+    setFriction(scene, 0.3);
+    expectOneSubstepToAgree(scene);
+}
+
+// Runs both for 0.5 s from the same state, and compares averages over this time and over several boxes. During a
+// collapse, the contacts of a single box differ by 3 % (standard deviation) with the order of the pairs.
 void expectTheSameHalfSecond(double from) {
-    const scene::Scene scene = boxOf200();
-    const auto simulation = simulate(scene);
-    run(*simulation, from);
-    reference::World world = referenceOf(scene, simulation->snapshot());
-    const double floor = scene.bounds.min.z - scene.bounds.centre().z;
     Figures device;
     Figures reference;
-    const int steps = 240;
-    for (int k = 0; k < steps; ++k) {
-        run(*simulation, scene.step);
-        world.substep(scene.step);
-        add(device, figuresOf(referenceOf(scene, simulation->snapshot()), floor, touchingPairs(*simulation)));
-        add(reference, figuresOf(world, floor, world.touchingPairs()));
+    constexpr int steps = 240;
+    constexpr int boxes = 8;
+    for (std::uint64_t seed = 11; seed < 11 + boxes; ++seed) {
+        const scene::Scene scene = boxOf200(seed);
+        const auto simulation = simulate(scene);
+        run(*simulation, from);
+        reference::World world = referenceOf(*simulation);
+        const double floor = scene.bounds.min.z - scene.bounds.centre().z;
+        for (int k = 0; k < steps; ++k) {
+            run(*simulation, scene.step);
+            world.substep(scene.step);
+            add(device, figuresOf(referenceOf(scene, simulation->snapshot()), floor, touchingPairs(*simulation)));
+            add(reference, figuresOf(world, floor, world.touchingPairs()));
+        }
     }
     EXPECT_NEAR(device.meanHeight, reference.meanHeight, 0.03 * reference.meanHeight);
     EXPECT_NEAR(device.energy, reference.energy, 0.03 * reference.energy);
@@ -148,7 +163,7 @@ void expectTheSameHalfSecond(double from) {
     testing::Test::RecordProperty("meanHeight", std::to_string(device.meanHeight / reference.meanHeight));
     testing::Test::RecordProperty("energy", std::to_string(device.energy / reference.energy));
     testing::Test::RecordProperty("contacts", std::to_string(device.contacts / reference.contacts));
-    testing::Test::RecordProperty("contactsPerState", std::to_string(device.contacts / steps));
+    testing::Test::RecordProperty("contactsPerState", std::to_string(device.contacts / steps / boxes));
 }
 
 TEST(BoxAgainstReference, HeightEnergyAndContactsAgreeDuringCollapse) {

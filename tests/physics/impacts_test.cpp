@@ -13,11 +13,11 @@ namespace {
 constexpr double within = 0.005;
 
 // A gas of 200 spheres between walls.
-scene::Scene gas(scene::Model model, double restitution) {
+scene::Scene gas(scene::Model model, double restitution, std::uint64_t seed = 3) {
     scene::Scene scene = fineStepBox(2);
     scene.forces.gravity = {};
     scene.quality.model = model;
-    scene::Random random(3);
+    scene::Random random(seed);
     const auto speed = [&random] { return static_cast<float>(random.uniform(-3, 3)); };
     for (int k = 0; k < 200; ++k) {
         scene::Sphere sphere;
@@ -61,15 +61,23 @@ TEST_P(Impacts, OfPairsAreCountedWithTheirRestitution) {
     EXPECT_EQ(simulation->statistics().impacts.count, 2) << "looking again adds nothing";
 }
 
+// A second impact of a sphere within a substep changes what is seen of the first. Each gas has few impacts, so several
+// are needed.
 TEST_P(Impacts, OfAGasHaveTheRestitutionOfTheMaterials) {
-    const auto simulation = simulate(gas(model(), restitution()));
-    run(*simulation, 2);
-    const sim::Impacts seen = simulation->statistics().impacts;
-    EXPECT_GT(seen.count, 10);
-    EXPECT_NEAR(seen.restitutionAsked(), restitution(), 1e-5);
-    EXPECT_NEAR(seen.restitution(), restitution(), within);
-    RecordProperty("impacts", std::to_string(seen.count));
-    RecordProperty("restitution", std::to_string(seen.restitution()));
+    double count = 0;
+    double seenRestitution = 0;
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+        const auto simulation = simulate(gas(model(), restitution(), seed));
+        run(*simulation, 10);
+        const sim::Impacts seen = simulation->statistics().impacts;
+        EXPECT_NEAR(seen.restitutionAsked(), restitution(), 1e-5);
+        count += static_cast<double>(seen.count);
+        seenRestitution += static_cast<double>(seen.count) * seen.restitution();
+    }
+    EXPECT_GT(count, 100);
+    EXPECT_NEAR(seenRestitution / count, restitution(), within);
+    RecordProperty("impacts", std::to_string(count));
+    RecordProperty("restitution", std::to_string(seenRestitution / count));
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Impacts,

@@ -54,10 +54,9 @@ scene::Scene dust() {
 const std::vector<std::pair<scene::Model, std::set<Pass>>> passesByModel = {
     {scene::Model::Fast, {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Impulses, Pass::WallImpulses, Pass::Sleep}},
     {scene::Model::Balanced,
-     {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Positions, Pass::WallPositions, Pass::Velocities,
-      Pass::WallVelocities, Pass::Friction, Pass::WallFriction, Pass::Sleep}},
+     {Pass::Grid, Pass::Lists, Pass::ContactMemory, Pass::Begin, Pass::Contacts, Pass::Finish, Pass::Sleep}},
     {scene::Model::Accurate,
-     {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::SlipMemory, Pass::Forces, Pass::WallForces}},
+     {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::ContactMemory, Pass::Forces, Pass::WallForces}},
 };
 
 TEST(Plan, WithAllFeaturesHasExactlyThePassesOfItsModel) {
@@ -79,45 +78,61 @@ TEST(Plan, WithAllFeaturesInAllModelsHasEveryArray) {
         EXPECT_TRUE(arrays.contains(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
 }
 
-// Without friction, there are no arrays for spins, for impulses of pairs and walls, or for the slip of contacts. There
-// are no passes that read them either.
-TEST(Plan, WithoutFrictionHasNoRotationAndNoContactHistory) {
+// Without friction, there are no arrays for spins or for the torques of contacts. `accurate` remembers no contacts
+// then, and `balanced` only their impulses along the normal.
+TEST(Plan, WithoutFrictionHasNoRotation) {
     for (const auto& [model, passes] : passesByModel) {
+        const bool balanced = model == scene::Model::Balanced;
         scene::Scene scene = everything(model);
         for (scene::Material& material : scene.materials) material.friction = 0;
         const sim::Plan without = planOf(scene);
         const sim::Plan with = planOf(everything(model));
         EXPECT_TRUE(with.has(Array::AngularVelocity));
-        for (const Array array : {Array::AngularVelocity, Array::DeltaOmega, Array::NormalImpulses, Array::WallImpulse,
-                                  Array::TangentialSlip, Array::CarriedSlip, Array::CarriedOffsets, Array::WallSlip})
+        for (const Array array : {Array::AngularVelocity, Array::HeldSpin, Array::DeltaOmega, Array::TorqueX,
+                                  Array::TorqueY, Array::TorqueZ, Array::WallTorque, Array::WallSlip})
             EXPECT_FALSE(without.has(array)) << nameOf(array);
-        for (const Pass pass : {Pass::Friction, Pass::WallFriction, Pass::SlipMemory})
-            EXPECT_FALSE(dispatches(without, pass)) << nameOf(pass);
+        for (const Array array : {Array::ContactX, Array::ContactY, Array::ContactZ, Array::CarriedCount,
+                                  Array::Carried, Array::HeldVelocity, Array::WallImpulse})
+            EXPECT_EQ(without.has(array), balanced) << nameOf(array);
+        EXPECT_EQ(dispatches(without, Pass::ContactMemory), balanced);
         EXPECT_LT(without.bytes(), with.bytes());
         EXPECT_FALSE(without.features.has(sim::Feature::Rolling)) << "nothing rolls";
     }
 }
 
-TEST(Plan, WithoutContactsAndForcesOnlyIntegrates) {
-    const sim::Plan plan = planOf(dust());
-    ASSERT_EQ(plan.substep.size(), 1U);
-    EXPECT_EQ(plan.substep[0].pass, Pass::Integrate);
-    for (const Array needed :
-         {Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums})
-        EXPECT_TRUE(plan.has(needed)) << nameOf(needed);
-    EXPECT_EQ(plan.arrays.size(), 5U);
-    EXPECT_LT(plan.bytes(), planOf(everything()).bytes() / 4);
+const std::vector<Array> arraysOfEveryPlan = {Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters,
+                                              Array::SphereSums};
+
+TEST(Plan, WithoutContactsAndForcesOnlyMoves) {
+    for (const auto& [model, passes] : passesByModel) {
+        const bool balanced = model == scene::Model::Balanced;
+        scene::Scene scene = dust();
+        scene.quality.model = model;
+        const sim::Plan plan = planOf(scene);
+        std::vector<Pass> dispatched;
+        for (const sim::LaunchSpec& launch : plan.substep) dispatched.push_back(launch.pass);
+        // Open faces: check_motion.comp belongs to the last pass.
+        EXPECT_EQ(dispatched, balanced ? std::vector({Pass::Begin, Pass::Finish}) : std::vector({Pass::Integrate}));
+        std::vector<Array> needed = arraysOfEveryPlan;
+        if (balanced) needed.insert(needed.end(), {Array::VelocityBefore, Array::HeldVelocity, Array::Acceleration});
+        if (model == scene::Model::Accurate) needed.push_back(Array::PositionLow);
+        for (const Array array : needed) EXPECT_TRUE(plan.has(array)) << nameOf(array);
+        EXPECT_EQ(plan.arrays.size(), needed.size());
+        EXPECT_LT(plan.bytes(), planOf(everything(model)).bytes() / 4);
+    }
 }
 
 TEST(Plan, WithoutContactsHasNoGridAndNoLists) {
     scene::Scene scene = everything();
     scene.sphereContacts = false;
     const sim::Plan plan = planOf(scene);
-    for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::Positions, Pass::Velocities})
+    for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::ContactMemory, Pass::Contacts})
         EXPECT_FALSE(dispatches(plan, pass)) << nameOf(pass);
-    for (const Array array : {Array::CellStart, Array::Pairs, Array::GroupRange, Array::CellOrder, Array::SortScratch})
+    for (const Array array : {Array::CellStart, Array::Candidates, Array::Pairs, Array::Bundles, Array::GroupRange,
+                              Array::CellOrder, Array::SortScratch, Array::ContactX})
         EXPECT_FALSE(plan.has(array)) << nameOf(array);
-    EXPECT_TRUE(dispatches(plan, Pass::WallPositions));
+    EXPECT_TRUE(dispatches(plan, Pass::Finish));
+    EXPECT_TRUE(plan.has(Array::WallImpulse)) << "walls remain";
     EXPECT_LT(plan.bytes(), planOf(everything()).bytes());
 }
 
@@ -125,10 +140,13 @@ TEST(Plan, WithoutSleepHasNoSleepPass) {
     scene::Scene scene = everything();
     scene.sleep.enabled = false;
     EXPECT_FALSE(dispatches(planOf(scene), Pass::Sleep));
-    setRestitution(scene, 0);
-    scene.sphereContacts = false;
-    EXPECT_FALSE(planOf(scene).has(Array::VelocityBefore)) << "only impacts and sleep ask for the velocity before";
+    for (const Array array : {Array::RestReference, Array::ActiveBlock})
+        EXPECT_FALSE(planOf(scene).has(array)) << nameOf(array);
     EXPECT_LT(planOf(scene).bytes(), planOf(everything()).bytes());
+    scene.quality.model = scene::Model::Fast;
+    EXPECT_FALSE(planOf(scene).has(Array::VelocityBefore)) << "in `fast` only sleep asks for the velocity before";
+    scene.sleep.enabled = true;
+    EXPECT_TRUE(planOf(scene).has(Array::VelocityBefore));
 }
 
 TEST(Plan, WithOneMaterialInEmptySpaceHasNoContactTable) {
@@ -141,16 +159,39 @@ TEST(Plan, WithOneMaterialInEmptySpaceHasNoContactTable) {
 }
 
 TEST(Plan, WithoutWallsHasNoWallPass) {
+    const std::vector<std::pair<scene::Model, Pass>> wallPasses = {{scene::Model::Fast, Pass::WallImpulses},
+                                                                   {scene::Model::Accurate, Pass::WallForces}};
+    for (const auto& [model, pass] : wallPasses) {
+        scene::Scene scene = everything(model);
+        scene.bounds.open.fill(true);
+        scene.obstacles.clear();
+        const sim::Plan plan = planOf(scene);
+        EXPECT_FALSE(dispatches(plan, pass));
+        EXPECT_FALSE(plan.has(Array::Obstacles));
+        scene.bounds.open[scene::ZMin] = false;
+        EXPECT_TRUE(dispatches(planOf(scene), pass));
+        EXPECT_FALSE(planOf(scene).has(Array::Obstacles)) << "faces are no obstacles";
+    }
+}
+
+// `balanced` solves walls where it moves the spheres, in one kernel.
+TEST(Plan, WithoutWallsRemembersNoWalls) {
     scene::Scene scene = everything();
     scene.bounds.open.fill(true);
     scene.obstacles.clear();
-    const sim::Plan plan = planOf(scene);
-    EXPECT_FALSE(dispatches(plan, Pass::WallPositions));
-    EXPECT_FALSE(dispatches(plan, Pass::WallVelocities));
-    EXPECT_FALSE(plan.has(Array::Obstacles));
+    for (const Array array : {Array::Obstacles, Array::WallImpulse, Array::WallTorque})
+        EXPECT_FALSE(planOf(scene).has(array)) << nameOf(array);
     scene.bounds.open[scene::ZMin] = false;
-    EXPECT_TRUE(dispatches(planOf(scene), Pass::WallPositions));
     EXPECT_FALSE(planOf(scene).has(Array::Obstacles)) << "faces are no obstacles";
+    for (const Array array : {Array::WallImpulse, Array::WallTorque})
+        EXPECT_TRUE(planOf(scene).has(array)) << nameOf(array);
+}
+
+// The memory of contacts is scaled when the length of the substep changes.
+TEST(Plan, OnlyBalancedScalesItsMemory) {
+    for (const auto& [model, passes] : passesByModel)
+        EXPECT_EQ(planOf(everything(model)).newSubstep.size(), model == scene::Model::Balanced ? 2U : 0U);
+    EXPECT_EQ(planOf(dust()).newSubstep.size(), 1U) << "no pairs";
 }
 
 TEST(Plan, DetectsUseOfGravityAndRadii) {
@@ -168,8 +209,9 @@ TEST(Plan, DeterminesAllocatedArraysAndTimedPasses) {
     static_cast<void>(simulation->passSeconds());  // discards the times of other tests
     run(*simulation, 0.1);
     const std::vector<double> seconds = simulation->passSeconds();
-    EXPECT_GT(seconds.at(static_cast<std::size_t>(Pass::Integrate)), 0);
-    for (const Pass pass : {Pass::Grid, Pass::Lists, Pass::Positions, Pass::Velocities, Pass::Sleep})
+    for (const Pass pass : {Pass::Begin, Pass::Finish})
+        EXPECT_GT(seconds.at(static_cast<std::size_t>(pass)), 0) << nameOf(pass);
+    for (const Pass pass : {Pass::Integrate, Pass::Grid, Pass::Lists, Pass::Contacts, Pass::Sleep})
         if (static_cast<std::size_t>(pass) < seconds.size()) {
             EXPECT_EQ(seconds[static_cast<std::size_t>(pass)], 0) << nameOf(pass);
         }

@@ -1,6 +1,7 @@
 #include "support.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -54,39 +55,145 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
     reference::World world;
     world.gravity = scene.forces.gravity;
     world.contacts = scene.sphereContacts;
-    const auto restitutionOf = [&](std::uint8_t material) { return scene.materials[material].restitution; };
+    const auto materialOf = [&](std::uint8_t material) -> const scene::Material& { return scene.materials[material]; };
     const glm::dvec3 centre = scene.bounds.centre();
     for (unsigned face = 0; face < 6; ++face) {
         if (scene.bounds.open[face]) continue;
         glm::dvec3 normal{};
         normal[static_cast<int>(face / 2)] = face % 2 == 0 ? 1 : -1;
         world.walls.push_back({(face % 2 == 0 ? scene.bounds.min : scene.bounds.max) - centre, normal,
-                               restitutionOf(scene.bounds.material)});
+                               materialOf(scene.bounds.material).restitution,
+                               materialOf(scene.bounds.material).friction});
     }
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         const auto& plane = std::get<scene::Plane>(obstacle.shape);
-        world.walls.push_back({plane.point - centre, plane.normal, restitutionOf(obstacle.material)});
+        world.walls.push_back({plane.point - centre, plane.normal, materialOf(obstacle.material).restitution,
+                               materialOf(obstacle.material).friction});
     }
     for (std::uint32_t id = 0; id < state.count(); ++id)
         world.spheres.push_back({positionOf(state, id), velocityOf(state, id),
                                  static_cast<double>(state.position[id].w), 1 / massOf(state, id),
-                                 restitutionOf(scene.spheres[id].material)});
+                                 materialOf(scene.spheres[id].material).restitution,
+                                 materialOf(scene.spheres[id].material).friction, spinOf(state, id)});
+    return world;
+}
+
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+Words idsOf(sim::Simulation& simulation) {
+    Words ids = simulation.pipeline().read<std::uint32_t>(sim::Array::IdAndMaterial);
+    for (std::uint32_t& id : ids) id &= 0xffffffU;
+    return ids;
+}
+
+// Three arrays of components, as vectors. Empty without these arrays.
+class Components {
+  public:
+    Components(sim::Simulation& simulation, const std::array<sim::Array, 3>& arrays) {
+        for (std::size_t axis = 0; axis < 3; ++axis) values_[axis] = simulation.pipeline().read<float>(arrays[axis]);
+    }
+    [[nodiscard]] glm::dvec3 at(std::size_t k) const {
+        if (values_[0].empty()) return {};
+        return {values_[0][k], values_[1][k], values_[2][k]};
+    }
+
+  private:
+    std::array<std::vector<float>, 3> values_;
+};
+
+void readSpheres(reference::World& world, sim::Simulation& simulation) {
+    const Words ids = idsOf(simulation);
+    const auto velocity = simulation.pipeline().read<glm::vec4>(sim::Array::HeldVelocity);
+    const auto spin = simulation.pipeline().read<glm::vec4>(sim::Array::HeldSpin);
+    const auto acceleration = simulation.pipeline().read<glm::vec4>(sim::Array::Acceleration);
+    for (std::size_t slot = 0; slot < ids.size(); ++slot) {
+        reference::Sphere& sphere = world.spheres[ids[slot]];
+        sphere.heldVelocity = glm::dvec3(velocity[slot]);
+        sphere.acceleration = glm::dvec3(acceleration[slot]);
+        if (!spin.empty()) sphere.heldSpin = glm::dvec3(spin[slot]);
+    }
+}
+
+void readPairs(reference::World& world, sim::Simulation& simulation) {
+    using enum sim::Array;
+    const Words ids = idsOf(simulation);
+    const Words words = simulation.pipeline().read<std::uint32_t>(Bundles);
+    const auto pairs = simulation.pipeline().read<glm::uvec2>(Pairs);
+    const Components impulse(simulation, {ContactX, ContactY, ContactZ});
+    const Components torque(simulation, {TorqueX, TorqueY, TorqueZ});
+    const std::size_t bundles = simulation.plan().grid.bundles();
+    const std::uint32_t half = words[bundles * BUNDLE_WORDS + WORD_HALF];
+    for (std::size_t bundle = 0; bundle < bundles; ++bundle) {
+        const std::uint32_t first = words[bundle * BUNDLE_WORDS];
+        const std::uint32_t listed = words[bundle * BUNDLE_WORDS + 1];
+        for (std::uint32_t k = first; listed != UNLISTED && k < first + listed; ++k) {
+            const std::size_t a = ids[pairs[k].x];
+            const std::size_t b = ids[pairs[k].y];
+            const double sign = a < b ? 1 : -1;
+            if (const glm::dvec3 held = impulse.at(half + k); held != glm::dvec3(0))
+                world.pairsHold[std::minmax(a, b)] = {held * sign, torque.at(half + k)};
+        }
+    }
+}
+
+void readWalls(reference::World& world, sim::Simulation& simulation) {
+    const auto impulse = simulation.pipeline().read<glm::vec4>(sim::Array::WallImpulse);
+    const auto torque = simulation.pipeline().read<glm::vec4>(sim::Array::WallTorque);
+    std::array<std::size_t, 6> wallOfFace{};
+    std::size_t faces = 0;
+    for (std::size_t face = 0; face < 6; ++face)
+        if (!simulation.scene().bounds.open[face]) wallOfFace[face] = faces++;
+    for (std::size_t row = 0; row < impulse.size(); ++row) {
+        if (impulse[row].w == 0) continue;
+        const auto surface = static_cast<std::size_t>(impulse[row].w) - 1;
+        const std::size_t wall = surface < 6 ? wallOfFace[surface] : faces + surface - 6;
+        world.wallsHold[{row / simulation.plan().maxWallHistory, wall}] = {
+            glm::dvec3(impulse[row]), torque.empty() ? glm::dvec3(0) : glm::dvec3(torque[row])};
+    }
+}
+
+}  // namespace
+
+reference::World referenceOf(sim::Simulation& simulation) {
+    reference::World world = referenceOf(simulation.scene(), simulation.snapshot());
+    readSpheres(world, simulation);
+    if (world.contacts) readPairs(world, simulation);
+    readWalls(world, simulation);
     return world;
 }
 
 std::uint64_t touchingPairs(sim::Simulation& simulation) {
-    std::uint64_t sum = 0;
-    for (const glm::uvec4& group : simulation.pipeline().read<glm::uvec4>(sim::Array::GroupRange)) sum += group.z;
-    return sum;
+    const sim::State state = simulation.snapshot();
+    const auto ids = simulation.pipeline().read<std::uint32_t>(sim::Array::IdAndMaterial);
+    std::uint64_t touching = 0;
+    for (const auto& [a, b] : listedPairs(simulation)) {
+        const std::uint32_t ia = ids[a] & 0xffffffU;
+        const std::uint32_t ib = ids[b] & 0xffffffU;
+        const double reach = radiusOf(state, ia) + radiusOf(state, ib);
+        if (glm::length(positionOf(state, ia) - positionOf(state, ib)) < reach * (1 + 1e-4)) ++touching;
+    }
+    return touching;
+}
+
+std::vector<SlotPair> pairsInOrder(sim::Simulation& simulation) {
+    const auto words = simulation.pipeline().read<std::uint32_t>(sim::Array::Bundles);
+    const auto pairs = simulation.pipeline().read<glm::uvec2>(sim::Array::Pairs);
+    std::vector<SlotPair> found;
+    for (std::size_t bundle = 0; bundle < simulation.plan().grid.bundles(); ++bundle) {
+        const std::uint32_t first = words[bundle * BUNDLE_WORDS];
+        const std::uint32_t listed = words[bundle * BUNDLE_WORDS + 1];
+        for (std::uint32_t k = first; listed != UNLISTED && k < first + listed; ++k)
+            found.emplace_back(pairs[k].x, pairs[k].y);
+    }
+    return found;
 }
 
 std::vector<SlotPair> listedPairs(sim::Simulation& simulation) {
-    const auto span = simulation.pipeline().read<glm::uvec4>(sim::Array::GroupRange);
-    const auto pairs = simulation.pipeline().read<glm::uvec2>(sim::Array::Pairs);
-    std::vector<SlotPair> found;
-    for (const glm::uvec4& group : span)
-        for (std::uint32_t k = group.x; group.y != UNLISTED && k < group.x + group.y; ++k)
-            found.emplace_back(std::min(pairs[k].x, pairs[k].y), std::max(pairs[k].x, pairs[k].y));
+    std::vector<SlotPair> found = pairsInOrder(simulation);
+    for (SlotPair& pair : found)
+        if (pair.first > pair.second) std::swap(pair.first, pair.second);
     std::ranges::sort(found);
     return found;
 }

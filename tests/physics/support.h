@@ -46,11 +46,15 @@ void run(sim::Simulation& simulation, double seconds);
 // to the centre of the bounds.
 reference::World referenceOf(const scene::Scene& scene, const sim::State& state);
 
-// Returns the number of pairs that overlapped in the last substep and were pushed apart.
+// Returns the reference in the state of a simulation of the model `balanced`, with all that its contacts hold.
+reference::World referenceOf(sim::Simulation& simulation);
+
+// Returns the number of listed pairs that touch or overlap.
 std::uint64_t touchingPairs(sim::Simulation& simulation);
 
 // The slots of the listed pairs, sorted; the lower slot of a pair comes first.
 using SlotPair = std::pair<std::uint32_t, std::uint32_t>;
+std::vector<SlotPair> pairsInOrder(sim::Simulation& simulation);  // as the solvers visit them, one level
 std::vector<SlotPair> listedPairs(sim::Simulation& simulation);
 
 bool asleep(const sim::State& state, std::uint32_t id);

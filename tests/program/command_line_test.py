@@ -98,7 +98,7 @@ class Run(unittest.TestCase):
         reports = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual([round(report["intervalSeconds"], 3) for report in reports], [0.1, 0.1, 0.05])
         self.assertAlmostEqual(sum(reports[0]["passSeconds"].values()), reports[0]["deviceSeconds"])
-        self.assertGreater(reports[0]["passSeconds"]["integrate"], 0)
+        self.assertGreater(reports[0]["passSeconds"]["contacts"], 0)
         rows = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE).stdout.splitlines()
         self.assertEqual([row.split()[0] for row in rows], ["time,", "0.1", "0.2", "0.25"])
 
@@ -241,7 +241,7 @@ class Others(unittest.TestCase):
         plan = json.loads(call("plan", "box-50k", "--json").stdout)
         self.assertEqual(plan["spheres"], 50000)
         self.assertEqual(plan["bytes"], sum(array["bytes"] for array in plan["arrays"]))
-        self.assertIn("solve_positions.comp", call("plan", "box-50k").stdout)
+        self.assertIn("solve_contacts.comp", call("plan", "box-50k").stdout)
         self.assertEqual(call("plan", "bounce", "--quality", "accurate").returncode, 0)
         self.assertEqual(call("plan", "bounce", "--quality", "best").returncode, 2)
 

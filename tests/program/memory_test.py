@@ -56,9 +56,9 @@ class Memory(FolderTestCase):
             self.assertEqual(done.returncode, code, f"{limit}: {done.stderr}")
 
     def test_a_load_beside_the_world_that_runs_is_refused_and_that_goes_on(self):
-        with Server(BINARY, "serve", self.scene(200_000), "--device", "cpu:1", "--memory-limit", "260MiB") as server:
+        with Server(BINARY, "serve", self.scene(200_000), "--device", "cpu:1", "--memory-limit", "340MiB") as server:
             done = call("ctl", server.stream, "load", self.scene(300_000))
-            self.refused(done, "a scene of 300000 spheres", "--memory-limit allows 260 MiB", "what runs here holds ")
+            self.refused(done, "a scene of 300000 spheres", "--memory-limit allows 340 MiB", "what runs here holds ")
             self.assertEqual(call("ctl", server.stream, "load", "two-spheres").returncode, 0)
             done = call("ctl", server.stream, "load", self.scene(300_000))
             self.assertEqual(done.returncode, 0, f"alone it has room: {done.stderr}")
@@ -66,9 +66,9 @@ class Memory(FolderTestCase):
 
     def test_a_recording_without_room_is_refused(self):
         folder = os.path.join(self.folder, "recordings")
-        with Server(BINARY, "serve", self.scene(300_000), "--device", "cpu:1", "--memory-limit", "250MiB",
+        with Server(BINARY, "serve", self.scene(300_000), "--device", "cpu:1", "--memory-limit", "350MiB",
                     "--recordings", folder) as server:
-            self.refused(call("ctl", server.stream, "record"), "--memory-limit allows 250 MiB")
+            self.refused(call("ctl", server.stream, "record"), "--memory-limit allows 350 MiB")
             self.assertEqual(os.listdir(folder) if os.path.exists(folder) else [], [], "no empty file is left")
             self.assertEqual(server.end(), 0)
 

@@ -1,5 +1,5 @@
-# Checks the kernels of shaders/ and generates compute/cpu/all_kernels.h from their text: one struct per .comp file and a
-# table of them.
+# Checks the kernels of shaders/ and generates two headers from their text: compute/cpu/all_kernels.h, with one struct per
+# .comp file and a table of them, and compute/cpu/lane_kernels.h, the same for the kernels with lanes.
 #
 # In script mode, `cmake -D SPHERULE_SHADERS=FOLDER -P Kernels.cmake` only checks the kernels of FOLDER.
 set(most_buffers 16)  # maxKernelBuffers of compute/device.h
@@ -26,6 +26,8 @@ endif()
 
 set(structs)
 set(entries)
+set(lane_structs)
+set(lane_entries)
 foreach(file ${kernel_files} ${shared_files})
   file(READ ${file} text)
   file(RELATIVE_PATH path ${shader_folder}/.. ${file})
@@ -61,18 +63,32 @@ foreach(file ${kernel_files} ${shared_files})
   if(at EQUAL -1)
     set(parameters false)
   endif()
-  string(APPEND structs
+  # How many invocations a thread takes at least: a bundle of pairs is much work, and lanes fill whole vectors.
+  set(smallest_range 4)
+  if(text MATCHES "\nLANE_KERNEL")
+    set(smallest_range 16)
+  elseif(text MATCHES "\n(LANE_)?PAIR_KERNEL|\nKERNEL\\(bundlesOfPhase")
+    set(smallest_range 1)
+  endif()
+  string(CONCAT struct
     "struct ${kernel} : KernelBase {\n    using KernelBase::KernelBase;\n"
     "    static constexpr BufferDeclaration declared[] = {${declared}};\n#include \"${kernel}.comp\"\n};\n\n")
-  string(APPEND entries
-    "    {\"${kernel}.comp\", ${kernel}::declared, ${parameters}, &countOf<${kernel}>, &run<${kernel}>},\n")
+  set(entry "    {\"${kernel}.comp\", ${kernel}::declared, ${parameters}, &countOf<${kernel}>, ${smallest_range}, \
+&run<${kernel}>},\n")
+  string(APPEND structs "${struct}")
+  string(APPEND entries "${entry}")
+  if(text MATCHES "\nLANE_")
+    string(APPEND lane_structs "${struct}")
+    string(APPEND lane_entries "${entry}")
+  endif()
 endforeach()
 if(CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
-file(CONFIGURE OUTPUT ${generated}/compute/cpu/all_kernels.h CONTENT
+function(write_table file structs entries)
+  file(CONFIGURE OUTPUT ${generated}/compute/cpu/${file} CONTENT
 "// Generated from the list of shaders/*.comp.
 namespace spherule::compute::cpu::SPHERULE_PRECISION {
 
@@ -81,3 +97,6 @@ namespace spherule::compute::cpu::SPHERULE_PRECISION {
 
 }  // namespace spherule::compute::cpu::SPHERULE_PRECISION
 " @ONLY)
+endfunction()
+write_table(all_kernels.h "${structs}" "${entries}")
+write_table(lane_kernels.h "${lane_structs}" "${lane_entries}")

@@ -20,7 +20,6 @@ constexpr int maxReadBacks = 2;
 // Each thread takes ranges one at a time. There are few enough that taking them costs little, and enough that the
 // threads end together.
 constexpr std::uint32_t rangesPerThread = 16;
-constexpr std::uint32_t smallestRange = 4;
 
 const CpuBuffer& cpuBuffer(const Buffer& buffer) {
     return static_cast<const CpuBuffer&>(buffer);
@@ -67,6 +66,20 @@ std::uint64_t featuresOf(std::span<const Define> defines) {
     return features;
 }
 
+// Returns null if there is no such kernel.
+const Entry* entryOf(std::string_view file, Precision precision, unsigned lanes) {
+    std::vector<std::span<const Entry>> tables;
+    if (lanes == 4) tables.push_back(kernelsWith4Lanes());
+    if (lanes == 8) tables.push_back(kernelsWith8Lanes());
+    if (lanes == 16) tables.push_back(kernelsWith16Lanes());
+    tables.push_back(precision == Precision::Double ? doubleKernels() : floatKernels());
+    for (const auto& table : tables) {
+        const auto found = std::ranges::find(table, file, &Entry::name);
+        if (found != table.end()) return &*found;
+    }
+    return nullptr;
+}
+
 std::uint32_t countOf(const Launch& launch) {
     if (launch.arguments == nullptr) return launch.count;
     checkRange("launch arguments", *launch.arguments, launch.argumentsOffset, 16);
@@ -87,11 +100,12 @@ void runRange(const void* work, std::uint32_t begin, std::uint32_t end) {
 
 }  // namespace
 
-CpuDevice::CpuDevice(unsigned threads, Precision precision, const std::string& reason)
-    : precision_(precision), pool_(threads) {
+CpuDevice::CpuDevice(unsigned threads, Precision precision, unsigned lanes, const std::string& reason)
+    : precision_(precision), lanes_(lanes), pool_(threads) {
     info_.kind = "cpu";
-    info_.renderer = fmt::format("{}, {} thread{}{}", processorName(), threads, threads == 1 ? "" : "s",
-                                 precision == Precision::Double ? ", double precision" : "");
+    info_.renderer = fmt::format(
+        "{}, {} thread{}, {}", processorName(), threads, threads == 1 ? "" : "s",
+        precision == Precision::Double ? "double precision" : fmt::format("{} lane{}", lanes, lanes == 1 ? "" : "s"));
     info_.vendor = "Spherule";
     info_.version = "kernels compiled as C++";
     info_.reason = reason;
@@ -111,9 +125,8 @@ std::uint64_t CpuDevice::hostBytes(std::uint64_t bytes, std::string_view words) 
 
 Result<std::unique_ptr<Kernel>> CpuDevice::createKernel(const SourceSet& /*sources*/, std::string_view file,
                                                         std::span<const Define> defines) {
-    const auto kernels = precision_ == Precision::Double ? doubleKernels() : floatKernels();
-    const auto found = std::ranges::find(kernels, file, &Entry::name);
-    if (found == kernels.end()) {
+    const Entry* const found = entryOf(file, precision_, lanes_);
+    if (found == nullptr) {
         return fail(ErrorKind::Input, std::string(file),
                     "is not among the kernels that this program has as C++; use --device software");
     }
@@ -164,7 +177,8 @@ void CpuDevice::launch(const Launch& launch) {
     const std::uint32_t wanted = countOf(launch);
     if (wanted == 0) return;
     const std::uint32_t count = std::min(wanted, entry.count(work.binding));
-    pool_.run(count, std::max(smallestRange, count / (pool_.threads() * rangesPerThread)), runRange, &work);
+    const std::uint32_t range = count / (pool_.threads() * rangesPerThread) / entry.smallestRange * entry.smallestRange;
+    pool_.run(count, std::max(entry.smallestRange, range), runRange, &work);
 }
 
 std::unique_ptr<ReadBack> CpuDevice::startReadBack(const Buffer& buffer, std::size_t bytes) {

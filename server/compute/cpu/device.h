@@ -15,7 +15,7 @@ namespace spherule::compute::cpu {
 // Device on the CPU. Runs the kernels that were compiled into the program, and ignores the sources passed to it.
 class CpuDevice final : public Device {
   public:
-    CpuDevice(unsigned threads, Precision precision, const std::string& reason);
+    CpuDevice(unsigned threads, Precision precision, unsigned lanes, const std::string& reason);
 
     [[nodiscard]] const DeviceInfo& info() const override { return info_; }
     Result<std::unique_ptr<Buffer>> createBuffer(std::string_view label, std::size_t bytes,
@@ -36,6 +36,7 @@ class CpuDevice final : public Device {
 
   private:
     Precision precision_;
+    unsigned lanes_;  // 1, 4, 8 or 16: pairs or spheres that a thread handles at once
     DeviceInfo info_;
     Pool pool_;
     std::shared_ptr<int> readBacks_ = std::make_shared<int>(0);  // under way
@@ -47,8 +48,10 @@ class CpuDevice final : public Device {
 // Returns true if `choice` means the CPU device. That includes "auto", if there is no OpenGL device.
 bool answersTo(const std::string& choice);
 
-// Opens "cpu", "cpu:N" (N threads, 1 to 256), "cpu-double", "cpu-double:N" or "auto"; Input for anything else. Without
-// N, one thread per processor that this process may use. `passedOver`: reason why OpenGL was not used.
+// Opens "cpu", "cpu:N" (N threads, 1 to 256), "cpu:NxL" (L lanes: 1, 4, 8 or 16), "cpu-double", "cpu-double:N" or
+// "auto"; Input for anything else. Without N, one thread per processor that this process may use. Without L, or if the
+// processor has no vectors of L numbers, as many lanes as its vectors hold. `passedOver`: reason why OpenGL was not
+// used.
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& passedOver);
 
 }  // namespace spherule::compute::cpu

@@ -1,7 +1,7 @@
-#include "compute/cpu/vectors.h"
-
 #define SPHERULE_REAL float
 #define SPHERULE_PRECISION single_precision
+#include "compute/cpu/vectors.h"
+
 #include "compute/cpu/glue.h"
 
 #include "compute/cpu/all_kernels.h"

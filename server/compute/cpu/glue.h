@@ -4,8 +4,9 @@
 // members too.
 //
 // Included once by each translation unit that compiles the kernels. The unit first defines:
-//   SPHERULE_REAL        the type for `float` in kernels: float or double
-//   SPHERULE_PRECISION   the namespace of the kernels, which contains vec3 and vec4 of that type
+//   SPHERULE_REAL        The type for `float` in kernels: float or double.
+//   SPHERULE_PRECISION   The namespace of the kernels, which contains vec3 and vec4 of that type.
+//   SPHERULE_LANES       Only in units of kernels with several lanes, which include compute/cpu/lanes.h before.
 
 // Kernels share callbacks whose parameters some kernels do not use, and Mesa refuses a parameter without a name.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #include <glm/vec2.hpp>
@@ -25,16 +27,16 @@
 
 namespace spherule::compute::cpu::SPHERULE_PRECISION {
 
-using real = SPHERULE_REAL;
+using Scalar = SPHERULE_REAL;
 using glm::uvec2;
 using glm::uvec4;
 using uint = std::uint32_t;
 
 // GLSL's scalar functions. If an operand is NaN, they choose the same operand as GLSL.
-inline real min(real a, real b) {
+inline Scalar min(Scalar a, Scalar b) {
     return b < a ? b : a;
 }
-inline real max(real a, real b) {
+inline Scalar max(Scalar a, Scalar b) {
     return a < b ? b : a;
 }
 inline uint min(uint a, uint b) {
@@ -43,22 +45,22 @@ inline uint min(uint a, uint b) {
 inline uint max(uint a, uint b) {
     return a < b ? b : a;
 }
-inline real clamp(real x, real low, real high) {
+inline Scalar clamp(Scalar x, Scalar low, Scalar high) {
     return min(max(x, low), high);
 }
-inline real abs(real x) {
+inline Scalar abs(Scalar x) {
     return std::fabs(x);
 }
-inline real floor(real x) {
+inline Scalar floor(Scalar x) {
     return std::floor(x);
 }
-inline real sqrt(real x) {
+inline Scalar sqrt(Scalar x) {
     return std::sqrt(x);
 }
-inline real uintBitsToFloat(uint x) {
-    return static_cast<real>(std::bit_cast<float>(x));
+inline Scalar uintBitsToFloat(uint x) {
+    return static_cast<Scalar>(std::bit_cast<float>(x));
 }
-inline uint floatBitsToUint(real x) {
+inline uint floatBitsToUint(Scalar x) {
     return std::bit_cast<uint>(static_cast<float>(x));
 }
 // Return the index of the highest and of the lowest set bit; -1 if no bit is set.
@@ -68,6 +70,41 @@ inline int findMSB(uint x) {
 inline int findLSB(uint x) {
     return x == 0 ? -1 : std::countr_zero(x);
 }
+
+// The types and functions of kernels with lanes, for one lane.
+inline Scalar select(bool where, Scalar yes, Scalar no) {
+    return where ? yes : no;
+}
+inline uint select(bool where, uint yes, uint no) {
+    return where ? yes : no;
+}
+#if !defined(SPHERULE_LANES)
+using real = Scalar;
+using real3 = vec3;
+using real4 = vec4;
+using mask = bool;
+using uints = uint;
+using uintRow = uint;
+inline bool anyLane(bool a) {
+    return a;
+}
+inline bool noLane() {
+    return false;
+}
+inline bool liveLanes() {
+    return true;
+}
+inline vec3 select(bool where, const vec3& yes, const vec3& no) {
+    return where ? yes : no;
+}
+inline vec4 select(bool where, const vec4& yes, const vec4& no) {
+    return where ? yes : no;
+}
+inline bool finiteLanes(const vec3& a) {
+    constexpr Scalar largest = std::numeric_limits<float>::max();
+    return abs(a.x) <= largest && abs(a.y) <= largest && abs(a.z) <= largest;
+}
+#endif
 
 inline uint atomicAdd(uint& memory, uint value) {
     return std::atomic_ref<uint>(memory).fetch_add(value, std::memory_order_relaxed);
@@ -120,8 +157,17 @@ struct KernelBase : Features {
         return copy;
     }
 
+#if defined(SPHERULE_LANES)
+    [[nodiscard]] SPHERULE_INLINE mask liveLanes() const {
+        return firstLanes(live);
+    }
+#endif
+
     Binding binding;
     uint phase;
+#if defined(SPHERULE_LANES)
+    uint live = 0;  // lanes at work
+#endif
 };
 
 template <class Kernel>
@@ -137,11 +183,26 @@ uint countOf(const Binding& binding) {
 #define SPHERULE_CLONES
 #endif
 
+#if defined(SPHERULE_LANES)
+template <class Kernel>
+__attribute__((flatten)) void run(const Binding& binding, uint begin, uint end) {
+    Kernel kernel(binding);
+    if constexpr (requires { kernel.kernelRows(uintRow{}); }) {
+        for (uint first = begin; first < end; first += lanes) {
+            kernel.live = min(end - first, lanes);
+            kernel.kernelRows(uintRow{first, kernel.live});
+        }
+    } else {
+        for (uint invocation = begin; invocation < end; ++invocation) kernel.kernelBody(invocation);
+    }
+}
+#else
 template <class Kernel>
 SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     Kernel kernel(binding);
     for (uint invocation = begin; invocation < end; ++invocation) kernel.kernelBody(invocation);
 }
+#endif
 
 }  // namespace spherule::compute::cpu::SPHERULE_PRECISION
 
@@ -161,3 +222,90 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
         return count;                  \
     }                                  \
     void kernelBody([[maybe_unused]] uint invocation)
+
+#define RARE __attribute__((noinline, flatten))
+#define FIRST_THREAD true
+// Visits the pairs of a bundle, `step` of one batch at a time.
+#define SPHERULE_PAIR_KERNEL(step, visit)                                         \
+    [[nodiscard]] uint kernelCount() {                                            \
+        return bundlesOfPhase();                                                  \
+    }                                                                             \
+    void kernelBody(uint index) {                                                 \
+        const uint bundle = bundleOfPhase(index);                                 \
+        if (!beginBundle(bundle)) return;                                         \
+        uint from = firstPair(bundle);                                            \
+        for (uint batch = 0; batch < BATCHES; ++batch) {                          \
+            const uint to = endOfBatch(bundle, batch);                            \
+            for (uint k = from; k < to; k += (step)) visit(k, min(to - k, step)); \
+            from = to;                                                            \
+        }                                                                         \
+        for (uint k = from; k < endOfPairs(bundle); ++k) visit(k, 1);             \
+    }
+#define SPHERULE_VISIT_ONE(k, count) visitPairs(pairs[k].x, pairs[k].y, k)
+#define PAIR_KERNEL SPHERULE_PAIR_KERNEL(1U, SPHERULE_VISIT_ONE)
+
+#if defined(SPHERULE_LANES)
+#define ANY_REAL auto
+#define ANY_REAL3 auto
+#define ANY_REAL4 auto
+#define ANY_MASK auto
+#define ANY_UINT auto
+#define ROW(array, at) rowsOf(array, at)
+#define SET_ROW(where, array, at, to, old) setRows(where, array, at, to, old, live);
+#define SET_ALL(array, at, to) setAll(array, at, to);
+#define MEMBER(array, at, member) membersOf(array, at, &std::remove_cvref_t<decltype(*(array))>::member)
+#define EACH_LANE(where, function, at) callForLanes(where, at, [this](uint lane) { function(lane); });
+#define EACH_LANE_WITH(where, flag, function, at) \
+    callForLanes(where, flag, at, [this](uint number, bool flagged) { function(number, flagged); });
+#define ROWS_UP_TO(first, end)             \
+    uintRow {                              \
+        first, min((end) - (first), lanes) \
+    }
+#define IN_ROWS(at) firstLanes((at).live)
+#define LANES lanes
+#define LANE_LOOP_KERNEL(count) KERNEL(count)
+#define RAISE_TO(where, word, value) \
+    if (const mask raising = where; anyLane(raising)) atomicMax(word, floatBitsToUint(largestOf(raising, value)));
+#define LANE_KERNEL(count)             \
+    [[nodiscard]] uint kernelCount() { \
+        return count;                  \
+    }                                  \
+    void kernelRows(uintRow invocation)
+#define SPHERULE_VISIT_LANES(k, count) visitLanes(k, count)
+#define LANE_PAIR_KERNEL                                         \
+    void visitLanes(uint first, uint count) {                    \
+        live = count;                                            \
+        uints a;                                                 \
+        uints b;                                                 \
+        for (uint lane = 0; lane < lanes; ++lane) {              \
+            const uvec2 pair = pairs[first + lane]; /* padded */ \
+            a.v[lane] = pair.x;                                  \
+            b.v[lane] = pair.y;                                  \
+        }                                                        \
+        visitPairs(a, b, uintRow{first, count});                 \
+    }                                                            \
+    SPHERULE_PAIR_KERNEL(lanes, SPHERULE_VISIT_LANES)
+#else
+#define ANY_REAL real
+#define ANY_REAL3 real3
+#define ANY_REAL4 real4
+#define ANY_MASK bool
+#define ANY_UINT uint
+#define ROW(array, at) (array)[at]
+#define SET_ROW(where, array, at, to, old) \
+    if (where) (array)[at] = to;
+#define SET_ALL(array, at, to) (array)[at] = to;
+#define MEMBER(array, at, member) (array)[at].member
+#define EACH_LANE(where, function, at) \
+    if (where) function(at);
+#define EACH_LANE_WITH(where, flag, function, at) \
+    if (where) function(at, flag);
+#define ROWS_UP_TO(first, end) (first)
+#define IN_ROWS(at) true
+#define LANES 1U
+#define LANE_LOOP_KERNEL(count) KERNEL(count)
+#define RAISE_TO(where, word, value) \
+    if (where) atomicMax(word, floatBitsToUint(value));
+#define LANE_KERNEL(count) KERNEL(count)
+#define LANE_PAIR_KERNEL PAIR_KERNEL
+#endif

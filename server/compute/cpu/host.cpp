@@ -24,6 +24,16 @@ unsigned processors() {
     return static_cast<unsigned>(std::max(sysconf(_SC_NPROCESSORS_ONLN), 1L));
 }
 
+unsigned mostLanes() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
+        return 16;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) return 8;
+#endif
+    return 4;
+}
+
 std::size_t memoryBytes() {
     return static_cast<std::size_t>(std::max(sysconf(_SC_PHYS_PAGES), 1L)) *
            static_cast<std::size_t>(std::max(sysconf(_SC_PAGESIZE), 1L));

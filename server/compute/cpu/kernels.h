@@ -21,6 +21,7 @@ struct Entry {
     std::span<const BufferDeclaration> buffers;
     bool wantsParameters;
     std::uint32_t (*count)(const Binding&);  // invocations
+    std::uint32_t smallestRange;             // ranges are multiples of it, except the last
     // Runs invocations begin .. end - 1. Any number of threads may call it, each with its own range.
     void (*run)(const Binding&, std::uint32_t begin, std::uint32_t end);
 };
@@ -29,5 +30,10 @@ struct Entry {
 // parameters.
 std::span<const Entry> floatKernels();
 std::span<const Entry> doubleKernels();
+
+// The float kernels that have lanes, with 4, 8 or 16 lanes. They give the same bits as the kernels with one lane.
+std::span<const Entry> kernelsWith4Lanes();
+std::span<const Entry> kernelsWith8Lanes();
+std::span<const Entry> kernelsWith16Lanes();
 
 }  // namespace spherule::compute::cpu

@@ -12,6 +12,22 @@ namespace {
 
 constexpr unsigned mostThreads = 256;
 
+// Reads ":N" or ":NxL" behind the kind of the device. Returns false if there is anything else.
+bool readNumbers(const std::string& choice, std::size_t from, Precision precision, unsigned& threads, unsigned& lanes) {
+    if (choice == "auto" || choice.size() == from) return true;
+    const char* const end = choice.data() + choice.size();
+    auto parsed = std::from_chars(choice.data() + from + 1, end, threads);
+    if (parsed.ec != std::errc() || threads < 1 || threads > mostThreads) return false;
+    if (parsed.ptr == end) return true;
+    if (*parsed.ptr != 'x' || precision == Precision::Double) return false;
+    unsigned wanted = 0;
+    parsed = std::from_chars(parsed.ptr + 1, end, wanted);
+    if (parsed.ec != std::errc() || parsed.ptr != end) return false;
+    if (wanted != 1 && wanted != 4 && wanted != 8 && wanted != 16) return false;
+    lanes = std::min(lanes, wanted);
+    return true;
+}
+
 }  // namespace
 
 bool answersTo(const std::string& choice) {
@@ -20,21 +36,18 @@ bool answersTo(const std::string& choice) {
 
 Result<std::unique_ptr<Device>> openDevice(const std::string& choice, const std::string& passedOver) {
     const std::string kind = choice == "auto" ? "cpu" : choice.substr(0, choice.find(':'));
+    const Precision precision = kind == "cpu-double" ? Precision::Double : Precision::Single;
     unsigned threads = std::min(processors(), mostThreads);
-    bool right = kind == "cpu" || kind == "cpu-double";
-    if (right && choice.find(':') != std::string::npos) {
-        const char* const end = choice.data() + choice.size();
-        const auto parsed = std::from_chars(choice.data() + kind.size() + 1, end, threads);
-        right = parsed.ec == std::errc() && parsed.ptr == end && threads >= 1 && threads <= mostThreads;
+    unsigned lanes = precision == Precision::Double ? 1 : mostLanes();
+    if (!(kind == "cpu" || kind == "cpu-double") || !readNumbers(choice, kind.size(), precision, threads, lanes)) {
+        return fail(
+            ErrorKind::Input, "--device",
+            fmt::format("\"{}\" is neither cpu, nor cpu:N (N threads, 1 to {}), nor cpu:NxL (L lanes: 1, 4, 8 or "
+                        "16), nor cpu-double, nor cpu-double:N",
+                        choice, mostThreads));
     }
-    if (!right) {
-        return fail(ErrorKind::Input, "--device",
-                    fmt::format("\"{}\" is neither cpu nor cpu:N (N threads, 1 to {}), nor the same with cpu-double",
-                                choice, mostThreads));
-    }
-    const Precision precision = kind == "cpu" ? Precision::Single : Precision::Double;
     try {
-        return std::make_unique<CpuDevice>(threads, precision,
+        return std::make_unique<CpuDevice>(threads, precision, lanes,
                                            choice == "auto" ? passedOver : "asked for as " + choice);
     } catch (const std::system_error& error) {
         return fail(ErrorKind::NoDevice, choice,

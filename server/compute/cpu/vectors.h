@@ -4,7 +4,7 @@
 // The fourth lane of a vec3 is undefined: a vec3 made from a vec4 keeps the vec4's fourth lane.
 #pragma once
 
-namespace spherule::compute::cpu::single_precision {
+namespace spherule::compute::cpu::SPHERULE_PRECISION {
 
 using Lanes = float __attribute__((vector_size(16)));
 
@@ -63,4 +63,4 @@ inline vec4 operator+(const vec4& a, const vec4& b) {
     return vec4(a.lanes + b.lanes);
 }
 
-}  // namespace spherule::compute::cpu::single_precision
+}  // namespace spherule::compute::cpu::SPHERULE_PRECISION

@@ -15,7 +15,7 @@ void declareForces(PlanBuilder& plan) {
     plan.overPairs(Stage::Solve, Pass::Forces, "solve_forces.comp");
     if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallForces, "walls_forces.comp");
     plan.overSpheres(Stage::Solve, Pass::Forces, "apply_forces.comp");
-    if (contacts) plan.statistics("statistics_springs.comp", plan.plan().groups());
+    if (contacts) plan.statistics("statistics_springs.comp", plan.plan().grid.bundles());
 }
 
 }  // namespace
@@ -26,7 +26,6 @@ const Module moduleAccurate{
     .required = [](const scene::Scene& scene,
                    const Features& /*others*/) { return scene.quality.model == scene::Model::Accurate; },
     .declare = declareForces,
-    .upload = [](const ParameterSource& from, layout::Parameters& p) { p.maxWallHistory = from.plan.maxWallHistory; },
     .cost = {.reason = "the table has columns for the models"},
 };
 

@@ -2,33 +2,42 @@
 
 namespace spherule::sim {
 
-// The model `balanced`: resolves overlaps by moving spheres, then sets the velocities after impacts. The friction
-// module adds its own two passes.
+namespace {
+
+void declareSolver(PlanBuilder& plan) {
+    using enum Array;
+    const bool contacts = plan.has(Feature::Contacts);
+    const bool friction = plan.has(Feature::Friction);
+    plan.arrays({VelocityBefore, HeldVelocity, Acceleration});
+    if (friction) plan.arrays({HeldSpin});
+    if (plan.hasSurfaces()) plan.arrays({WallImpulse});
+    if (plan.hasSurfaces() && friction) plan.arrays({WallTorque});
+    plan.overSpheres(Stage::Begin, Pass::Begin, "begin_substep.comp");
+    plan.overSpheres(Stage::Finish, Pass::Finish, "finish_substep.comp");
+    if (!contacts) return;
+    plan.overPairs(Stage::Solve, Pass::Contacts, "solve_contacts.comp");
+    plan.overPairsIf(Stage::Solve, Pass::Contacts, "solve_unlisted.comp", LAUNCH_UNLISTED);
+}
+
+void declareScaling(PlanBuilder& plan) {
+    if (plan.has(Feature::Contacts)) plan.onNewSubstepOverPairs("scale_pairs.comp");
+    plan.onNewSubstepOverSpheres("scale_spheres.comp");
+}
+
+}  // namespace
+
+// The model `balanced`: one visit of each pair in a substep, which begins with the impulse that the contact held
+// before.
 const Module moduleBalanced{
     .feature = Feature::Balanced,
     .required = [](const scene::Scene& scene,
                    const Features& /*others*/) { return scene.quality.model == scene::Model::Balanced; },
     .declare =
         [](PlanBuilder& plan) {
-            if (plan.has(Feature::Contacts)) plan.arrays({Array::Touching});
-            plan.overPairs(Stage::Solve, Pass::Positions, "solve_positions.comp");
-            if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallPositions, "walls_positions.comp");
-            plan.overPairs(Stage::Solve, Pass::Velocities, "solve_velocities.comp");
-            if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallVelocities, "walls_velocities.comp");
+            declareSolver(plan);
+            declareScaling(plan);
         },
     .cost = {.reason = "the table has columns for the models"},
-};
-
-// The velocity before the substep. Impacts and sleep are detected by it.
-const Module moduleVelocityBefore{
-    .feature = Feature::VelocityBefore,
-    .required =
-        [](const scene::Scene& /*scene*/, const Features& others) {
-            const bool impacts = others.has(Feature::Contacts) || others.has(Feature::Restitution);
-            return others.has(Feature::Sleep) || (others.has(Feature::Balanced) && impacts);
-        },
-    .declare = [](PlanBuilder& plan) { plan.arrays({Array::VelocityBefore}); },
-    .cost = {.reason = "part of `balanced` and of sleep"},
 };
 
 }  // namespace spherule::sim

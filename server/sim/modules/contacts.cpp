@@ -8,7 +8,7 @@ namespace spherule::sim {
 namespace {
 
 // The lists are rebuilt when a sphere has moved this share of the margin. It is below one half: two spheres may
-// approach each other, and the position pass moves them a little further before the next check.
+// approach each other, and a solver moves them a little further before the next check.
 constexpr double rebuildShare = 0.45;
 
 bool differ(const std::vector<scene::Sphere>& spheres) {
@@ -17,8 +17,10 @@ bool differ(const std::vector<scene::Sphere>& spheres) {
 
 void declareLists(PlanBuilder& plan) {
     using enum Array;
-    plan.arrays({CellStart, BlockSums, SuperSums, RankInCell, CellOrder, SortScratch, SortScratchWords, SlotOf,
-                 ListReference, Pairs, GroupRange, DispatchSizes, DispatchArgs, Overlaps});
+    plan.arrays({CellStart,   BlockSums,     SuperSums, RankInCell,    CellOrder,    SortScratch, SortScratchWords,
+                 SlotOf,      ListReference, SortedX,   SortedY,       SortedZ,      GroupRange,  Candidates,
+                 BusyBatches, Pairs,         Bundles,   DispatchSizes, DispatchArgs, Overlaps});
+    if (plan.has(Feature::Radii)) plan.arrays({SortedRadius});
     plan.once(Stage::Rebuild, Pass::Grid, "rebuild_decide.comp");
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_clear.comp", LAUNCH_CELLS);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_count.comp", LAUNCH_SPHERES);
@@ -27,9 +29,11 @@ void declareLists(PlanBuilder& plan) {
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_scatter.comp", LAUNCH_SPHERES);
     plan.onRebuild(Stage::SortCells, Pass::Grid, "cell_order.comp", LAUNCH_CELLS);
     plan.onRebuild(Stage::Reference, Pass::Grid, "list_reference.comp", LAUNCH_SPHERES);
+    plan.onRebuild(Stage::Reference, Pass::Grid, "list_drift.comp", LAUNCH_ONE);
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_build.comp", LAUNCH_GROUPS);
-    plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_GROUPS);
-    plan.statistics("statistics_contacts.comp", plan.plan().groups());
+    plan.overPairsIf(Stage::Lists, Pass::Lists, "list_order.comp", LAUNCH_COLOUR);
+    plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_BUNDLES);
+    plan.statistics("statistics_contacts.comp", plan.plan().grid.bundles());
 }
 
 void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
@@ -42,10 +46,11 @@ void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
         const Level& level = grid.levels[k];
         p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.sampleThreshold, 0);
         p.levelCells[k] = glm::uvec4(level.cells, level.first);
+        p.levelBundles[k] = glm::uvec4(level.firstBundle, level.bundlesOfColour(), 0, 0);
     }
     p.margin = grid.margin;
     p.rebuildMove = static_cast<float>(rebuildShare) * grid.margin;
-    p.groups = from.plan.groups() / 8;
+    p.bundles = grid.bundles();
     p.pairCapacity = from.plan.pairCapacity;
 }
 

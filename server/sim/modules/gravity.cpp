@@ -12,6 +12,7 @@ const Module moduleGravity{
     .upload =
         [](const ParameterSource& from, layout::Parameters& p) {
             p.gravity = glm::vec4(glm::vec3(from.scene.forces.gravity), 0);
+            p.gravityChange = static_cast<float>(glm::length(from.scene.forces.gravity) * from.substep);
             p.deadBand = static_cast<float>(2 * glm::length(from.scene.forces.gravity) * from.substep);
         },
     .cost = {.reason = "without gravity, the bed does not rest"},

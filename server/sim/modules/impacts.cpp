@@ -14,7 +14,7 @@ const Module moduleImpacts{
             const std::vector<Alias> aliases{{"velocityBeforeSolve", Array::SortScratch}};
             plan.arrays({Array::Impacts});
             plan.observeSpheres(Stage::BeforeSolve, "velocity_before_solve.comp", aliases);
-            plan.observeGroups(Stage::AfterSolve, "statistics_impacts.comp", aliases);
+            plan.observeBundles(Stage::AfterSolve, "statistics_impacts.comp", aliases);
         },
     .cost = {.name = "impacts observed"},
 };

@@ -63,19 +63,7 @@ const Module moduleFriction{
         [](const scene::Scene& scene, const Features& /*others*/) {
             return anyContact(scene, [](const auto& contact) { return contact.friction > 0; });
         },
-    .declare =
-        [](PlanBuilder& plan) {
-            plan.arrays({Array::AngularVelocity});
-            if (!plan.has(Feature::Balanced)) return;
-            if (plan.has(Feature::Contacts)) {
-                plan.arrays({Array::NormalImpulses});
-                plan.overPairs(Stage::Friction, Pass::Friction, "solve_friction.comp");
-            }
-            if (plan.hasSurfaces()) {
-                plan.arrays({Array::WallImpulse});
-                plan.overSpheres(Stage::Friction, Pass::WallFriction, "walls_friction.comp");
-            }
-        },
+    .declare = [](PlanBuilder& plan) { plan.arrays({Array::AngularVelocity}); },
     .cost = {.name = "friction", .with = addFriction},
 };
 

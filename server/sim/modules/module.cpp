@@ -22,19 +22,25 @@ void PlanBuilder::overSpheres(Stage stage, Pass pass, std::string_view kernel, s
     staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.spheres, .aliases = std::move(aliases)}});
 }
 
-void PlanBuilder::overGroups(Stage stage, Pass pass, std::string_view kernel) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.groups()}});
+void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.grid.bundles()}});
 }
 
-void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel) {
+void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads) {
     if (!has(Feature::Contacts)) return;
     for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level)
         for (std::uint32_t colour = 0; colour < 8; ++colour)
             staged_.push_back({stage,
                                {.pass = pass,
                                 .kernel = kernel,
-                                .count = plan_.grid.levels[level].all() / 64,
+                                .count = threads * plan_.grid.levels[level].bundlesOfColour(),
                                 .phase = 8 * level + colour}});
+}
+
+void PlanBuilder::overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row) {
+    const std::size_t first = staged_.size();
+    overPairs(stage, pass, kernel, 1);
+    for (std::size_t k = first; k < staged_.size(); ++k) staged_[k].launch.launchRow = row;
 }
 
 void PlanBuilder::once(Stage stage, Pass pass, std::string_view kernel) {
@@ -73,10 +79,19 @@ void PlanBuilder::observeSpheres(Stage stage, std::string_view kernel, std::vect
     staged_.back().launch.observing = true;
 }
 
-void PlanBuilder::observeGroups(Stage stage, std::string_view kernel, std::vector<Alias> aliases) {
-    overGroups(stage, Pass::Statistics, kernel);
+void PlanBuilder::observeBundles(Stage stage, std::string_view kernel, std::vector<Alias> aliases) {
+    overBundles(stage, Pass::Statistics, kernel);
     staged_.back().launch.observing = true;
     staged_.back().launch.aliases = std::move(aliases);
+}
+
+void PlanBuilder::onNewSubstepOverPairs(std::string_view kernel) {
+    plan_.newSubstep.push_back(
+        {.pass = Pass::ContactMemory, .kernel = kernel, .count = 2 * plan_.pairCapacity, .forEachPair = true});
+}
+
+void PlanBuilder::onNewSubstepOverSpheres(std::string_view kernel) {
+    plan_.newSubstep.push_back({.pass = Pass::ContactMemory, .kernel = kernel, .count = plan_.spheres});
 }
 
 void PlanBuilder::statistics(std::string_view kernel, std::uint32_t count) {

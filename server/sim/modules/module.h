@@ -14,22 +14,23 @@
 namespace spherule::sim {
 
 // The stages of a substep, in their order. Within a stage, launches run in the order of the modules that declare them
-// (the order of shaders/features.def). The stages from Wake to RestoreSlip run only while the lists are rebuilt.
+// (the order of shaders/features.def). The stages from Leavers to Restore run only while the lists are rebuilt.
 enum class Stage : std::uint8_t {
-    Integrate,
+    Integrate,    // of `fast` and `accurate`
     Rebuild,      // decides whether the lists are rebuilt in this substep
-    Wake,         // the old lists are still valid
-    CarrySlip,    // saves the tangential slip of contacts by id
+    Leavers,      // wakes sleepers that a neighbour has left; the old lists are still valid
+    Carry,        // saves by id what contacts remember
     SortCells,    // the order of the spheres by cell
     SortColumns,  // each column of the spheres, in that order
     Reference,    // positions of the spheres when the lists are built
     Outside,      // distances between the spheres outside the bounds
     Lists,
-    RestoreSlip,  // gives the new pairs the slip of their contacts
-    Activity,     // finds the cell groups that hold anything that moves
+    Restore,      // gives the new pairs what their contacts remember
+    Activity,     // finds the bundles that hold anything that moves
+    Begin,        // of `balanced`
     BeforeSolve,  // observed steps only
     Solve,
-    Friction,
+    Finish,      // of `balanced`: walls and motion
     AfterSolve,  // observed steps only
     Sleep,
     Statistics,  // on demand
@@ -51,9 +52,12 @@ class PlanBuilder {
 
     // `aliases`: buffers of the kernel whose names differ from the arrays to bind.
     void overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases = {});
-    void overGroups(Stage stage, Pass pass, std::string_view kernel);
-    // Runs over all listed pairs: one colour of cell groups after the other, level after level.
-    void overPairs(Stage stage, Pass pass, std::string_view kernel);
+    void overBundles(Stage stage, Pass pass, std::string_view kernel);
+    // Runs over all listed pairs: one colour of bundles after the other, level after level. `threads`: invocations for
+    // each bundle.
+    void overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads = 64);
+    // The same for a kernel with one invocation for each bundle, while row `row` of the launch table is not empty.
+    void overPairsIf(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row);
     void once(Stage stage, Pass pass, std::string_view kernel);
     // Runs while the lists are rebuilt. Row `row` of the launch table holds the number of invocations.
     void onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row, std::vector<Alias> aliases = {});
@@ -63,7 +67,10 @@ class PlanBuilder {
                             std::uint32_t count);
     // Run in observed steps only.
     void observeSpheres(Stage stage, std::string_view kernel, std::vector<Alias> aliases);
-    void observeGroups(Stage stage, std::string_view kernel, std::vector<Alias> aliases);
+    void observeBundles(Stage stage, std::string_view kernel, std::vector<Alias> aliases);
+    // Runs when the length of the substep has changed: parameters.substepRatio is the new one over the old one.
+    void onNewSubstepOverPairs(std::string_view kernel);
+    void onNewSubstepOverSpheres(std::string_view kernel);
     // Runs on demand.
     void statistics(std::string_view kernel, std::uint32_t count);
 

@@ -11,23 +11,27 @@ namespace {
 
 void declareSleep(PlanBuilder& plan) {
     using enum Array;
-    plan.arrays({RestReference, WakeFlags, ActiveGroup});
-    plan.onRebuild(Stage::Wake, Pass::Grid, "wake.comp", LAUNCH_GROUPS);
-    plan.onRebuild(Stage::Wake, Pass::Grid, "wake_flagged.comp", LAUNCH_SPHERES);
+    plan.arrays({RestReference, RestlessBlock, ActiveBlock, VelocityBefore});
+    plan.overPairsIf(Stage::Leavers, Pass::Grid, "wake.comp", LAUNCH_COLOUR);
     plan.overSpheres(Stage::Activity, Pass::Sleep, "mark_active.comp");
-    plan.overGroups(Stage::Activity, Pass::Sleep, "dilate_active.comp");
+    plan.overBundles(Stage::Activity, Pass::Sleep, "dilate_active.comp");
+    plan.overPairs(Stage::Activity, Pass::Sleep, "wake.comp", 1);
     plan.overSpheres(Stage::Sleep, Pass::Sleep, "sleep.comp");
 }
 
 void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
     const scene::Scene& scene = from.scene;
     const double g = glm::length(scene.forces.gravity);
-    // The wake speed is well above the sleep speed, or a sphere would fall asleep and wake in turns. It is also above
-    // the speed that the solver's pushes give a squeezed sphere: up to about 15 g h in a bed 20 spheres deep (h:
-    // substep). `moveAwayDistance` detects a sphere that moves away more slowly.
-    constexpr double pushes = 20;
-    p.sleepSpeed = static_cast<float>(scene.sleep.speed);
-    p.wakeSpeed = static_cast<float>(std::max(3 * scene.sleep.speed, pushes * g * from.substep));
+    // With friction, `balanced` leaves a support under load slower than gravity makes it in a substep. The sleep speed
+    // is above that, and the wake speed well above the sleep speed, or a sphere would fall asleep and wake in turns. In
+    // `fast`, a squeezed sphere is up to about 15 times as fast. Without friction, a bed takes long to come to rest.
+    const double fall = g * from.substep;
+    const Features& features = from.plan.features;
+    const bool rests = features.has(Feature::Balanced) && features.has(Feature::Friction);
+    const double sleepSpeed = rests ? std::max(scene.sleep.speed, fall) : scene.sleep.speed;
+    p.sleepSpeed = static_cast<float>(sleepSpeed);
+    p.wakeSpeed = static_cast<float>(std::max(3 * sleepSpeed, (rests ? 3 : 20) * fall));
+    p.quietSpeed = rests ? p.sleepSpeed : p.wakeSpeed;
     // A sphere that stays within this distance of one place for the sleep time has not crossed it faster than the sleep
     // speed.
     const double moveAwayDistance =

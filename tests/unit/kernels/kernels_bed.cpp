@@ -10,9 +10,10 @@ namespace spherule::kernels {
 
 namespace {
 
-constexpr uint capacity = 512;  // pairs
-constexpr uint cells = 8;       // per axis
+constexpr uint capacity = 8192;  // pairs
+constexpr uint cells = 8;        // per axis
 constexpr uint idMask = 0xffffff;
+constexpr uint wallRows = 4;  // one for each axis of the bounds, one for an obstacle
 
 }  // namespace
 
@@ -20,29 +21,43 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
     : count(static_cast<uint>(places.size())), features(has), position(std::move(places)) {
     parameters.spheres = count;
     parameters.cells = uvec4(cells, cells, cells, cells * cells * cells);
-    parameters.groups = parameters.cells.w / 64;
+    parameters.levels = 1;
+    parameters.levelCells[0] = uvec4(cells, cells, cells, 0);
     parameters.levelSize[0] = vec4(1 / 1.1F, 0.5F, 64, 0);
+    parameters.levelBundles[0] = uvec4(0, 1, 0, 0);
+    parameters.bundles = 8;
     parameters.inverseCell = 1 / 1.1F;
     parameters.margin = 0.1F;
+    parameters.rebuildMove = 0.045F;
     parameters.radius = 0.5F;
     parameters.substep = 1 / 480.0F;
     parameters.perSubstep = 480;
     parameters.pairCapacity = capacity;
     parameters.materials = 1;
-    for (auto* column : {&positionLow, &angularVelocity, &velocityBefore, &deltaVelocity, &deltaOmega, &sortScratch_})
+    parameters.maxWallHistory = wallRows;
+    parameters.wallMin = vec4(-100, -100, -100, 0);
+    parameters.wallMax = vec4(100, 100, 100, 0);
+    parameters.substepRatio = 1;
+    for (auto* column : {&positionLow, &angularVelocity, &velocityBefore, &deltaVelocity, &deltaOmega, &heldVelocity,
+                         &heldSpin, &acceleration, &listReference, &sortScratch_})
         column->assign(count, vec4(0));
     velocity.assign(count, vec4(0, 0, 0, 1));
-    for (auto* column : {&idAndMaterial, &rankInCell_, &cellOrder_, &wakeFlags_, &sortScratchWords_})
+    for (auto* column : {&idAndMaterial, &rankInCell_, &slots_, &busyBatches_, &carriedCount_, &sortScratchWords_})
         column->resize(count);
+    cellOrder_.resize(std::max(count, MOST_OUTSIDE));
     std::iota(idAndMaterial.begin(), idAndMaterial.end(), 0U);
+    wallImpulse.assign(std::size_t{count} * wallRows, vec4(0));
+    wallTorque.assign(std::size_t{count} * wallRows, vec4(0));
     cellStart.resize(parameters.cells.w + 1);
-    pairs.resize(capacity);
-    touching.resize(capacity);
-    normalImpulses.resize(capacity);
+    for (auto* list : {&pairs, &candidates}) list->resize(capacity);
+    for (auto* half : {&contactX, &contactY, &contactZ, &torqueX, &torqueY, &torqueZ})
+        half->resize(std::size_t{2} * capacity);
+    for (auto* column : {&sortedX_, &sortedY_, &sortedZ_, &sortedRadius_}) column->resize(count + PAIR_PADDING);
+    carried_.resize(std::size_t{count} * CARRIED_MOST);
     groupRange.resize(parameters.cells.w / 8);
-    tangentialSlip.resize(capacity);
-    carriedSlip_.resize(capacity);
-    carriedOffsets_.resize(count + 1);
+    bundles.resize(std::size_t{parameters.bundles + 1} * BUNDLE_WORDS);
+    dispatchSizes.assign(LAUNCH_ROWS, uvec4(1, 1, 1, 1));
+    dispatchArgs.resize(LAUNCH_ROWS);
 }
 
 void Bed::run(std::string_view kernel, uint phase) {
@@ -53,44 +68,67 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"velocityBefore", velocityBefore},
                           {"deltaVelocity", deltaVelocity},
                           {"deltaOmega", deltaOmega},
+                          {"heldVelocity", heldVelocity},
+                          {"heldSpin", heldSpin},
+                          {"acceleration", acceleration},
+                          {"listReference", listReference},
+                          {"wallImpulse", wallImpulse},
+                          {"wallTorque", wallTorque},
                           {"idAndMaterial", idAndMaterial},
                           {"contactParams", contactParams},
+                          {"obstacles", obstacles},
                           {"cellStart", cellStart},
                           {"rankInCell", rankInCell_},
                           {"cellOrder", cellOrder_},
-                          {"wakeFlags", wakeFlags_},
+                          {"slotOf", slots_},
+                          {"busyBatches", busyBatches_},
+                          {"sortedX", sortedX_},
+                          {"sortedY", sortedY_},
+                          {"sortedZ", sortedZ_},
+                          {"sortedRadius", sortedRadius_},
                           {"counters", counters},
                           {"pairs", pairs},
-                          {"touching", touching},
-                          {"normalImpulses", normalImpulses},
+                          {"candidates", candidates},
                           {"groupRange", groupRange},
-                          {"tangentialSlip", tangentialSlip},
-                          {"carriedOffsets", carriedOffsets_},
-                          {"carriedSlip", carriedSlip_}};
-    launch(kernel, slots, {.parameters = &parameters, .phase = phase, .features = features});
+                          {"bundles", bundles},
+                          {"contactX", contactX},
+                          {"contactY", contactY},
+                          {"contactZ", contactZ},
+                          {"torqueX", torqueX},
+                          {"torqueY", torqueY},
+                          {"torqueZ", torqueZ},
+                          {"carriedCount", carriedCount_},
+                          {"carried", carried_},
+                          {"dispatchSizes", dispatchSizes},
+                          {"dispatchArgs", dispatchArgs}};
+    launch(kernel, slots, {.parameters = &parameters, .phase = phase, .features = features, .lanes = lanes});
 }
 
 void Bed::rebuild() {
-    run("slip_clear");
-    run("slip_count");
-    prefixSum(carriedOffsets_);
-    run("slip_carry");
+    counters[COUNTER_REBUILD] = 1;
+    run("rebuild_decide");
+    sweep("contacts_carry");
     run("cell_clear");
     run("cell_count");
     prefixSum(cellStart);
     run("cell_scatter");
     run("cell_order");
     sortColumns();
-    counters[COUNTER_PAIRS] = 0;
-    counters[COUNTER_UNLISTED] = 0;
+    run("list_reference");
+    run("list_drift");
     run("list_build");
+    sweep("list_order");
     run("list_fit");
-    run("slip_restore");
+    run("contacts_restore");
+    run("contacts_lost");
+    if (dispatchArgs[LAUNCH_LOST_SPHERES].x != 0) run("held_by_walls");
+    if (dispatchArgs[LAUNCH_LOST_COLOUR].x != 0) sweep("held_by_pairs");
 }
 
 void Bed::sortColumns() {
     const Launch how{.parameters = &parameters, .phase = 0, .features = features};
-    for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore}) {
+    for (auto* column : {&position, &positionLow, &velocity, &angularVelocity, &velocityBefore, &heldVelocity,
+                         &heldSpin, &acceleration}) {
         const Slot slots[] = {{"column", *column}, {"cellOrder", cellOrder_}, {"sortScratch", sortScratch_}};
         launch("sort_vectors", slots, how);
         launch("copy_vectors", slots, how);
@@ -103,6 +141,30 @@ void Bed::sortColumns() {
 
 void Bed::sweep(std::string_view kernel) {
     for (uint colour = 0; colour < 8; ++colour) run(kernel, colour);
+}
+
+void Bed::begin() {
+    bundles[parameters.bundles * BUNDLE_WORDS + WORD_FASTEST] = 0;
+    run("begin_substep");
+}
+
+void Bed::solve() {
+    sweep("solve_contacts");
+    if (counters[COUNTER_UNLISTED] != 0) sweep("solve_unlisted");
+}
+
+void Bed::finish() {
+    run("finish_substep");
+}
+
+void Bed::substep() {
+    if (counters[COUNTER_REBUILD] != 0)
+        rebuild();
+    else
+        run("rebuild_decide");
+    begin();
+    solve();
+    finish();
 }
 
 uint Bed::slotOf(uint id) const {
@@ -123,6 +185,10 @@ vec3 Bed::slip(uint a, uint b) const {
     const vec3 n = normal(a, b);
     const vec3 speed = velocityOf(a) - velocityOf(b);
     return speed - n * glm::dot(speed, n) - glm::cross(spinOf(a) * radiusOf(a) + spinOf(b) * radiusOf(b), n);
+}
+
+float Bed::partingSpeed(uint a, uint b) const {
+    return glm::dot(velocityOf(a) - velocityOf(b), normal(a, b));
 }
 
 vec3 Bed::momentum() const {
@@ -150,10 +216,21 @@ float Bed::energy() const {
     return sum;
 }
 
+std::vector<Bed::Listed> Bed::order() const {
+    std::vector<Listed> found;
+    for (uint bundle = 0; bundle < parameters.bundles; ++bundle) {
+        const uint* const words = &bundles[std::size_t{bundle} * BUNDLE_WORDS];
+        if (words[1] == UNLISTED || words[1] == 0) continue;
+        uint place = words[0];
+        for (uint batch = 0; batch <= BATCHES; ++batch)
+            for (; place < words[4 + batch]; ++place) found.push_back({place, bundle, batch});
+    }
+    return found;
+}
+
 std::vector<uint> Bed::listed() const {
     std::vector<uint> found;
-    for (const uvec4& group : groupRange)
-        for (uint k = group.x; group.y != UNLISTED && k < group.x + group.y; ++k) found.push_back(k);
+    for (const Listed& one : order()) found.push_back(one.place);
     return found;
 }
 
@@ -161,23 +238,48 @@ uvec2 Bed::idsOf(uint pair) const {
     return {idAndMaterial[pairs[pair].x] & idMask, idAndMaterial[pairs[pair].y] & idMask};
 }
 
-std::vector<uint> Bed::inTouch() const {
-    std::vector<uint> found;
-    for (const uvec4& group : groupRange)
-        for (uint k = 0; k < group.z; ++k) found.push_back(group.x + k);
-    return found;
+std::optional<uint> Bed::placeOf(uint a, uint b) const {
+    for (const uint place : listed())
+        if (idsOf(place) == uvec2(a, b) || idsOf(place) == uvec2(b, a)) return place;
+    return std::nullopt;
 }
 
-uvec2 Bed::idsInTouch(uint pair) const {
-    return {idAndMaterial[touching[pair].x] & idMask, idAndMaterial[touching[pair].y] & idMask};
+uint Bed::present() const {
+    return (counters[COUNTER_LISTS] & 1U) * parameters.pairCapacity;
+}
+
+vec3 Bed::remembered(uint pair) const {
+    const uint at = present() + pair;
+    return {contactX[at], contactY[at], contactZ[at]};
+}
+
+vec3 Bed::rememberedTorque(uint pair) const {
+    const uint at = present() + pair;
+    return {torqueX[at], torqueY[at], torqueZ[at]};
+}
+
+void Bed::remember(uint pair, vec3 value, vec3 torque) {
+    const uint at = present() + pair;
+    contactX[at] = value.x;
+    contactY[at] = value.y;
+    contactZ[at] = value.z;
+    torqueX[at] = torque.x;
+    torqueY[at] = torque.y;
+    torqueZ[at] = torque.z;
 }
 
 void Bed::pressAll(float impulse) {
-    for (uvec4& group : groupRange) group.z = group.y;
-    for (const uint k : listed()) {
-        touching[k] = pairs[k];
-        normalImpulses[k] = impulse;
-    }
+    for (const uint k : listed()) remember(k, impulse * normal(idsOf(k).x, idsOf(k).y));
+}
+
+void Bed::holdAll(float impulse) {
+    pressAll(impulse);
+    addUpHeld();
+}
+
+void Bed::addUpHeld() {
+    run("held_by_walls");
+    sweep("held_by_pairs");
 }
 
 }  // namespace spherule::kernels

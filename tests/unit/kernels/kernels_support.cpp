@@ -12,21 +12,32 @@ uint blocksOf(std::size_t values) {
     return static_cast<uint>((values + SCAN_BLOCK - 1) / SCAN_BLOCK);
 }
 
+const compute::cpu::Entry& entryOf(std::string_view kernel, unsigned lanes) {
+    std::vector<std::span<const compute::cpu::Entry>> tables;
+    if (lanes == 4) tables.push_back(compute::cpu::kernelsWith4Lanes());
+    if (lanes == 8) tables.push_back(compute::cpu::kernelsWith8Lanes());
+    if (lanes == 16) tables.push_back(compute::cpu::kernelsWith16Lanes());
+    tables.push_back(compute::cpu::floatKernels());
+    for (const auto& table : tables) {
+        const auto found = std::ranges::find(table, std::string(kernel) + ".comp", &compute::cpu::Entry::name);
+        if (found != table.end()) return *found;
+    }
+    throw std::out_of_range(std::string(kernel));
+}
+
 }  // namespace
 
 void launch(std::string_view kernel, std::span<const Slot> slots, const Launch& how) {
-    const auto kernels = compute::cpu::floatKernels();
-    const auto found = std::ranges::find(kernels, std::string(kernel) + ".comp", &compute::cpu::Entry::name);
-    if (found == kernels.end()) throw std::out_of_range(std::string(kernel));
+    const compute::cpu::Entry& found = entryOf(kernel, how.lanes);
     std::vector<void*> pointers;
-    for (const auto& declared : found->buffers) {
+    for (const auto& declared : found.buffers) {
         const auto slot = std::ranges::find(slots, declared.name, &Slot::name);
         if (slot == slots.end()) throw std::out_of_range(std::string(declared.name));
         pointers.push_back(slot->data);
     }
     const compute::cpu::Binding binding{
         .slots = pointers, .parameters = how.parameters, .phase = how.phase, .features = how.features};
-    found->run(binding, 0, found->count(binding));
+    found.run(binding, 0, found.count(binding));
 }
 
 std::vector<std::string_view> kernelNames() {

@@ -40,6 +40,7 @@ struct Launch {
     const layout::Parameters* parameters = nullptr;
     uint phase = 0;
     std::uint64_t features = 0;
+    unsigned lanes = 1;  // of kernels that have lanes
 };
 
 // Binds the buffers that the kernel declares; `slots` may have more. Throws std::out_of_range if the kernel or a buffer

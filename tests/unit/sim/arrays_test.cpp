@@ -91,7 +91,11 @@ TEST(SimLayout, WordsAreReadFromTheSource) {
     EXPECT_EQ(layout::wordsOf("Parameters", "codec_layout.h"), "rrrruuuuuuuu");
     EXPECT_THROW(layout::wordsOf("Nothing"), std::logic_error);
     EXPECT_EQ(layout::wordsOf("Parameters").find('u') * 4, offsetof(layout::Parameters, cells));
-    EXPECT_EQ(layout::wordsOf("Parameters").rfind('r') * 4 + 4, offsetof(layout::Parameters, spheres));
+    const auto word = [](std::size_t offset) { return layout::wordsOf("Parameters").at(offset / 4); };
+    EXPECT_EQ(word(offsetof(layout::Parameters, spheres) - 4), 'r');
+    EXPECT_EQ(word(offsetof(layout::Parameters, spheres)), 'u');
+    EXPECT_EQ(word(offsetof(layout::Parameters, gravityChange) - 4), 'u');
+    EXPECT_EQ(word(offsetof(layout::Parameters, gravityChange)), 'r');
 }
 
 // A plan without one feature has no arrays or launches that only this feature's module declares.

@@ -69,7 +69,7 @@ Features bareWith(std::initializer_list<Feature> more) {
 }
 
 TEST(SimFeatures, MinimalSceneHasOnlyContacts) {
-    EXPECT_EQ(namesOf(bareWith({})), Names({"contacts", "open faces", "balanced", "velocity before", "impacts"}));
+    EXPECT_EQ(namesOf(bareWith({})), Names({"contacts", "open faces", "balanced", "contact memory", "impacts"}));
 }
 
 TEST(SimFeatures, ContactsDoNotRequireSpheres) {
@@ -167,7 +167,7 @@ TEST(SimFeatures, SleepNeedsGravity) {
 TEST(SimFeatures, ModelComesFromTheScene) {
     const std::pair<Model, Names> cases[] = {
         {Model::Fast, {"contacts", "open faces", "fast", "impacts"}},
-        {Model::Balanced, {"contacts", "open faces", "balanced", "velocity before", "impacts"}},
+        {Model::Balanced, {"contacts", "open faces", "balanced", "contact memory", "impacts"}},
         {Model::Accurate, {"contacts", "open faces", "accurate", "low bits"}}};
     for (const auto& [model, names] : cases)
         EXPECT_EQ(

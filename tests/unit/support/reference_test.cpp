@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -56,11 +57,49 @@ TEST(Reference, BounceHeightScalesWithRestitutionSquared) {
 TEST(Reference, SphereAtRestOnTheFloorDoesNotMove) {
     World world;
     world.gravity = {0, 0, -9.81};
-    world.walls = {{{0, 0, 0}, {0, 0, 1}, 0}};
-    world.spheres = {{{0, 0, 0.05}, {0, 0, 0}, 0.05, 1, 0}};
+    world.walls = {{{0, 0, 0}, {0, 0, 1}, 0, 0.5}};
+    world.spheres = {{{0, 0, 0.05}, {0, 0, 0}, 0.05, 1, 0, 0.5}};
     for (int k = 0; k < 480; ++k) world.substep(h);
     EXPECT_NEAR(world.spheres[0].x.z, 0.05, 1e-12);
-    EXPECT_NEAR(world.largestOverlap(), 9.81 * h * h / 2, 1e-12);
+    EXPECT_NEAR(world.largestOverlap(), 0, 1e-12);
+}
+
+// Without friction and restitution, the floor is a spring of 0.2 periods per substep.
+TEST(Reference, SphereWithoutFrictionRestsOnASpring) {
+    World world;
+    world.gravity = {0, 0, -9.81};
+    world.walls = {{{0, 0, 0}, {0, 0, 1}, 0, 0}};
+    world.spheres = {{{0, 0, 0.05}, {0, 0, 0}, 0.05, 1, 0, 0}};
+    for (int k = 0; k < 480; ++k) world.substep(h);
+    const double frequency = 2 * std::numbers::pi * 0.2 / h;
+    EXPECT_NEAR(world.spheres[0].x.z, 0.05 - 9.81 / (frequency * frequency), 1e-12);
+}
+
+TEST(Reference, FrictionConservesMomentumAndAngularMomentum) {
+    World world = pair(0.5, 0.25);
+    for (Sphere& sphere : world.spheres) sphere.friction = 0.3;
+    const auto angular = [&] {
+        glm::dvec3 sum{};
+        for (const Sphere& s : world.spheres)
+            sum += (glm::cross(s.x, s.v) + 0.4 * s.radius * s.radius * s.spin) / s.inverseMass;
+        return sum;
+    };
+    const glm::dvec3 before = angular();
+    for (int k = 0; k < 100; ++k) world.substep(h);
+    EXPECT_NEAR(world.spheres[0].v.x + 4 * world.spheres[1].v.x, 1 - 4, 1e-12);
+    EXPECT_LT(glm::length(angular() - before), 1e-12);
+    EXPECT_GT(glm::length(world.spheres[0].spin), 0.1) << "they never met";
+}
+
+// A sphere slides until it rolls, at 5/7 of its speed.
+TEST(Reference, SlidingSphereRollsInTheEnd) {
+    World world;
+    world.gravity = {0, 0, -9.81};
+    world.walls = {{{0, 0, 0}, {0, 0, 1}, 0, 0.3}};
+    world.spheres = {{{0, 0, 0.05}, {1, 0, 0}, 0.05, 1, 0, 0.3}};
+    for (int k = 0; k < 480; ++k) world.substep(h);
+    EXPECT_NEAR(world.spheres[0].v.x, 5.0 / 7, 1e-9);
+    EXPECT_NEAR(world.spheres[0].spin.y * 0.05, 5.0 / 7, 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// Begins a substep of the model `balanced`: adds gravity and the impulses that contacts hold to each velocity.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+#include "shared/math.h"
+
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(writeonly, vec4, velocityBefore)
+BUFFER(restrict, vec4, heldVelocity)
+BUFFER(restrict, vec4, heldSpin)
+BUFFER(restrict, vec4, acceleration)
+BUFFER(coherent, uint, bundles)
+BUFFER(readonly, uint, counters)
+
+#include "shared/drift.h"
+
+// A sphere's own acceleration is a running mean over this many substeps. The value of a single substep makes an elastic
+// gas under gravity lose energy.
+#define MEAN_OVER 8.0f
+#define LARGEST_SQUARE 1.0e38f
+
+LANE_KERNEL(params.spheres) {
+    real4 v = ROW(velocity, invocation);
+    mask awake = liveLanes() && !isAsleep(v);
+    if (!anyLane(awake)) return;
+    real4 held = ROW(heldVelocity, invocation);
+    real3 fall = real3(0.0f, 0.0f, 0.0f);
+    if (HAS(GRAVITY)) fall = real3(params.gravity) * params.substep;
+    real4 mean = ROW(acceleration, invocation);
+    real3 now = real3(mean) + (real3(held) + fall - real3(mean)) * (1.0f / MEAN_OVER);
+    SET_ROW(awake, acceleration, invocation, real4(now, mean.w), mean)
+    real squared = max(dot3(now, now), real(params.gravityChange * params.gravityChange));
+    SET_ROW(awake, velocityBefore, invocation, real4(real3(v), squared), v)
+    precise real3 unheld = real3(v) + fall;
+    precise real3 start = unheld + real3(held);
+    SET_ROW(awake, heldVelocity, invocation, real4(-unheld, held.w), held)
+    SET_ROW(awake, velocity, invocation, real4(start, v.w), v)
+    if (HAS(CONTACTS)) {
+        real3 relative = start - real3(driftVelocity());
+        real square = dot3(relative, relative);
+        RAISE_TO(awake && square < LARGEST_SQUARE, bundles[params.bundles * BUNDLE_WORDS + WORD_FASTEST], square)
+    }
+    if (HAS(FRICTION)) {
+        real4 s = ROW(angularVelocity, invocation);
+        real4 heldS = ROW(heldSpin, invocation);
+        SET_ROW(awake, heldSpin, invocation, real4(-real3(s), heldS.w), heldS)
+        SET_ROW(awake, angularVelocity, invocation, real4(real3(s) + real3(heldS), s.w), s)
+    }
+}

@@ -1,0 +1,74 @@
+// After the lists are rebuilt: copies what each contact remembers to its place in the new lists.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uint, bundles)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(restrict, float, contactX)
+BUFFER(restrict, float, contactY)
+BUFFER(restrict, float, contactZ)
+BUFFER(restrict, float, torqueX)
+BUFFER(restrict, float, torqueY)
+BUFFER(restrict, float, torqueZ)
+BUFFER(coherent, uint, counters)
+BUFFER(readonly, uint, carriedCount)
+BUFFER(readonly, uvec2, carried)
+
+#include "shared/bundle_words.h"
+#include "shared/carried.h"
+#include "shared/contact_memory.h"
+#include "shared/contact_owner.h"
+
+PRIVATE(uint, restored)
+
+// Copies the memory of a contact from the old lists. `sign` is -1 if its spheres have changed places.
+void restore(uint to, uint from, float sign) {
+    restored = restored + 1u;
+    contactX[to] = sign * contactX[from];
+    contactY[to] = sign * contactY[from];
+    contactZ[to] = sign * contactZ[from];
+    if (HAS(BALANCED) && HAS(FRICTION)) {
+        torqueX[to] = torqueX[from];
+        torqueY[to] = torqueY[from];
+        torqueZ[to] = torqueZ[from];
+    }
+}
+
+void clear(uint to) {
+    contactX[to] = 0.0f;
+    contactY[to] = 0.0f;
+    contactZ[to] = 0.0f;
+    if (HAS(BALANCED) && HAS(FRICTION)) {
+        torqueX[to] = 0.0f;
+        torqueY[to] = 0.0f;
+        torqueZ[to] = 0.0f;
+    }
+}
+
+KERNEL(params.bundles) {
+    uint bundle = invocation;
+    if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
+    uint present = presentHalf();
+    uint previous = previousHalf();
+    restored = 0u;
+    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) {
+        clear(present + k);
+        uvec2 pair = pairs[k];
+        bool first = firstOwnsContact(pair.x, pair.y);
+        uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);
+        uint count = carriedBy(owner);
+        if (count == 0u) continue;
+        uint partner = idOf(idAndMaterial[first ? pair.y : pair.x]);
+        for (uint place = owner * CARRIED_MOST; place < owner * CARRIED_MOST + count; ++place) {
+            uvec2 one = carried[place];
+            if ((one.x & ~FIRST_OWNS) != partner) continue;
+            restore(present + k, previous + one.y, first == (one.x >= FIRST_OWNS) ? 1.0f : -1.0f);
+            break;
+        }
+    }
+    if (restored > 0u) atomicAdd(counters[COUNTER_RESTORED], restored);
+}

@@ -1,0 +1,283 @@
+// Finishes a substep of the model `balanced`: solves the contacts of each sphere with walls and obstacles by the law of
+// shared/contact_law.h, then moves the sphere. Asks for new pair lists if the sphere may leave its margin in the next
+// substep.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+#include "shared/math.h"
+
+BUFFER(restrict, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, angularVelocity)
+BUFFER(readonly, vec4, velocityBefore)
+BUFFER(restrict, vec4, heldVelocity)
+BUFFER(restrict, vec4, heldSpin)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, ContactParams, contactParams)
+BUFFER(readonly, Obstacle, obstacles)
+BUFFER(restrict, vec4, wallImpulse)  // by id, params.maxWallHistory each: N s; w: surface + 1
+BUFFER(restrict, vec4, wallTorque)   // by id: torque of the friction per lever (N s)
+BUFFER(readonly, vec4, listReference)
+BUFFER(coherent, uint, counters)
+
+#include "shared/contact_law.h"
+#include "shared/drift.h"
+#include "shared/friction.h"
+#include "shared/limits.h"
+#include "shared/outside.h"
+#include "shared/falling_frame.h"
+#include "shared/motion.h"
+
+// The sphere of each lane. Its contacts with walls change it one after the other.
+PRIVATE(uints, sphereId)
+PRIVATE(mask, sphereAwake)
+PRIVATE(real3, spherePoint)     // m
+PRIVATE(real, sphereRadius)     // m
+PRIVATE(real, inverseMass)      // 1/kg
+PRIVATE(uints, sphereMaterial)
+PRIVATE(real3, sphereVelocity)  // m/s
+PRIVATE(real3, sphereSpin)      // rad/s
+PRIVATE(real4, startVelocity)   // its row of `velocityBefore`, continued by impacts
+PRIVATE(real3, unheld)          // minus the velocity without held contacts (m/s)
+PRIVATE(real3, unheldSpin)
+PRIVATE(mask, remembersWalls)   // before the substep
+PRIVATE(mask, holdsWalls)       // after it
+PRIVATE(mask, touchesWalls)
+
+// The row of `wallImpulse` for a surface. The first three rows are for the axes of the bounds, the others for obstacles
+// that the sphere touches.
+uints rowOfSurface(uint surface) {
+    uints first = sphereId * params.maxWallHistory;
+    if (surface < 6u) return first + surface / 2u;
+    uints found = first + 3u;
+    mask known = noLane();
+    mask empty = noLane();
+    for (uint k = 3u; k < params.maxWallHistory; ++k) {
+        real4 row = ROW(wallImpulse, first + k);
+        mask here = isAtSurface(row, surface);
+        mask usable = !known && (here || (!empty && row.w == 0.0f));
+        found = select(usable, first + k, found);
+        known = known || here;
+        empty = empty || row.w == 0.0f;
+    }
+    return found;
+}
+
+void resistRollingAtWall(mask where, real3 n, real normalImpulse, real4 contact) {
+    real about = dot3(sphereSpin, n);
+    real c = inverseMass / (sphereRadius * sphereRadius) * 2.5f;
+    real most = normalImpulse * sphereRadius;
+    real3 moment = rollingMoment(sphereSpin - n * about, c, rollingResistanceOf(contact) * most) +
+                   spinningMoment(n, about, c, spinningResistanceOf(contact) * most);
+    real3 change = select(where, moment * c, real3(0.0f, 0.0f, 0.0f));
+    sphereSpin = sphereSpin + change;
+    unheldSpin = unheldSpin - change;
+}
+
+void reportDroppedWall(uint id) {
+    atomicAdd(counters[COUNTER_DROPPED_WALLS], 1u);
+}
+
+void visitSurface(real3 n, real separation, uint wallMaterial, uint surface) {
+    float h = params.substep;
+    real speed = dot3(sphereVelocity, n);
+    mask close = separation + min(speed, real(0.0f)) * h <= 0.0f;
+    if (!anyLane(sphereAwake && (close || remembersWalls))) return;
+    uints row = rowOfSurface(surface);
+    real4 remembered = ROW(wallImpulse, row);
+    mask held = isAtSurface(remembered, surface);
+    mask involved = sphereAwake && (close || held);
+    if (!anyLane(involved)) return;
+
+    // A sphere whose row is another surface's holds no impulse here.
+    mask remembers = held || remembered.w == 0.0f;
+    real3 oldImpulse = select(held, real3(remembered), real3(0.0f, 0.0f, 0.0f));
+    real4 oldTorque = real4(0.0f, 0.0f, 0.0f, 0.0f);
+    if (HAS(FRICTION)) oldTorque = ROW(wallTorque, row);
+    heldTorque = select(held, real3(oldTorque), real3(0.0f, 0.0f, 0.0f));
+    real mass = 1.0f / inverseMass;
+    real before = dot3(oldImpulse, n);
+    real3 tangential = oldImpulse - n * before;
+    precise real target = -max(separation, real(0.0f)) * params.perSubstep;
+    uints index = sphereMaterial * params.materials + wallMaterial;
+    real4 contact = MEMBER(contactParams, index, contact);
+    real e = HAS(RESTITUTION) ? restitutionOf(contact) : real(0.0f);
+
+    real time = real(0.0f);
+    mask impact = noLane();
+    mask placed = noLane();
+    real load = real(0.0f);  // that the sphere carries towards the wall (N s)
+    mask approaching = involved && speed < target;
+    if (anyLane(approaching)) {
+        real start = dot3(real3(startVelocity), n);
+        real acceleration = sqrt(startVelocity.w);
+        load = before - dot3(sphereVelocity + unheld, n) * mass;
+        load = select(load > -start * mass * LEAST_LOAD, load, real(0.0f));
+        real least = -max(acceleration * IMPACT, before * inverseMass * IMPACT_LOAD);
+        mask ahead = approaching && separation > 0.0f && start < least;
+        real meeting = separation * 2.0f / max(-start - speed, real(1.0e-30f));
+        placed = ahead && meeting <= h;
+        mask missed = ahead && !placed && !held;
+        involved = involved && !missed;
+        approaching = approaching && !missed;
+        // As in approachOf().
+        real change = min(speed - start, real(0.0f));
+        precise real energy = start * start - 2.0f * change * separation * params.perSubstep;
+        real impactSpeed = select(placed, -sqrt(max(energy, real(0.0f))), min(start, real(0.0f)));
+        time = select(placed, min(separation * 2.0f / max(-start - impactSpeed, real(1.0e-30f)), real(h)), real(0.0f));
+        precise real late = change * (1.0f - time * params.perSubstep);
+        impact = approaching && impactSpeed < least;
+        precise real rebound = -e * impactSpeed;
+        startVelocity = select(impact, real4(real3(startVelocity) + n * (rebound - impactSpeed), startVelocity.w),
+                               startVelocity);
+        target = select(placed, real(0.0f), target);
+        target = select(impact, max(rebound + late, real(0.0f)), target);
+    }
+
+    precise real normalImpulse = positivePart(before - mass * (speed - target));
+    mask soft = isSoft(contact) && separation <= sphereRadius * SOFT_GAP && !impact;
+    if (anyLane(soft))
+        normalImpulse = select(soft, softImpulse(before, mass, speed, separation, sphereRadius), normalImpulse);
+    mask touching = involved && (normalImpulse > 0.0f || held);
+    touchesWalls = touchesWalls || touching;
+    // Rigid walls push out fully, because they come after the pairs.
+    precise real push = select(soft, real(0.0f), max(-separation - sphereRadius * SLOP, real(0.0f)));
+
+    real3 friction = real3(0.0f, 0.0f, 0.0f);
+    real3 torque = real3(0.0f, 0.0f, 0.0f);
+    real lever = inverseMass / sphereRadius * 2.5f;
+    real3 velocityHeld = sphereVelocity + unheld;
+    real3 spinHeld = sphereSpin + unheldSpin;
+    if (HAS(FRICTION)) {
+        // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
+        if (HAS(ROLLING)) resistRollingAtWall(touching, n, normalImpulse, contact);
+        precise real3 slip = sphereVelocity - n * speed - cross3(sphereSpin, n) * sphereRadius;
+        friction = frictionOfContact(tangential, slip, mass, frictionOf(contact) * normalImpulse);
+        torque = cross3(n, friction);
+        sphereSpin = select(touching, sphereSpin - (torque - heldTorque) * lever, sphereSpin);
+    }
+    precise real3 change = (n * (normalImpulse - before) + friction - tangential) * inverseMass;
+    sphereVelocity = select(touching, sphereVelocity + change, sphereVelocity);
+    precise real3 shift = n * push - select(touching, change * time, real3(0.0f, 0.0f, 0.0f));
+    spherePoint = select(involved, spherePoint + shift, spherePoint);
+
+    real3 impulse = n * normalImpulse + friction;
+    mask forgets = touching && (impact || !remembers);
+    if (anyLane(forgets)) {
+        real keep = heldAfterImpact(max(before, real(0.0f)), normalImpulse, e, load);
+        real share = select(normalImpulse > 0.0f, min(keep / max(normalImpulse, real(1.0e-30f)), real(1.0f)),
+                            real(0.0f));
+        share = select(forgets, select(remembers, share, real(0.0f)), real(1.0f));
+        impulse = impulse * share;
+        torque = torque * share;
+        // As correctHeld() in shared/contact_pair.h.
+        precise real3 heldNow = velocityHeld + (impulse - oldImpulse) * inverseMass;
+        precise real3 heldTurn = spinHeld - (torque - heldTorque) * lever;
+        unheld = select(forgets, heldNow - sphereVelocity, unheld);
+        unheldSpin = select(forgets, heldTurn - sphereSpin, unheldSpin);
+    }
+    EACH_LANE(touching && !remembers, reportDroppedWall, sphereId)
+    mask stored = touching && remembers;
+    mask holds = stored && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f);
+    holdsWalls = holdsWalls || holds;
+    real4 kept = real4(impulse, select(holds, real(float(surface + 1u)), real(0.0f)));
+    SET_ROW(stored, wallImpulse, row, kept, remembered)
+    if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)
+}
+
+#include "shared/surfaces.h"
+
+void solveWalls(uintRow at, real4 held) {
+    holdsWalls = noLane();
+    touchesWalls = noLane();
+    remembersWalls = sphereAwake && holdsAtWall(held);
+    if (!HAS(WALLS) && !HAS(PLANES) && !HAS(BOXES)) return;
+    real ahead = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
+    mask clear = clearOfSurfaces(spherePoint, sphereRadius, ahead);
+    if (!HAS(PLANES) && !HAS(BOXES) && !anyLane(sphereAwake && (!clear || remembersWalls))) return;
+    uints word = ROW(idAndMaterial, at);
+    sphereId = idOf(word);
+    sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);
+    startVelocity = ROW(velocityBefore, at);
+    visitSurfaces();
+}
+
+void reportNonFinite(uint sphere) {
+    // The sphere is counted and reported. It touches nothing, because comparisons with its position are false.
+    atomicAdd(counters[COUNTER_NON_FINITE], 1u);
+    atomicMax(counters[COUNTER_FIRST_ID], ~idOf(idAndMaterial[sphere]));
+}
+
+void checkOutside(uint sphere) {
+    vec4 x = position[sphere];
+    checkMotion(sphere, x, vec3(velocity[sphere]), vec3(x));
+}
+
+mask leavesBounds(real3 p) {
+    return p.x < params.wallMin.x || p.x > params.wallMax.x || p.y < params.wallMin.y || p.y > params.wallMax.y ||
+           p.z < params.wallMin.z || p.z > params.wallMax.z;
+}
+
+LANE_KERNEL(params.spheres) {
+    real4 v = ROW(velocity, invocation);
+    sphereAwake = liveLanes() && !isAsleep(v);
+    if (!anyLane(sphereAwake)) return;
+    float h = params.substep;
+    real4 x = ROW(position, invocation);
+    real4 held = ROW(heldVelocity, invocation);
+    real4 s = real4(0.0f, 0.0f, 0.0f, 0.0f);
+    real4 heldS = s;
+    if (HAS(FRICTION)) {
+        s = ROW(angularVelocity, invocation);
+        heldS = ROW(heldSpin, invocation);
+    }
+    spherePoint = real3(x);
+    sphereRadius = radiusOf(x);
+    inverseMass = inverseMassOf(v);
+    sphereVelocity = real3(v);
+    sphereSpin = real3(s);
+    unheld = real3(held);
+    unheldSpin = real3(heldS);
+    solveWalls(invocation, held);
+
+    precise real3 holds = sphereVelocity + unheld;
+    real pairs = heldPairs(held);
+    // Rounding must not stay as a thrust. A sphere that holds nothing moves along its exact arc.
+    mask isFree = pairs == 0.0f && !holdsWalls;
+    holds = select(isFree, real3(0.0f, 0.0f, 0.0f), holds);
+    real4 heldNow = real4(holds, select(holdsWalls, -1.0f - pairs, pairs));
+    SET_ROW(sphereAwake, heldVelocity, invocation, heldNow, held)
+    if (anyLane(touchesWalls)) {
+        SET_ROW(touchesWalls, velocity, invocation, real4(sphereVelocity, v.w), v)
+        if (HAS(FRICTION)) SET_ROW(touchesWalls, angularVelocity, invocation, real4(sphereSpin, s.w), s)
+    }
+    if (HAS(FRICTION)) {
+        real3 spins = sphereSpin + unheldSpin;
+        spins = select(isFree, real3(0.0f, 0.0f, 0.0f), spins);
+        SET_ROW(sphereAwake, heldSpin, invocation, real4(spins, heldS.w), heldS)
+    }
+    real3 arc = sphereVelocity;
+    if (HAS(GRAVITY)) arc = select(isFree, arc - real3(params.gravity) * (0.5f * h), arc);
+    precise real3 to = spherePoint + arc * h;
+    mask moves = sphereAwake;
+    if (HAS(OPEN_FACES)) moves = moves && farthestOf(spherePoint) <= LAST_PLACE;
+    SET_ROW(moves, position, invocation, real4(to, x.w), x)
+    mask bad = sphereAwake && !finiteLanes(to);
+    EACH_LANE(bad, reportNonFinite, invocation)
+    mask inside = sphereAwake && !bad;
+    if (HAS(OPEN_FACES)) {
+        real4 reference = HAS(CONTACTS) ? ROW(listReference, invocation) : real4(0.0f, 0.0f, 0.0f, 0.0f);
+        mask outside = inside && (reference.w != 0.0f || leavesBounds(to));
+        inside = inside && !outside;
+        EACH_LANE(outside && moves, checkOutside, invocation)
+    }
+    real motion = sqrt(dot3(arc, arc)) * h;
+    RAISE_TO(inside && motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
+    if (HAS(CONTACTS)) {
+        real3 since = to - real3(ROW(listReference, invocation)) - real3(driftPath());
+        real3 relative = arc - real3(driftVelocity());
+        real moved = sqrt(dot3(since, since)) + sqrt(dot3(relative, relative)) * h;
+        if (anyLane(inside && moved > params.rebuildMove)) atomicOr(counters[COUNTER_REBUILD], 1u);
+    }
+}

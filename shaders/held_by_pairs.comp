@@ -1,0 +1,48 @@
+// Adds up anew what the contacts between spheres hold, after held_by_walls.comp. `phase` is the level and the colour of
+// the bundles.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+#include "shared/grid.h"
+#include "shared/bundles.h"
+
+BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
+BUFFER(readonly, uint, bundles)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(readonly, float, contactX)
+BUFFER(readonly, float, contactY)
+BUFFER(readonly, float, contactZ)
+BUFFER(readonly, float, torqueX)
+BUFFER(readonly, float, torqueY)
+BUFFER(readonly, float, torqueZ)
+BUFFER(readonly, uint, counters)
+BUFFER(restrict, vec4, heldVelocity)
+BUFFER(restrict, vec4, heldSpin)
+
+#include "shared/bundle_words.h"
+#include "shared/contact_memory.h"
+
+void addHeld(uint sphere, vec3 impulse, vec3 torque) {
+    float inverseMass = inverseMassOf(velocity[sphere]);
+    vec4 held = heldVelocity[sphere];
+    heldVelocity[sphere] = vec4(vec3(held) + impulse * inverseMass, withHeldPairs(held, heldPairs(held) + 1.0f));
+    if (!HAS(FRICTION)) return;
+    float lever = 2.5f * inverseMass / radiusOf(position[sphere]);
+    heldSpin[sphere] = vec4(vec3(heldSpin[sphere]) - torque * lever, 0.0f);
+}
+
+KERNEL(bundlesOfPhase()) {
+    uint bundle = bundleOfPhase(invocation);
+    if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
+    for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) {
+        uint at = presentHalf() + k;
+        vec3 impulse = vec3(contactX[at], contactY[at], contactZ[at]);
+        if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f) continue;
+        vec3 torque = vec3(0.0f, 0.0f, 0.0f);
+        if (HAS(FRICTION)) torque = vec3(torqueX[at], torqueY[at], torqueZ[at]);
+        addHeld(pairs[k].x, impulse, torque);
+        addHeld(pairs[k].y, -impulse, torque);
+    }
+}

@@ -1,0 +1,114 @@
+// Puts the pairs of each bundle in order (shared/bundles.h): chooses a batch for each candidate, then copies the
+// candidates to their places, the close pairs of each batch first. `phase` is the level and the colour of the bundles.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+#include "shared/grid.h"
+#include "shared/bundles.h"
+
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, uvec2, groupRange)
+BUFFER(restrict, uvec2, candidates)
+BUFFER(restrict, uint, busyBatches)  // the batches that hold the sphere, and the phase in which they do
+BUFFER(coherent, uint, counters)
+BUFFER(writeonly, uvec2, pairs)
+BUFFER(writeonly, uint, bundles)
+
+#define FAR_BIT 0x80000000u
+#define SLOT_BITS 0xffffffu
+#define ALL_BATCHES 0xffffffu     // BATCHES bits
+#define ALL_HASHED 0xffffu        // HASHED_BATCHES bits
+#define ALONE BATCHES             // the batch of a pair for which none is free
+
+PRIVATE(uint, total)
+PRIVATE(uint, places[2u * (BATCHES + 1u)])  // by batch, close pairs and far pairs: first how many, then the next place
+
+uint hashOf(uint a, uint b) {
+    uint ia = idOf(idAndMaterial[a]);
+    uint ib = idOf(idAndMaterial[b]);
+    uint hash = min(ia, ib) * 0x9e3779b1u ^ (max(ia, ib) + 0x7f4a7c15u) * 0x85ebca6bu;
+    hash ^= hash >> 15u;
+    hash *= 0x2c1b3c6du;
+    hash ^= hash >> 12u;
+    return hash % HASHED_BATCHES;
+}
+
+uint busyOf(uint sphere) {
+    uint word = busyBatches[sphere];
+    return word >> 24u == phase + 1u ? word & ALL_BATCHES : 0u;
+}
+
+// The first free batch from the hash on, among the hashed ones; then any.
+uint freeBatch(uint busy, uint hash) {
+    uint hashed = busy & ALL_HASHED;
+    if (hashed == ALL_HASHED) return busy == ALL_BATCHES ? ALONE : uint(findLSB(~busy));
+    uint turned = (hashed | (hashed << HASHED_BATCHES)) >> hash;
+    return (hash + uint(findLSB(~turned))) % HASHED_BATCHES;
+}
+
+void chooseBatch(uint k) {
+    uvec2 pair = candidates[k];
+    uint a = pair.x & SLOT_BITS;
+    uint busyA = busyOf(a);
+    uint busyB = busyOf(pair.y);
+    uint batch = freeBatch(busyA | busyB, hashOf(a, pair.y));
+    if (batch != ALONE) {
+        busyBatches[a] = ((phase + 1u) << 24u) | busyA | (1u << batch);
+        busyBatches[pair.y] = ((phase + 1u) << 24u) | busyB | (1u << batch);
+    }
+    uint place = 2u * batch + (pair.x >= FAR_BIT ? 1u : 0u);
+    places[place] = places[place] + 1u;
+    candidates[k] = uvec2(pair.x, pair.y | (place << 24u));
+    total = total + 1u;
+}
+
+void copyToPlace(uint k) {
+    uvec2 pair = candidates[k];
+    uint place = pair.y >> 24u;
+    pairs[places[place]] = uvec2(pair.x & SLOT_BITS, pair.y & SLOT_BITS);
+    places[place] = places[place] + 1u;
+}
+
+void visitCandidates(uint bundle, bool copying) {
+    uint level = levelOfPhase();
+    uvec4 cells = cellsOf(level);
+    for (uint part = 0u; part < BLOCKS_PER_BUNDLE; ++part) {
+        BlockPlace block = blockOfBundle(bundle, level, part);
+        for (uint group = 0u; group < 8u && block.exists; ++group) {
+            uvec2 range = groupRange[groupOfBlock(cells, block, group)];
+            for (uint k = firstCandidate(range); k < firstCandidate(range) + candidatesOf(range); ++k) {
+                if (copying)
+                    copyToPlace(k);
+                else
+                    chooseBatch(k);
+            }
+        }
+    }
+}
+
+KERNEL(bundlesOfPhase()) {
+    uint bundle = bundleOfPhase(invocation);
+    uint words = bundle * BUNDLE_WORDS;
+    bundles[words] = 0u;
+    bundles[words + 1u] = 0u;
+    bundles[words + 2u] = 1u;
+    total = 0u;
+    if (counters[COUNTER_CANDIDATES] > params.pairCapacity) return;  // list_fit.comp
+    for (uint k = 0u; k < 2u * (BATCHES + 1u); ++k) places[k] = 0u;
+    visitCandidates(bundle, false);
+    if (total == 0u) return;
+    uint start = atomicAdd(counters[COUNTER_PAIRS], total + PAIR_PADDING);
+    if (total + PAIR_PADDING > params.pairCapacity || start > params.pairCapacity - total - PAIR_PADDING) return;
+    bundles[words] = start;
+    bundles[words + 1u] = total;
+    for (uint batch = 0u; batch <= BATCHES; ++batch) {
+        uint close = places[2u * batch];
+        uint far = places[2u * batch + 1u];
+        places[2u * batch] = start;
+        places[2u * batch + 1u] = start + close;
+        start = start + close + far;
+        bundles[words + 4u + batch] = start;
+    }
+    visitCandidates(bundle, true);
+}

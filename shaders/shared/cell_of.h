@@ -1,0 +1,26 @@
+// The cell and the block of a point.
+
+uint levelOf(float radius) {
+    uint level = 0u;
+    if (HAS(LEVELS))
+        while (level + 1u < params.levels && radius > largestRadius(level)) level = level + 1u;
+    return level;
+}
+
+// The cell of a sphere on its level.
+uint cellOf(vec4 sphere) {
+    vec3 point = vec3(sphere);
+    if (!finite3(point)) return 0u;
+    uint level = levelOf(storedRadius(sphere));
+    uvec4 cells = cellsOf(level);
+    vec3 p = point * inverseCellOf(level);
+    return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
+}
+
+// The number of the point's block of 4 x 4 x 4 cells among the blocks of all levels.
+uint blockAt(vec3 point, uint level) {
+    if (!finite3(point)) return 0u;
+    uvec4 cells = cellsOf(level);
+    vec3 p = point * inverseCellOf(level);
+    return blockNumber(cells, wrapCell(p.x, cells.x) / 4u, wrapCell(p.y, cells.y) / 4u, wrapCell(p.z, cells.z) / 4u);
+}

@@ -1,0 +1,98 @@
+// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
+// included shared/outside.h, shared/drift.h and shared/falling_frame.h.
+
+// The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
+// sphere must see all that it may meet within two steps.
+#define LOOK_AHEAD 2.0f
+
+PRIVATE(vec3, wallPoint)
+PRIVATE(vec3, flightVelocity)  // velocity of the sphere that looks ahead (m/s)
+PRIVATE(float, reachAhead)          // its radius plus the distance that it looks ahead (m)
+PRIVATE(float, ownRadius)      // its radius (m)
+PRIVATE(bool, mayCollide)
+
+// Returns true if the sphere may close the gap while it looks ahead, and if the substeps are too long for the impact.
+bool mayCloseGap(float gap, vec3 normal) {
+    float ahead = LOOK_AHEAD * params.step;
+    float speed = -dot3(flightVelocity, normal);
+    if (HAS(GRAVITY)) speed = speed + max(-dot3(vec3(params.gravity), normal), 0.0f) * ahead;
+    return speed * ahead > gap && speed * params.substep > SAFE_MOTION * ownRadius;
+}
+
+void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+    mayCollide = mayCollide || mayCloseGap(reachAhead - ownRadius - depth, normal);
+}
+
+#include "shared/walls.h"
+
+// Returns true if a sphere outside may soon meet a wall, an obstacle or a sphere inside the bounds.
+bool mayCollideSoon(vec3 p, vec3 v, float radius) {
+    float ahead = LOOK_AHEAD * params.step;
+    float speed = sqrt(dot3(v, v));
+    if (HAS(GRAVITY)) speed = speed + sqrt(dot3(vec3(params.gravity), vec3(params.gravity))) * ahead;
+    wallPoint = p;
+    flightVelocity = v;
+    ownRadius = radius;
+    reachAhead = radius + speed * ahead;
+    mayCollide = false;
+    if (HAS(CONTACTS)) {
+        vec3 nearest = vec3(min(max(p.x, params.wallMin.x), params.wallMax.x),
+                            min(max(p.y, params.wallMin.y), params.wallMax.y),
+                            min(max(p.z, params.wallMin.z), params.wallMax.z));
+        vec3 d = p - nearest;
+        float distance = sqrt(dot3(d, d));
+        mayCollide = distance <= strip() || mayCloseGap(distance - strip(), d * (1.0f / distance));
+    }
+    visitWalls(reachAhead);
+    return mayCollide;
+}
+
+// The motion of the sphere in a substep (m), as far as it may carry the sphere past an object that it should hit.
+// `reference` is its row of `listReference`.
+float riskyMotion(vec4 sphere, vec3 v, vec4 reference) {
+    float h = params.substep;
+    float motion = sqrt(dot3(v, v) * h * h);
+    vec3 p = vec3(sphere);
+    if (!(beyond(p) > 0.0f) || mayCollideSoon(p, v, radiusOf(sphere))) return motion;
+    if (!HAS(CONTACTS) || roomOf(reference) >= UNLIMITED_ROOM || counters[COUNTER_REBUILDS] == 0u) return 0.0f;
+    // Among spheres outside, only its motion relative to their frame counts.
+    vec3 drift = v - frameVelocity();
+    float speed = sqrt(dot3(drift, drift));
+    vec3 since = p - vec3(reference) - framePath();
+    float used = sqrt(dot3(since, since)) + speed * LOOK_AHEAD * params.step;
+    return roomOf(reference) > 0.0f && used < 0.5f * roomOf(reference) ? 0.0f : speed * h;
+}
+
+// Returns true if the lists may lack a pair of this sphere, which has moved to `to` with velocity `v`.
+bool leavesLists(vec3 to, vec3 v, vec4 reference, float radius) {
+    vec3 since = to - vec3(reference);
+    vec3 drifted = since - driftPath();
+    float moved = sqrt(dot3(drifted, drifted));
+    if (HAS(BALANCED)) {
+        // The lists must hold to the end of the next substep.
+        vec3 relative = v - driftVelocity();
+        moved = moved + sqrt(dot3(relative, relative)) * params.substep;
+    }
+    bool leftMargin = moved > params.rebuildMove;
+    if (roomOf(reference) == 0.0f) return leftMargin;
+    if (leftMargin && !(beyondStrip(to) && beyondStrip(vec3(reference)))) return true;
+    if (lost(vec4(vec3(reference), radius))) return !lost(vec4(to, radius));
+    vec3 drift = since - framePath();
+    float most = ROOM_SHARE * abs(roomOf(reference));
+    // A sphere in a listed pair asks for new lists once it has moved by the width of the strip: a pair that parts need
+    // not stay listed.
+    if (roomOf(reference) < 0.0f) most = min(most, strip());
+    return dot3(drift, drift) > most * most;
+}
+
+// Asks for shorter substeps if the motion of the sphere is too large, and for new lists if it leaves its margin. `v` is
+// its mean velocity in the substep, which ends at `to`.
+void checkMotion(uint sphere, vec4 x, vec3 v, vec3 to) {
+    vec4 reference = HAS(CONTACTS) ? listReference[sphere] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    float safe = SAFE_MOTION * radiusOf(x);
+    if (dot3(v, v) * params.substep * params.substep > safe * safe) {
+        float motion = riskyMotion(withXyz(x, to), v, reference);
+        if (motion > safe) atomicMax(counters[COUNTER_LARGEST_MOTION], floatBitsToUint(motion * SAFE_MOTION / safe));
+    }
+    if (HAS(CONTACTS) && leavesLists(to, v, reference, storedRadius(x))) atomicOr(counters[COUNTER_REBUILD], 1u);
+}

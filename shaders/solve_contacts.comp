@@ -1,0 +1,58 @@
+// The model `balanced`: solves the listed contacts (shared/contact_law.h). `phase` is the level and the colour of the
+// bundles.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+#include "shared/math.h"
+#include "shared/grid.h"
+#include "shared/bundles.h"
+
+BUFFER(coherent, vec4, position)
+BUFFER(coherent, vec4, velocity)
+BUFFER(coherent, vec4, angularVelocity)
+BUFFER(coherent, vec4, velocityBefore)
+BUFFER(coherent, vec4, heldVelocity)
+BUFFER(coherent, vec4, heldSpin)
+BUFFER(readonly, uint, idAndMaterial)
+BUFFER(readonly, ContactParams, contactParams)
+BUFFER(readonly, uvec2, pairs)
+BUFFER(readonly, uint, bundles)
+BUFFER(restrict, float, contactX)
+BUFFER(restrict, float, contactY)
+BUFFER(restrict, float, contactZ)
+BUFFER(restrict, float, torqueX)
+BUFFER(restrict, float, torqueY)
+BUFFER(restrict, float, torqueZ)
+
+PRIVATE(uint, remembered)  // the first element of the contact memory of the present lists
+
+#include "shared/bundle_words.h"
+#include "shared/contact.h"
+#include "shared/friction.h"
+#include "shared/contact_law.h"
+#include "shared/contact_pair.h"
+
+bool beginBundle(uint bundle) {
+    if (!hasList(bundle) || listedPairs(bundle) == 0u || (HAS(SLEEP) && !isActive(bundle))) return false;
+    remembered = firstRemembered();
+    contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    return true;
+}
+
+void visitPairs(uints a, uints b, uintRow at) {
+    uintRow memory = at + remembered;
+    heldImpulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
+    if (HAS(FRICTION)) heldTorque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
+    if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
+    SET_ALL(contactX, memory, heldImpulse.x)
+    SET_ALL(contactY, memory, heldImpulse.y)
+    SET_ALL(contactZ, memory, heldImpulse.z)
+    if (HAS(FRICTION)) {
+        SET_ALL(torqueX, memory, heldTorque.x)
+        SET_ALL(torqueY, memory, heldTorque.y)
+        SET_ALL(torqueZ, memory, heldTorque.z)
+    }
+}
+
+LANE_PAIR_KERNEL
