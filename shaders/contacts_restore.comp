@@ -23,6 +23,9 @@ BUFFER(readonly, uvec2, carried)
 #include "shared/contact_memory.h"
 #include "shared/contact_owner.h"
 
+// The rows of `carried` are prefetched for the pair that comes this many pairs later.
+#define PAIRS_AHEAD 16u
+
 PRIVATE(uint, restored)
 
 // Copies the memory of a contact from the old lists. `sign` is -1 if its spheres have changed places.
@@ -49,6 +52,10 @@ void clear(uint to) {
     }
 }
 
+uint ownerOf(uvec2 pair) {
+    return idOf(idAndMaterial[firstOwnsContact(pair.x, pair.y) ? pair.x : pair.y]);
+}
+
 KERNEL(params.bundles) {
     uint bundle = invocation;
     if (!hasList(bundle) || listedPairs(bundle) == 0u) return;
@@ -57,6 +64,7 @@ KERNEL(params.bundles) {
     restored = 0u;
     for (uint k = firstPair(bundle); k < endOfPairs(bundle); ++k) {
         clear(present + k);
+        PREFETCH(carried[ownerOf(pairs[min(k + PAIRS_AHEAD, endOfPairs(bundle) - 1u)]) * CARRIED_MOST])
         uvec2 pair = pairs[k];
         bool first = firstOwnsContact(pair.x, pair.y);
         uint owner = idOf(idAndMaterial[first ? pair.x : pair.y]);

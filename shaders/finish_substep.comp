@@ -41,8 +41,8 @@ PRIVATE(real3, sphereSpin)      // rad/s
 PRIVATE(real4, startVelocity)   // its row of `velocityBefore`, continued by impacts
 PRIVATE(real3, unheld)          // minus the velocity without held contacts (m/s)
 PRIVATE(real3, unheldSpin)
-PRIVATE(mask, remembersWalls)   // before the substep
-PRIVATE(mask, holdsWalls)       // after it
+PRIVATE(real, partsBefore)      // partOfSurface() of the surfaces at which the sphere held an impulse
+PRIVATE(real, partsNow)         // the same after the substep
 PRIVATE(mask, touchesWalls)
 
 // The row of `wallImpulse` for a surface. The first three rows are for the axes of the bounds, the others for obstacles
@@ -79,16 +79,13 @@ void reportDroppedWall(uint id) {
     atomicAdd(counters[COUNTER_DROPPED_WALLS], 1u);
 }
 
-void visitSurface(real3 n, real separation, uint wallMaterial, uint surface) {
+// Solves the contacts in `where` with one surface. The spheres meet it in this substep, or they may hold an impulse.
+RARE void solveSurface(mask where, mask close, real3 n, real separation, real speed, uint wallMaterial, uint surface) {
     float h = params.substep;
-    real speed = dot3(sphereVelocity, n);
-    mask close = separation + min(speed, real(0.0f)) * h <= 0.0f;
-    if (!anyLane(sphereAwake && (close || remembersWalls))) return;
     uints row = rowOfSurface(surface);
     real4 remembered = ROW(wallImpulse, row);
     mask held = isAtSurface(remembered, surface);
-    mask involved = sphereAwake && (close || held);
-    if (!anyLane(involved)) return;
+    mask involved = where && (close || held);
 
     // A sphere whose row is another surface's holds no impulse here.
     mask remembers = held || remembered.w == 0.0f;
@@ -180,22 +177,28 @@ void visitSurface(real3 n, real separation, uint wallMaterial, uint surface) {
     EACH_LANE(touching && !remembers, reportDroppedWall, sphereId)
     mask stored = touching && remembers;
     mask holds = stored && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f);
-    holdsWalls = holdsWalls || holds;
+    partsNow = select(holds, withPart(partsNow, surface), partsNow);
     real4 kept = real4(impulse, select(holds, real(float(surface + 1u)), real(0.0f)));
     SET_ROW(stored, wallImpulse, row, kept, remembered)
     if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)
 }
 
+void visitSurface(real3 n, real separation, uint wallMaterial, uint surface) {
+    real speed = dot3(sphereVelocity, n);
+    mask close = separation + min(speed, real(0.0f)) * params.substep <= 0.0f;
+    mask visited = sphereAwake && (close || containsPart(partsBefore, surface));
+    if (anyLane(visited)) solveSurface(visited, close, n, separation, speed, wallMaterial, surface);
+}
+
 #include "shared/surfaces.h"
 
-void solveWalls(uintRow at, real4 held) {
-    holdsWalls = noLane();
+void solveWalls(uintRow at) {
+    partsNow = real(0.0f);
     touchesWalls = noLane();
-    remembersWalls = sphereAwake && holdsAtWall(held);
     if (!HAS(WALLS) && !HAS(PLANES) && !HAS(BOXES)) return;
     real ahead = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
     mask clear = clearOfSurfaces(spherePoint, sphereRadius, ahead);
-    if (!HAS(PLANES) && !HAS(BOXES) && !anyLane(sphereAwake && (!clear || remembersWalls))) return;
+    if (!HAS(PLANES) && !HAS(BOXES) && !anyLane(sphereAwake && (!clear || partsBefore != 0.0f))) return;
     uints word = ROW(idAndMaterial, at);
     sphereId = idOf(word);
     sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);
@@ -239,15 +242,16 @@ LANE_KERNEL(params.spheres) {
     sphereSpin = real3(s);
     unheld = real3(held);
     unheldSpin = real3(heldS);
-    solveWalls(invocation, held);
+    real pairsHeld = heldPairs(held);
+    partsBefore = held.w - pairsHeld;
+    solveWalls(invocation);
 
     precise real3 holds = sphereVelocity + unheld;
-    real pairs = heldPairs(held);
     // Rounding must not stay as a thrust. A sphere that holds nothing moves along its exact arc.
-    mask isFree = pairs == 0.0f && !holdsWalls;
+    real heldNow = pairsHeld + partsNow;
+    mask isFree = heldNow == 0.0f;
     holds = select(isFree, real3(0.0f, 0.0f, 0.0f), holds);
-    real4 heldNow = real4(holds, select(holdsWalls, -1.0f - pairs, pairs));
-    SET_ROW(sphereAwake, heldVelocity, invocation, heldNow, held)
+    SET_ROW(sphereAwake, heldVelocity, invocation, real4(holds, heldNow), held)
     if (anyLane(touchesWalls)) {
         SET_ROW(touchesWalls, velocity, invocation, real4(sphereVelocity, v.w), v)
         if (HAS(FRICTION)) SET_ROW(touchesWalls, angularVelocity, invocation, real4(sphereSpin, s.w), s)

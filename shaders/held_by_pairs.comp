@@ -27,7 +27,7 @@ BUFFER(restrict, vec4, heldSpin)
 void addHeld(uint sphere, vec3 impulse, vec3 torque) {
     float inverseMass = inverseMassOf(velocity[sphere]);
     vec4 held = heldVelocity[sphere];
-    heldVelocity[sphere] = vec4(vec3(held) + impulse * inverseMass, withHeldPairs(held, heldPairs(held) + 1.0f));
+    heldVelocity[sphere] = vec4(vec3(held) + impulse * inverseMass, held.w + 1.0f);
     if (!HAS(FRICTION)) return;
     float lever = 2.5f * inverseMass / radiusOf(position[sphere]);
     heldSpin[sphere] = vec4(vec3(heldSpin[sphere]) - torque * lever, 0.0f);

@@ -18,13 +18,13 @@ KERNEL(params.spheres) {
     uint first = idOf(idAndMaterial[invocation]) * params.maxWallHistory;
     vec3 impulse = vec3(0.0f, 0.0f, 0.0f);
     vec3 torque = vec3(0.0f, 0.0f, 0.0f);
-    bool atWall = false;
+    float parts = 0.0f;
     for (uint k = first; k < first + params.maxWallHistory; ++k) {
-        if (wallImpulse[k].w == 0.0f) continue;
-        atWall = true;
+        if (!hasSlip(wallImpulse[k])) continue;
+        parts = withPart(parts, surfaceOf(wallImpulse[k]));
         impulse = impulse + vec3(wallImpulse[k]);
         if (HAS(FRICTION)) torque = torque + vec3(wallTorque[k]);
     }
-    heldVelocity[invocation] = vec4(impulse * inverseMass, atWall ? -1.0f : 0.0f);
+    heldVelocity[invocation] = vec4(impulse * inverseMass, parts);
     if (HAS(FRICTION)) heldSpin[invocation] = vec4(torque * (-2.5f * inverseMass / radiusOf(x)), 0.0f);
 }

@@ -40,7 +40,7 @@ bool beginBundle(uint bundle) {
     return true;
 }
 
-void visitPairs(uints a, uints b, uintRow at) {
+void visitPairs(slots a, slots b, uintRow at) {
     uintRow memory = at + remembered;
     heldImpulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
     if (HAS(FRICTION)) heldTorque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));

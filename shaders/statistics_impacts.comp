@@ -25,6 +25,10 @@ BUFFER(restrict, vec4, impacts)  // until the host takes them: impacts, sums of 
 PRIVATE(vec4, sum)
 
 void visitPair(uint a, uint b) {
+    // No speed along a direction exceeds the speed.
+    vec3 relative = vec3(velocityBeforeSolve[b]) - vec3(velocityBeforeSolve[a]);
+    float least = WEIGHTLESS * params.deadBand;
+    if (!(dot3(relative, relative) > 0.999f * least * least)) return;
     vec4 pa = position[a];
     vec4 pb = position[b];
     vec3 d = vec3(pa) - vec3(pb);
@@ -42,8 +46,8 @@ void visitPair(uint a, uint b) {
         squared = dot3(d, d);
     }
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
-    float approach = dot3(vec3(velocityBeforeSolve[b]) - vec3(velocityBeforeSolve[a]), n);
-    if (!(approach > WEIGHTLESS * params.deadBand)) return;
+    float approach = dot3(relative, n);
+    if (!(approach > least)) return;
     float parting = dot3(vec3(velocity[a]) - vec3(velocity[b]), n);
     // A pair that still approaches as before has not met yet: it is only within the tolerance.
     if (!(parting > -0.5f * approach)) return;

@@ -80,18 +80,29 @@ ANY_MASK isAtSurface(ANY_REAL4 row, uint surface) {
     return row.w == float(surface + 1u);
 }
 
-// A row of `heldVelocity`: w is the number of pairs in which the sphere holds an impulse. If it also holds one at a
-// wall, w is that number plus 1, negative.
-ANY_MASK holdsAtWall(ANY_REAL4 held) {
-    return held.w < 0.0f;
+// The surface of a row that is not empty.
+uint surfaceOf(vec4 row) {
+    return uint(row.w) - 1u;
+}
+
+// A row of `heldVelocity`: w is the number of pairs in which the sphere holds an impulse, plus partOfSurface() of each
+// surface at which it holds one. All obstacles have one part together. The sum is exact up to 131,071 pairs.
+float partOfSurface(uint surface) {
+    return float(1u << min(surface, 6u)) * 0.0078125f;
 }
 
 ANY_REAL heldPairs(ANY_REAL4 held) {
-    return select(held.w < 0.0f, -held.w - 1.0f, held.w);
+    return floor(held.w);
 }
 
-ANY_REAL withHeldPairs(ANY_REAL4 held, ANY_REAL number) {
-    return select(held.w < 0.0f, -1.0f - number, number);
+// True if a sum of parts contains the surface's part.
+ANY_MASK containsPart(ANY_REAL parts, uint surface) {
+    ANY_REAL scaled = parts * (64.0f / float(1u << min(surface, 6u)));
+    return scaled - floor(scaled) >= 0.5f;
+}
+
+ANY_REAL withPart(ANY_REAL parts, uint surface) {
+    return select(containsPart(parts, surface), parts, parts + partOfSurface(surface));
 }
 
 // A row of `groupRange`: the candidates of a group of 2 x 2 x 2 cells.

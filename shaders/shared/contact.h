@@ -5,8 +5,8 @@
 #define TOUCH_TOLERANCE 1.0e-4f
 
 // A direction for coincident centres. It follows from the slots, so that it is the same in every run.
-real3 directionFromSlots(uints a, uints b) {
-    uints hash = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
+RARE real3 directionFromSlots(slots a, slots b) {
+    uints hash = uints(a) * 0x9e3779b1u ^ (uints(b) + 0x7f4a7c15u) * 0x85ebca6bu;
     hash = hash ^ (hash >> 15u);
     hash = hash * 0x2c1b3c6du;
     hash = hash ^ (hash >> 12u);
@@ -17,7 +17,7 @@ real3 directionFromSlots(uints a, uints b) {
 }
 
 // The unit normal from b to a; w: the distance of the centres (m).
-real4 normalAndDistance(real3 difference, real squared, uints a, uints b) {
+real4 normalAndDistance(real3 difference, real squared, slots a, slots b) {
     real distance = sqrt(squared);
     mask coincident = distance < 1.0e-12f;
     real3 n = difference * (1.0f / max(distance, real(1.0e-12f)));

@@ -2,10 +2,13 @@
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
 // included shared/contact_law.h.
 
-real4 contactOfPair(uints a, uints b) {
-    if (!HAS(MATERIALS)) return real4(params.contact);
+RARE real4 contactOfMaterials(slots a, slots b) {
     uints index = materialOf(ROW(idAndMaterial, a)) * params.materials + materialOf(ROW(idAndMaterial, b));
     return MEMBER(contactParams, index, contact);
+}
+
+real4 contactOfPair(slots a, slots b) {
+    return HAS(MATERIALS) ? contactOfMaterials(a, b) : real4(params.contact);
 }
 
 // The impacts of the pairs that approach in this substep. All speeds are along the normal.
@@ -23,7 +26,7 @@ struct Impact {
 
 // Finds the impacts, and lets them change the velocities before the substep: an impact passes from pair to pair as in
 // Newton's cradle. `before`: the normal impulse held so far (N s).
-RARE Impact impactOf(mask approaching, mask held, uints a, uints b, real3 d, real squared, real reach, real separation,
+RARE Impact impactOf(mask approaching, mask held, slots a, slots b, real3 d, real squared, real reach, real separation,
                      real4 va, real4 vb, real3 normal, real before, real target, real lever, real e) {
     real ma = effectiveInverseMass(va);
     real mb = effectiveInverseMass(vb);
@@ -81,7 +84,7 @@ RARE Impact impactOf(mask approaching, mask held, uints a, uints b, real3 d, rea
 }
 
 // Resists rolling and spinning by moments up to the contact's limits. They are not held over substeps.
-RARE void resistRolling(mask where, uints a, uints b, real3 n, real4 pa, real4 pb, real ma, real mb, real normalImpulse,
+RARE void resistRolling(mask where, slots a, slots b, real3 n, real4 pa, real4 pb, real ma, real mb, real normalImpulse,
                    real4 contact) {
     real4 sa = ROW(angularVelocity, a);
     real4 sb = ROW(angularVelocity, b);
@@ -112,7 +115,7 @@ RARE void resistRolling(mask where, uints a, uints b, real3 n, real4 pa, real4 p
 // Corrects the held rows of two spheres, if their contact does not hold the whole change of their velocities, or if it
 // begins or ends to hold an impulse. `heldChange`, `torqueChange`: changes of the impulse and the torque that it holds.
 // `begins`: 1 if it begins, -1 if it ends. The sums are exact for a sphere that holds nothing.
-RARE void correctHeld(mask where, uints a, uints b, real3 heldChange, real3 torqueChange, real begins, real4 va,
+RARE void correctHeld(mask where, slots a, slots b, real3 heldChange, real3 torqueChange, real begins, real4 va,
                       real4 vb, real4 sa, real4 sb, real leverA, real leverB) {
     real ma = effectiveInverseMass(va);
     real mb = effectiveInverseMass(vb);
@@ -120,10 +123,8 @@ RARE void correctHeld(mask where, uints a, uints b, real3 heldChange, real3 torq
     real4 hb = ROW(heldVelocity, b);
     precise real3 heldA = (real3(va) + real3(ha)) + heldChange * ma;
     precise real3 heldB = (real3(vb) + real3(hb)) - heldChange * mb;
-    real pairsA = withHeldPairs(ha, heldPairs(ha) + begins);
-    real pairsB = withHeldPairs(hb, heldPairs(hb) + begins);
-    SET_ROW(where, heldVelocity, a, real4(heldA - real3(ROW(velocity, a)), pairsA), ha)
-    SET_ROW(where, heldVelocity, b, real4(heldB - real3(ROW(velocity, b)), pairsB), hb)
+    SET_ROW(where, heldVelocity, a, real4(heldA - real3(ROW(velocity, a)), ha.w + begins), ha)
+    SET_ROW(where, heldVelocity, b, real4(heldB - real3(ROW(velocity, b)), hb.w + begins), hb)
     if (!HAS(FRICTION)) return;
     real4 wa = ROW(heldSpin, a);
     real4 wb = ROW(heldSpin, b);
@@ -134,7 +135,7 @@ RARE void correctHeld(mask where, uints a, uints b, real3 heldChange, real3 torq
 }
 
 // A sleeper does not move, but the impulses that its contacts hold change. It begins with them when it wakes.
-RARE void updateSleeper(mask where, uints sleeper, real4 v, real4 x, real3 impulse, real3 torque) {
+RARE void updateSleeper(mask where, slots sleeper, real4 v, real4 x, real3 impulse, real3 torque) {
     real inverseMass = inverseMassOf(v);
     real4 held = ROW(heldVelocity, sleeper);
     SET_ROW(where, heldVelocity, sleeper, real4(real3(held) + impulse * inverseMass, held.w), held)
@@ -146,7 +147,7 @@ RARE void updateSleeper(mask where, uints sleeper, real4 v, real4 x, real3 impul
 
 // Solves the contacts in `where` whose spheres meet in this substep or hold an impulse. Returns those whose impulse has
 // changed. `remembers`: false if the contacts cannot hold an impulse, because they are in no list.
-mask solvePairs(mask where, uints a, uints b, bool remembers) {
+mask solvePairs(mask where, slots a, slots b, bool remembers) {
     real4 pa = ROW(position, a);
     real4 pb = ROW(position, b);
     real3 d = real3(pa) - real3(pb);
@@ -209,6 +210,7 @@ mask solvePairs(mask where, uints a, uints b, bool remembers) {
     push = select(soft, real(0.0f), push);
     mask pushed = involved && push > 0.0f;
     mask touching = involved && (normalImpulse > 0.0f || held);
+    if (!anyLane(touching || pushed)) return touching;
 
     real3 friction = real3(0.0f, 0.0f, 0.0f);
     real3 torque = real3(0.0f, 0.0f, 0.0f);
@@ -216,7 +218,7 @@ mask solvePairs(mask where, uints a, uints b, bool remembers) {
     real leverB = real(0.0f);
     real4 sa = real4(0.0f, 0.0f, 0.0f, 0.0f);
     real4 sb = sa;
-    if (HAS(FRICTION) && anyLane(touching)) {
+    if (HAS(FRICTION)) {
         // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
         if (HAS(ROLLING)) resistRolling(touching, a, b, n, pa, pb, ma, mb, normalImpulse, contact);
         real ra = radiusOf(pa);

@@ -19,13 +19,14 @@
 //   LANE_PAIR_KERNEL            Visits the listed pairs of the bundles of the launch's colour, batch after batch
 //   PAIR_KERNEL                 (shared/bundles.h). The same with one lane in C++ too. The includer defines
 //                               `bool beginBundle(uint bundle)`, which returns false to skip the bundle, and
-//                               `void visitPairs(uints a, uints b, uintRow at)`, where `at` is the number of the pair.
+//                               `void visitPairs(slots a, slots b, uintRow at)`, where `at` is the number of the pair.
 //
 //   real, real3, real4, mask    Values per lane: float, vec3, vec4 and bool in GLSL.
-//   uints                       A number per lane, such as the slot of a sphere.
+//   uints                       A number per lane.
+//   slots                       The slot of a sphere per lane.
 //   uintRow                     Consecutive numbers, one per lane.
 //   ANY_REAL, ANY_REAL3, ANY_REAL4, ANY_MASK, ANY_UINT  Types in functions for values per lane and for single values.
-//   ROW(array, at)              The elements of a buffer at `at`, a uints or a uintRow.
+//   ROW(array, at)              The elements of a buffer at `at`: uints, slots or a uintRow.
 //   SET_ROW(where, array, at, to, old)  Sets the elements of the lanes in `where`. `old`: their present values.
 //   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Lanes that do not exist must keep theirs.
 //   MEMBER(array, at, member)   A vec4 member of the structs of a buffer.
@@ -59,6 +60,7 @@ layout(location = 0) uniform uint phase;
 #define real4 vec4
 #define mask bool
 #define uints uint
+#define slots uint
 #define uintRow uint
 #define ANY_REAL float
 #define ANY_REAL3 vec3

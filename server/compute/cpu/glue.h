@@ -6,7 +6,7 @@
 // Included once by each translation unit that compiles the kernels. The unit first defines:
 //   SPHERULE_REAL        The type for `float` in kernels: float or double.
 //   SPHERULE_PRECISION   The namespace of the kernels, which contains vec3 and vec4 of that type.
-//   SPHERULE_LANES       Only in units of kernels with several lanes, which include compute/cpu/lanes.h before.
+//   SPHERULE_LANES       Only in units of kernels with several lanes, which include compute/cpu/lane_rows.h before.
 
 // Kernels share callbacks whose parameters some kernels do not use, and Mesa refuses a parameter without a name.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -84,6 +84,7 @@ using real3 = vec3;
 using real4 = vec4;
 using mask = bool;
 using uints = uint;
+using slots = uint;
 using uintRow = uint;
 inline bool anyLane(bool a) {
     return a;
@@ -130,6 +131,11 @@ inline uint atomicMax(uint& memory, uint value) {
     while (seen < value && !word.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
     }
     return seen;
+}
+
+// Another thread may be writing the word.
+inline uint wordOf(uint& memory) {
+    return std::atomic_ref<uint>(memory).load(std::memory_order_relaxed);
 }
 
 // The base class of the struct around a .comp file.
@@ -264,26 +270,23 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define IN_ROWS(at) firstLanes((at).live)
 #define LANES lanes
 #define LANE_LOOP_KERNEL(count) KERNEL(count)
-#define RAISE_TO(where, word, value) \
-    if (const mask raising = where; anyLane(raising)) atomicMax(word, floatBitsToUint(largestOf(raising, value)));
+#define RAISE_TO(where, word, value)                                                               \
+    if (const mask raising = (where) && (value) > uintBitsToFloat(wordOf(word)); anyLane(raising)) \
+        atomicMax(word, floatBitsToUint(largestOf(raising, value)));
 #define LANE_KERNEL(count)             \
     [[nodiscard]] uint kernelCount() { \
         return count;                  \
     }                                  \
     void kernelRows(uintRow invocation)
 #define SPHERULE_VISIT_LANES(k, count) visitLanes(k, count)
-#define LANE_PAIR_KERNEL                                         \
-    void visitLanes(uint first, uint count) {                    \
-        live = count;                                            \
-        uints a;                                                 \
-        uints b;                                                 \
-        for (uint lane = 0; lane < lanes; ++lane) {              \
-            const uvec2 pair = pairs[first + lane]; /* padded */ \
-            a.v[lane] = pair.x;                                  \
-            b.v[lane] = pair.y;                                  \
-        }                                                        \
-        visitPairs(a, b, uintRow{first, count});                 \
-    }                                                            \
+#define LANE_PAIR_KERNEL                                               \
+    RowOffsets firstOffsets;                                           \
+    RowOffsets secondOffsets;                                          \
+    void visitLanes(uint first, uint count) {                          \
+        live = count;                                                  \
+        readPairs(pairs + first, firstOffsets, secondOffsets);         \
+        visitPairs({&firstOffsets}, {&secondOffsets}, {first, count}); \
+    }                                                                  \
     SPHERULE_PAIR_KERNEL(lanes, SPHERULE_VISIT_LANES)
 #else
 #define ANY_REAL real

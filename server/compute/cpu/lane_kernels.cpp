@@ -1,7 +1,7 @@
 // Compiled once for each number of lanes: CMakeLists.txt sets SPHERULE_LANES, SPHERULE_PRECISION and SPHERULE_TABLE.
 #include "compute/cpu/vectors.h"
 
-#include "compute/cpu/lanes.h"
+#include "compute/cpu/lane_rows.h"
 
 #define SPHERULE_REAL float
 #include "compute/cpu/glue.h"

@@ -1,6 +1,6 @@
 // Compares each operation on lanes with the same operation on single values. Compiled once for each number of lanes, so
 // it uses no templates that other units share: theirs must not use this unit's instruction set.
-#include "compute/cpu/lanes.h"
+#include "compute/cpu/lane_rows.h"
 
 #include "lanes_faults.h"
 
@@ -60,6 +60,7 @@ void checkArithmetic(unsigned from) {
     const real negative = -a;
     const real root = sqrt(a);
     const real magnitude = abs(a);
+    const real whole = floor(a);
     const real smaller = min(a, b);
     const real larger = max(a, b);
     for (unsigned lane = 0; lane < lanes; ++lane) {
@@ -73,6 +74,7 @@ void checkArithmetic(unsigned from) {
         check(same(negative.v[lane], -x), "unary -");
         check(same(root.v[lane], __builtin_sqrtf(x)), "sqrt");
         check(same(magnitude.v[lane], __builtin_fabsf(x)), "abs");
+        check(!(__builtin_fabsf(x) < 2147483648.0F) || whole.v[lane] == __builtin_floorf(x), "floor");
         check(same(smaller.v[lane], y < x ? y : x), "min");
         check(same(larger.v[lane], x < y ? y : x), "max");
     }
@@ -170,6 +172,11 @@ struct Pair {
     vec4 other;
 };
 Pair structs[elements];
+struct Slots {
+    std::uint32_t first;
+    std::uint32_t second;
+};
+Slots listed[lanes];
 
 void fill() {
     for (unsigned k = 0; k < elements; ++k) {
@@ -240,6 +247,29 @@ void checkRows(std::uint32_t live) {
     });
 }
 
+void checkSlots(std::uint32_t live) {
+    fill();
+    for (unsigned lane = 0; lane < lanes; ++lane) listed[lane] = {(lane * 5 + 3) % elements, (lane * 7 + 1) % elements};
+    RowOffsets offsets[2];
+    readPairs(listed, offsets[0], offsets[1]);
+    const slots a{&offsets[0]};
+    const slots b{&offsets[1]};
+    const real4 gathered = rowsOf(rows, b);
+    for (unsigned lane = 0; lane < lanes; ++lane) {
+        check(uints(a).v[lane] == listed[lane].first, "readPairs, first");
+        check(uints(b).v[lane] == listed[lane].second, "readPairs, second");
+        check(isRow(gathered, lane, listed[lane].second), "rowsOf slots");
+    }
+    mask where = noLane();
+    for (unsigned lane = 0; lane < lanes; lane += 2) where.m[lane] = -1;
+    setRows(where, rows, b, real4(real(-1.0F), real(-2.0F), real(-3.0F), real(-4.0F)), gathered, live);
+    for (unsigned k = 0; k < elements; ++k) {
+        bool changed = false;
+        for (unsigned lane = 0; lane < live; lane += 2) changed = changed || listed[lane].second == k;
+        check(rows[k].y == (changed ? -2 : static_cast<float>(k) + 0.25F), "setRows of slots");
+    }
+}
+
 void checkLargest() {
     real values(0.0F);
     for (unsigned lane = 0; lane < lanes; ++lane) values.v[lane] = static_cast<float>((lane * 7 + 5) % lanes) + 1;
@@ -264,7 +294,10 @@ const char* firstFault() {
         checkNumbers(from);
     }
     checkNotANumber();
-    for (std::uint32_t live = 1; live <= lanes; ++live) checkRows(live);
+    for (std::uint32_t live = 1; live <= lanes; ++live) {
+        checkRows(live);
+        checkSlots(live);
+    }
     checkLargest();
     return first;
 }

@@ -1,8 +1,11 @@
 // Contacts of spheres in the model `balanced`, without friction.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <random>
+#include <set>
 
 #include <glm/geometric.hpp>
 
@@ -237,10 +240,28 @@ Bed heap() {
     return bed;
 }
 
-// heldVelocity and heldSpin follow the contacts through impacts, friction and rebuilds.
-TEST(KernelsAsCpp, SpheresHoldTheSumOfTheirContacts) {
+// The same in a groove of two planes.
+Bed heapInGroove() {
     Bed bed = heap();
+    bed.features |= Feature::PLANES;
+    bed.parameters.planes = 2;
+    bed.parameters.maxWallHistory = 5;
+    bed.wallImpulse.assign(5 * std::size_t{bed.count}, vec4(0));
+    bed.wallTorque = bed.wallImpulse;
+    bed.obstacles[0].a = vec4(0.6F, 0, 0.8F, -2.1F);
+    bed.obstacles[1].a = vec4(-0.6F, 0, 0.8F, -2.1F);
+    return bed;
+}
+
+// The sphere holds an impulse at this surface.
+bool holdsAt(const vec4& held, uint surface) {
+    return (static_cast<uint>(held.w * 128) >> std::min(surface, 6U) & 1U) != 0;
+}
+
+// heldVelocity and heldSpin follow the contacts through impacts, friction and rebuilds.
+void expectSumsOfContacts(Bed bed, std::initializer_list<uint> surfaces) {
     float most = 0;
+    std::set<uint> seen;
     for (int substep = 0; substep < 400; ++substep) {
         bed.substep();
         const auto held = bed.heldVelocity;
@@ -249,6 +270,9 @@ TEST(KernelsAsCpp, SpheresHoldTheSumOfTheirContacts) {
         for (uint slot = 0; slot < bed.count; ++slot) {
             expectNear(vec3(held[slot]), vec3(bed.heldVelocity[slot]), 2e-5F);
             expectNear(vec3(spin[slot]), vec3(bed.heldSpin[slot]), 1e-4F);
+            EXPECT_EQ(held[slot].w, bed.heldVelocity[slot].w) << "pairs and surfaces";
+            for (const uint surface : surfaces)
+                if (holdsAt(held[slot], surface)) seen.insert(surface);
             most = std::max(most, glm::length(vec3(held[slot])));
         }
         if (testing::Test::HasFailure()) FAIL() << "substep " << substep;
@@ -257,6 +281,12 @@ TEST(KernelsAsCpp, SpheresHoldTheSumOfTheirContacts) {
     }
     EXPECT_GT(most, 2 * 9.81F / 480) << "contacts bear weight";
     EXPECT_GT(bed.counters[COUNTER_REBUILDS], 3U);
+    EXPECT_EQ(seen, std::set<uint>(surfaces)) << "surfaces at which spheres held impulses";
+}
+
+TEST(KernelsAsCpp, SpheresHoldTheSumOfTheirContacts) {
+    expectSumsOfContacts(heap(), {4});
+    expectSumsOfContacts(heapInGroove(), {4, 6});
 }
 
 TEST(KernelsAsCpp, ContactsConserveMomentum) {
