@@ -17,7 +17,7 @@ constexpr std::uint32_t wallHistoryLimit = 8;
 // The gap up to which pairs are listed, in radii. A wider gap lists more pairs, a narrower gap causes more rebuilds.
 // `balanced` tests a pair at little cost.
 double marginInRadii(const Features& features) {
-    return features.has(Feature::Balanced) ? 0.6 : 0.3;
+    return features.has(Feature::Balanced) ? 0.8 : 0.3;
 }
 
 std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& scene) {

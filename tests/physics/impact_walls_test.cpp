@@ -108,5 +108,38 @@ TEST(ImpactAtHeavySphere, ApexesAreExact) {
     }
 }
 
+// The lower of two spheres rests on the floor and carries the upper one. A push gives it a downward speed. Its contact
+// with the floor holds the impulse of `load` times its own weight. Returns the rebound over the restitution times the
+// speed, in a substep. `share`: the speed over five times the change of velocity by the load.
+double reboundUnderLoad(double load, double share) {
+    constexpr double r = 0.05;
+    constexpr double restitution = 0.8;
+    scene::Scene scene = fineStepBox(4);
+    scene.materials[0].friction = 0.3;  // without friction, contacts are soft
+    measure::addSphere(scene, {0, 0, -2 + r}, r);
+    if (load > 1) {
+        const std::uint8_t top = addMaterial(scene, {.density = 1000 * (load - 1), .friction = 0.3});
+        measure::addSphere(scene, {0, 0, -2 + 3 * r}, r, {}, top);
+    }
+    setRestitution(scene, restitution);
+    const auto simulation = simulate(scene);
+    run(*simulation, 2);
+    const double mass = 1000 * 4.0 / 3 * std::numbers::pi * r * r * r;
+    const double speed = share * 5 * load * earth / 480;
+    EXPECT_TRUE(simulation->apply(sim::Push{.target = 0U, .impulse = {0, 0, -mass * speed}}));
+    EXPECT_TRUE(simulation->advance());
+    return velocityOf(simulation->snapshot(), 0).z / (restitution * speed);
+}
+
+// Slower approaches of a contact under load are the unfinished balance of a pile: they do not bounce.
+TEST(ImpactUnderLoad, BouncesAboveFiveTimesTheLoad) {
+    for (const double load : {1.0, 10.0, 100.0})
+        for (const double share : {0.2, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5, 2.0, 5.0, 20.0}) {
+            const double rebound = reboundUnderLoad(load, share);
+            EXPECT_NEAR(rebound, share < 1 ? 0 : 1, 1e-4) << "load " << load << ", share " << share;
+            RecordProperty(fmt::format("load{}Share{}", load, share), figure(rebound));
+        }
+}
+
 }  // namespace
 }  // namespace spherule::physics
