@@ -20,8 +20,8 @@ constexpr double heapOverlap = 0.2;
 
 using BedFigures = std::array<double, 3>;
 // Heights after 4 s (m): the mean of 1,000 spheres with friction 0.3, and the large sphere.
-constexpr BedFigures accurateBedHeights{0.9680, 0.9635, 0.9626};
-constexpr BedFigures accurateLargeHeights{0.8562, 0.8703, 0.8683};
+constexpr BedFigures accurateBedHeights{0.9633, 0.9650, 0.9654};
+constexpr BedFigures accurateLargeHeights{0.8622, 0.8682, 0.8697};
 
 // Spheres that remain on the tray after 8 s.
 struct HeapFigures {
@@ -29,10 +29,10 @@ struct HeapFigures {
     std::array<double, 6> spheres{};
 };
 constexpr std::array<HeapFigures, 4> accurateHeaps{{
-    {0.1, {248, 246, 254, 249, 249, 251}},
-    {0.3, {279, 254, 254, 268, 270, 265}},
-    {0.5, {263, 252, 267, 269, 271, 272}},
-    {0.8, {258, 261, 275, 259, 264, 248}},
+    {0.1, {254, 246, 259, 250, 256, 245}},
+    {0.3, {275, 260, 254, 257, 273, 263}},
+    {0.5, {269, 255, 258, 269, 272, 269}},
+    {0.8, {269, 260, 271, 258, 258, 255}},
 }};
 
 }  // namespace spherule::physics
