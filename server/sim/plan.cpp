@@ -10,7 +10,7 @@ namespace spherule::sim {
 
 namespace {
 
-constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 5 within the margin
+constexpr std::uint32_t pairsPerSphere = 8;  // listed; a dense bed has about 6 within the margin
 constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t wallHistoryLimit = 8;
 

@@ -13,8 +13,6 @@ RADIUS = 0.05  # m
 PITCH = 2.5 * RADIUS
 ACROSS = 6
 LAYERS = 28
-
-
 BEDS = 3
 
 
