@@ -28,11 +28,20 @@ SPHERULE_INLINE void transpose(Reals& a, Reals& b, Reals& c, Reals& d) {
 #undef SPHERULE_SHUFFLE
 }
 
-// The four floats at `first` + 4 k of each part k of four lanes.
+// The four floats at `first` + 4 k of each part k of four lanes. The intrinsics of AVX load a part and put it in its
+// place with one instruction; GCC does not find this one.
 template <class RowAt>
 SPHERULE_INLINE Reals rowsFrom(unsigned first, RowAt rowAt) {
 #if SPHERULE_LANES == 4
     return rowAt(first);
+#elif defined(SPHERULE_AVX)
+    const __m256 low = _mm256_castps128_ps256(reinterpret_cast<__m128>(rowAt(first)));
+    return reinterpret_cast<Reals>(_mm256_insertf128_ps(low, reinterpret_cast<__m128>(rowAt(first + 4)), 1));
+#elif defined(SPHERULE_AVX512)
+    __m512 row = _mm512_castps128_ps512(reinterpret_cast<__m128>(rowAt(first)));
+    row = _mm512_insertf32x4(row, reinterpret_cast<__m128>(rowAt(first + 4)), 1);
+    row = _mm512_insertf32x4(row, reinterpret_cast<__m128>(rowAt(first + 8)), 2);
+    return reinterpret_cast<Reals>(_mm512_insertf32x4(row, reinterpret_cast<__m128>(rowAt(first + 12)), 3));
 #elif SPHERULE_LANES == 8
     return __builtin_shufflevector(rowAt(first), rowAt(first + 4), 0, 1, 2, 3, 4, 5, 6, 7);
 #else
@@ -58,26 +67,49 @@ template <unsigned k>
 SPHERULE_INLINE Lanes partOf(Reals row) {
 #if SPHERULE_LANES == 4
     return row;
+#elif defined(SPHERULE_AVX)
+    return reinterpret_cast<Lanes>(_mm256_extractf128_ps(reinterpret_cast<__m256>(row), k));
+#elif defined(SPHERULE_AVX512)
+    return reinterpret_cast<Lanes>(_mm512_extractf32x4_ps(reinterpret_cast<__m512>(row), k));
 #else
     return __builtin_shufflevector(row, row, 4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3);
 #endif
 }
 
-// Calls store(lane, row) for the first `live` lanes.
+// Calls store(lane, row) for the first `live` of the lanes `first`, `first` + 4, ..., whose rows are the parts of `rows`.
 template <class Store>
-SPHERULE_INLINE void scatter(const real4& rows, std::uint32_t live, Store store) {
-    Reals row[4] = {rows.x.v, rows.y.v, rows.z.v, rows.w.v};
-    transpose(row[0], row[1], row[2], row[3]);
-    for (unsigned k = 0; k < 4; ++k) {
-        if (k < live) store(k, partOf<0>(row[k]));
+SPHERULE_INLINE void storeParts(Reals rows, unsigned first, std::uint32_t live, Store store) {
+    if (first < live) store(first, partOf<0>(rows));
 #if SPHERULE_LANES >= 8
-        if (k + 4 < live) store(k + 4, partOf<1>(row[k]));
+    if (first + 4 < live) store(first + 4, partOf<1>(rows));
 #endif
 #if SPHERULE_LANES == 16
-        if (k + 8 < live) store(k + 8, partOf<2>(row[k]));
-        if (k + 12 < live) store(k + 12, partOf<3>(row[k]));
+    if (first + 8 < live) store(first + 8, partOf<2>(rows));
+    if (first + 12 < live) store(first + 12, partOf<3>(rows));
 #endif
-    }
+}
+
+template <class Store>
+SPHERULE_INLINE void storeRows(Reals a, Reals b, Reals c, Reals d, std::uint32_t live, Store store) {
+    storeParts(a, 0, live, store);
+    storeParts(b, 1, live, store);
+    storeParts(c, 2, live, store);
+    storeParts(d, 3, live, store);
+}
+
+// Calls store(lane, row) for the first `live` lanes: `to` where `where` is set, else `old`. All vectors are variables of
+// their own, because GCC keeps them in memory as members of a real4.
+template <class Store>
+SPHERULE_INLINE void scatter(mask where, const real4& to, const real4& old, std::uint32_t live, Store store) {
+    Reals a = select(where, to.x, old.x).v;
+    Reals b = select(where, to.y, old.y).v;
+    Reals c = select(where, to.z, old.z).v;
+    Reals d = select(where, to.w, old.w).v;
+    transpose(a, b, c, d);
+    if (__builtin_expect(live == lanes, 1))
+        storeRows(a, b, c, d, lanes, store);
+    else
+        storeRows(a, b, c, d, live, store);
 }
 
 // The offsets (bytes) of rows of 16 bytes in a buffer. Slots are below 2^24.
@@ -142,28 +174,16 @@ SPHERULE_INLINE real4 membersOf(const T* array, const uints& at, vec4 T::*member
 // Sets the elements of the live lanes: `to` where `where` is set, else `old`.
 SPHERULE_INLINE void setRows(mask where, vec4* array, const uints& at, const real4& to, const real4& old,
                              std::uint32_t live) {
-    const real4 rows = select(where, to, old);
-    if (live == lanes)
-        scatter(rows, lanes, [&](unsigned lane, Lanes row) { array[at.v[lane]].lanes = row; });
-    else
-        scatter(rows, live, [&](unsigned lane, Lanes row) { array[at.v[lane]].lanes = row; });
+    scatter(where, to, old, live, [&](unsigned lane, Lanes row) { array[at.v[lane]].lanes = row; });
 }
 SPHERULE_INLINE void setRows(mask where, vec4* array, slots at, const real4& to, const real4& old, std::uint32_t live) {
-    const real4 rows = select(where, to, old);
     at.readAnew();
-    if (live == lanes)
-        scatter(rows, lanes, [&](unsigned lane, Lanes row) { at.rowOf(array, lane).lanes = row; });
-    else
-        scatter(rows, live, [&](unsigned lane, Lanes row) { at.rowOf(array, lane).lanes = row; });
+    scatter(where, to, old, live, [&](unsigned lane, Lanes row) { at.rowOf(array, lane).lanes = row; });
 }
 SPHERULE_INLINE void setRows(mask where, vec4* array, uintRow at, const real4& to, const real4& old,
                              std::uint32_t /*live*/) {
-    const real4 rows = select(where, to, old);
     vec4* const first = array + at.first;
-    if (at.live == lanes)
-        scatter(rows, lanes, [&](unsigned lane, Lanes row) { first[lane].lanes = row; });
-    else
-        scatter(rows, at.live, [&](unsigned lane, Lanes row) { first[lane].lanes = row; });
+    scatter(where, to, old, at.live, [&](unsigned lane, Lanes row) { first[lane].lanes = row; });
 }
 // The array is padded: its elements beyond the live lanes exist.
 SPHERULE_INLINE void setAll(float* array, uintRow at, real to) {

@@ -25,11 +25,27 @@ using Reals = float __attribute__((vector_size(4 * SPHERULE_LANES)));
 using Ints = std::int32_t __attribute__((vector_size(4 * SPHERULE_LANES)));
 using Words = std::uint32_t __attribute__((vector_size(4 * SPHERULE_LANES)));
 
+// Comparisons, selections, min and max are intrinsics where the instruction set has them: GCC makes up to four
+// instructions of the same operations on vector types.
+#if SPHERULE_LANES == 16 && defined(__AVX512DQ__)
+#define SPHERULE_AVX512 1
+using MaskBits = std::uint16_t;  // one bit per lane
+#else
+using MaskBits = Ints;  // 0 or -1 per lane
+#if SPHERULE_LANES == 8 && defined(__AVX__)
+#define SPHERULE_AVX 1
+#endif
+#endif
+
 struct mask {
-    Ints m;
+    MaskBits m;
     mask() = default;
+#if defined(SPHERULE_AVX512)
+    SPHERULE_INLINE mask(bool all) : m(all ? 0xffffU : 0U) {}
+#else
     SPHERULE_INLINE mask(bool all) : m((all ? -1 : 0) - Ints{}) {}
-    SPHERULE_INLINE explicit mask(Ints bits) : m(bits) {}
+#endif
+    SPHERULE_INLINE explicit mask(MaskBits bits) : m(bits) {}
 };
 
 struct real {
@@ -81,29 +97,39 @@ SPHERULE_INLINE real operator-(real a) {
     return real(-a.v);
 }
 
-#define SPHERULE_COMPARISON(op)                        \
-    SPHERULE_INLINE mask operator op(real a, real b) { \
-        return mask(a.v op b.v);                       \
+#if defined(SPHERULE_AVX512)
+#define SPHERULE_COMPARED(a, op, predicate, b) \
+    _mm512_cmp_ps_mask(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), predicate)
+#elif defined(SPHERULE_AVX)
+#define SPHERULE_COMPARED(a, op, predicate, b) \
+    reinterpret_cast<Ints>(_mm256_cmp_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b), predicate))
+#else
+#define SPHERULE_COMPARED(a, op, predicate, b) (a op b)
+#endif
+#define SPHERULE_COMPARISON(op, predicate)                   \
+    SPHERULE_INLINE mask operator op(real a, real b) {       \
+        return mask(SPHERULE_COMPARED(a.v, op, predicate, b.v)); \
     }
-SPHERULE_COMPARISON(<)
-SPHERULE_COMPARISON(>)
-SPHERULE_COMPARISON(<=)
-SPHERULE_COMPARISON(>=)
-SPHERULE_COMPARISON(==)
-SPHERULE_COMPARISON(!=)
+SPHERULE_COMPARISON(<, _CMP_LT_OQ)
+SPHERULE_COMPARISON(>, _CMP_GT_OQ)
+SPHERULE_COMPARISON(<=, _CMP_LE_OQ)
+SPHERULE_COMPARISON(>=, _CMP_GE_OQ)
+SPHERULE_COMPARISON(==, _CMP_EQ_OQ)
+SPHERULE_COMPARISON(!=, _CMP_NEQ_UQ)
 #undef SPHERULE_COMPARISON
+#undef SPHERULE_COMPARED
 
 SPHERULE_INLINE mask operator&&(mask a, mask b) {
-    return mask(a.m & b.m);
+    return mask(static_cast<MaskBits>(a.m & b.m));
 }
 SPHERULE_INLINE mask operator||(mask a, mask b) {
-    return mask(a.m | b.m);
+    return mask(static_cast<MaskBits>(a.m | b.m));
 }
 SPHERULE_INLINE mask operator!(mask a) {
-    return mask(~a.m);
+    return mask(static_cast<MaskBits>(~a.m));
 }
 SPHERULE_INLINE mask noLane() {
-    return mask(Ints{});
+    return mask(false);
 }
 
 #define SPHERULE_UINT_OPERATOR(op)                        \
@@ -121,12 +147,12 @@ SPHERULE_INLINE uints operator>>(uints a, std::uint32_t by) {
 
 // Bit k is set if lane k is in the mask.
 SPHERULE_INLINE std::uint32_t bitsOf(mask a) {
-#if SPHERULE_LANES == 4 && defined(__SSE2__)
-    return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(a.m)));
-#elif SPHERULE_LANES == 8 && defined(__AVX__)
+#if defined(SPHERULE_AVX512)
+    return a.m;
+#elif defined(SPHERULE_AVX)
     return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(a.m)));
-#elif SPHERULE_LANES == 16 && defined(__AVX512DQ__)
-    return _mm512_movepi32_mask(reinterpret_cast<__m512i>(a.m));
+#elif SPHERULE_LANES == 4 && defined(__SSE2__)
+    return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(a.m)));
 #else
     std::uint32_t bits = 0;
     for (unsigned k = 0; k < lanes; ++k) bits |= (a.m[k] != 0 ? 1U : 0U) << k;
@@ -138,23 +164,64 @@ SPHERULE_INLINE bool anyLane(mask a) {
 }
 // The lanes below `live`.
 SPHERULE_INLINE mask firstLanes(std::uint32_t live) {
+#if defined(SPHERULE_AVX512)
+    return mask(static_cast<MaskBits>((1U << live) - 1U));
+#else
     Ints number;
     for (unsigned k = 0; k < lanes; ++k) number[k] = static_cast<std::int32_t>(k);
     return mask(number < (static_cast<std::int32_t>(live) - Ints{}));
+#endif
 }
 
+// True if the compiler knows that all bits are 0.
+SPHERULE_INLINE bool isKnownZero(Words a) {
+    for (unsigned k = 0; k < lanes; ++k)
+        if (!__builtin_constant_p(a[k]) || a[k] != 0) return false;
+    return true;
+}
+SPHERULE_INLINE Words selected(mask where, Words yes, Words no) {
+#if defined(SPHERULE_AVX512)
+    return reinterpret_cast<Words>(
+        _mm512_mask_blend_epi32(where.m, reinterpret_cast<__m512i>(no), reinterpret_cast<__m512i>(yes)));
+#else
+    const Words all = reinterpret_cast<Words>(where.m);
+#if defined(SPHERULE_AVX)
+    if (!isKnownZero(yes) && !isKnownZero(no))
+        return reinterpret_cast<Words>(_mm256_blendv_ps(reinterpret_cast<__m256>(no), reinterpret_cast<__m256>(yes),
+                                                        reinterpret_cast<__m256>(all)));
+#endif
+    return (all & yes) | (~all & no);
+#endif
+}
 SPHERULE_INLINE real select(mask where, real yes, real no) {
-    return real(where.m ? yes.v : no.v);
+    return real(reinterpret_cast<Reals>(
+        selected(where, reinterpret_cast<Words>(yes.v), reinterpret_cast<Words>(no.v))));
 }
 SPHERULE_INLINE uints select(mask where, uints yes, uints no) {
-    return uints(where.m ? yes.words() : no.words());
+    return uints(selected(where, yes.words(), no.words()));
 }
 // If an operand is NaN, they choose the same operand as the scalar functions.
 SPHERULE_INLINE real min(real a, real b) {
+#if defined(SPHERULE_AVX512)
+    return real(reinterpret_cast<Reals>(_mm512_min_ps(reinterpret_cast<__m512>(b.v), reinterpret_cast<__m512>(a.v))));
+#elif defined(SPHERULE_AVX)
+    return real(reinterpret_cast<Reals>(_mm256_min_ps(reinterpret_cast<__m256>(b.v), reinterpret_cast<__m256>(a.v))));
+#elif SPHERULE_LANES == 4 && defined(__SSE2__)
+    return real(reinterpret_cast<Reals>(_mm_min_ps(reinterpret_cast<__m128>(b.v), reinterpret_cast<__m128>(a.v))));
+#else
     return select(b < a, b, a);
+#endif
 }
 SPHERULE_INLINE real max(real a, real b) {
+#if defined(SPHERULE_AVX512)
+    return real(reinterpret_cast<Reals>(_mm512_max_ps(reinterpret_cast<__m512>(b.v), reinterpret_cast<__m512>(a.v))));
+#elif defined(SPHERULE_AVX)
+    return real(reinterpret_cast<Reals>(_mm256_max_ps(reinterpret_cast<__m256>(b.v), reinterpret_cast<__m256>(a.v))));
+#elif SPHERULE_LANES == 4 && defined(__SSE2__)
+    return real(reinterpret_cast<Reals>(_mm_max_ps(reinterpret_cast<__m128>(b.v), reinterpret_cast<__m128>(a.v))));
+#else
     return select(a < b, b, a);
+#endif
 }
 SPHERULE_INLINE real abs(real a) {
     return real(reinterpret_cast<Reals>(reinterpret_cast<Words>(a.v) & 0x7fffffffU));
@@ -165,12 +232,12 @@ SPHERULE_INLINE real floor(real a) {
     return select(a < real(whole), real(whole) - 1.0F, real(whole));
 }
 SPHERULE_INLINE real sqrt(real a) {
-#if SPHERULE_LANES == 4 && defined(__SSE2__)
-    return real(reinterpret_cast<Reals>(_mm_sqrt_ps(reinterpret_cast<__m128>(a.v))));
-#elif SPHERULE_LANES == 8 && defined(__AVX__)
-    return real(reinterpret_cast<Reals>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a.v))));
-#elif SPHERULE_LANES == 16 && defined(__AVX512F__)
+#if defined(SPHERULE_AVX512)
     return real(reinterpret_cast<Reals>(_mm512_sqrt_ps(reinterpret_cast<__m512>(a.v))));
+#elif defined(SPHERULE_AVX)
+    return real(reinterpret_cast<Reals>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a.v))));
+#elif SPHERULE_LANES == 4 && defined(__SSE2__)
+    return real(reinterpret_cast<Reals>(_mm_sqrt_ps(reinterpret_cast<__m128>(a.v))));
 #else
     real root;
     for (unsigned k = 0; k < lanes; ++k) root.v[k] = std::sqrt(a.v[k]);

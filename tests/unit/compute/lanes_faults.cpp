@@ -28,7 +28,14 @@ bool same(float a, float b) {
 }
 
 bool isSet(mask all, unsigned lane) {
-    return all.m[lane] != 0;
+    return (bitsOf(all) >> lane & 1U) != 0;
+}
+
+// The mask of the lanes whose numbers leave this remainder.
+mask lanesOfRemainder(unsigned remainder, unsigned divisor) {
+    real values(0.0F);
+    for (unsigned lane = 0; lane < lanes; ++lane) values.v[lane] = lane % divisor == remainder ? 1.0F : 0.0F;
+    return values > real(0.0F);
 }
 
 const char* first = nullptr;
@@ -155,8 +162,7 @@ void checkNumbers(std::uint32_t seed) {
         check(shifted.v[lane] == x[lane] >> 15U, ">>");
         check(asReals.v[lane] == static_cast<float>(x[lane] & 0xffffffU), "real of a number");
     }
-    mask chosen = noLane();
-    for (unsigned lane = 0; lane < lanes; lane += 3) chosen.m[lane] = -1;
+    const mask chosen = lanesOfRemainder(0, 3);
     const uints either = select(chosen, a, b);
     for (unsigned lane = 0; lane < lanes; ++lane)
         check(either.v[lane] == (lane % 3 == 0 ? x[lane] : y[lane]), "select of numbers");
@@ -216,8 +222,7 @@ void checkRows(std::uint32_t live) {
         check(numberedRow.v[lane] == 7 * (row.first + lane), "rowsOf words in a row");
     }
 
-    mask where = noLane();
-    for (unsigned lane = 0; lane < lanes; lane += 2) where.m[lane] = -1;
+    const mask where = lanesOfRemainder(0, 2);
     const real4 to(real(-1.0F), real(-2.0F), real(-3.0F), real(-4.0F));
     setRows(where, rows, at, to, gathered, live);
     for (unsigned k = 0; k < elements; ++k) {
@@ -260,8 +265,7 @@ void checkSlots(std::uint32_t live) {
         check(uints(b).v[lane] == listed[lane].second, "readPairs, second");
         check(isRow(gathered, lane, listed[lane].second), "rowsOf slots");
     }
-    mask where = noLane();
-    for (unsigned lane = 0; lane < lanes; lane += 2) where.m[lane] = -1;
+    const mask where = lanesOfRemainder(0, 2);
     setRows(where, rows, b, real4(real(-1.0F), real(-2.0F), real(-3.0F), real(-4.0F)), gathered, live);
     for (unsigned k = 0; k < elements; ++k) {
         bool changed = false;
@@ -275,8 +279,7 @@ void checkLargest() {
     for (unsigned lane = 0; lane < lanes; ++lane) values.v[lane] = static_cast<float>((lane * 7 + 5) % lanes) + 1;
     for (unsigned excluded = 0; excluded < lanes; ++excluded) {
         float largest = 0;
-        mask where(true);
-        where.m[excluded] = 0;
+        const mask where = !lanesOfRemainder(excluded, lanes);
         for (unsigned lane = 0; lane < lanes; ++lane)
             if (lane != excluded && values.v[lane] > largest) largest = values.v[lane];
         check(largestOf(where, values) == largest, "largestOf");
