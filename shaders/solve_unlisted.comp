@@ -26,9 +26,10 @@ BUFFER(readonly, uint, bundles)
 #include "shared/contact_pair.h"
 
 void visitPair(uint a, uint b) {
-    heldImpulse = real3(0.0f, 0.0f, 0.0f);
-    heldTorque = heldImpulse;
-    solvePairs(true, a, b, false);
+    Held nothing;
+    nothing.impulse = vec3(0.0f, 0.0f, 0.0f);
+    nothing.torque = nothing.impulse;
+    solvePairs(true, a, b, nothing, false);
 }
 
 #include "shared/visit_range.h"
