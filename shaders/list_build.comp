@@ -43,7 +43,6 @@ void addPair(uint b, bool isFar) {
 void visitRange(uint a, uint begin, uint end) {
     visited = a;
     vec4 sphere = position[a];
-    if (lost(sphere)) return;
     real4 pa = real4(sphere);
     for (uint b = begin; b < end; b += LANES) {
         uintRow at = ROWS_UP_TO(b, end);
@@ -55,6 +54,7 @@ void visitRange(uint a, uint begin, uint end) {
         real squared = dot3(d, d);
         mask listed = IN_ROWS(at) && squared < reach * reach;
         if (!anyLane(listed)) continue;
+        if (lost(sphere)) return;
         listed = listed && !lost(pb);
         real close = touch + smallerRadius(pa, pb) * FAR_GAP;
         EACH_LANE_WITH(listed, squared >= close * close, addPair, at)

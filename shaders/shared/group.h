@@ -69,6 +69,7 @@ void visitCell(uint level, uint x, uint y, uint z, uint sampleRound) {
                 }
                 uint begin = cellStart[start + from];
                 uint end = cellStart[start + to + 1u];
+                if (begin == end) continue;
                 uint threshold = (to - from + 1u) * sampleThreshold(finer ? (pass - 1u) % level : level);
                 uint until = finer ? one + 1u : last;
                 for (uint a = one; a < until; ++a) {

@@ -68,15 +68,16 @@ SPHERULE_INLINE Lanes partOf(Reals row) {
 #if SPHERULE_LANES == 4
     return row;
 #elif defined(SPHERULE_AVX)
-    return reinterpret_cast<Lanes>(_mm256_extractf128_ps(reinterpret_cast<__m256>(row), k));
+    return reinterpret_cast<Lanes>(_mm256_extractf128_ps(native(row), k));
 #elif defined(SPHERULE_AVX512)
-    return reinterpret_cast<Lanes>(_mm512_extractf32x4_ps(reinterpret_cast<__m512>(row), k));
+    return reinterpret_cast<Lanes>(_mm512_extractf32x4_ps(native(row), k));
 #else
     return __builtin_shufflevector(row, row, 4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3);
 #endif
 }
 
-// Calls store(lane, row) for the first `live` of the lanes `first`, `first` + 4, ..., whose rows are the parts of `rows`.
+// Calls store(lane, row) for the first `live` of the lanes `first`, `first` + 4, ..., whose rows are the parts of
+// `rows`.
 template <class Store>
 SPHERULE_INLINE void storeParts(Reals rows, unsigned first, std::uint32_t live, Store store) {
     if (first < live) store(first, partOf<0>(rows));
@@ -97,8 +98,8 @@ SPHERULE_INLINE void storeRows(Reals a, Reals b, Reals c, Reals d, std::uint32_t
     storeParts(d, 3, live, store);
 }
 
-// Calls store(lane, row) for the first `live` lanes: `to` where `where` is set, else `old`. All vectors are variables of
-// their own, because GCC keeps them in memory as members of a real4.
+// Calls store(lane, row) for the first `live` lanes: `to` where `where` is set, else `old`. All vectors are variables
+// of their own, because GCC keeps them in memory as members of a real4.
 template <class Store>
 SPHERULE_INLINE void scatter(mask where, const real4& to, const real4& old, std::uint32_t live, Store store) {
     Reals a = select(where, to.x, old.x).v;

@@ -25,16 +25,31 @@ using Reals = float __attribute__((vector_size(4 * SPHERULE_LANES)));
 using Ints = std::int32_t __attribute__((vector_size(4 * SPHERULE_LANES)));
 using Words = std::uint32_t __attribute__((vector_size(4 * SPHERULE_LANES)));
 
-// Comparisons, selections, min and max are intrinsics where the instruction set has them: GCC makes up to four
-// instructions of the same operations on vector types.
+// Comparisons, selections, min, max and square roots are intrinsics where the instruction set has them: GCC makes up to
+// four instructions of the same operations on vector types.
 #if SPHERULE_LANES == 16 && defined(__AVX512DQ__)
-#define SPHERULE_AVX512 1
+#define SPHERULE_AVX512
+#define SPHERULE_INTRINSIC(operation) _mm512_##operation##_ps
+using Native = __m512;
+#elif SPHERULE_LANES == 8 && defined(__AVX__)
+#define SPHERULE_AVX
+#define SPHERULE_INTRINSIC(operation) _mm256_##operation##_ps
+using Native = __m256;
+#elif SPHERULE_LANES == 4 && defined(__SSE2__)
+#define SPHERULE_INTRINSIC(operation) _mm_##operation##_ps
+using Native = __m128;
+#endif
+#if defined(SPHERULE_INTRINSIC)
+template <class Vector>
+SPHERULE_INLINE Native native(Vector a) {
+    return reinterpret_cast<Native>(a);
+}
+#endif
+
+#if defined(SPHERULE_AVX512)
 using MaskBits = std::uint16_t;  // one bit per lane
 #else
 using MaskBits = Ints;  // 0 or -1 per lane
-#if SPHERULE_LANES == 8 && defined(__AVX__)
-#define SPHERULE_AVX 1
-#endif
 #endif
 
 struct mask {
@@ -98,24 +113,26 @@ SPHERULE_INLINE real operator-(real a) {
 }
 
 #if defined(SPHERULE_AVX512)
-#define SPHERULE_COMPARED(a, op, predicate, b) \
-    _mm512_cmp_ps_mask(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), predicate)
+#define SPHERULE_COMPARED(a, op, b, name, predicate) _mm512_cmp_ps_mask(native(a), native(b), predicate)
 #elif defined(SPHERULE_AVX)
-#define SPHERULE_COMPARED(a, op, predicate, b) \
-    reinterpret_cast<Ints>(_mm256_cmp_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b), predicate))
+#define SPHERULE_COMPARED(a, op, b, name, predicate) \
+    reinterpret_cast<Ints>(_mm256_cmp_ps(native(a), native(b), predicate))
+#elif defined(SPHERULE_INTRINSIC)
+#define SPHERULE_COMPARED(a, op, b, name, predicate) \
+    reinterpret_cast<Ints>(SPHERULE_INTRINSIC(name)(native(a), native(b)))
 #else
-#define SPHERULE_COMPARED(a, op, predicate, b) (a op b)
+#define SPHERULE_COMPARED(a, op, b, name, predicate) (a op b)
 #endif
-#define SPHERULE_COMPARISON(op, predicate)                   \
-    SPHERULE_INLINE mask operator op(real a, real b) {       \
-        return mask(SPHERULE_COMPARED(a.v, op, predicate, b.v)); \
+#define SPHERULE_COMPARISON(op, name, predicate)                       \
+    SPHERULE_INLINE mask operator op(real a, real b) {                 \
+        return mask(SPHERULE_COMPARED(a.v, op, b.v, name, predicate)); \
     }
-SPHERULE_COMPARISON(<, _CMP_LT_OQ)
-SPHERULE_COMPARISON(>, _CMP_GT_OQ)
-SPHERULE_COMPARISON(<=, _CMP_LE_OQ)
-SPHERULE_COMPARISON(>=, _CMP_GE_OQ)
-SPHERULE_COMPARISON(==, _CMP_EQ_OQ)
-SPHERULE_COMPARISON(!=, _CMP_NEQ_UQ)
+SPHERULE_COMPARISON(<, cmplt, _CMP_LT_OQ)
+SPHERULE_COMPARISON(>, cmpgt, _CMP_GT_OQ)
+SPHERULE_COMPARISON(<=, cmple, _CMP_LE_OQ)
+SPHERULE_COMPARISON(>=, cmpge, _CMP_GE_OQ)
+SPHERULE_COMPARISON(==, cmpeq, _CMP_EQ_OQ)
+SPHERULE_COMPARISON(!=, cmpneq, _CMP_NEQ_UQ)
 #undef SPHERULE_COMPARISON
 #undef SPHERULE_COMPARED
 
@@ -149,10 +166,8 @@ SPHERULE_INLINE uints operator>>(uints a, std::uint32_t by) {
 SPHERULE_INLINE std::uint32_t bitsOf(mask a) {
 #if defined(SPHERULE_AVX512)
     return a.m;
-#elif defined(SPHERULE_AVX)
-    return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(a.m)));
-#elif SPHERULE_LANES == 4 && defined(__SSE2__)
-    return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(a.m)));
+#elif defined(SPHERULE_INTRINSIC)
+    return static_cast<std::uint32_t>(SPHERULE_INTRINSIC(movemask)(native(a.m)));
 #else
     std::uint32_t bits = 0;
     for (unsigned k = 0; k < lanes; ++k) bits |= (a.m[k] != 0 ? 1U : 0U) << k;
@@ -179,46 +194,39 @@ SPHERULE_INLINE bool isKnownZero(Words a) {
         if (!__builtin_constant_p(a[k]) || a[k] != 0) return false;
     return true;
 }
-SPHERULE_INLINE Words selected(mask where, Words yes, Words no) {
+// `yes` in the lanes of the mask, else `no`.
+template <class Vector>
+SPHERULE_INLINE Vector selected(mask where, Vector yes, Vector no) {
 #if defined(SPHERULE_AVX512)
-    return reinterpret_cast<Words>(
-        _mm512_mask_blend_epi32(where.m, reinterpret_cast<__m512i>(no), reinterpret_cast<__m512i>(yes)));
+    return reinterpret_cast<Vector>(_mm512_mask_blend_ps(where.m, native(no), native(yes)));
 #else
-    const Words all = reinterpret_cast<Words>(where.m);
+    const auto yesBits = reinterpret_cast<Words>(yes);
+    const auto noBits = reinterpret_cast<Words>(no);
+    const auto all = reinterpret_cast<Words>(where.m);
 #if defined(SPHERULE_AVX)
-    if (!isKnownZero(yes) && !isKnownZero(no))
-        return reinterpret_cast<Words>(_mm256_blendv_ps(reinterpret_cast<__m256>(no), reinterpret_cast<__m256>(yes),
-                                                        reinterpret_cast<__m256>(all)));
+    if (!isKnownZero(yesBits) && !isKnownZero(noBits))
+        return reinterpret_cast<Vector>(_mm256_blendv_ps(native(no), native(yes), native(all)));
 #endif
-    return (all & yes) | (~all & no);
+    return reinterpret_cast<Vector>((all & yesBits) | (~all & noBits));
 #endif
 }
 SPHERULE_INLINE real select(mask where, real yes, real no) {
-    return real(reinterpret_cast<Reals>(
-        selected(where, reinterpret_cast<Words>(yes.v), reinterpret_cast<Words>(no.v))));
+    return real(selected(where, yes.v, no.v));
 }
 SPHERULE_INLINE uints select(mask where, uints yes, uints no) {
     return uints(selected(where, yes.words(), no.words()));
 }
 // If an operand is NaN, they choose the same operand as the scalar functions.
 SPHERULE_INLINE real min(real a, real b) {
-#if defined(SPHERULE_AVX512)
-    return real(reinterpret_cast<Reals>(_mm512_min_ps(reinterpret_cast<__m512>(b.v), reinterpret_cast<__m512>(a.v))));
-#elif defined(SPHERULE_AVX)
-    return real(reinterpret_cast<Reals>(_mm256_min_ps(reinterpret_cast<__m256>(b.v), reinterpret_cast<__m256>(a.v))));
-#elif SPHERULE_LANES == 4 && defined(__SSE2__)
-    return real(reinterpret_cast<Reals>(_mm_min_ps(reinterpret_cast<__m128>(b.v), reinterpret_cast<__m128>(a.v))));
+#if defined(SPHERULE_INTRINSIC)
+    return real(reinterpret_cast<Reals>(SPHERULE_INTRINSIC(min)(native(b.v), native(a.v))));
 #else
     return select(b < a, b, a);
 #endif
 }
 SPHERULE_INLINE real max(real a, real b) {
-#if defined(SPHERULE_AVX512)
-    return real(reinterpret_cast<Reals>(_mm512_max_ps(reinterpret_cast<__m512>(b.v), reinterpret_cast<__m512>(a.v))));
-#elif defined(SPHERULE_AVX)
-    return real(reinterpret_cast<Reals>(_mm256_max_ps(reinterpret_cast<__m256>(b.v), reinterpret_cast<__m256>(a.v))));
-#elif SPHERULE_LANES == 4 && defined(__SSE2__)
-    return real(reinterpret_cast<Reals>(_mm_max_ps(reinterpret_cast<__m128>(b.v), reinterpret_cast<__m128>(a.v))));
+#if defined(SPHERULE_INTRINSIC)
+    return real(reinterpret_cast<Reals>(SPHERULE_INTRINSIC(max)(native(b.v), native(a.v))));
 #else
     return select(a < b, b, a);
 #endif
@@ -232,12 +240,8 @@ SPHERULE_INLINE real floor(real a) {
     return select(a < real(whole), real(whole) - 1.0F, real(whole));
 }
 SPHERULE_INLINE real sqrt(real a) {
-#if defined(SPHERULE_AVX512)
-    return real(reinterpret_cast<Reals>(_mm512_sqrt_ps(reinterpret_cast<__m512>(a.v))));
-#elif defined(SPHERULE_AVX)
-    return real(reinterpret_cast<Reals>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a.v))));
-#elif SPHERULE_LANES == 4 && defined(__SSE2__)
-    return real(reinterpret_cast<Reals>(_mm_sqrt_ps(reinterpret_cast<__m128>(a.v))));
+#if defined(SPHERULE_INTRINSIC)
+    return real(reinterpret_cast<Reals>(SPHERULE_INTRINSIC(sqrt)(native(a.v))));
 #else
     real root;
     for (unsigned k = 0; k < lanes; ++k) root.v[k] = std::sqrt(a.v[k]);
