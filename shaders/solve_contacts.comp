@@ -40,6 +40,26 @@ bool beginBundle(uint bundle) {
     return true;
 }
 
+// From this number on, the spheres exceed the caches of most processors. Below, prefetches cost more than they save.
+#define MANY_SPHERES 100000u
+
+bool expectsPairs() {
+    return params.spheres >= MANY_SPHERES;
+}
+
+RARE void expectPairs(uint first, uint count) {
+    for (uint k = first; k < first + count; ++k) {
+        uvec2 pair = pairs[min(k, params.pairCapacity - 1u)];
+        PREFETCH(position[pair.x])
+        PREFETCH(position[pair.y])
+        PREFETCH(velocity[pair.x])
+        PREFETCH(velocity[pair.y])
+        if (!HAS(FRICTION)) continue;
+        PREFETCH(angularVelocity[pair.x])
+        PREFETCH(angularVelocity[pair.y])
+    }
+}
+
 void visitPairs(slots a, slots b, uintRow at) {
     uintRow memory = at + remembered;
     Held old;

@@ -20,6 +20,8 @@
 //   PAIR_KERNEL                 (shared/bundles.h). The same with one lane in C++ too. The includer defines
 //                               `bool beginBundle(uint bundle)`, which returns false to skip the bundle, and
 //                               `void visitPairs(slots a, slots b, uintRow at)`, where `at` is the number of the pair.
+//                               With lanes, also `bool expectsPairs()`, which returns true if it is worth while that
+//                               `void expectPairs(uint first, uint count)` prefetches the data of later pairs.
 //
 //   real, real3, real4, mask    Values per lane: float, vec3, vec4 and bool in GLSL.
 //   uints                       A number per lane.

@@ -219,7 +219,12 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 
 #define precise  // C++ compilers take no such liberties
 #define PRIVATE(type, name) type name;
+// With the builtin function, GCC would take a function that only prefetches for one without any effect.
+#if defined(__x86_64__)
+#define PREFETCH(element) asm volatile("prefetcht0 %0" : : "m"(element));
+#else
 #define PREFETCH(element) __builtin_prefetch(&(element));
+#endif
 #define HAS(feature) ((binding.features & (feature)) != 0U)
 #define BUFFER(access, type, name) SPHERULE_ACCESS_##access(type) name = slot<type>(placeAmong(declared, #name));
 #define PARAMETERS const Parameters params = copyOfParameters<Parameters>();
@@ -283,6 +288,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     RowOffsets firstOffsets;                                           \
     RowOffsets secondOffsets;                                          \
     void visitLanes(uint first, uint count) {                          \
+        if (expectsPairs()) expectPairs(first + 2 * lanes, lanes);     \
         live = count;                                                  \
         readPairs(pairs + first, firstOffsets, secondOffsets);         \
         visitPairs({&firstOffsets}, {&secondOffsets}, {first, count}); \
