@@ -1,10 +1,12 @@
-// Begins a substep of the model `balanced`: adds gravity and the impulses that contacts hold to each velocity.
+// Begins a substep of the model `balanced`: adds gravity, fields and the impulses that contacts hold to each velocity.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 
+BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(writeonly, vec4, velocityBefore)
@@ -28,10 +30,16 @@ LANE_KERNEL(params.spheres) {
     real4 held = ROW(heldVelocity, invocation);
     real3 fall = real3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = real3(params.gravity) * params.substep;
+    if (HAS(FIELDS)) {
+        real4 x = ROW(position, invocation);
+        real3 gravity = HAS(GRAVITY) ? real3(params.gravity) : real3(0.0f, 0.0f, 0.0f);
+        fall = meanAcceleration(gravity, real3(x), real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
+    }
     real4 mean = ROW(acceleration, invocation);
     real3 now = real3(mean) + (real3(held) + fall - real3(mean)) * (1.0f / MEAN_OVER);
     SET_ROW(awake, acceleration, invocation, real4(now, mean.w), mean)
     real squared = max(dot3(now, now), real(params.gravityChange * params.gravityChange));
+    if (HAS(FIELDS)) squared = max(squared, dot3(fall, fall));
     SET_ROW(awake, velocityBefore, invocation, real4(real3(v), squared), v)
     precise real3 unheld = real3(v) + fall;
     precise real3 start = unheld + real3(held);

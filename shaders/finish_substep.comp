@@ -23,6 +23,7 @@ BUFFER(coherent, uint, counters)
 
 #include "shared/contact_law.h"
 #include "shared/drift.h"
+#include "shared/fields.h"
 #include "shared/friction.h"
 #include "shared/limits.h"
 #include "shared/outside.h"
@@ -262,7 +263,14 @@ LANE_KERNEL(params.spheres) {
         SET_ROW(sphereAwake, heldSpin, invocation, real4(spins, heldS.w), heldS)
     }
     real3 arc = sphereVelocity;
-    if (HAS(GRAVITY)) arc = select(isFree, arc - real3(params.gravity) * (0.5f * h), arc);
+    if (HAS(FIELDS)) {
+        real3 gravity = HAS(GRAVITY) ? real3(params.gravity) : real3(0.0f, 0.0f, 0.0f);
+        real4 before = ROW(velocityBefore, invocation);
+        real3 mean = meanAcceleration(gravity, spherePoint, real3(before), sphereRadius, inverseMass);
+        arc = select(isFree, arc - mean * (0.5f * h), arc);
+    } else if (HAS(GRAVITY)) {
+        arc = select(isFree, arc - real3(params.gravity) * (0.5f * h), arc);
+    }
     precise real3 to = spherePoint + arc * h;
     mask moves = sphereAwake;
     if (HAS(OPEN_FACES)) moves = moves && farthestOf(spherePoint) <= LAST_PLACE;

@@ -1,10 +1,11 @@
-// The models `fast` and `accurate`: moves each awake sphere along its ballistic arc, exactly: v += g h, x += v h - g
-// h^2 / 2. Never derives a velocity from positions, because float32 positions are too coarse for it.
+// The models `fast` and `accurate`: moves each awake sphere along its ballistic arc: v += a h, x += v h - a h^2 / 2. The
+// arc is exact under gravity alone, where a = g. Never derives a velocity from positions, because float32 positions are too coarse for it.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 #include "shared/limits.h"
 #include "shared/outside.h"
 
@@ -29,8 +30,10 @@ KERNEL(params.spheres) {
     float h = params.substep;
     if (HAS(SLEEP)) velocityBefore[invocation] = v;
     vec3 arcVelocity = vec3(v);
-    if (HAS(GRAVITY)) {
-        vec3 deltaVelocity = vec3(params.gravity) * h;
+    if (HAS(GRAVITY) || HAS(FIELDS)) {
+        vec3 mean = HAS(GRAVITY) ? vec3(params.gravity) : vec3(0.0f, 0.0f, 0.0f);
+        if (HAS(FIELDS)) mean = meanAcceleration(mean, vec3(x), vec3(v), radiusOf(x), inverseMassOf(v));
+        vec3 deltaVelocity = mean * h;
         arcVelocity = arcVelocity + deltaVelocity;
         velocity[invocation] = withXyz(v, arcVelocity);
         arcVelocity = arcVelocity - deltaVelocity * 0.5f;

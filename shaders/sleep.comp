@@ -9,7 +9,7 @@
 // away.
 //
 // A slow sphere may also be at the top of its flight. A sphere therefore counts as carried only if contacts took up at
-// least half of gravity's pull in this substep.
+// least half of the pull of gravity and fields in this substep.
 //
 // A spin about the normal of a sphere's only contact with friction takes long to end. The longer a sphere has stayed,
 // the faster it may therefore turn. A sphere asks for new lists if it falls asleep outside the bounds or while the
@@ -19,6 +19,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 #include "shared/cell_of.h"
@@ -75,7 +76,7 @@ KERNEL(params.spheres) {
     }
     bool fallsAsleep = inTime && quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
     if (HAS(GRAVITY)) {
-        vec3 pull = vec3(params.gravity) * params.substep;
+        vec3 pull = accelerationAt(p) * params.substep;
         vec3 contactChange = vec3(v) - vec3(u) - pull;
         fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > 0.25f * dot3(pull, pull);
     }

@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -57,6 +58,7 @@ KERNEL(params.statisticBlocks) {
     float rotation = 0.0f;
     vec4 weighted = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     float height = 0.0f;
+    float fieldEnergy = 0.0f;
     float squares = 0.0f;
     float fastest = 0.0f;
     float overlap = 0.0f;
@@ -85,6 +87,7 @@ KERNEL(params.statisticBlocks) {
         }
         weighted = weighted + vec4(x * mass, mass);
         height += x.z;
+        if (HAS(FIELDS)) fieldEnergy += mass * fieldPotential(x);
         squares += squared;
         fastest = max(fastest, squared);
         if (isAsleep(v)) sleeping += 1u;
@@ -104,6 +107,7 @@ KERNEL(params.statisticBlocks) {
     sphereSums[invocation].speedSquaredMax = fastest;
     sphereSums[invocation].wallOverlapMax = overlap;
     sphereSums[invocation].wallSprings = springs;
+    sphereSums[invocation].fieldEnergy = fieldEnergy;
     sphereSums[invocation].sleeping = sleeping;
     sphereSums[invocation].outside = outsideCount;
     sphereSums[invocation].nonFinite = nonFinite;

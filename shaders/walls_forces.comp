@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 #include "shared/friction.h"
 
 BUFFER(readonly, vec4, position)
@@ -50,7 +51,7 @@ uint slipEntry(uint surface) {
     return freeEntry;
 }
 
-// `fall` is the velocity that gravity has added since the middle of the last motion (m/s). `arm` is the distance from
+// `fall` is the velocity that gravity and fields have added since the middle of the last motion (m/s). `arm` is the distance from
 // the centre to the wall (m).
 void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 contact) {
     uint entry = slipEntry(surface);
@@ -58,7 +59,7 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
     displacement = known ? rotateToPlane(vec3(wallSlip[entry]), n) : vec3(0.0f, 0.0f, 0.0f);
     vec3 slip = sphereVelocity - n * dot3(sphereVelocity, n) - cross3(omega, n) * arm;
     vec3 path = slip;
-    if (HAS(GRAVITY)) path = slip - (fall - n * dot3(fall, n));
+    if (HAS(GRAVITY) || HAS(FIELDS)) path = slip - (fall - n * dot3(fall, n));
     float lever = arm / wallRadius;
     vec3 impulse = tangentialImpulse(path, slip, sphereInverseMass * (1.0f + 2.5f * lever * lever), spring,
                                      frictionOf(contact));
@@ -85,7 +86,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     uint index = wallContactIndex(wallSphere, wallMaterial);
     float speed = dot3(sphereVelocity, normal);
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
-    if (HAS(GRAVITY)) fall = vec3(params.gravity) * (0.5f * params.substep);
+    if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(wallPoint) * (0.5f * params.substep);
     Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, sphereInverseMass,
                              contactParams[index].stiffness);
     impulseSum = impulseSum + normal * spring.impulse;

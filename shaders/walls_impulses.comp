@@ -7,6 +7,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 #include "shared/friction.h"
 
 BUFFER(restrict, vec4, position)
@@ -15,7 +16,7 @@ BUFFER(restrict, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
-BUFFER(restrict, float, wallWork)  // by id: work of pushes out of walls against gravity (J)
+BUFFER(restrict, float, wallWork)  // by id: work of pushes out of walls against gravity and fields (J)
 
 PRIVATE(uint, wallSphere)
 PRIVATE(float, wallRadius)
@@ -29,7 +30,7 @@ PRIVATE(bool, touched)
 #include "shared/friction_wall.h"
 
 // The speed at the moment of impact (m/s, positive). `speed` is the normal speed at the end of the substep (m/s,
-// negative). `pull` is gravity along the normal (m/s^2). `depth` is the depth of the sphere in the wall (m). It is a
+// negative). `pull` is the acceleration along the normal (m/s^2). `depth` is the depth of the sphere in the wall (m). It is a
 // function of its own, so that `precise` applies to nothing else.
 float impactSpeed(float speed, float pull, float depth) {
     precise float impact = sqrt(max(speed * speed + 2.0f * pull * depth, 0.0f));
@@ -52,7 +53,7 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
         pushedOut = pushedOut + normal * push;
         return;
     }
-    float pull = HAS(GRAVITY) ? dot3(vec3(params.gravity), normal) : 0.0f;
+    float pull = HAS(GRAVITY) || HAS(FIELDS) ? dot3(accelerationAt(wallPoint), normal) : 0.0f;
     float impact = impactSpeed(speed, pull, push);
     float rebound = restitutionOf(contact) * impact;
     float since = 2.0f * push / (impact - speed);
@@ -88,8 +89,8 @@ KERNEL(params.spheres) {
     position[invocation] = withXyz(x, wallPoint);
     velocity[invocation] = withXyz(v, solvedVelocity);
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(omega, 0.0f);
-    if (HAS(GRAVITY)) {
+    if (HAS(GRAVITY) || HAS(FIELDS)) {
         uint id = idOf(idAndMaterial[invocation]);
-        wallWork[id] = wallWork[id] - dot3(vec3(params.gravity), pushedOut) / inverseMassOf(v);
+        wallWork[id] = wallWork[id] - dot3(accelerationAt(wallPoint), pushedOut) / inverseMassOf(v);
     }
 }

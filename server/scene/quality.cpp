@@ -32,12 +32,12 @@ double smallestRadius(const Scene& scene) {
     return smallest;
 }
 
-// h = min(1/480 s, sqrt(8.5e-4 r_min / g)): keeps the mean overlap of a bed under a hundredth of the radius.
+// h = min(1/480 s, sqrt(8.5e-4 r_min / a)), where a is the strongest acceleration: keeps the mean overlap of a bed under a hundredth of the radius.
 double balancedSubstep(const Scene& scene) {
     constexpr double longest = 1.0 / 480;
-    const double gravity = glm::length(scene.forces.gravity);
+    const double acceleration = strongestAcceleration(scene);
     const double radius = smallestRadius(scene);
-    return gravity > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / gravity)) : longest;
+    return acceleration > 0 && radius > 0 ? std::min(longest, std::sqrt(8.5e-4 * radius / acceleration)) : longest;
 }
 
 // Refuses materials so soft that spheres fall through bodies that should support them.

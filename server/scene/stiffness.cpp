@@ -56,9 +56,10 @@ struct Extremes {
     double largest = 0;
     glm::dvec3 slowest{std::numeric_limits<double>::infinity()};  // of each component of the velocities, m/s
     glm::dvec3 fastest{-std::numeric_limits<double>::infinity()};
-    double fall = 0;     // m
-    double volume = 0;   // m^3
-    double densest = 0;  // kg/m^3
+    double fall = 0;                                              // m
+    double potential = -std::numeric_limits<double>::infinity();  // of the fields, where spheres begin, J/kg
+    double volume = 0;                                            // m^3
+    double densest = 0;                                           // kg/m^3
     double lightest = std::numeric_limits<double>::infinity();
 };
 
@@ -75,6 +76,8 @@ Extremes extremesOf(const Scene& scene) {
         found.slowest = glm::min(found.slowest, glm::dvec3(sphere.velocity));
         found.fastest = glm::max(found.fastest, glm::dvec3(sphere.velocity));
         found.fall = std::max(found.fall, glm::dot(sphere.position - scene.bounds.centre(), up) - floor);
+        if (!scene.forces.fields.empty())
+            found.potential = std::max(found.potential, scene.forces.fieldPotentialAt(sphere.position));
         found.volume += 4.0 / 3 * pi * r * r * r;
         const double density = scene.materials[sphere.material].density;
         found.densest = std::max(found.densest, density);
@@ -127,7 +130,8 @@ struct Meetings {
 // Returns the fastest meetings. Speeds are relative to the common motion of all spheres, as far as the surfaces of the
 // scene allow such a motion. With surfaces, spheres that bounce back may meet at twice the fastest speed. Without
 // surfaces, gravity and a common motion do not count. The speed is then twice the largest difference of two velocities,
-// because a light sphere leaves a heavy one twice as fast as they met.
+// because a light sphere leaves a heavy one twice as fast as they met. Spheres that fall to a centre of attraction meet
+// when they are a radius away from it.
 Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
@@ -138,7 +142,9 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     double speed = 0;
     for (const Sphere& sphere : scene.spheres)
         speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
-    const double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
+    double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
+    if (!scene.forces.fields.empty())
+        fall += 2 * std::max(extremes.potential - scene.forces.lowestFieldPotential(extremes.largest), 0.0);
     if (scene.sphereContacts && scene.spheres.size() > 1)
         fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall);
     if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall);

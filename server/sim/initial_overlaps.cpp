@@ -18,7 +18,7 @@ constexpr std::uint32_t sweepsPerCheck = 16;
 // Uses the model `fast`, because its pushes add no velocity.
 scene::Scene withoutForces(const scene::Scene& scene) {
     scene::Scene still = scene;
-    still.forces.gravity = {};
+    still.forces = {};
     still.sleep.enabled = false;
     still.step = 1.0 / 480;
     still.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};

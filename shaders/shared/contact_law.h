@@ -42,7 +42,7 @@
 // The largest overlap that the spring removes in a substep, in radii.
 #define SOFT_MOST 0.125f
 
-// What a contact holds from substep to substep.
+// The values that a contact holds from substep to substep.
 struct Held {
     real3 impulse;  // on the first sphere (N s)
     real3 torque;   // of friction, per lever of a sphere (N s)

@@ -1,6 +1,7 @@
 // The layout on which the host and the kernels agree. Lengths in m, relative to the centre of the bounds; times in s.
 
 #define MOST_LEVELS 8u
+#define MOST_FIELDS 8u
 
 // The uniform block, std140: vectors first, then scalars in fours.
 struct Parameters {
@@ -9,6 +10,8 @@ struct Parameters {
     vec4 wallMax;
     vec4 contact;        // ContactParams.contact of two spheres, if all have one material
     vec4 stiffness;      // ContactParams.stiffness of these
+    vec4 fieldPlace[MOST_FIELDS];   // of each field: see shared/fields.h
+    vec4 fieldNumbers[MOST_FIELDS];
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, sample threshold, 0; from fine to coarse
     uvec4 cells;         // per axis, multiples of 8; w = cells of all levels together
     uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 8; w = first cell of the level among all cells
@@ -73,7 +76,8 @@ struct SphereStatistics {
     float speedSquaredMax;
     float wallOverlapMax;   // depth / r
     float wallSprings;      // sum of the energies of the springs at walls, in the model `accurate` (J)
-    float unusedReals[3];   // keep the size a multiple of 16 bytes, and the next members aligned for doubles
+    float fieldEnergy;      // sum of the potential energies in the fields (J)
+    float unusedReals[2];   // keep the size a multiple of 16 bytes, and the next members aligned for doubles
     uint sleeping;
     uint outside;
     uint nonFinite;

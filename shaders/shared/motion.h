@@ -1,5 +1,5 @@
 // Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
-// included shared/outside.h, shared/drift.h and shared/falling_frame.h.
+// included shared/fields.h, shared/outside.h, shared/drift.h and shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
 // sphere must see all that it may meet within two steps.
@@ -7,6 +7,7 @@
 
 PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, flightVelocity)  // velocity of the sphere that looks ahead (m/s)
+PRIVATE(vec3, flightAcceleration)  // its acceleration at rest (m/s^2)
 PRIVATE(float, reachAhead)          // its radius plus the distance that it looks ahead (m)
 PRIVATE(float, ownRadius)      // its radius (m)
 PRIVATE(bool, mayCollide)
@@ -15,7 +16,7 @@ PRIVATE(bool, mayCollide)
 bool mayCloseGap(float gap, vec3 normal) {
     float ahead = LOOK_AHEAD * params.step;
     float speed = -dot3(flightVelocity, normal);
-    if (HAS(GRAVITY)) speed = speed + max(-dot3(vec3(params.gravity), normal), 0.0f) * ahead;
+    if (HAS(GRAVITY) || HAS(FIELDS)) speed = speed + max(-dot3(flightAcceleration, normal), 0.0f) * ahead;
     return speed * ahead > gap && speed * params.substep > SAFE_MOTION * ownRadius;
 }
 
@@ -29,7 +30,8 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
 bool mayCollideSoon(vec3 p, vec3 v, float radius) {
     float ahead = LOOK_AHEAD * params.step;
     float speed = sqrt(dot3(v, v));
-    if (HAS(GRAVITY)) speed = speed + sqrt(dot3(vec3(params.gravity), vec3(params.gravity))) * ahead;
+    flightAcceleration = accelerationAt(p);
+    if (HAS(GRAVITY) || HAS(FIELDS)) speed = speed + sqrt(dot3(flightAcceleration, flightAcceleration)) * ahead;
     wallPoint = p;
     flightVelocity = v;
     ownRadius = radius;

@@ -90,6 +90,12 @@ TEST_P(Bits, OfAMixtureAreTheSameOnAllDevices) {
     expectTheSameBits(mixture(GetParam()), GetParam() == scene::Model::Accurate ? 0.15 : 0.6);
 }
 
+TEST_P(Bits, OfAMixtureInFieldsAreTheSameOnAllDevices) {
+    scene::Scene scene = mixture(GetParam());
+    scene.forces.fields = {scene::Drag{.density = 100}, scene::Attraction{{0.1, 0.2, -0.3}, 0.5, 0.1}};
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.4);
+}
+
 TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {
     expectTheSameBits(mixedBed(GetParam(), 10), GetParam() == scene::Model::Accurate ? 0.1 : 0.3);
 }

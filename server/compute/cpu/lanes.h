@@ -275,6 +275,9 @@ SPHERULE_INLINE real3 operator+(const real3& a, const real3& b) {
 SPHERULE_INLINE real3 operator-(const real3& a, const real3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+SPHERULE_INLINE real3 operator-(const vec3& a, const real3& b) {
+    return real3(a) - b;
+}
 SPHERULE_INLINE real3 operator-(const real3& a) {
     return {-a.x, -a.y, -a.z};
 }

@@ -50,6 +50,32 @@ TEST(SceneRefusals, NumbersFitTheSimulation) {
     EXPECT_EQ(refusalOf(R"("gravity": [0, 0, 1e300])"), "gravity[2]: is 1e+300, must be -1000000000 to 1000000000");
 }
 
+TEST(SceneRefusals, FieldsHaveOneKindAndAreBounded) {
+    EXPECT_EQ(refusalOf(R"("fields": [{}])"), "fields[0]: has no kind, must be drag or attraction");
+    EXPECT_EQ(refusalOf(R"("fields": [{"drag": {}}, {"drag": {"density": -1}}])"),
+              "fields[1].drag.density: is -1, must be 0 to 100000 kg/m^3");
+    EXPECT_EQ(refusalOf(R"("fields": [{"attraction": {"strength": 1, "softening": 1}}])"),
+              "fields[0].attraction.centre: has 0 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(R"("fields": [{"attraction": {"centre": [0,0,0], "strength": 1}}])"),
+              "fields[0].attraction.softening: is 0, must be 1e-06 to 1000000000 m");
+    EXPECT_EQ(refusalOf(R"("fields": [{"attraction": {"centre": [0,0,0], "strength": 1e3, "softening": 0.01}}])"),
+              "fields[0].attraction: accelerates spheres near its centre by up to 3.85e+06 m/s^2, at most 1e+06 is "
+              "allowed; use a larger softening or a smaller strength");
+    std::string nine = R"({"drag": {}})";
+    for (int k = 0; k < 8; ++k) nine += R"(, {"drag": {}})";
+    EXPECT_EQ(refusalOf(R"("fields": [)" + nine + "]"), "fields: has 9 entries, must have at most 8");
+}
+
+TEST(SceneRefusals, FieldsAreRead) {
+    const Scene scene = sceneWith(R"("fields": [{"drag": {}},
+        {"attraction": {"centre": [1, 2, 3], "strength": -4, "softening": 0.5}}])");
+    ASSERT_EQ(scene.forces.fields.size(), 2U);
+    EXPECT_EQ(std::get<Drag>(scene.forces.fields[0]).density, 1.2);
+    EXPECT_EQ(std::get<Drag>(scene.forces.fields[0]).coefficient, 0.47);
+    EXPECT_EQ(std::get<Attraction>(scene.forces.fields[1]).centre, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(std::get<Attraction>(scene.forces.fields[1]).strength, -4);
+}
+
 TEST(SceneRefusals, NamesAreLimited) {
     EXPECT_EQ(refusalOf(R"("name": ")" + std::string(longestName, 'n') + "\""), "accepted");
     EXPECT_EQ(refusalOf(R"("name": ")" + std::string(longestName + 1, 'n') + "\""),

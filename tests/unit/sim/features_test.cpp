@@ -83,6 +83,10 @@ TEST(SimFeatures, GravityRequiresANonZeroVector) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.clear_gravity(); }), bareWith({Gravity}));
 }
 
+TEST(SimFeatures, FieldsRequireAField) {
+    EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.add_fields()->mutable_drag(); }), bareWith({Fields}));
+}
+
 TEST(SimFeatures, RadiiRequireDifferentRadii) {
     EXPECT_EQ(
         featuresAfter([](v1::Scene& s) { s.mutable_groups(0)->mutable_list()->mutable_spheres(1)->set_radius(0.2); }),
