@@ -30,16 +30,19 @@ LANE_KERNEL(params.spheres) {
     real4 held = ROW(heldVelocity, invocation);
     real3 fall = real3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY)) fall = real3(params.gravity) * params.substep;
+    real3 pull = fall;  // without drag, which takes no part in the threshold of impacts
     if (HAS(FIELDS)) {
         real4 x = ROW(position, invocation);
         real3 gravity = HAS(GRAVITY) ? real3(params.gravity) : real3(0.0f, 0.0f, 0.0f);
-        fall = meanAcceleration(gravity, real3(x), real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
+        real3 a = accelerationOnPath(gravity, real3(x), real3(v));
+        pull = a * params.substep;
+        fall = withDrag(a, real3(v), radiusOf(x), inverseMassOf(v)) * params.substep;
     }
     real4 mean = ROW(acceleration, invocation);
-    real3 now = real3(mean) + (real3(held) + fall - real3(mean)) * (1.0f / MEAN_OVER);
+    real3 now = real3(mean) + (real3(held) + pull - real3(mean)) * (1.0f / MEAN_OVER);
     SET_ROW(awake, acceleration, invocation, real4(now, mean.w), mean)
     real squared = max(dot3(now, now), real(params.gravityChange * params.gravityChange));
-    if (HAS(FIELDS)) squared = max(squared, dot3(fall, fall));
+    if (HAS(FIELDS)) squared = max(squared, dot3(pull, pull));
     SET_ROW(awake, velocityBefore, invocation, real4(real3(v), squared), v)
     precise real3 unheld = real3(v) + fall;
     precise real3 start = unheld + real3(held);

@@ -248,7 +248,8 @@ LANE_KERNEL(params.spheres) {
     solveWalls(invocation);
 
     precise real3 holds = sphereVelocity + unheld;
-    // Rounding must not stay as a thrust. A sphere that holds nothing moves along its exact arc.
+    // Rounding must not stay as a thrust. A sphere that holds nothing moves along its arc, which is exact under gravity
+    // alone.
     real heldNow = pairsHeld + partsNow;
     mask isFree = heldNow == 0.0f;
     holds = select(isFree, real3(0.0f, 0.0f, 0.0f), holds);

@@ -1,5 +1,6 @@
-// The models `fast` and `accurate`: moves each awake sphere along its ballistic arc: v += a h, x += v h - a h^2 / 2. The
-// arc is exact under gravity alone, where a = g. Never derives a velocity from positions, because float32 positions are too coarse for it.
+// The models `fast` and `accurate`: moves each awake sphere along its ballistic arc: v += a h, x += v h - a h^2 / 2.
+// The arc is exact under gravity alone, where a = g. Never derives a velocity from positions, because float32 positions
+// are too coarse for it.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

@@ -76,7 +76,10 @@ KERNEL(params.spheres) {
     }
     bool fallsAsleep = inTime && quietTime >= params.sleepTime && squared < params.sleepSpeed * params.sleepSpeed;
     if (HAS(GRAVITY)) {
-        vec3 pull = accelerationAt(p) * params.substep;
+        vec3 pull = vec3(params.gravity) * params.substep;
+        if (HAS(FIELDS))
+            pull = meanAcceleration(vec3(params.gravity), p, vec3(u), radiusOf(position[invocation]),
+                                    inverseMassOf(v)) * params.substep;
         vec3 contactChange = vec3(v) - vec3(u) - pull;
         fallsAsleep = fallsAsleep && dot3(contactChange, contactChange) > 0.25f * dot3(pull, pull);
     }

@@ -7,6 +7,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/fields.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 #include "shared/contact.h"
@@ -55,14 +56,19 @@ void visitPair(uint a, uint b) {
     float speed = dot3(difference, n);
     // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce. Spheres
     // that touched in this substep may part already: they have met at the edge.
+    float slowest = params.deadBand;
+    if (HAS(FIELDS)) {
+        vec3 own = accelerationAt(vec3(pa));
+        slowest = max(slowest, 2.0f * sqrt(dot3(own, own)) * params.substep);
+    }
     float since = timeSinceTouch(dot3(d, difference), dot3(difference, difference), reach * reach - squared);
     bool impact = false;
-    if (speed < -params.deadBand || since <= params.substep) {
+    if (speed < -slowest || since <= params.substep) {
         since = min(since, LATEST_IMPACT * params.substep);
         vec3 met = d - difference * since;
         vec3 normal = vec3(normalAndDistance(met, dot3(met, met), a, b));
         float approach = dot3(difference, normal);
-        impact = approach < -params.deadBand;
+        impact = approach < -slowest;
         if (impact) {
             n = normal;
             speed = approach;

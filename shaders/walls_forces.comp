@@ -51,8 +51,8 @@ uint slipEntry(uint surface) {
     return freeEntry;
 }
 
-// `fall` is the velocity that gravity and fields have added since the middle of the last motion (m/s). `arm` is the distance from
-// the centre to the wall (m).
+// `fall` is the velocity that gravity and fields have added since the middle of the last motion (m/s). `arm` is the
+// distance from the centre to the wall (m).
 void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 contact) {
     uint entry = slipEntry(surface);
     bool known = entry != NO_ENTRY && hasSlip(wallSlip[entry]);

@@ -1,5 +1,5 @@
 // Walls and obstacles in the model `fast`: applies the impulse of restitution and friction at the moment of impact. The
-// speed at that moment follows from the depth: sqrt(v^2 - 2 g depth). The sphere flies on from the wall along its new
+// speed at that moment follows from the depth: sqrt(v^2 - 2 a depth). The sphere flies on from the wall along its new
 // arc. A sphere that would fall back within the substep is moved out of the wall instead, and neither gains nor loses
 // height.
 #include "shared/kernel.h"
@@ -30,8 +30,8 @@ PRIVATE(bool, touched)
 #include "shared/friction_wall.h"
 
 // The speed at the moment of impact (m/s, positive). `speed` is the normal speed at the end of the substep (m/s,
-// negative). `pull` is the acceleration along the normal (m/s^2). `depth` is the depth of the sphere in the wall (m). It is a
-// function of its own, so that `precise` applies to nothing else.
+// negative). `pull` is the acceleration along the normal (m/s^2). `depth` is the depth of the sphere in the wall (m).
+// It is a function of its own, so that `precise` applies to nothing else.
 float impactSpeed(float speed, float pull, float depth) {
     precise float impact = sqrt(max(speed * speed + 2.0f * pull * depth, 0.0f));
     return impact;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "core/heartbeat.h"
@@ -12,20 +13,31 @@ Result<StateDump> StateDump::create(const std::string& path, bool replace) {
     auto file = recording::OutputFile::create(path, replace);
     if (!file) return tl::unexpected(file.error());
     StateDump dump(std::move(*file));
-    if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius\n"); !done) return tl::unexpected(done.error());
+    if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius,wx,wy,wz,material,group,asleep\n"); !done)
+        return tl::unexpected(done.error());
     return dump;
 }
 
 Result<void> StateDump::write(sim::Simulation& simulation) {
     const sim::State state = simulation.snapshot();
     const heartbeat::Pause writing;
-    const glm::dvec3 centre = simulation.scene().bounds.centre();
+    const scene::Scene& scene = simulation.scene();
+    const glm::dvec3 centre = scene.bounds.centre();
+    constexpr std::size_t part = 1U << 20U;  // bytes
     std::string text;
+    std::size_t group = 0;
     for (std::uint32_t id = 0; id < state.count(); ++id) {
+        while (group + 1 < scene.groups.size() && id >= scene.groups[group + 1].first) ++group;
         const glm::dvec3 x = glm::dvec3(state.position[id]) + centre;
         const glm::vec4& v = state.velocity[id];
-        fmt::format_to(std::back_inserter(text), "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                       simulation.time(), id, x.x, x.y, x.z, v.x, v.y, v.z, state.position[id].w);
+        const glm::vec4& w = state.spin[id];
+        fmt::format_to(std::back_inserter(text),
+                       "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{}\n",
+                       simulation.time(), id, x.x, x.y, x.z, v.x, v.y, v.z, state.position[id].w, w.x, w.y, w.z,
+                       scene.spheres[id].material, group, std::signbit(v.w) ? 1 : 0);
+        if (text.size() < part) continue;
+        if (auto done = file_.write(text); !done) return done;
+        text.clear();
     }
     if (auto done = file_.write(text); !done) return done;
     auto done = file_.flush();

@@ -18,8 +18,10 @@ constexpr double tolerated = 0.01;  // tolerated rise / energy
 std::optional<std::string> EnergyWatch::check(const Reading& reading) {
     const double energy = reading.kinetic + reading.elastic + reading.potential - reading.given;
     if (!std::isfinite(energy)) return std::nullopt;
-    // Far below the bounds, potential energy is negative; the plain sum would be too small as a scale.
-    const double scale = reading.kinetic + reading.elastic + std::abs(reading.potential);
+    // Far below the bounds, and near a centre of attraction, potential energy is negative; the plain sum would be too
+    // small as a scale.
+    const double scale =
+        reading.kinetic + reading.elastic + std::abs(reading.potential - reading.fields) + std::abs(reading.fields);
     std::optional<std::string> alarm;
     if (!recent_.empty()) {
         const double highest = std::ranges::max_element(recent_, {}, &Seen::energy)->energy;

@@ -16,7 +16,8 @@ class EnergyWatch {
     struct Reading {
         std::uint64_t step = 0;
         double kinetic = 0;    // J, of motion and rotation
-        double potential = 0;  // J, zero at the lowest place of the scene
+        double potential = 0;  // J, of gravity and fields
+        double fields = 0;     // J, its part in fields
         double elastic = 0;    // J, in the springs of soft spheres
         double given = 0;      // J, added by pushes out of walls
         bool soft = false;     // contacts store energy that the other fields do not include

@@ -78,6 +78,7 @@ DiagnosticsSampler::Sample DiagnosticsSampler::sample(sim::Simulation& simulatio
         if (auto alarm = energy_.check({.step = simulation.steps(),
                                         .kinetic = statistics.kineticEnergy + statistics.rotationalEnergy,
                                         .potential = statistics.potentialEnergy,
+                                        .fields = statistics.fieldEnergy,
                                         .elastic = statistics.elasticEnergy,
                                         .given = statistics.pushWork,
                                         .soft = storesUnseen(simulation, statistics)}))

@@ -86,8 +86,8 @@ void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
     to.gauge(energy, energyHelp, now.rotational_energy(), {{"kind", "rotational"}});
     to.gauge(energy, energyHelp, now.elastic_energy(), {{"kind", "elastic"}});
     to.gauge(energy, energyHelp, now.potential_energy(), {{"kind", "potential"}});
-    to.gauge("spherule_push_work_joules", "Work against gravity when the model fast moves spheres out of walls",
-             now.push_work());
+    to.gauge("spherule_push_work_joules",
+             "Work against gravity and fields when the model fast moves spheres out of walls", now.push_work());
     const auto vector = [&to](const char* name, const char* help, const auto& values) {
         constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
         for (int axis = 0; axis < values.size(); ++axis) to.gauge(name, help, values[axis], {{"axis", axes[axis]}});

@@ -32,7 +32,8 @@ double smallestRadius(const Scene& scene) {
     return smallest;
 }
 
-// h = min(1/480 s, sqrt(8.5e-4 r_min / a)), where a is the strongest acceleration: keeps the mean overlap of a bed under a hundredth of the radius.
+// h = min(1/480 s, sqrt(8.5e-4 r_min / a)) with the strongest acceleration a: keeps the mean overlap of a bed under a
+// hundredth of the radius.
 double balancedSubstep(const Scene& scene) {
     constexpr double longest = 1.0 / 480;
     const double acceleration = strongestAcceleration(scene);

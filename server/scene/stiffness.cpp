@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "scene/materials.h"
@@ -122,6 +123,18 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
     return left;
 }
 
+// Returns the square of the speed (m^2/s^2) that a sphere gains by falling in the fields.
+double fieldDrop(const Scene& scene, const Extremes& extremes) {
+    if (scene.forces.fields.empty() || scene.spheres.empty()) return 0;
+    const Bounds& bounds = scene.bounds;
+    const bool closed = std::ranges::find(bounds.open, true) == bounds.open.end();
+    const auto nearestTo = [&](const glm::dvec3& centre) {
+        const double outside = closed ? glm::distance(centre, glm::clamp(centre, bounds.min, bounds.max)) : 0;
+        return std::max(outside, extremes.smallest);
+    };
+    return 2 * std::max(extremes.potential - scene.forces.lowestFieldPotential(nearestTo), 0.0);
+}
+
 struct Meetings {
     double spheres = 0;   // m/s: two spheres head-on
     double surfaces = 0;  // m/s: a sphere relative to bodies at rest
@@ -130,8 +143,8 @@ struct Meetings {
 // Returns the fastest meetings. Speeds are relative to the common motion of all spheres, as far as the surfaces of the
 // scene allow such a motion. With surfaces, spheres that bounce back may meet at twice the fastest speed. Without
 // surfaces, gravity and a common motion do not count. The speed is then twice the largest difference of two velocities,
-// because a light sphere leaves a heavy one twice as fast as they met. Spheres that fall to a centre of attraction meet
-// when they are a radius away from it.
+// because a light sphere leaves a heavy one twice as fast as they met. Spheres fall to a centre of attraction from all
+// sides, as near as the smallest radius.
 Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
@@ -142,12 +155,11 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     double speed = 0;
     for (const Sphere& sphere : scene.spheres)
         speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
-    double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
-    if (!scene.forces.fields.empty())
-        fall += 2 * std::max(extremes.potential - scene.forces.lowestFieldPotential(extremes.largest), 0.0);
+    const double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
+    const double drop = fieldDrop(scene, extremes);
     if (scene.sphereContacts && scene.spheres.size() > 1)
-        fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall);
-    if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall);
+        fastest.spheres = std::sqrt((stopped ? 4 : 16) * speed * speed + fall + 4 * drop);
+    if (stopped) fastest.surfaces = std::sqrt(speed * speed + fall + drop);
     // If nothing moves or falls, a slow speed is derived from the step.
     if (!(std::max(fastest.spheres, fastest.surfaces) > 0)) fastest.spheres = grain * extremes.smallest / scene.step;
     return fastest;

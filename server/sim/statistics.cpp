@@ -9,8 +9,8 @@ namespace spherule::sim {
 
 namespace {
 
-// Returns the potential energy under gravity (J). `weighted`: sum of mass times position (kg m, relative to the bounds' centre); w:
-// total mass (kg).
+// Returns the potential energy under gravity (J). `weighted`: sum of mass times position (kg m, relative to the bounds'
+// centre); w: total mass (kg).
 double potentialEnergy(const scene::Scene& scene, const glm::dvec4& weighted) {
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
     const glm::dvec3& g = scene.forces.gravity;
@@ -62,7 +62,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
         sum.rotationalEnergy += static_cast<double>(part.angular.w);
         sum.kineticEnergy += static_cast<double>(part.momentum.w);
         sum.elasticEnergy += static_cast<double>(part.wallSprings);
-        sum.potentialEnergy += static_cast<double>(part.fieldEnergy);
+        sum.fieldEnergy += static_cast<double>(part.fieldEnergy);
         heights += static_cast<double>(part.heightSum);
         squares += static_cast<double>(part.speedSquares);
         fastest = std::max(fastest, static_cast<double>(part.speedSquaredMax));
@@ -73,7 +73,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     }
     for (const float work : pipeline.read<float>(Array::WallWork)) sum.pushWork += static_cast<double>(work);
     addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
-    sum.potentialEnergy += potentialEnergy(scene, weighted);
+    sum.potentialEnergy = potentialEnergy(scene, weighted) + sum.fieldEnergy;
     sum.speedMax = std::sqrt(fastest);
     const double finite = pipeline.plan().spheres - sum.nonFinite;
     if (finite > 0) {

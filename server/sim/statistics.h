@@ -33,8 +33,9 @@ struct Statistics {
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
     double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models
-    double potentialEnergy = 0;  // zero at the lowest corner of the bounds
-    double pushWork = 0;         // work of the pushes of `fast` out of walls against gravity, since the last upload
+    double potentialEnergy = 0;  // of gravity, zero at the lowest corner of the bounds, and of fields
+    double fieldEnergy = 0;      // the part of the potential energy in fields, zero far away
+    double pushWork = 0;  // work of the pushes of `fast` out of walls against gravity and fields, since the last upload
     glm::dvec3 momentum{};
     glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre
     std::uint64_t contacts = 0;

@@ -60,7 +60,7 @@ struct Approach {
     mask found;      // the paths of the spheres meet within the substep
     real time;       // from the beginning of the substep (s)
     real speed;      // at that time (m/s, negative)
-    real late;       // change of the speed by gravity and held impulses in the rest of the substep (m/s)
+    real late;       // change of the speed by own acceleration and held impulses in the rest of the substep (m/s)
     real solved;     // the present speed (m/s)
 };
 

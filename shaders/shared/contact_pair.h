@@ -26,8 +26,9 @@ struct Impact {
 
 // Finds the impacts, and lets them change the velocities before the substep: an impact passes from pair to pair as in
 // Newton's cradle. `heldImpulse`: held so far (N s). `before`: its normal part.
-RARE Impact impactOf(mask approaching, mask held, real3 heldImpulse, slots a, slots b, real3 d, real squared, real reach,
-                     real separation, real4 va, real4 vb, real3 normal, real before, real target, real lever, real e) {
+RARE Impact impactOf(mask approaching, mask held, real3 heldImpulse, slots a, slots b, real3 d, real squared,
+                     real reach, real separation, real4 va, real4 vb, real3 normal, real before, real target,
+                     real lever, real e) {
     real ma = effectiveInverseMass(va);
     real mb = effectiveInverseMass(vb);
     real mass = 1.0f / max(ma + mb, real(1.0e-30f));
@@ -193,7 +194,8 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
     mask approaching = involved && inReach && speed < target && speed < -params.gravityChange;
     if (anyLane(approaching)) {
         Impact found =
-            impactOf(approaching, held, old.impulse, a, b, d, squared, reach, separation, va, vb, n, before, target, lever, e);
+            impactOf(approaching, held, old.impulse, a, b, d, squared, reach, separation, va, vb, n, before, target,
+                     lever, e);
         involved = involved && !found.missed;
         impact = found.impact;
         placed = found.placed;

@@ -1,6 +1,5 @@
 // The frame of reference that falls with the spheres outside the bounds, by gravity alone: it need not follow them
-// exactly. The counters hold its motion since the lists
-// were built. The includer binds `counters`.
+// exactly. The counters hold its motion since the lists were built. The includer binds `counters`.
 
 vec3 frameVector(uint first) {
     return vec3(uintBitsToFloat(counters[first]), uintBitsToFloat(counters[first + 1u]),

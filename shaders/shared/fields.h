@@ -36,12 +36,16 @@ vec3 accelerationAt(vec3 x) {
     return a;
 }
 
-// The mean acceleration (m/s^2) in a substep that begins at x with velocity v, under gravity and fields. `gravity`:
-// gravity's part. Fields are taken at the middle of the path, which makes the motion symplectic (a drift, a kick and a
-// drift). Drag is implicit, so that it never reverses a motion, and the terminal speed is exact.
-ANY_REAL3 meanAcceleration(ANY_REAL3 gravity, ANY_REAL3 x, ANY_REAL3 v, ANY_REAL radius, ANY_REAL inverseOfMass) {
+// Gravity plus the fields, without drag, at the middle of the path of a substep that begins at x with velocity v
+// (m/s^2). This makes the motion symplectic: a drift, a kick and a drift.
+ANY_REAL3 accelerationOnPath(ANY_REAL3 gravity, ANY_REAL3 x, ANY_REAL3 v) {
     precise ANY_REAL3 middle = x + v * (0.5f * params.substep);
-    ANY_REAL3 a = withFieldsAt(middle, gravity);
+    return withFieldsAt(middle, gravity);
+}
+
+// The mean acceleration (m/s^2) in a substep that begins with velocity v, with drag besides the acceleration `a`. Drag
+// is implicit, so that it never reverses a motion, and the terminal speed is exact.
+ANY_REAL3 withDrag(ANY_REAL3 a, ANY_REAL3 v, ANY_REAL radius, ANY_REAL inverseOfMass) {
     float drag = 0.0f;
     for (uint k = 0u; k < MOST_FIELDS && kindOfField(k) != NO_FIELD; ++k)
         if (kindOfField(k) == FIELD_DRAG) drag = drag + strengthOfField(k);
@@ -49,6 +53,11 @@ ANY_REAL3 meanAcceleration(ANY_REAL3 gravity, ANY_REAL3 x, ANY_REAL3 v, ANY_REAL
     precise ANY_REAL share = 1.0f / (1.0f + rate * params.substep);
     precise ANY_REAL3 mean = (a - v * rate) * share;
     return mean;
+}
+
+// The mean acceleration (m/s^2) by gravity and all fields in a substep that begins at x with velocity v.
+ANY_REAL3 meanAcceleration(ANY_REAL3 gravity, ANY_REAL3 x, ANY_REAL3 v, ANY_REAL radius, ANY_REAL inverseOfMass) {
+    return withDrag(accelerationOnPath(gravity, x, v), v, radius, inverseOfMass);
 }
 
 // The potential of the fields at x (J/kg).

@@ -47,7 +47,7 @@ struct Parameters {
     uint maxWallHistory; // contacts with walls that a sphere can remember
     uint levels;
 
-    float gravityChange; // m/s: change of the velocity by gravity in a substep
+    float gravityChange; // m/s: change of the velocity by gravity alone in a substep
     float substepRatio;  // present substep over the one before, while impulses are scaled to it
     float quietSpeed;    // m/s; a sphere that stays below it is quiet
     float unusedReal2;

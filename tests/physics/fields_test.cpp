@@ -154,8 +154,7 @@ TEST_P(Fields, FlightsFollowTheReference) {
     }
 }
 
-// Kinetic plus potential energy of a sphere that bounces without loss in a box, attracted by its middle. `fast` may
-// lose up to 1 %.
+// Kinetic plus potential energy of a sphere that bounces without loss in a box, under gravity and an attraction.
 TEST_P(Fields, EnergyOfAnElasticBounceStays) {
     scene::Scene scene = fineStepBox(1);
     scene.quality = {.model = GetParam(), .substeps = GetParam() == scene::Model::Accurate ? 20U : 1U};
@@ -173,6 +172,67 @@ TEST_P(Fields, EnergyOfAnElasticBounceStays) {
         run(*simulation, 0.1);
         EXPECT_NEAR(energy(), before, 0.01 * scale) << k;
     }
+}
+
+// Without gravity, many spheres are pushed against the walls. Commands switch gravity on and off, and add spheres.
+TEST_P(Fields, ScenesWithoutGravityTakeCommands) {
+    scene::Scene scene = fineStepBox(1);
+    scene.forces = {.fields = {scene::Drag{.density = 10}, scene::Attraction{{0, 0, -3}, 100, 0.2}}};
+    for (int k = 0; k < 216; ++k) {
+        scene::Sphere sphere;
+        sphere.radius = static_cast<float>(radius);
+        sphere.position = 0.15 * (glm::dvec3(k % 6, k / 6 % 6, k / 36) - 2.5);
+        scene.spheres.push_back(sphere);
+    }
+    scene.quality = {.model = GetParam(), .substepsFixed = false};
+    scene.quality.substeps = static_cast<std::uint32_t>(scene::defaultSubsteps(scene));
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.5);
+    const double low = simulation->statistics().meanHeight;
+    EXPECT_LT(low, 0.4) << "the centre is below the floor";
+    for (const glm::dvec3 gravity : {glm::dvec3(0, 0, 40), glm::dvec3(0)}) {
+        ASSERT_TRUE(simulation->apply(sim::Set{.gravity = gravity}));
+        run(*simulation, 0.7);
+        EXPECT_TRUE(allFinite(simulation->snapshot()));
+        EXPECT_EQ(simulation->statistics().outside, 0U);
+        if (gravity.z > 0)
+            EXPECT_GT(simulation->statistics().meanHeight, 0.6) << "gravity is stronger";
+        else
+            EXPECT_LT(simulation->statistics().meanHeight, 0.4);
+    }
+}
+
+// At its terminal speed a grain is slower than the sleep speed. It must not fall asleep in mid-flight.
+TEST_P(Fields, DragCarriesNoSleeper) {
+    if (GetParam() == scene::Model::Accurate) return;  // no sphere sleeps
+    scene::Scene scene = sleepyBox(1);
+    scene.quality.model = GetParam();
+    scene.materials[0].friction = 0.3;
+    scene.bounds.open.fill(false);
+    scene.spheres = {{.position = {0, 0, 0.3}, .radius = 0.001F}};
+    scene.forces.fields = {scene::Drag{.density = 1000, .coefficient = 400}};
+    const auto simulation = simulate(scene);
+    run(*simulation, 4);
+    const sim::State state = simulation->snapshot();
+    EXPECT_FALSE(asleep(state, 0));
+    EXPECT_NEAR(-velocityOf(state, 0).z, std::sqrt(earth * 1000 * 4.0 / 3 * 0.001 / (0.5 * 1000 * 400)), 1e-4);
+}
+
+// Two spheres that fall from rest to a centre between them, with the stiffness that `accurate` chooses.
+TEST(FieldsInHeaps, StiffnessBearsTheMeetingAtACentre) {
+    scene::Scene scene = fineStepSpace(4);
+    scene.quality = {.model = scene::Model::Accurate, .substepsFixed = false, .overlap = 0.1};
+    scene.spheres = {{.position = {-1, 0, 0}, .radius = 0.05F}, {.position = {1, 0, 0}, .radius = 0.05F}};
+    scene.forces.fields = {scene::Attraction{{}, 4, 0.05}};
+    scene.quality.substeps = static_cast<std::uint32_t>(scene::defaultSubsteps(scene));
+    const auto simulation = simulate(scene);
+    double deepest = 0;
+    for (int step = 0; step < 480; ++step) {
+        run(*simulation, scene.step);
+        deepest = std::max(deepest, simulation->statistics().overlapMax);
+        ASSERT_LT(positionOf(simulation->snapshot(), 0).x, 0) << "the spheres have passed each other";
+    }
+    EXPECT_LT(deepest, 0.15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Fields, testing::ValuesIn(models),
@@ -200,7 +260,8 @@ TEST(FieldsInHeaps, AttractedSpheresComeToRestInABall) {
         const sim::Statistics now = simulation->statistics();
         EXPECT_EQ(watch.check({.step = simulation->steps(),
                                .kinetic = now.kineticEnergy + now.rotationalEnergy,
-                               .potential = now.potentialEnergy}),
+                               .potential = now.potentialEnergy,
+                               .fields = now.fieldEnergy}),
                   std::nullopt);
     }
     const sim::Statistics end = simulation->statistics();

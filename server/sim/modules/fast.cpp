@@ -11,7 +11,7 @@ const Module moduleFast{
         [](PlanBuilder& plan) {
             plan.overPairs(Stage::Solve, Pass::Impulses, "solve_impulses.comp");
             if (!plan.hasSurfaces()) return;
-            if (plan.has(Feature::Gravity)) plan.arrays({Array::WallWork});
+            if (plan.has(Feature::Gravity) || plan.has(Feature::Fields)) plan.arrays({Array::WallWork});
             plan.overSpheres(Stage::Solve, Pass::WallImpulses, "walls_impulses.comp");
         },
     .cost = {.reason = "the table has columns for the models"},

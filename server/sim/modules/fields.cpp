@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <numbers>
 
 #include "sim/modules/module.h"
@@ -33,8 +32,6 @@ void uploadFields(const ParameterSource& from, layout::Parameters& p) {
         p.fieldPlace[k] = glm::vec4(rows.place);
         p.fieldNumbers[k] = glm::vec4(rows.numbers);
     }
-    const double strongest = scene::strongestAcceleration(from.scene);
-    p.deadBand = std::max(p.deadBand, static_cast<float>(2 * strongest * from.substep));
 }
 
 }  // namespace

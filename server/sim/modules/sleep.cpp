@@ -21,7 +21,7 @@ void declareSleep(PlanBuilder& plan) {
 
 void uploadSleep(const ParameterSource& from, layout::Parameters& p) {
     const scene::Scene& scene = from.scene;
-    const double g = scene::strongestAcceleration(scene);
+    const double g = glm::length(scene.forces.gravity);
     // With friction, `balanced` leaves a support under load slower than gravity makes it in a substep. The sleep speed
     // is above that, and the wake speed well above the sleep speed, or a sphere would fall asleep and wake in turns. In
     // `fast`, a squeezed sphere is up to about 15 times as fast. Without friction, a bed takes long to come to rest.

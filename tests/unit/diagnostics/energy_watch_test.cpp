@@ -35,6 +35,12 @@ TEST(EnergyWatch, IgnoresRounding) {
     EXPECT_EQ(read(watch, 100.9, 20), 0);
 }
 
+TEST(EnergyWatch, IgnoresRoundingWherePotentialsCancel) {
+    EnergyWatch watch;
+    for (int k = 0; k < 20; ++k)
+        EXPECT_FALSE(watch.check({.step = 7, .kinetic = 1e-6, .potential = 1e-5 * k, .fields = -100}));
+}
+
 TEST(EnergyWatch, ReportsAgainAfterAQuietPeriod) {
     EnergyWatch watch;
     read(watch, 100);
