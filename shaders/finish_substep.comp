@@ -93,7 +93,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real sp
     real3 oldImpulse = select(held, real3(remembered), real3(0.0f, 0.0f, 0.0f));
     real4 oldTorque = real4(0.0f, 0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) oldTorque = ROW(wallTorque, row);
-    real3 heldTorque = select(held, real3(oldTorque), real3(0.0f, 0.0f, 0.0f));
+    heldTorque = select(held, real3(oldTorque), real3(0.0f, 0.0f, 0.0f));
     real mass = 1.0f / inverseMass;
     real before = dot3(oldImpulse, n);
     real3 tangential = oldImpulse - n * before;
@@ -177,7 +177,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real sp
     }
     EACH_LANE(touching && !remembers, reportDroppedWall, sphereId)
     mask stored = touching && remembers;
-    mask holds = stored && isHeld(impulse);
+    mask holds = stored && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f);
     partsNow = select(holds, withPart(partsNow, surface), partsNow);
     real4 kept = real4(impulse, select(holds, real(float(surface + 1u)), real(0.0f)));
     SET_ROW(stored, wallImpulse, row, kept, remembered)

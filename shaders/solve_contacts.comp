@@ -62,19 +62,16 @@ RARE void expectPairs(uint first, uint count) {
 
 void visitPairs(slots a, slots b, uintRow at) {
     uintRow memory = at + remembered;
-    Held old;
-    old.impulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
-    old.torque = real3(0.0f, 0.0f, 0.0f);
-    if (HAS(FRICTION)) old.torque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
-    SolvedPairs solved = solvePairs(liveLanes(), a, b, old, true);
-    if (!anyLane(solved.changed)) return;
-    SET_ALL(contactX, memory, solved.held.impulse.x)
-    SET_ALL(contactY, memory, solved.held.impulse.y)
-    SET_ALL(contactZ, memory, solved.held.impulse.z)
+    heldImpulse = real3(ROW(contactX, memory), ROW(contactY, memory), ROW(contactZ, memory));
+    if (HAS(FRICTION)) heldTorque = real3(ROW(torqueX, memory), ROW(torqueY, memory), ROW(torqueZ, memory));
+    if (!anyLane(solvePairs(liveLanes(), a, b, true))) return;
+    SET_ALL(contactX, memory, heldImpulse.x)
+    SET_ALL(contactY, memory, heldImpulse.y)
+    SET_ALL(contactZ, memory, heldImpulse.z)
     if (HAS(FRICTION)) {
-        SET_ALL(torqueX, memory, solved.held.torque.x)
-        SET_ALL(torqueY, memory, solved.held.torque.y)
-        SET_ALL(torqueZ, memory, solved.held.torque.z)
+        SET_ALL(torqueX, memory, heldTorque.x)
+        SET_ALL(torqueY, memory, heldTorque.y)
+        SET_ALL(torqueZ, memory, heldTorque.z)
     }
 }
 

@@ -26,10 +26,9 @@ BUFFER(readonly, uint, bundles)
 #include "shared/contact_pair.h"
 
 void visitPair(uint a, uint b) {
-    Held nothing;
-    nothing.impulse = vec3(0.0f, 0.0f, 0.0f);
-    nothing.torque = nothing.impulse;
-    solvePairs(true, a, b, nothing, false);
+    heldImpulse = real3(0.0f, 0.0f, 0.0f);
+    heldTorque = heldImpulse;
+    solvePairs(true, a, b, false);
 }
 
 #include "shared/visit_range.h"

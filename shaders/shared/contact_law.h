@@ -42,16 +42,11 @@
 // The largest overlap that the spring removes in a substep, in radii.
 #define SOFT_MOST 0.125f
 
-// The values that a contact holds from substep to substep.
-struct Held {
-    real3 impulse;  // on the first sphere (N s)
-    real3 torque;   // of friction, per lever of a sphere (N s)
-};
-
-mask isHeld(real3 impulse) {
-    return impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f;
-}
-
+// The contact of each lane while it is solved: the impulse on the first sphere (N s), and the torque of its friction
+// per lever of a sphere (N s). They change from the values of the last substep to the values that the
+// contact holds. (A struct would take glslang minutes, because `precise` spreads through its members.)
+PRIVATE(real3, heldImpulse)
+PRIVATE(real3, heldTorque)
 PRIVATE(float, contactReach)  // pairs with a wider gap cannot meet in this substep (m)
 
 // An impact of a pair. All values are along its normal.

@@ -25,10 +25,9 @@ struct Impact {
 };
 
 // Finds the impacts, and lets them change the velocities before the substep: an impact passes from pair to pair as in
-// Newton's cradle. `heldImpulse`: held so far (N s). `before`: its normal part.
-RARE Impact impactOf(mask approaching, mask held, real3 heldImpulse, slots a, slots b, real3 d, real squared,
-                     real reach, real separation, real4 va, real4 vb, real3 normal, real before, real target,
-                     real lever, real e) {
+// Newton's cradle. `before`: the normal impulse held so far (N s).
+RARE Impact impactOf(mask approaching, mask held, slots a, slots b, real3 d, real squared, real reach, real separation,
+                     real4 va, real4 vb, real3 normal, real before, real target, real lever, real e) {
     real ma = effectiveInverseMass(va);
     real mb = effectiveInverseMass(vb);
     real mass = 1.0f / max(ma + mb, real(1.0e-30f));
@@ -146,16 +145,9 @@ RARE void updateSleeper(mask where, slots sleeper, real4 v, real4 x, real3 impul
     SET_ROW(where, heldSpin, sleeper, real4(real3(spin) - torque * lever, spin.w), spin)
 }
 
-struct SolvedPairs {
-    mask changed;  // the contacts whose impulse has changed
-    Held held;     // what the contacts hold now
-};
-
-// Solves the contacts in `where` whose spheres meet in this substep or hold an impulse. `old`: what they hold from the
-// last substep. `remembers`: false if the contacts cannot hold an impulse, because they are in no list.
-SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
-    SolvedPairs result;
-    result.held = old;
+// Solves the contacts in `where` whose spheres meet in this substep or hold an impulse. Returns those whose impulse has
+// changed. `remembers`: false if the contacts cannot hold an impulse, because they are in no list.
+mask solvePairs(mask where, slots a, slots b, bool remembers) {
     real4 pa = ROW(position, a);
     real4 pb = ROW(position, b);
     real3 d = real3(pa) - real3(pb);
@@ -163,10 +155,9 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
     real reach = radiusSum(pa, pb);
     real interest = reach + contactReach;
     mask inReach = squared < interest * interest;
-    mask held = isHeld(old.impulse);
+    mask held = heldImpulse.x != 0.0f || heldImpulse.y != 0.0f || heldImpulse.z != 0.0f;
     mask involved = where && (inReach || held);
-    result.changed = involved;
-    if (!anyLane(involved)) return result;
+    if (!anyLane(involved)) return involved;
 
     real4 va = ROW(velocity, a);
     real4 vb = ROW(velocity, b);
@@ -180,8 +171,8 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
     real separation = distance - reach;
     real3 relative = real3(va) - real3(vb);
     real speed = dot3(relative, n);
-    real before = dot3(old.impulse, n);  // the normal impulse held so far
-    real3 tangential = old.impulse - n * before;
+    real before = dot3(heldImpulse, n);  // the normal impulse held so far
+    real3 tangential = heldImpulse - n * before;
     precise real target = -max(separation, real(0.0f)) * params.perSubstep;
     real4 contact = contactOfPair(a, b);
     real e = HAS(RESTITUTION) ? restitutionOf(contact) : real(0.0f);
@@ -194,8 +185,7 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
     mask approaching = involved && inReach && speed < target && speed < -params.gravityChange;
     if (anyLane(approaching)) {
         Impact found =
-            impactOf(approaching, held, old.impulse, a, b, d, squared, reach, separation, va, vb, n, before, target,
-                     lever, e);
+            impactOf(approaching, held, a, b, d, squared, reach, separation, va, vb, n, before, target, lever, e);
         involved = involved && !found.missed;
         impact = found.impact;
         placed = found.placed;
@@ -205,8 +195,8 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
         lever = found.lever;
         time = found.time;
         load = found.load;
-        before = dot3(old.impulse, n);
-        tangential = old.impulse - n * before;
+        before = dot3(heldImpulse, n);
+        tangential = heldImpulse - n * before;
     }
 
     // The normal impulse that reaches the target speed, without pulling. An overlap is removed by moving the spheres.
@@ -220,8 +210,7 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
     push = select(soft, real(0.0f), push);
     mask pushed = involved && push > 0.0f;
     mask touching = involved && (normalImpulse > 0.0f || held);
-    result.changed = touching;
-    if (!anyLane(touching || pushed)) return result;
+    if (!anyLane(touching || pushed)) return touching;
 
     real3 friction = real3(0.0f, 0.0f, 0.0f);
     real3 torque = real3(0.0f, 0.0f, 0.0f);
@@ -241,7 +230,7 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
         precise real3 slip = relative - n * speed - cross3(real3(sa) * ra + real3(sb) * rb, n) * lever;
         friction = frictionOfContact(tangential, slip, mass, frictionOf(contact) * normalImpulse);
         torque = cross3(n, friction) * lever;
-        real3 change = torque - old.torque;
+        real3 change = torque - heldTorque;
         SET_ROW(touching, angularVelocity, a, real4(real3(sa) - change * leverA, sa.w), sa)
         SET_ROW(touching, angularVelocity, b, real4(real3(sb) - change * leverB, sb.w), sb)
     }
@@ -267,20 +256,20 @@ SolvedPairs solvePairs(mask where, slots a, slots b, Held old, bool remembers) {
         impulse = impulse * share;
         torque = torque * share;
     }
-    mask holds = isHeld(impulse);
+    mask holds = impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f;
     mask corrected = forgets || (touching && ((holds && !held) || (held && !holds)));
     if (anyLane(corrected)) {
         real pairsHeld = select(holds, real(1.0f), real(0.0f)) - select(held, real(1.0f), real(0.0f));
-        correctHeld(corrected, a, b, impulse - old.impulse, torque - old.torque, pairsHeld, va, vb, sa, sb, leverA,
+        correctHeld(corrected, a, b, impulse - heldImpulse, torque - heldTorque, pairsHeld, va, vb, sa, sb, leverA,
                     leverB);
     }
     if (HAS(SLEEP)) {
         mask sleepsA = touching && isAsleep(va);
         mask sleepsB = touching && isAsleep(vb);
-        if (anyLane(sleepsA)) updateSleeper(sleepsA, a, va, pa, impulse - old.impulse, torque - old.torque);
-        if (anyLane(sleepsB)) updateSleeper(sleepsB, b, vb, pb, old.impulse - impulse, torque - old.torque);
+        if (anyLane(sleepsA)) updateSleeper(sleepsA, a, va, pa, impulse - heldImpulse, torque - heldTorque);
+        if (anyLane(sleepsB)) updateSleeper(sleepsB, b, vb, pb, heldImpulse - impulse, torque - heldTorque);
     }
-    result.held.impulse = select(touching, impulse, old.impulse);
-    result.held.torque = select(touching, torque, old.torque);
-    return result;
+    heldImpulse = select(touching, impulse, heldImpulse);
+    heldTorque = select(touching, torque, heldTorque);
+    return touching;
 }
