@@ -54,13 +54,13 @@ void visitPair(uint a, uint b) {
     vec3 n = vec3(normalAndDistance(d, squared, a, b));
     vec3 difference = vec3(va) - vec3(vb);
     float speed = dot3(difference, n);
-    // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce. Spheres
-    // that touched in this substep may part already: they have met at the edge.
+    // Slower approaches come from the weight of a pile, which one sweep does not balance. They do not bounce.
     float slowest = params.deadBand;
     if (HAS(FIELDS)) {
         vec3 own = accelerationAt(vec3(pa));
         slowest = max(slowest, 2.0f * sqrt(dot3(own, own)) * params.substep);
     }
+    // Spheres that touched in this substep may part already: they have met at the edge.
     float since = timeSinceTouch(dot3(d, difference), dot3(difference, difference), reach * reach - squared);
     bool impact = false;
     if (speed < -slowest || since <= params.substep) {

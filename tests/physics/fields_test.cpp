@@ -174,7 +174,7 @@ TEST_P(Fields, EnergyOfAnElasticBounceStays) {
     }
 }
 
-// Without gravity, many spheres are pushed against the walls. Commands switch gravity on and off, and add spheres.
+// Without gravity, many spheres are pushed against the walls. Commands switch gravity on and off.
 TEST_P(Fields, ScenesWithoutGravityTakeCommands) {
     scene::Scene scene = fineStepBox(1);
     scene.forces = {.fields = {scene::Drag{.density = 10}, scene::Attraction{{0, 0, -3}, 100, 0.2}}};
