@@ -44,8 +44,8 @@ struct Forces {
 
     // Returns the acceleration (m/s^2) of a sphere at rest at `place` (m).
     [[nodiscard]] glm::dvec3 accelerationAt(const glm::dvec3& place) const;
-    // Returns the potential of the fields (J/kg) at `place`, without gravity. It is 0 far away from all
-    // centres. Drag has none: it is not conservative.
+    // Returns the potential of the fields (J/kg) at `place`, without gravity. It is 0 far away from all centres.
+    // Drag has none: it is not conservative.
     [[nodiscard]] double fieldPotentialAt(const glm::dvec3& place) const;
     // Returns the lowest potential of the fields (J/kg) that spheres can reach. nearestTo(centre): how near to a centre
     // they can come (m).

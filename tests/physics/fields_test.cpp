@@ -190,6 +190,7 @@ TEST_P(Fields, ScenesWithoutGravityTakeCommands) {
     run(*simulation, 0.5);
     const double low = simulation->statistics().meanHeight;
     EXPECT_LT(low, 0.4) << "the centre is below the floor";
+    EXPECT_EQ(simulation->statistics().pushWork != 0, GetParam() == scene::Model::Fast);
     for (const glm::dvec3 gravity : {glm::dvec3(0, 0, 40), glm::dvec3(0)}) {
         ASSERT_TRUE(simulation->apply(sim::Set{.gravity = gravity}));
         run(*simulation, 0.7);
