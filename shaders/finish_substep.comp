@@ -16,6 +16,8 @@ BUFFER(restrict, vec4, heldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, obstacleLists)
+BUFFER(readonly, uvec2, nearObstacles)
 BUFFER(restrict, vec4, wallImpulse)  // by id, params.maxWallHistory each: N s; w: surface + 1
 BUFFER(restrict, vec4, wallTorque)   // by id: torque of the friction per lever (N s)
 BUFFER(readonly, vec4, listReference)
@@ -26,6 +28,7 @@ BUFFER(coherent, uint, counters)
 #include "shared/fields.h"
 #include "shared/friction.h"
 #include "shared/limits.h"
+#include "shared/shapes.h"
 #include "shared/outside.h"
 #include "shared/falling_frame.h"
 #include "shared/motion.h"
@@ -81,7 +84,8 @@ void reportDroppedWall(uint id) {
 }
 
 // Solves the contacts in `where` with one surface. The spheres meet it in this substep, or they may hold an impulse.
-RARE void solveSurface(mask where, mask close, real3 n, real separation, real speed, uint wallMaterial, uint surface) {
+RARE void solveSurface(mask where, mask close, real3 n, real separation, real recession, real speed, uint wallMaterial,
+                       uint surface) {
     float h = params.substep;
     uints row = rowOfSurface(surface);
     real4 remembered = ROW(wallImpulse, row);
@@ -97,7 +101,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real sp
     real mass = 1.0f / inverseMass;
     real before = dot3(oldImpulse, n);
     real3 tangential = oldImpulse - n * before;
-    precise real target = -max(separation, real(0.0f)) * params.perSubstep;
+    precise real target = -max(separation, real(0.0f)) * params.perSubstep - recession;
     uints index = sphereMaterial * params.materials + wallMaterial;
     real4 contact = MEMBER(contactParams, index, contact);
     real e = HAS(RESTITUTION) ? restitutionOf(contact) : real(0.0f);
@@ -136,7 +140,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real sp
     precise real normalImpulse = positivePart(before - mass * (speed - target));
     mask soft = isSoft(contact) && separation <= sphereRadius * SOFT_GAP && !impact;
     if (anyLane(soft))
-        normalImpulse = select(soft, softImpulse(before, mass, speed, separation, sphereRadius), normalImpulse);
+        normalImpulse = select(soft, softImpulse(before, mass, speed + recession, separation, sphereRadius), normalImpulse);
     mask touching = involved && (normalImpulse > 0.0f || held);
     touchesWalls = touchesWalls || touching;
     // Rigid walls push out fully, because they come after the pairs.
@@ -184,11 +188,15 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real sp
     if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)
 }
 
-void visitSurface(real3 n, real separation, uint wallMaterial, uint surface) {
+real3 velocityAlong() {
+    return sphereVelocity;
+}
+
+void visitSurface(mask where, real3 n, real separation, real recession, uint wallMaterial, uint surface) {
     real speed = dot3(sphereVelocity, n);
-    mask close = separation + min(speed, real(0.0f)) * params.substep <= 0.0f;
-    mask visited = sphereAwake && (close || containsPart(partsBefore, surface));
-    if (anyLane(visited)) solveSurface(visited, close, n, separation, speed, wallMaterial, surface);
+    mask close = separation + min(speed + recession, real(0.0f)) * params.substep <= 0.0f;
+    mask visited = where && sphereAwake && (close || containsPart(partsBefore, surface));
+    if (anyLane(visited)) solveSurface(visited, close, n, separation, recession, speed, wallMaterial, surface);
 }
 
 #include "shared/surfaces.h"
@@ -196,15 +204,20 @@ void visitSurface(real3 n, real separation, uint wallMaterial, uint surface) {
 void solveWalls(uintRow at) {
     partsNow = real(0.0f);
     touchesWalls = noLane();
-    if (!HAS(WALLS) && !HAS(PLANES) && !HAS(BOXES)) return;
-    real ahead = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
-    mask clear = clearOfSurfaces(spherePoint, sphereRadius, ahead);
-    if (!HAS(PLANES) && !HAS(BOXES) && !anyLane(sphereAwake && (!clear || partsBefore != 0.0f))) return;
+    if (!HAS(WALLS) && !HAS(OBSTACLES)) return;
+    real reach = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
+    mask visits = !clearOfFaces(reach) || partsBefore != 0.0f;
+    uints near = uints(NO_OBSTACLES);
+    if (HAS(OBSTACLES)) {
+        near = select(sphereAwake, obstaclesNear(at, reach), near);
+        visits = visits || near != NO_OBSTACLES;
+    }
+    if (!anyLane(sphereAwake && visits)) return;
     uints word = ROW(idAndMaterial, at);
     sphereId = idOf(word);
     sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);
     startVelocity = ROW(velocityBefore, at);
-    visitSurfaces();
+    visitSurfaces(near);
 }
 
 void reportNonFinite(uint sphere) {

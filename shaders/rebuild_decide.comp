@@ -50,6 +50,7 @@ KERNEL(1u) {
         counters[COUNTER_OUTSIDE] = 0u;
         counters[COUNTER_CARRIED] = 0u;
         counters[COUNTER_RESTORED] = 0u;
+        counters[COUNTER_NEAR_OBSTACLES] = 0u;
         if (counters[COUNTER_RESTING] != 0u) counters[COUNTER_RESTING] = RESTED_BEFORE;
         for (uint k = 0u; k < 6u; ++k) counters[COUNTER_DRIFT_BOX + k] = 0u;
         setDriftPath(vec3(0.0f, 0.0f, 0.0f));  // list_drift.comp sets the drift

@@ -6,44 +6,52 @@ PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/fields.h"
+#include "shared/shapes.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
 BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, obstacleLists)
+BUFFER(readonly, uvec2, nearObstacles)
+BUFFER(readonly, vec4, listReference)
 BUFFER(writeonly, SphereStatistics, sphereSums)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, vec4, wallSlip)
 
-PRIVATE(vec3, wallPoint)
+PRIVATE(uint, sphereSlot)
+PRIVATE(vec3, spherePoint)
+PRIVATE(float, sphereRadius)
 PRIVATE(float, deepest)
-PRIVATE(uint, wallSphere)
 PRIVATE(vec3, displacement)
 PRIVATE(float, springs)
 
 #include "shared/contact_params.h"
 #include "shared/spring.h"
 
-void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    deepest = max(deepest, depth);
+vec3 velocityAlong() {
+    return vec3(0.0f, 0.0f, 0.0f);
+}
+
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+    deepest = max(deepest, -separation);
     if (!HAS(LOW_BITS)) return;
-    float overlap = depth - dot3(vec3(positionLow[wallSphere]), normal);
+    float overlap = -separation - dot3(vec3(positionLow[sphereSlot]), normal);
     if (!(overlap > 0.0f)) return;
     displacement = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) {
-        uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
+        uint first = idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory;
         for (uint k = first; k < first + params.maxWallHistory; ++k)
             if (isAtSurface(wallSlip[k], surface)) displacement = vec3(wallSlip[k]);
     }
-    float radius = radiusOf(position[wallSphere]);
-    float speed = dot3(vec3(velocity[wallSphere]), normal);
-    springs += springEnergy(overlapWithSpeed(overlap, speed), radius,
-                            contactParams[wallContactIndex(wallSphere, wallMaterial)].stiffness, displacement);
+    float speed = dot3(vec3(velocity[sphereSlot]), normal);
+    springs += springEnergy(overlapWithSpeed(overlap, speed), sphereRadius,
+                            contactParams[wallContactIndex(sphereSlot, wallMaterial)].stiffness, displacement);
 }
 
-#include "shared/walls.h"
+#include "shared/surfaces.h"
 
 bool outside(vec3 p) {
     return p.x < params.wallMin.x || p.x > params.wallMax.x || p.y < params.wallMin.y || p.y > params.wallMax.y ||
@@ -92,12 +100,12 @@ KERNEL(params.statisticBlocks) {
         fastest = max(fastest, squared);
         if (isAsleep(v)) sleeping += 1u;
         if (outside(x)) outsideCount += 1u;
-        float radius = radiusOf(position[k]);
-        wallPoint = x;
-        wallSphere = k;
+        sphereSlot = k;
+        spherePoint = x;
+        sphereRadius = radiusOf(position[k]);
         deepest = 0.0f;
-        visitWalls(radius);
-        overlap = max(overlap, deepest / radius);
+        visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(k, 0.0f) : NO_OBSTACLES);
+        overlap = max(overlap, deepest / sphereRadius);
     }
     sphereSums[invocation].weighted = weighted;
     sphereSums[invocation].momentum = vec4(momentum, energy);

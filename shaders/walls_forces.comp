@@ -7,6 +7,7 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/fields.h"
 #include "shared/friction.h"
+#include "shared/shapes.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -15,6 +16,9 @@ BUFFER(restrict, vec4, angularVelocity)
 BUFFER(restrict, vec4, deltaVelocity)
 BUFFER(restrict, vec4, deltaOmega)
 BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, obstacleLists)
+BUFFER(readonly, uvec2, nearObstacles)
+BUFFER(readonly, vec4, listReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, wallSlip)  // by id, params.maxWallHistory each: displacement (m); w: surface + 1
@@ -22,9 +26,9 @@ BUFFER(coherent, uint, counters)
 
 #define NO_ENTRY 0xffffffffu
 
-PRIVATE(uint, wallSphere)
-PRIVATE(float, wallRadius)
-PRIVATE(vec3, wallPoint)
+PRIVATE(uint, sphereSlot)
+PRIVATE(float, sphereRadius)
+PRIVATE(vec3, spherePoint)
 PRIVATE(vec3, residual)   // of the position beyond float32 (m)
 PRIVATE(vec3, sphereVelocity)  // m/s
 PRIVATE(vec3, omega)      // rad/s
@@ -41,7 +45,7 @@ PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere
 // The index of the displacement at this surface in `wallSlip`: its present entry, or a free one. NO_ENTRY if there is
 // none.
 uint slipEntry(uint surface) {
-    uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
+    uint first = idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory;
     uint freeEntry = NO_ENTRY;
     for (uint k = 0u; k < params.maxWallHistory; ++k) {
         vec4 stored = wallSlip[first + k];
@@ -60,15 +64,15 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
     vec3 slip = sphereVelocity - n * dot3(sphereVelocity, n) - cross3(omega, n) * arm;
     vec3 path = slip;
     if (HAS(GRAVITY) || HAS(FIELDS)) path = slip - (fall - n * dot3(fall, n));
-    float lever = arm / wallRadius;
+    float lever = arm / sphereRadius;
     vec3 impulse = tangentialImpulse(path, slip, sphereInverseMass * (1.0f + 2.5f * lever * lever), spring,
                                      frictionOf(contact));
     impulseSum = impulseSum + impulse;
     torque = torque - cross3(n, impulse) * arm;
     if (HAS(ROLLING)) {
-        float c = 2.5f * sphereInverseMass / (wallRadius * wallRadius);
+        float c = 2.5f * sphereInverseMass / (sphereRadius * sphereRadius);
         float about = dot3(omega, n);
-        float maxMoment = wallRadius * spring.impulse;
+        float maxMoment = sphereRadius * spring.impulse;
         torque = torque + rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment) +
                  spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
     }
@@ -77,27 +81,31 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
         return;
     }
     wallSlip[entry] = vec4(displacement, float(surface + 1u));
-    touchedWalls = touchedWalls | (1u << (entry - idOf(idAndMaterial[wallSphere]) * params.maxWallHistory));
+    touchedWalls = touchedWalls | (1u << (entry - idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory));
 }
 
-void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    float overlap = depth - dot3(residual, normal);
+vec3 velocityAlong() {
+    return vec3(0.0f, 0.0f, 0.0f);
+}
+
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+    float overlap = -separation - dot3(residual, normal);
     if (!(overlap > 0.0f)) return;
-    uint index = wallContactIndex(wallSphere, wallMaterial);
+    uint index = wallContactIndex(sphereSlot, wallMaterial);
     float speed = dot3(sphereVelocity, normal);
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
-    if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(wallPoint) * (0.5f * params.substep);
-    Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, wallRadius, sphereInverseMass,
+    if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(spherePoint) * (0.5f * params.substep);
+    Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, sphereRadius, sphereInverseMass,
                              contactParams[index].stiffness);
     impulseSum = impulseSum + normal * spring.impulse;
     if (HAS(FRICTION))
-        applySpringFriction(normal, surface, fall, wallRadius - overlap, spring, contactParams[index].contact);
+        applySpringFriction(normal, surface, fall, sphereRadius - overlap, spring, contactParams[index].contact);
 }
 
-#include "shared/walls.h"
+#include "shared/surfaces.h"
 
 void clearUntouchedSlip() {
-    uint first = idOf(idAndMaterial[wallSphere]) * params.maxWallHistory;
+    uint first = idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory;
     for (uint k = 0u; k < params.maxWallHistory; ++k)
         if ((touchedWalls & (1u << k)) == 0u && hasSlip(wallSlip[first + k]))
             wallSlip[first + k] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
@@ -105,12 +113,14 @@ void clearUntouchedSlip() {
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
-    wallSphere = invocation;
-    wallRadius = radiusOf(x);
-    wallPoint = vec3(x);
+    sphereSlot = invocation;
+    sphereRadius = radiusOf(x);
+    spherePoint = vec3(x);
     vec4 spin = vec4(0.0f, 0.0f, 0.0f, 0.0f);  // w: 1 while any wall is remembered
     if (HAS(FRICTION)) spin = angularVelocity[invocation];
-    if (!remembersWall(spin) && clearOfWalls(wallPoint, wallRadius)) return;
+    float reach = TOUCHES * sphereRadius;
+    uint near = HAS(OBSTACLES) ? obstaclesNear(invocation, reach) : NO_OBSTACLES;
+    if (!remembersWall(spin) && near == NO_OBSTACLES && clearOfFaces(reach)) return;
     residual = vec3(positionLow[invocation]);
     vec4 v = velocity[invocation];
     sphereInverseMass = awakeInverseMass(v);
@@ -119,10 +129,10 @@ KERNEL(params.spheres) {
     torque = vec3(0.0f, 0.0f, 0.0f);
     omega = vec3(spin);
     touchedWalls = 0u;
-    visitWalls(wallRadius);
+    visitSurfaces(near);
     addDeltaVelocity(invocation, impulseSum * sphereInverseMass);
     if (HAS(FRICTION)) {
-        addDeltaOmega(invocation, torque * (2.5f * sphereInverseMass / (wallRadius * wallRadius)));
+        addDeltaOmega(invocation, torque * (2.5f * sphereInverseMass / (sphereRadius * sphereRadius)));
         angularVelocity[invocation] = vec4(omega, touchedWalls != 0u ? 1.0f : 0.0f);
         if (remembersWall(spin)) clearUntouchedSlip();
     }

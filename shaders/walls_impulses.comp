@@ -9,18 +9,22 @@ PARAMETERS
 #include "shared/math.h"
 #include "shared/fields.h"
 #include "shared/friction.h"
+#include "shared/shapes.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
 BUFFER(restrict, vec4, angularVelocity)
 BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, obstacleLists)
+BUFFER(readonly, uvec2, nearObstacles)
+BUFFER(readonly, vec4, listReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, float, wallWork)  // by id: work of pushes out of walls against gravity and fields (J)
 
-PRIVATE(uint, wallSphere)
-PRIVATE(float, wallRadius)
-PRIVATE(vec3, wallPoint)
+PRIVATE(uint, sphereSlot)
+PRIVATE(float, sphereRadius)
+PRIVATE(vec3, spherePoint)
 PRIVATE(vec3, solvedVelocity)  // m/s
 PRIVATE(vec3, omega)           // rad/s
 PRIVATE(vec3, pushedOut)       // m, the moves out of walls that are no flight
@@ -43,17 +47,22 @@ float speedAfter(float rebound, float pull, float since) {
     return after;
 }
 
-void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
+vec3 velocityAlong() {
+    return solvedVelocity;
+}
+
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+    if (!(separation < TOUCHES * sphereRadius)) return;
     touched = true;
-    vec4 contact = contactParams[wallContactIndex(wallSphere, wallMaterial)].contact;
-    float push = max(depth, 0.0f);
+    vec4 contact = contactParams[wallContactIndex(sphereSlot, wallMaterial)].contact;
+    float push = max(-separation, 0.0f);
     float speed = dot3(solvedVelocity, normal);
     if (speed >= 0.0f) {
-        wallPoint = wallPoint + normal * push;
+        spherePoint = spherePoint + normal * push;
         pushedOut = pushedOut + normal * push;
         return;
     }
-    float pull = HAS(GRAVITY) || HAS(FIELDS) ? dot3(accelerationAt(wallPoint), normal) : 0.0f;
+    float pull = HAS(GRAVITY) || HAS(FIELDS) ? dot3(accelerationAt(spherePoint), normal) : 0.0f;
     float impact = impactSpeed(speed, pull, push);
     float rebound = restitutionOf(contact) * impact;
     float since = 2.0f * push / (impact - speed);
@@ -62,35 +71,37 @@ void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
     float speedChange = (flies ? after : rebound) - speed;
     solvedVelocity = solvedVelocity + normal * speedChange;
     vec3 bounced = solvedVelocity;
-    if (HAS(FRICTION)) applyWallFriction(normal, wallRadius, speedChange, contact);
-    wallPoint = wallPoint + normal * push;
+    if (HAS(FRICTION)) applyWallFriction(normal, sphereRadius, speedChange, contact);
+    spherePoint = spherePoint + normal * push;
     if (flies)
-        wallPoint = wallPoint + normal * (0.5f * (rebound + after) * since) + (solvedVelocity - bounced) * since;
+        spherePoint = spherePoint + normal * (0.5f * (rebound + after) * since) + (solvedVelocity - bounced) * since;
     else
         pushedOut = pushedOut + normal * push;
 }
 
-#include "shared/walls.h"
+#include "shared/surfaces.h"
 
 KERNEL(params.spheres) {
     vec4 x = position[invocation];
-    wallSphere = invocation;
-    wallRadius = radiusOf(x);
-    wallPoint = vec3(x);
-    if (clearOfWalls(wallPoint, wallRadius)) return;
+    sphereSlot = invocation;
+    sphereRadius = radiusOf(x);
+    spherePoint = vec3(x);
+    float reach = TOUCHES * sphereRadius;
+    uint near = HAS(OBSTACLES) ? obstaclesNear(invocation, reach) : NO_OBSTACLES;
+    if (near == NO_OBSTACLES && clearOfFaces(reach)) return;
     vec4 v = velocity[invocation];
     if (HAS(SLEEP) && isAsleep(v)) return;
     solvedVelocity = vec3(v);
     pushedOut = vec3(0.0f, 0.0f, 0.0f);
     touched = false;
     if (HAS(FRICTION)) omega = vec3(angularVelocity[invocation]);
-    visitWalls(wallRadius);
+    visitSurfaces(near);
     if (!touched) return;
-    position[invocation] = withXyz(x, wallPoint);
+    position[invocation] = withXyz(x, spherePoint);
     velocity[invocation] = withXyz(v, solvedVelocity);
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(omega, 0.0f);
     if (HAS(GRAVITY) || HAS(FIELDS)) {
         uint id = idOf(idAndMaterial[invocation]);
-        wallWork[id] = wallWork[id] - dot3(accelerationAt(wallPoint), pushedOut) / inverseMassOf(v);
+        wallWork[id] = wallWork[id] - dot3(accelerationAt(spherePoint), pushedOut) / inverseMassOf(v);
     }
 }

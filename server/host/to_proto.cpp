@@ -5,30 +5,20 @@
 
 #include "core/text.h"
 #include "net/command_rules.h"
+#include "scene/check.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
+#include "scene/shapes.h"
 
 namespace spherule::host {
 
 namespace {
 
-template <class Repeated>
-void set(Repeated* target, const glm::dvec3& v) {
-    for (int axis = 0; axis < 3; ++axis) target->Add(v[axis]);
-}
-
 void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         v1::Obstacle& message = *facts.add_obstacles();
         message.set_colour(obstacle.colour);
-        if (const auto* plane = std::get_if<scene::Plane>(&obstacle.shape)) {
-            set(message.mutable_plane()->mutable_point(), plane->point);
-            set(message.mutable_plane()->mutable_normal(), plane->normal);
-        } else {
-            const auto& box = std::get<scene::Box>(obstacle.shape);
-            set(message.mutable_box()->mutable_min(), box.min);
-            set(message.mutable_box()->mutable_max(), box.max);
-        }
+        obstacle.shape->write(message);
     }
 }
 
@@ -61,14 +51,14 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     facts.set_epoch(epoch);
     facts.set_name(scene.name);
     facts.set_description(scene.description);
-    set(facts.mutable_bounds_min(), scene.bounds.min);
-    set(facts.mutable_bounds_max(), scene.bounds.max);
+    scene::setVector(*facts.mutable_bounds_min(), scene.bounds.min);
+    scene::setVector(*facts.mutable_bounds_max(), scene.bounds.max);
     for (int face = 0; face < 6; ++face)
         if (scene.bounds.open[static_cast<std::size_t>(face)]) facts.add_open(static_cast<v1::Face>(face + v1::X_MIN));
     setObstacles(facts, scene);
     setSpheres(facts, scene, plan.features.has(sim::Feature::Radii));
-    set(facts.mutable_camera()->mutable_eye(), scene.camera.eye);
-    set(facts.mutable_camera()->mutable_target(), scene.camera.target);
+    scene::setVector(*facts.mutable_camera()->mutable_eye(), scene.camera.eye);
+    scene::setVector(*facts.mutable_camera()->mutable_target(), scene.camera.target);
     facts.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
     facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
     if (plan.features.has(sim::Feature::Contacts))
@@ -88,7 +78,7 @@ v1::Welcome welcomeOf(const compute::DeviceInfo& device) {
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused) {
     v1::ServerMessage message;
     v1::Settings& settings = *message.mutable_settings();
-    set(settings.mutable_gravity(), scene.forces.gravity);
+    scene::setVector(*settings.mutable_gravity(), scene.forces.gravity);
     settings.set_restitution(scene.materials.front().restitution);
     settings.set_substeps(scene.quality.substeps);
     settings.set_speed(speed);
@@ -110,8 +100,8 @@ v1::Statistics statisticsMessage(const sim::Statistics& s) {
     message.set_elastic_energy(s.elasticEnergy);
     message.set_potential_energy(s.potentialEnergy);
     message.set_push_work(s.pushWork);
-    set(message.mutable_momentum(), s.momentum);
-    set(message.mutable_angular_momentum(), s.angularMomentum);
+    scene::setVector(*message.mutable_momentum(), s.momentum);
+    scene::setVector(*message.mutable_angular_momentum(), s.angularMomentum);
     message.set_contacts(s.contacts);
     message.set_overlap_mean(s.overlapMean);
     message.set_overlap_max(s.overlapMax);

@@ -8,6 +8,7 @@
 
 #include "measure/cases.h"
 #include "measure/scenes.h"
+#include "scene/shapes.h"
 
 // Benchmarks 1 to 4 of Chung and Ooi 2011 (Granular Matter 13, 643).
 namespace spherule::measure {
@@ -104,7 +105,7 @@ Result<void> sphereAtWall(Bench& bench, const scene::Material& material) {
     scene::Scene scene = openSpace(1);
     scene.materials = {material, rigid};
     scene.step = 1e-3;
-    scene.obstacles.push_back({scene::Plane{{0, 0, 0}, {-1, 0, 0}}, 1, ""});
+    scene.obstacles.push_back({scene::planeShape({0, 0, 0}, {-1, 0, 0}), 1, ""});
     const Hertz law{modulusOf(material, rigid), r, massOf(r, material), v};
     addSphere(scene, {-r - 0.3 * v * law.time(), 0, 0}, r, {v, 0, 0});
     auto opened = bench.openBySubstep(scene);

@@ -100,7 +100,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
     if (check.ok()) readGroups(check, message, directory, overrides, scene);
     if (check.ok() && !scene.spheres.empty()) {
-        checkResolution(check, scene.bounds, smallestRadiusOf(scene.spheres), "bounds");
+        checkResolution(check, scene, smallestRadiusOf(scene.spheres), "bounds");
     }
     if (check.ok()) readQuality(check, message.quality(), overrides, scene);
     if (!check.ok()) return check.error();
@@ -140,7 +140,7 @@ Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scen
     std::vector<Sphere> spheres = readGroup(
         check, group, scene, {.field = "group", .taken = scene.spheres, .occupancy = occupancy, .room = room});
     if (check.ok() && !group.has_fill()) checkFree(check, spheres, scene.spheres, occupancy);
-    if (check.ok() && !spheres.empty()) checkResolution(check, scene.bounds, smallestRadiusOf(spheres), "group.radius");
+    if (check.ok() && !spheres.empty()) checkResolution(check, scene, smallestRadiusOf(spheres), "group.radius");
     if (!check.ok()) return check.error();
     return spheres;
 }

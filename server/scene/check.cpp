@@ -79,6 +79,11 @@ Box Check::box(const Numbers& min, const Numbers& max, std::string_view field) {
     return result;
 }
 
+void setVector(Numbers& numbers, const glm::dvec3& to) {
+    numbers.Clear();
+    for (int axis = 0; axis < 3; ++axis) numbers.Add(to[axis]);
+}
+
 std::string Check::colour(const std::string& value, std::string_view field) {
     const auto isHex = [](unsigned char c) { return std::isxdigit(c) != 0; };
     const bool good = value.size() == 7 && value[0] == '#' && std::all_of(value.begin() + 1, value.end(), isHex);

@@ -55,6 +55,9 @@ class Check {
     Error error_;
 };
 
+// Sets the numbers of a message's vector.
+void setVector(Numbers& numbers, const glm::dvec3& to);
+
 // Returns "groups[2]" for "groups" and 2.
 std::string at(std::string_view field, std::size_t index);
 

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -80,18 +80,15 @@ struct Bounds {
     [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (min + max); }
 };
 
-struct Plane {
-    glm::dvec3 point{};
-    glm::dvec3 normal{};  // unit length, towards the free side
-};
-
 struct Box {
     glm::dvec3 min{};
     glm::dvec3 max{};
 };
 
+class Shape;
+
 struct Obstacle {
-    std::variant<Plane, Box> shape;
+    std::shared_ptr<const Shape> shape;  // see scene/shapes.h
     std::uint8_t material = 0;
     std::string colour;
 };

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/materials.h"
+#include "scene/shapes.h"
 
 namespace spherule::scene {
 
@@ -114,9 +115,9 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
         if (!scene.bounds.open[face]) block(n);
     }
     for (const Obstacle& obstacle : scene.obstacles) {
-        const auto* const plane = std::get_if<Plane>(&obstacle.shape);
-        if (plane == nullptr) return glm::dvec3(0);
-        block(plane->normal);
+        const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();
+        if (!normal) return glm::dvec3(0);
+        block(*normal);
     }
     glm::dvec3 left = motion;
     for (const glm::dvec3& n : across) left -= n * glm::dot(left, n);

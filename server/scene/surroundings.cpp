@@ -8,45 +8,16 @@
 
 #include "scene/load.h"
 #include "scene/materials.h"
+#include "scene/shapes.h"
 
 namespace spherule::scene {
 
 namespace {
 
-double depth(const Plane& plane, const glm::dvec3& centre, double radius) {
-    return radius - glm::dot(centre - plane.point, plane.normal);
-}
-
-double depth(const Box& box, const glm::dvec3& centre, double radius) {
-    return radius - glm::distance(centre, glm::clamp(centre, box.min, box.max));
-}
-
-Plane readPlane(Check& check, const v1::Plane& message, const std::string& field) {
-    constexpr double shortest = 1e-9;
-    Plane plane{check.vector(message.point(), at(field, "point")), check.vector(message.normal(), at(field, "normal"))};
-    const double length = glm::length(plane.normal);
-    if (length < shortest) {
-        check.refuse(at(field, "normal"), fmt::format("is {}, must not be zero", shown(plane.normal)));
-        return plane;
-    }
-    plane.normal /= length;
-    return plane;
-}
-
 Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
                       const std::string& field) {
     Obstacle obstacle;
-    switch (message.shape_case()) {
-        case v1::Obstacle::kPlane:
-            obstacle.shape = readPlane(check, message.plane(), at(field, "plane"));
-            break;
-        case v1::Obstacle::kBox:
-            obstacle.shape = check.box(message.box().min(), message.box().max(), at(field, "box"));
-            break;
-        case v1::Obstacle::SHAPE_NOT_SET:
-            check.refuse(field, "has no shape, must be a plane or a box");
-            break;
-    }
+    obstacle.shape = readShape(check, message, field);
     obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
     obstacle.colour = check.colour(message.colour(), at(field, "colour"));
     return obstacle;
@@ -88,17 +59,26 @@ std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::Repeat
     return obstacles;
 }
 
-void checkResolution(Check& check, const Bounds& bounds, double smallestRadius, std::string_view field) {
-    const glm::dvec3 side = bounds.max - bounds.min;
+void checkResolution(Check& check, const Scene& scene, double smallestRadius, std::string_view field) {
+    const double allowed = 1e-4 * smallestRadius;
+    const glm::dvec3 side = scene.bounds.max - scene.bounds.min;
     const double longest = std::max({side.x, side.y, side.z});
     const double resolution = 0.5 * longest * 0x1p-23;
-    const double allowed = 1e-4 * smallestRadius;
-    if (resolution <= allowed) return;
-    check.refuse(
-        std::string(field),
-        fmt::format("have a side of {} m, where float32 resolves {:.3g} m; the smallest radius of {:.6g} m needs "
-                    "{:.3g} m: make them at most {:.6g} m long, or enlarge spheres",
-                    longest, resolution, smallestRadius, allowed, allowed * 0x1p24));
+    if (resolution > allowed)
+        check.refuse(
+            std::string(field),
+            fmt::format("have a side of {} m, where float32 resolves {:.3g} m; the smallest radius of {:.6g} m needs "
+                        "{:.3g} m: make them at most {:.6g} m long, or enlarge spheres",
+                        longest, resolution, smallestRadius, allowed, allowed * 0x1p24));
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
+        const double largest = scene.obstacles[k].shape->largestCoordinate(scene.bounds.centre());
+        if (largest * 0x1p-23 > allowed)
+            check.refuse(
+                at("obstacles", k),
+                fmt::format("reaches {:.6g} m from the centre of the bounds, where float32 resolves {:.3g} m; the "
+                            "smallest radius of {:.6g} m needs {:.3g} m: make it smaller, or enlarge spheres",
+                            largest, largest * 0x1p-23, smallestRadius, allowed));
+    }
 }
 
 std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& centre, double radius) {
@@ -117,8 +97,7 @@ std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& ce
 
 std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, const glm::dvec3& centre, double radius) {
     const auto reaches = [&](const Obstacle& obstacle) {
-        const auto depthIn = [&](const auto& shape) { return depth(shape, centre, radius); };
-        return std::visit(depthIn, obstacle.shape) > touchTolerance * radius;
+        return radius - obstacle.shape->distance(centre) > touchTolerance * radius;
     };
     const auto found = std::find_if(obstacles.begin(), obstacles.end(), reaches);
     if (found == obstacles.end()) return std::nullopt;

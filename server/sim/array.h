@@ -36,6 +36,7 @@ enum class Extent : std::uint8_t {
     ScanSuperBlock,
     LaunchRow,
     Obstacle,
+    ObstacleListWord,
     MaterialPair,
     Counter,
     StatisticBlock,

@@ -34,9 +34,7 @@ class Features {
     void set(Feature feature, bool on = true) { bits_ = on ? bits_ | bitOf(feature) : bits_ & ~bitOf(feature); }
 
     // Returns true if the scene has any surface that a sphere may hit.
-    [[nodiscard]] bool hasSurfaceFeature() const {
-        return has(Feature::Walls) || has(Feature::Planes) || has(Feature::Boxes);
-    }
+    [[nodiscard]] bool hasSurfaceFeature() const { return has(Feature::Walls) || has(Feature::Obstacles); }
 
     bool operator==(const Features&) const = default;
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
-
 #include "scene/materials.h"
+#include "scene/shapes.h"
 #include "scene/stiffness.h"
 #include "sim/modules/module.h"
 
@@ -72,27 +71,32 @@ std::vector<layout::ContactParams> contactParamsTable(const scene::Scene& scene)
 }
 
 std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
-    std::vector<layout::Obstacle> planes;
-    std::vector<layout::Obstacle> boxes;
-    const glm::dvec3 centre = scene.bounds.centre();
+    constexpr std::uint32_t faces = 6;
+    std::vector<layout::Obstacle> rows;
+    std::uint32_t surface = faces;
     for (const scene::Obstacle& obstacle : scene.obstacles) {
-        const auto material = static_cast<float>(obstacle.material);
-        if (const auto* plane = std::get_if<scene::Plane>(&obstacle.shape)) {
-            const double offset = glm::dot(plane->normal, plane->point - centre);
-            planes.push_back(
-                {glm::vec4(glm::vec3(plane->normal), static_cast<float>(offset)), glm::vec4(0, 0, 0, material)});
-        } else {
-            const auto& box = std::get<scene::Box>(obstacle.shape);
-            boxes.push_back(
-                {glm::vec4(glm::vec3(box.min - centre), 0), glm::vec4(glm::vec3(box.max - centre), material)});
-        }
+        const scene::Shape::Row row = obstacle.shape->row(scene.bounds.centre());
+        const std::uint32_t parts = obstacle.shape->parts();
+        rows.push_back({.a = row.a,
+                        .b = row.b,
+                        .shape = static_cast<std::uint32_t>(obstacle.shape->kind()),
+                        .parts = parts,
+                        .surface = surface,
+                        .material = obstacle.material});
+        surface += parts;
     }
-    planes.insert(planes.end(), boxes.begin(), boxes.end());
-    return planes;
+    return rows;
 }
 
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
-    if (pipeline.plan().has(Array::Obstacles)) pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
+    if (pipeline.plan().has(Array::Obstacles)) {
+        pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
+        // An empty list, then the list of all obstacles.
+        std::vector<std::uint32_t> lists{END_OF_LIST};
+        for (std::uint32_t k = 0; k < scene.obstacles.size(); ++k) lists.push_back(k);
+        lists.push_back(END_OF_LIST);
+        pipeline.write<std::uint32_t>(Array::ObstacleLists, lists);
+    }
     if (pipeline.plan().has(Array::ContactParams))
         pipeline.write<layout::ContactParams>(Array::ContactParams, contactParamsTable(scene));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scene/shapes.h"
 #include "sim/layout.h"
 #include "sim/modules/module.h"
 
@@ -18,6 +19,19 @@ constexpr std::uint32_t wallHistoryLimit = 8;
 // `balanced` tests a pair at little cost.
 double marginInRadii(const Features& features) {
     return features.has(Feature::Balanced) ? 0.8 : 0.3;
+}
+
+// Returns the size of the lists of obstacles (words): the two at their beginning, and lists of `mostNear` obstacles for
+// each sphere on average. A sphere for whose list there is no space visits all obstacles.
+std::uint64_t obstacleListWords(std::uint64_t obstacles, std::uint64_t spheres) {
+    constexpr std::uint64_t mostNear = 3;
+    return obstacles + 2 + spheres * (std::min(obstacles, mostNear) + 1);
+}
+
+std::uint32_t surfacesOf(const std::vector<scene::Obstacle>& obstacles) {
+    std::uint32_t surfaces = 0;
+    for (const scene::Obstacle& obstacle : obstacles) surfaces += obstacle.shape->parts();
+    return surfaces;
 }
 
 std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& scene) {
@@ -55,6 +69,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
             return LAUNCH_ROWS;
         case Extent::Obstacle:
             return scene.obstacles.size();
+        case Extent::ObstacleListWord:
+            return obstacleListWords(scene.obstacles.size(), plan.features.has(Feature::Contacts) ? n : 0);
         case Extent::MaterialPair:
             return scene.materials.size() * scene.materials.size();
         case Extent::Counter:
@@ -127,8 +143,7 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     if (features.hasSurfaceFeature()) {
         // `balanced` has one for each axis of the bounds, before the ones for obstacles.
         const std::uint32_t faces = features.has(Feature::Balanced) ? 3 : 6;
-        plan.maxWallHistory =
-            std::min<std::uint32_t>(wallHistoryLimit, faces + static_cast<std::uint32_t>(scene.obstacles.size()));
+        plan.maxWallHistory = std::min<std::uint32_t>(wallHistoryLimit, faces + surfacesOf(scene.obstacles));
     }
     PlanBuilder builder(plan, scene);
     builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});

@@ -64,6 +64,7 @@ layout(location = 0) uniform uint phase;
 #define uints uint
 #define slots uint
 #define uintRow uint
+#define row4 vec4  // as a function it would take glslang minutes
 #define ANY_REAL float
 #define ANY_REAL3 vec3
 #define ANY_REAL4 vec4
@@ -112,6 +113,7 @@ bool finiteLanes(vec3 a) {
     return (floatBitsToUint(a.x) & 0x7f800000u) != 0x7f800000u && (floatBitsToUint(a.y) & 0x7f800000u) != 0x7f800000u &&
            (floatBitsToUint(a.z) & 0x7f800000u) != 0x7f800000u;
 }
+uint leastOf(uint a) { return a; }
 float select(bool m, float yes, float no) { return m ? yes : no; }
 uint select(bool m, uint yes, uint no) { return m ? yes : no; }
 vec3 select(bool m, vec3 yes, vec3 no) { return m ? yes : no; }

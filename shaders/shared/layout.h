@@ -37,8 +37,8 @@ struct Parameters {
     uint pairCapacity;
     uint closedFaces;    // one bit for each face: x- x+ y- y+ z- z+
 
-    uint planes;
-    uint boxes;
+    uint obstacles;
+    uint obstacleListWords;
     uint statisticBlocks;
     uint materials;
 
@@ -59,12 +59,21 @@ struct ContactParams {
     vec4 stiffness;      // of the model `accurate`: normal (Pa), damping ratio, tangential (Pa), 0
 };
 
-// A solid obstacle. A plane has its normal and offset in `a`. A box has its corners in `a` and `b`. The material is in
-// b.w.
+// A solid obstacle. Its shape's function in shapes/ says what is in `a` and `b`.
 struct Obstacle {
     vec4 a;
     vec4 b;
+    uint shape;          // its number in shapes.def
+    uint parts;          // surfaces that a sphere may touch at the same time
+    uint surface;        // number of the first of them
+    uint material;
 };
+
+// The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the
+// list of all obstacles.
+#define NO_OBSTACLES 0u
+#define ALL_OBSTACLES 1u
+#define END_OF_LIST 0xffffffffu
 
 // Sums over a block of spheres.
 struct SphereStatistics {
@@ -113,7 +122,8 @@ struct SphereStatistics {
 #define COUNTER_DRIFT_BOX 23u   // six words: the box of the velocities when the lists were built (list_drift.comp)
 #define COUNTER_DRIFT 29u       // three words, bits of floats (m/s)
 #define COUNTER_DRIFT_PATH 32u  // three words, bits of floats (m), since the lists were built
-#define COUNTER_WORDS 35u
+#define COUNTER_NEAR_OBSTACLES 35u  // words of the lists of obstacles near spheres
+#define COUNTER_WORDS 36u
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, or have slept since the lists were built

@@ -1,16 +1,13 @@
 // Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
-// included shared/fields.h, shared/outside.h, shared/drift.h and shared/falling_frame.h.
+// included shared/shapes.h, shared/fields.h, shared/outside.h, shared/drift.h and shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
 // sphere must see all that it may meet within two steps.
 #define LOOK_AHEAD 2.0f
 
-PRIVATE(vec3, wallPoint)
 PRIVATE(vec3, flightVelocity)  // velocity of the sphere that looks ahead (m/s)
 PRIVATE(vec3, flightAcceleration)  // its acceleration at rest (m/s^2)
-PRIVATE(float, reachAhead)          // its radius plus the distance that it looks ahead (m)
 PRIVATE(float, ownRadius)      // its radius (m)
-PRIVATE(bool, mayCollide)
 
 // Returns true if the sphere may close the gap while it looks ahead, and if the substeps are too long for the impact.
 bool mayCloseGap(float gap, vec3 normal) {
@@ -20,33 +17,48 @@ bool mayCloseGap(float gap, vec3 normal) {
     return speed * ahead > gap && speed * params.substep > SAFE_MOTION * ownRadius;
 }
 
-void visitWall(vec3 normal, float depth, uint wallMaterial, uint surface) {
-    mayCollide = mayCollide || mayCloseGap(reachAhead - ownRadius - depth, normal);
+bool mayMeetFace(uint face, float separation, vec3 normal) {
+    return (params.closedFaces & (1u << face)) != 0u && mayCloseGap(separation, normal);
 }
 
-#include "shared/walls.h"
+bool mayMeetObstacle(Obstacle obstacle, vec3 p) {
+    for (uint part = 0u; part < obstacle.parts; ++part) {
+        vec4 surface = surfaceAt(obstacle, part, p);
+        if (mayCloseGap(surface.w - ownRadius, vec3(surface))) return true;
+    }
+    return false;
+}
+
+bool mayMeetSurface(vec3 p) {
+    vec3 low = p - vec3(params.wallMin);
+    vec3 high = vec3(params.wallMax) - p;
+    if (HAS(WALLS) && (mayMeetFace(0u, low.x - ownRadius, vec3(1.0f, 0.0f, 0.0f)) ||
+                       mayMeetFace(1u, high.x - ownRadius, vec3(-1.0f, 0.0f, 0.0f)) ||
+                       mayMeetFace(2u, low.y - ownRadius, vec3(0.0f, 1.0f, 0.0f)) ||
+                       mayMeetFace(3u, high.y - ownRadius, vec3(0.0f, -1.0f, 0.0f)) ||
+                       mayMeetFace(4u, low.z - ownRadius, vec3(0.0f, 0.0f, 1.0f)) ||
+                       mayMeetFace(5u, high.z - ownRadius, vec3(0.0f, 0.0f, -1.0f))))
+        return true;
+    if (HAS(OBSTACLES))
+        for (uint k = 0u; k < params.obstacles; ++k)
+            if (mayMeetObstacle(obstacles[k], p)) return true;
+    return false;
+}
 
 // Returns true if a sphere outside may soon meet a wall, an obstacle or a sphere inside the bounds.
 bool mayCollideSoon(vec3 p, vec3 v, float radius) {
-    float ahead = LOOK_AHEAD * params.step;
-    float speed = sqrt(dot3(v, v));
     flightAcceleration = accelerationAt(p);
-    if (HAS(GRAVITY) || HAS(FIELDS)) speed = speed + sqrt(dot3(flightAcceleration, flightAcceleration)) * ahead;
-    wallPoint = p;
     flightVelocity = v;
     ownRadius = radius;
-    reachAhead = radius + speed * ahead;
-    mayCollide = false;
     if (HAS(CONTACTS)) {
         vec3 nearest = vec3(min(max(p.x, params.wallMin.x), params.wallMax.x),
                             min(max(p.y, params.wallMin.y), params.wallMax.y),
                             min(max(p.z, params.wallMin.z), params.wallMax.z));
         vec3 d = p - nearest;
         float distance = sqrt(dot3(d, d));
-        mayCollide = distance <= strip() || mayCloseGap(distance - strip(), d * (1.0f / distance));
+        if (distance <= strip() || mayCloseGap(distance - strip(), d * (1.0f / distance))) return true;
     }
-    visitWalls(reachAhead);
-    return mayCollide;
+    return mayMeetSurface(p);
 }
 
 // The motion of the sphere in a substep (m), as far as it may carry the sphere past an object that it should hit.

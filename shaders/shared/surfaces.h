@@ -1,74 +1,109 @@
-// The surfaces near a sphere, for kernels with lanes. The includer has the PRIVATE variables `spherePoint` (m) and
-// `sphereRadius` (m), and defines `void visitSurface(real3 normal, real separation, uint wallMaterial, uint surface)`:
-// `separation` is the gap between sphere and surface (m), negative if they overlap. It binds `obstacles`: planes first,
-// then boxes. Surfaces are numbered through faces, planes and boxes.
+// The surfaces near a sphere: the faces of the bounds, and the obstacles near it. The includer has the PRIVATE variables
+// `spherePoint` (m), which visits may move, and `sphereRadius` (m). It defines
+//   `void visitSurface(mask where, real3 normal, real separation, real recession, uint wallMaterial, uint surface)`,
+// all that it sees of a surface, in lanes `where`. `normal` points to the sphere. `separation` is the gap between sphere
+// and surface (m), negative if they overlap. `recession` is the speed at which a curved surface recedes from the sphere
+// while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its
+// members, and glslang would need minutes.) Surfaces are numbered through faces and obstacles in the order of the scene.
+//
+// It also defines `real3 velocityAlong()`, the velocity with which the sphere meets curved surfaces (m/s). A solver that
+// needs no look ahead returns 0.
+//
+// It binds `obstacles`, `obstacleLists`, `nearObstacles` and `listReference`, and has included shared/shapes.h.
 
 void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
     if ((params.closedFaces & (1u << (2u * axis))) != 0u)
-        visitSurface(normal, coordinate - sphereRadius - low, params.wallMaterial, 2u * axis);
+        visitSurface(true, normal, coordinate - sphereRadius - low, real(0.0f), params.wallMaterial, 2u * axis);
     if ((params.closedFaces & (2u << (2u * axis))) != 0u)
-        visitSurface(-normal, high - coordinate - sphereRadius, params.wallMaterial, 2u * axis + 1u);
+        visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial,
+                     2u * axis + 1u);
 }
 
-void visitPlaneSurface(uint k) {
-    vec4 plane = obstacles[k].a;
-    real3 normal = real3(plane);
-    visitSurface(normal, dot3(normal, spherePoint) - plane.w - sphereRadius, uint(obstacles[k].b.w), 6u + k);
+// True for spheres so far inside the bounds that none of the faces is within `reach` (m) of them, as for most spheres.
+mask clearOfFaces(real reach) {
+    real r = sphereRadius + reach;
+    return spherePoint.x - r > params.wallMin.x && spherePoint.x + r < params.wallMax.x &&
+           spherePoint.y - r > params.wallMin.y && spherePoint.y + r < params.wallMax.y &&
+           spherePoint.z - r > params.wallMin.z && spherePoint.z + r < params.wallMax.z;
 }
 
-// A sphere whose centre is inside a box leaves through the nearest side.
-void visitBoxSurface(uint k) {
-    Obstacle box = obstacles[k];
-    real3 low = real3(box.a);
-    real3 high = real3(box.b);
-    real3 d = spherePoint - real3(min(max(spherePoint.x, low.x), high.x), min(max(spherePoint.y, low.y), high.y),
-                                  min(max(spherePoint.z, low.z), high.z));
-    real squared = dot3(d, d);
-    real distance = sqrt(squared);
-    mask inside = !(squared > 0.0f);
-    real3 normal = d * (1.0f / max(distance, real(1.0e-30f)));
-    real separation = distance - sphereRadius;
-    if (anyLane(inside)) {
-        real3 toLow = spherePoint - low;
-        real3 toHigh = high - spherePoint;
-        real depth = toLow.x;
-        real3 outward = real3(-1.0f, 0.0f, 0.0f);
-        mask nearer = toHigh.x < depth;
-        depth = select(nearer, toHigh.x, depth);
-        outward = select(nearer, real3(1.0f, 0.0f, 0.0f), outward);
-        nearer = toLow.y < depth;
-        depth = select(nearer, toLow.y, depth);
-        outward = select(nearer, real3(0.0f, -1.0f, 0.0f), outward);
-        nearer = toHigh.y < depth;
-        depth = select(nearer, toHigh.y, depth);
-        outward = select(nearer, real3(0.0f, 1.0f, 0.0f), outward);
-        nearer = toLow.z < depth;
-        depth = select(nearer, toLow.z, depth);
-        outward = select(nearer, real3(0.0f, 0.0f, -1.0f), outward);
-        nearer = toHigh.z < depth;
-        depth = select(nearer, toHigh.z, depth);
-        outward = select(nearer, real3(0.0f, 0.0f, 1.0f), outward);
-        normal = select(inside, outward, normal);
-        separation = select(inside, -depth - sphereRadius, separation);
+// Returns the place in `obstacleLists` of the obstacles that may be within `reach` (m) of the sphere in slot `at`, or
+// NO_OBSTACLES. Far from where its list was made, a sphere visits all obstacles.
+uints obstaclesNear(uintRow at, real reach) {
+    if (!HAS(CONTACTS)) return uints(ALL_OBSTACLES);
+    real3 since = spherePoint - real3(ROW(listReference, at));
+    mask listed = sqrt(dot3(since, since)) + reach < uintBitsToFloat(MEMBER(nearObstacles, at, y));
+    return select(listed, MEMBER(nearObstacles, at, x), uints(ALL_OBSTACLES));
+}
+
+// Visits a curved part of an obstacle as the plane that touches it where the sphere meets it in this substep. `surface`
+// is the surface nearest to the sphere now.
+void visitCurved(mask where, Obstacle obstacle, uint part, real4 surface) {
+    real h = real(params.substep);
+    real3 v = velocityAlong();
+    real3 normal = real3(surface);
+    real separation = surface.w - sphereRadius;
+    real recession = real(0.0f);
+    real closing = -dot3(v, normal);
+    // `fast` has moved the sphere beyond the meeting, `balanced` has not moved it yet.
+    mask meets = closing > 0.0f && (HAS(FAST) ? separation < 0.0f : separation > 0.0f);
+    if (anyLane(where && meets)) {
+        real earliest = HAS(FAST) ? -h : real(0.0f);
+        real latest = HAS(FAST) ? real(0.0f) : h;
+        real time = separation / max(closing, real(1.0e-30f));
+        for (uint k = 0u; k < 2u; ++k) {
+            time = min(max(time, earliest), latest);
+            real4 there = surfaceAt(obstacle, part, spherePoint + v * time);
+            real3 n = real3(there);
+            real gap = there.w - sphereRadius;
+            real speed = dot3(v, n);
+            if (k == 1u) {
+                separation = select(meets, gap - speed * time, separation);
+                normal = select(meets, n, normal);
+            }
+            time = time - gap / min(speed, real(-1.0e-30f));
+        }
     }
-    visitSurface(normal, separation, uint(box.b.w), 6u + k);
+    if (HAS(BALANCED)) {
+        real3 along = v - normal * dot3(v, normal);
+        real4 end = surfaceAt(obstacle, part, spherePoint + along * h);
+        recession = dot3(real3(end), along) * 0.5f;
+    }
+    visitSurface(where, normal, separation, recession, obstacle.material, obstacle.surface + part);
 }
 
-// True for spheres so far inside the bounds that none of the faces is within `reach` (m) of them.
-mask clearOfSurfaces(real3 p, real radius, real reach) {
-    real r = radius + reach;
-    return p.x - r > params.wallMin.x && p.x + r < params.wallMax.x && p.y - r > params.wallMin.y &&
-           p.y + r < params.wallMax.y && p.z - r > params.wallMin.z && p.z + r < params.wallMax.z;
+void visitObstacle(mask where, uint number) {
+    Obstacle obstacle = obstacles[number];
+    for (uint part = 0u; part < obstacle.parts; ++part) {
+        real4 surface = surfaceAt(obstacle, part, spherePoint);
+        real separation = surface.w - sphereRadius;
+        real3 v = velocityAlong();
+        mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
+        if (isCurved(obstacle) && anyLane(close))
+            visitCurved(where, obstacle, part, surface);
+        else
+            visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, obstacle.surface + part);
+    }
 }
 
-void visitSurfaces() {
+// Visits the lists of all lanes together, because spheres beside each other are near the same obstacles.
+void visitObstacles(uints from) {
+    uints place = from;
+    uints number = ROW(obstacleLists, place);
+    for (uint least = leastOf(number); least != END_OF_LIST; least = leastOf(number)) {
+        mask here = number == least;
+        visitObstacle(here, least);
+        place = select(here, place + 1u, place);
+        number = ROW(obstacleLists, place);
+    }
+}
+
+// `near`: what obstaclesNear() returned.
+void visitSurfaces(uints near) {
     if (HAS(WALLS)) {
         visitFaces(0u, spherePoint.x, params.wallMin.x, params.wallMax.x, real3(1.0f, 0.0f, 0.0f));
         visitFaces(1u, spherePoint.y, params.wallMin.y, params.wallMax.y, real3(0.0f, 1.0f, 0.0f));
         visitFaces(2u, spherePoint.z, params.wallMin.z, params.wallMax.z, real3(0.0f, 0.0f, 1.0f));
     }
-    if (HAS(PLANES))
-        for (uint k = 0u; k < params.planes; ++k) visitPlaneSurface(k);
-    if (HAS(BOXES))
-        for (uint k = params.planes; k < params.planes + params.boxes; ++k) visitBoxSurface(k);
+    if (HAS(OBSTACLES)) visitObstacles(near);
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 // Compares isolated contacts on the device with the reference, over 0.5 s. In this time, float32 rounds a position 240
@@ -91,7 +92,7 @@ TEST(AgainstReference, FortySpheresAtWallsAgree) {
     scene.sphereContacts = false;
     scene.bounds.open.fill(false);
     scene.bounds.open[scene::ZMax] = true;
-    scene.obstacles.push_back({scene::Plane{{-0.5, 0, -0.5}, glm::normalize(glm::dvec3(1, 0.3, 1))}, 0, ""});
+    scene.obstacles.push_back({scene::planeShape({-0.5, 0, -0.5}, glm::normalize(glm::dvec3(1, 0.3, 1))), 0, ""});
     scene::Random random(5);
     for (int k = 0; k < 40; ++k) {
         scene::Sphere sphere;

@@ -8,6 +8,7 @@
 
 #include "beds.h"
 #include "figures.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 // A bed 20 layers deep falls asleep in `balanced`, and wakes without a jump.
@@ -81,7 +82,7 @@ scene::Scene bedUnderAShelf(std::uint64_t seed) {
     const double shelf = scene.bounds.max.z + 0.1;
     scene.bounds.max.z += 0.5;
     const glm::dvec3 corner(scene.bounds.min.x, scene.bounds.min.y, shelf - 0.05);
-    scene.obstacles.push_back({scene::Box{corner, {corner.x + 0.25, -corner.y, shelf}}, 0, ""});
+    scene.obstacles.push_back({scene::boxShape({corner, {corner.x + 0.25, -corner.y, shelf}}), 0, ""});
     measure::addSphere(scene, {corner.x + 0.15, 0.02, shelf + 2 * bedRadius}, 2 * bedRadius);
     return scene;
 }

@@ -8,6 +8,7 @@
 
 #include "scene/quality.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -62,7 +63,9 @@ scene::Scene heapOnTray(double friction, std::uint64_t seed) {
     scene.bounds.material = addMaterial(scene, {.restitution = 0.5, .friction = 1, .rollingResistance = 0.5});
     const double half = trayWidth / 2;
     constexpr double thick = 0.04;
-    const auto add = [&](glm::dvec3 min, glm::dvec3 max) { scene.obstacles.push_back({scene::Box{min, max}, 0, ""}); };
+    const auto add = [&](glm::dvec3 min, glm::dvec3 max) {
+        scene.obstacles.push_back({scene::boxShape({min, max}), 0, ""});
+    };
     const double low = trayBottom - 0.2;
     const double high = trayBottom + trayRim;
     add({-half - thick, -half - thick, low}, {half + thick, half + thick, trayBottom});

@@ -11,6 +11,7 @@
 #include "mixed.h"
 #include "scene/quality.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -46,7 +47,7 @@ scene::Scene mixture(scene::Model model) {
     scene.materials = {{.name = "a", .friction = 0.4, .rollingResistance = 0.1, .spinningResistance = 0.05},
                        {.name = "b", .density = 2500, .restitution = 0.8, .friction = 0.7}};
     scene.bounds.material = 1;
-    scene.obstacles.push_back({scene::Box{{-0.2, -0.2, -0.4}, {0.1, 0.1, -0.3}}, 0, ""});
+    scene.obstacles.push_back({scene::boxShape({{-0.2, -0.2, -0.4}, {0.1, 0.1, -0.3}}), 0, ""});
     scene.quality = {.model = model, .substeps = model == scene::Model::Accurate ? 100U : 1U};
     scene::Random random(11);
     for (int k = 0; k < 216; ++k) {
@@ -94,6 +95,17 @@ TEST_P(Bits, OfAMixtureInFieldsAreTheSameOnAllDevices) {
     scene::Scene scene = mixture(GetParam());
     scene.forces.fields = {scene::Drag{.density = 100}, scene::Attraction{{0.1, 0.2, -0.3}, 0.5, 0.1}};
     expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.4);
+}
+
+// In a hollow cylinder, above a sphere and a slanted cylinder.
+TEST_P(Bits, OfAMixtureAmongRoundObstaclesAreTheSameOnAllDevices) {
+    scene::Scene scene = mixture(GetParam());
+    for (const char* const shape :
+         {R"("cylinder": {"from": [0, 0.01, -0.35], "to": [0, 0, 0.6], "radius": 0.42, "hollow": true})",
+          R"("sphere": {"centre": [0.15, 0.1, -0.3], "radius": 0.1})",
+          R"("cylinder": {"from": [-0.3, -0.1, -0.35], "to": [0.2, 0.1, -0.2], "radius": 0.05})"})
+        scene.obstacles.push_back(obstacleFrom(std::string("{") + shape + "}"));
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
 }
 
 TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "measure/scenes.h"
+#include "scene/shapes.h"
 
 namespace spherule::physics {
 
@@ -32,7 +33,7 @@ void rotateBounds(scene::Scene& scene, const Frame& frame) {
         glm::dvec3 normal(0);
         normal[static_cast<int>(face / 2)] = face % 2 == 0 ? 1 : -1;
         const glm::dvec3& corner = face % 2 == 0 ? bounds.min : bounds.max;
-        scene.obstacles.push_back({scene::Plane{glm::dot(corner, normal) * normal, normal}, bounds.material, ""});
+        scene.obstacles.push_back({scene::planeShape(glm::dot(corner, normal) * normal, normal), bounds.material, ""});
     }
     const double reach = glm::length(bounds.max);
     bounds.min = glm::dvec3(-reach);

@@ -11,6 +11,7 @@
 #include "mixed.h"
 #include "scene/quality.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -29,8 +30,8 @@ scene::Scene pit(int perSide, bool escaped) {
     scene.bounds = {.min = {-side, 0, -1}, .max = {1, side, 1}, .open = {}, .material = 0};
     scene.bounds.open[scene::ZMin] = true;
     scene.materials[0].friction = 0.5;
-    scene.obstacles = {{scene::Box{{-side, 0, -1}, {0.2, side, -0.8}}, 0, ""},
-                       {scene::Box{{0, 0, -0.8}, {0.2, side, 0}}, 0, ""}};
+    scene.obstacles = {{scene::boxShape({{-side, 0, -1}, {0.2, side, -0.8}}), 0, ""},
+                       {scene::boxShape({{0, 0, -0.8}, {0.2, side, 0}}), 0, ""}};
     for (int k = 0; k < 3 * perSide * perSide; ++k)
         scene.spheres.push_back(at({0.0505 + 0.101 * (k % perSide) - side, 0.0505 + 0.101 * (k / perSide % perSide),
                                     -0.75 + 0.1 * (k / perSide / perSide)}));
@@ -167,7 +168,7 @@ TEST(Outside, SphereHitsAPlaneBelowTheBounds) {
         scene.step = 1.0 / 60;
         scene.quality = {.model = model, .substeps = 8, .substepsFixed = true};
         setRestitution(scene, 0.5);
-        scene.obstacles.push_back({scene::Plane{{0, 0, -30}, {0, 0, 1}}, 0, ""});
+        scene.obstacles.push_back({scene::planeShape({0, 0, -30}, {0, 0, 1}), 0, ""});
         scene.spheres = {at({0, 0, 0})};
         const auto simulation = simulate(scene);
         double lowest = 0;
@@ -190,7 +191,7 @@ TEST(Outside, ContactListsOfALeavingSwarmAreComplete) {
         scene::Random random(seed);
         scene::Scene scene = sleepyBox(1.2);
         scene.bounds.open = {true, true, true, false, true, true};
-        scene.obstacles.push_back({scene::Plane{{0, 0, -4}, {0.3, 0, 0.954}}, 0, ""});
+        scene.obstacles.push_back({scene::planeShape({0, 0, -4}, {0.3, 0, 0.954}), 0, ""});
         for (int k = 0; k < 64; ++k) {
             const glm::dvec3 place = 0.13 * (glm::dvec3(k % 4, k / 4 % 4, k / 16) - 1.5);
             const auto noise = [&random] { return random.uniform(-0.1, 0.1); };
@@ -222,7 +223,7 @@ TEST(Outside, StateIsTheSameOnAllDevices) {
     scene.forces.gravity = {0, 0, -earth};
     scene.sleep.enabled = true;
     setRestitution(scene, 0.5);
-    scene.obstacles.push_back({scene::Box{{-2, -2, -9}, {2, 0.1, -8}}, 0, ""});
+    scene.obstacles.push_back({scene::boxShape({{-2, -2, -9}, {2, 0.1, -8}}), 0, ""});
     scene::Random random(5);
     for (int k = 0; k < 64; ++k)
         scene.spheres.push_back(at(0.13 * (glm::dvec3(k % 4, k / 4 % 4, k / 16) - 1.5),

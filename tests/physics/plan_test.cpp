@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scene/shapes.h"
 #include "sim/plan.h"
 #include "support.h"
 
@@ -27,8 +28,8 @@ scene::Scene everything(scene::Model model = scene::Model::Balanced) {
     scene::Scene scene = fineStepBox(10);
     scene.quality.model = model;
     scene.sleep.enabled = true;
-    scene.obstacles.push_back({scene::Plane{{0, 0, -4}, {0, 0, 1}}, 0, ""});
-    scene.obstacles.push_back({scene::Box{{1, 1, 1}, {2, 2, 2}}, 0, ""});
+    scene.obstacles.push_back({scene::planeShape({0, 0, -4}, {0, 0, 1}), 0, ""});
+    scene.obstacles.push_back({scene::boxShape({{1, 1, 1}, {2, 2, 2}}), 0, ""});
     for (int k = 0; k < 64; ++k) {
         scene::Sphere sphere;
         sphere.position = {k % 8 - 4, k / 8 - 4, 0};

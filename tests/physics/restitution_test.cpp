@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/shapes.h"
 #include "support.h"
 
 // The measured restitution differs from the requested one by at most 0.01, for all kinds of pairs.
@@ -88,8 +89,8 @@ TEST_P(Restitution, MatchesTheSceneAtWallsPlanesAndBoxes) {
     scene::Scene scene = fineStepSpace(4);
     scene.bounds.open[scene::ZMin] = false;
     const glm::dvec3 slope = glm::normalize(glm::dvec3(1, 0, 2));
-    scene.obstacles.push_back({scene::Plane{{-1.5, 0, -1.2}, slope}, 0, ""});
-    scene.obstacles.push_back({scene::Box{{1, -0.5, -1.6}, {1.4, 0.5, -1.2}}, 0, ""});
+    scene.obstacles.push_back({scene::planeShape({-1.5, 0, -1.2}, slope), 0, ""});
+    scene.obstacles.push_back({scene::boxShape({{1, -0.5, -1.6}, {1.4, 0.5, -1.2}}), 0, ""});
     scene.spheres = {{{0.2, 0, -1.6}, {0.5F, 0.3F, -2}, 0.05F},
                      {{-1.5, 0, -0.8}, {0, 0.3F, -2}, 0.07F},
                      {{1.2, 0, -0.8}, {0.1F, 0, -2}, 0.05F}};

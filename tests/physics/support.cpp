@@ -7,6 +7,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/check.h"
+#include "scene/json.h"
+#include "scene/shapes.h"
+
 namespace spherule::physics {
 
 compute::Device& device() {
@@ -16,6 +20,14 @@ compute::Device& device() {
 
 scene::Scene named(const std::string& name, const scene::Overrides& overrides) {
     return support::valueOf(scene::load(name, "software", overrides));
+}
+
+scene::Obstacle obstacleFrom(const std::string& json) {
+    const v1::Scene message = support::valueOf(scene::parseJson("{\"obstacles\":[" + json + "]}", "obstacle"));
+    scene::Check check;
+    scene::Obstacle obstacle{.shape = scene::readShape(check, message.obstacles(0), "obstacle"), .colour = ""};
+    if (!check.ok()) throw std::invalid_argument(check.error().value().message);
+    return obstacle;
 }
 
 scene::Scene fineStepSpace(double side) {
@@ -66,9 +78,9 @@ reference::World referenceOf(const scene::Scene& scene, const sim::State& state)
                                materialOf(scene.bounds.material).friction});
     }
     for (const scene::Obstacle& obstacle : scene.obstacles) {
-        const auto& plane = std::get<scene::Plane>(obstacle.shape);
-        world.walls.push_back({plane.point - centre, plane.normal, materialOf(obstacle.material).restitution,
-                               materialOf(obstacle.material).friction});
+        const glm::dvec3 normal = obstacle.shape->normalOfHalfSpace().value();
+        world.walls.push_back({-obstacle.shape->distance(centre) * normal, normal,
+                               materialOf(obstacle.material).restitution, materialOf(obstacle.material).friction});
     }
     for (std::uint32_t id = 0; id < state.count(); ++id)
         world.spheres.push_back({positionOf(state, id), velocityOf(state, id),

@@ -24,6 +24,9 @@ compute::Device& device();  // one for all tests
 // Loads a shipped scene.
 scene::Scene named(const std::string& name, const scene::Overrides& overrides = {});
 
+// Reads an obstacle in the form in which scenes give it. Throws std::invalid_argument if it is refused.
+scene::Obstacle obstacleFrom(const std::string& json);
+
 // A cube of `side` m around the origin with open faces, no gravity and no sleep. A step is one substep of 1/480 s.
 scene::Scene fineStepSpace(double side);
 

@@ -27,10 +27,9 @@ test("a position is relative to the centre of the bounds", () => {
   assert.deepEqual(positionOf(facts, state(2, [0, 0, 0, 1, 2, 3]), 1), [0.5, 2.5, 5]);
 });
 
-test("radii are read as float32, and normals become unit vectors", () => {
+test("radii are read as float32", () => {
   assert.deepEqual([radiusOf(facts, 0), radiusOf(facts, 1)], [0.5, 0.25]);
   assert.deepEqual(facts.radiusRange, [0.25, 0.5]);
-  assert.deepEqual(facts.planes[0]?.normal, [0, 0.6, 0.8]);
 });
 
 test("speed is the distance between two states over their time", () => {

@@ -4,7 +4,7 @@ import type { Vec3 } from "../src/model/facts";
 import { faces, planeInBox } from "../src/renderer/shapes";
 
 test("a slanted plane cuts a box in a polygon with corners on both", () => {
-  const points = planeInBox({ point: [0, 0, 0], normal: [0.6, 0, 0.8], colour: undefined }, [-1, -1, -1], [1, 1, 1]);
+  const points = planeInBox({ point: [0, 0, 0], normal: [0.6, 0, 0.8] }, [-1, -1, -1], [1, 1, 1]);
   assert.equal(points.length, 4);
   for (const [x, y, z] of points) {
     assert.ok(Math.abs(0.6 * x + 0.8 * z) < 1e-9);
@@ -14,8 +14,8 @@ test("a slanted plane cuts a box in a polygon with corners on both", () => {
 
 test("a plane through opposite corners cuts a hexagon, one beside the box nothing", () => {
   const n = 1 / Math.sqrt(3);
-  const diagonal = { point: [0, 0, 0] as Vec3, normal: [n, n, n] as Vec3, colour: undefined };
-  const beside = { point: [0, 0, 9] as Vec3, normal: [0, 0, 1] as Vec3, colour: undefined };
+  const diagonal = { point: [0, 0, 0] as Vec3, normal: [n, n, n] as Vec3 };
+  const beside = { point: [0, 0, 9] as Vec3, normal: [0, 0, 1] as Vec3 };
   assert.equal(planeInBox(diagonal, [-1, -1, -1], [1, 1, 1]).length, 6);
   assert.equal(planeInBox(beside, [-1, -1, -1], [1, 1, 1]).length, 0);
 });

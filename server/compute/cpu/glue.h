@@ -78,6 +78,18 @@ inline Scalar select(bool where, Scalar yes, Scalar no) {
 inline uint select(bool where, uint yes, uint no) {
     return where ? yes : no;
 }
+inline vec3 select(bool where, const vec3& yes, const vec3& no) {
+    return where ? yes : no;
+}
+inline vec4 select(bool where, const vec4& yes, const vec4& no) {
+    return where ? yes : no;
+}
+inline vec4 row4(Scalar x, Scalar y, Scalar z, Scalar w) {
+    return {x, y, z, w};
+}
+inline bool anyLane(bool a) {
+    return a;
+}
 #if !defined(SPHERULE_LANES)
 using real = Scalar;
 using real3 = vec3;
@@ -86,20 +98,14 @@ using mask = bool;
 using uints = uint;
 using slots = uint;
 using uintRow = uint;
-inline bool anyLane(bool a) {
-    return a;
-}
 inline bool noLane() {
     return false;
 }
 inline bool liveLanes() {
     return true;
 }
-inline vec3 select(bool where, const vec3& yes, const vec3& no) {
-    return where ? yes : no;
-}
-inline vec4 select(bool where, const vec4& yes, const vec4& no) {
-    return where ? yes : no;
+inline uint leastOf(uint a) {
+    return a;
 }
 inline bool finiteLanes(const vec3& a) {
     constexpr Scalar largest = std::numeric_limits<float>::max();

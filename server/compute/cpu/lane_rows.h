@@ -172,6 +172,14 @@ SPHERULE_INLINE real4 membersOf(const T* array, const uints& at, vec4 T::*member
     return gather([&](unsigned lane) { return (array[at.v[lane]].*member).lanes; });
 }
 
+// A member of pairs of numbers.
+template <class Pair>
+SPHERULE_INLINE uints membersOf(const Pair* array, uintRow at, std::uint32_t Pair::*member) {
+    uints row;
+    for (unsigned lane = 0; lane < lanes; ++lane) row.v[lane] = array[at.first + (lane < at.live ? lane : 0)].*member;
+    return row;
+}
+
 // Sets the elements of the live lanes: `to` where `where` is set, else `old`.
 SPHERULE_INLINE void setRows(mask where, vec4* array, const uints& at, const real4& to, const real4& old,
                              std::uint32_t live) {

@@ -162,6 +162,27 @@ SPHERULE_INLINE uints operator>>(uints a, std::uint32_t by) {
     return uints(a.words() >> by);
 }
 
+SPHERULE_INLINE mask operator==(const uints& a, std::uint32_t b) {
+#if defined(SPHERULE_AVX512)
+    const auto all = reinterpret_cast<__m512i>(a.words());
+    return mask(_mm512_cmpeq_epi32_mask(all, _mm512_set1_epi32(static_cast<int>(b))));
+#else
+    return mask(reinterpret_cast<Ints>(a.words() == b - Words{}));
+#endif
+}
+SPHERULE_INLINE mask operator!=(const uints& a, std::uint32_t b) {
+    return !(a == b);
+}
+SPHERULE_INLINE std::uint32_t leastOf(const uints& a) {
+    std::uint32_t least = a.v[0];
+    for (unsigned lane = 1; lane < lanes; ++lane) least = a.v[lane] < least ? a.v[lane] : least;
+    return least;
+}
+// The numbers whose bits these are.
+SPHERULE_INLINE real uintBitsToFloat(const uints& a) {
+    return real(reinterpret_cast<Reals>(a.words()));
+}
+
 // Bit k is set if lane k is in the mask.
 SPHERULE_INLINE std::uint32_t bitsOf(mask a) {
 #if defined(SPHERULE_AVX512)
@@ -212,6 +233,9 @@ SPHERULE_INLINE Vector selected(mask where, Vector yes, Vector no) {
 }
 SPHERULE_INLINE real select(mask where, real yes, real no) {
     return real(selected(where, yes.v, no.v));
+}
+SPHERULE_INLINE real select(mask where, float yes, float no) {
+    return select(where, real(yes), real(no));
 }
 SPHERULE_INLINE uints select(mask where, uints yes, uints no) {
     return uints(selected(where, yes.words(), no.words()));
@@ -266,6 +290,10 @@ struct real3 {
     SPHERULE_INLINE explicit real3(const vec4& all) : x(all.x), y(all.y), z(all.z) {}
     SPHERULE_INLINE explicit real3(const vec3& all) : x(all.x), y(all.y), z(all.z) {}
 };
+
+SPHERULE_INLINE real4 row4(real x, real y, real z, real w) {
+    return {x, y, z, w};
+}
 
 SPHERULE_INLINE real4::real4(const real3& xyz, real fourth) : x(xyz.x), y(xyz.y), z(xyz.z), w(fourth) {}
 

@@ -1,27 +1,29 @@
 #include <algorithm>
-#include <variant>
 
 #include "scene/materials.h"
+#include "scene/shapes.h"
 #include "sim/modules/module.h"
 
 namespace spherule::sim {
 
 namespace {
 
-template <class Shape>
+template <scene::ShapeKind kind>
 bool hasAny(const scene::Scene& scene, const Features& /*others*/) {
-    return std::ranges::any_of(scene.obstacles,
-                               [](const scene::Obstacle& o) { return std::holds_alternative<Shape>(o.shape); });
+    return std::ranges::any_of(scene.obstacles, [](const scene::Obstacle& o) { return o.shape->kind() == kind; });
 }
 
-template <class Shape>
-std::uint32_t count(const scene::Scene& scene) {
-    return static_cast<std::uint32_t>(std::ranges::count_if(
-        scene.obstacles, [](const scene::Obstacle& o) { return std::holds_alternative<Shape>(o.shape); }));
+// An obstacle below the bed, which no sphere touches.
+template <scene::ShapeKind kind>
+void addBelow(scene::Scene& scene) {
+    scene.obstacles.push_back({.shape = scene::exampleOf(kind, scene.bounds.min.z - 1), .colour = ""});
 }
 
 void declareObstacles(PlanBuilder& plan) {
-    plan.arrays({Array::ContactParams, Array::Obstacles});
+    plan.arrays({Array::ContactParams, Array::Obstacles, Array::ObstacleLists});
+    if (!plan.has(Feature::Contacts)) return;
+    plan.arrays({Array::NearObstacles});
+    plan.onRebuild(Stage::Lists, Pass::Lists, "list_obstacles.comp", LAUNCH_SPHERES);
 }
 
 }  // namespace
@@ -34,32 +36,28 @@ const Module moduleWalls{
     .cost = {.reason = "without walls, the bed has no floor"},
 };
 
-const Module modulePlanes{
-    .feature = Feature::Planes,
-    .required = hasAny<scene::Plane>,
+// There are obstacles. The lists of obstacles near spheres are made with the pair lists.
+const Module moduleObstacles{
+    .feature = Feature::Obstacles,
+    .required = [](const scene::Scene& scene, const Features& /*others*/) { return !scene.obstacles.empty(); },
     .declare = declareObstacles,
-    .upload = [](const ParameterSource& from, layout::Parameters& p) { p.planes = count<scene::Plane>(from.scene); },
-    .cost =
-        {.name = "a plane",
-         .with =
-             [](scene::Scene& scene) {
-                 const glm::dvec3 below = scene.bounds.min - glm::dvec3(1);
-                 scene.obstacles.push_back({.shape = scene::Plane{.point = below, .normal = {0, 0, 1}}, .colour = ""});
-             }},
+    .upload =
+        [](const ParameterSource& from, layout::Parameters& p) {
+            p.obstacles = static_cast<std::uint32_t>(from.scene.obstacles.size());
+            p.obstacleListWords =
+                static_cast<std::uint32_t>(from.plan.bytesOf(Array::ObstacleLists) / sizeof(std::uint32_t));
+        },
+    .cost = {.reason = "the rows of the shapes contain it"},
 };
 
-const Module moduleBoxes{
-    .feature = Feature::Boxes,
-    .required = hasAny<scene::Box>,
-    .declare = declareObstacles,
-    .upload = [](const ParameterSource& from, layout::Parameters& p) { p.boxes = count<scene::Box>(from.scene); },
-    .cost = {.name = "a box",
-             .with =
-                 [](scene::Scene& scene) {
-                     const glm::dvec3 corner = scene.bounds.min;
-                     const scene::Box box{.min = corner - glm::dvec3(2), .max = corner - glm::dvec3(1)};
-                     scene.obstacles.push_back({.shape = box, .colour = ""});
-                 }},
-};
+// One module for each shape. Only its function in the kernels depends on it.
+#define SHAPE(flag, Name, text, number, function)                          \
+    const Module module##Name{                                             \
+        .feature = Feature::Name,                                          \
+        .required = hasAny<scene::ShapeKind::Name>,                        \
+        .cost = {.name = #text, .with = addBelow<scene::ShapeKind::Name>}, \
+    };
+#include "shapes.def"
+#undef SHAPE
 
 }  // namespace spherule::sim

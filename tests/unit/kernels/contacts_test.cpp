@@ -243,8 +243,8 @@ Bed heap() {
 // The same in a groove of two planes.
 Bed heapInGroove() {
     Bed bed = heap();
-    bed.features |= Feature::PLANES;
-    bed.parameters.planes = 2;
+    bed.features |= Feature::OBSTACLES | Feature::PLANES;
+    bed.setObstacles(2);
     bed.parameters.maxWallHistory = 5;
     bed.wallImpulse.assign(5 * std::size_t{bed.count}, vec4(0));
     bed.wallTorque = bed.wallImpulse;

@@ -12,7 +12,7 @@ COMPILER = sys.argv.pop()
 SHADERS = Path(sys.argv.pop())
 INCLUDE = re.compile(r'^#include "([^"]+)"$')
 BUFFER = re.compile(r"^BUFFER\((\w+), (\w+), (\w+)\)")
-FEATURE = re.compile(r"\bHAS\((?!feature\b|FEATURE\b)(\w+)\)")  # but for its definition and what explains it
+FEATURE = re.compile(r"(?:\bHAS|^SHAPE)\((?!FEATURE\b)([A-Z_]+)\b")  # but for its definition and what explains it
 
 
 def expand(root, name):

@@ -46,6 +46,7 @@ Bed::Bed(std::vector<vec4> places, std::uint64_t has)
         column->resize(count);
     cellOrder_.resize(std::max(count, MOST_OUTSIDE));
     std::iota(idAndMaterial.begin(), idAndMaterial.end(), 0U);
+    nearObstacles.resize(count);  // without room: each sphere visits all obstacles
     wallImpulse.assign(std::size_t{count} * wallRows, vec4(0));
     wallTorque.assign(std::size_t{count} * wallRows, vec4(0));
     cellStart.resize(parameters.cells.w + 1);
@@ -77,6 +78,8 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"idAndMaterial", idAndMaterial},
                           {"contactParams", contactParams},
                           {"obstacles", obstacles},
+                          {"obstacleLists", obstacleLists},
+                          {"nearObstacles", nearObstacles},
                           {"cellStart", cellStart},
                           {"rankInCell", rankInCell_},
                           {"cellOrder", cellOrder_},
@@ -102,6 +105,18 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"dispatchSizes", dispatchSizes},
                           {"dispatchArgs", dispatchArgs}};
     launch(kernel, slots, {.parameters = &parameters, .phase = phase, .features = features, .lanes = lanes});
+}
+
+void Bed::setObstacles(uint number, uint shape) {
+    parameters.obstacles = number;
+    obstacleLists.assign(1, END_OF_LIST);
+    for (uint k = 0; k < number; ++k) {
+        obstacles[k].shape = shape;
+        obstacles[k].parts = 1;
+        obstacles[k].surface = 6 + k;
+        obstacleLists.push_back(k);
+    }
+    obstacleLists.push_back(END_OF_LIST);
 }
 
 void Bed::rebuild() {

@@ -67,6 +67,9 @@ struct Bed {
     void holdAll(float impulse);
     void addUpHeld();
 
+    // Gives the bed the first `number` rows of `obstacles`, all of one shape: its number in shapes.def.
+    void setObstacles(uint number, uint shape = 0);
+
     uint count;
     std::uint64_t features;
     unsigned lanes = 1;
@@ -76,6 +79,8 @@ struct Bed {
     std::vector<uint> idAndMaterial;
     std::vector<layout::ContactParams> contactParams = std::vector<layout::ContactParams>(1);
     std::vector<layout::Obstacle> obstacles = std::vector<layout::Obstacle>(2);
+    std::vector<uint> obstacleLists{END_OF_LIST, END_OF_LIST};
+    std::vector<uvec2> nearObstacles;
     std::vector<uint> cellStart;
     std::vector<uint> counters = std::vector<uint>(COUNTER_WORDS);
     std::vector<uvec2> pairs, candidates, groupRange;

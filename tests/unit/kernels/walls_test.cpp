@@ -55,10 +55,10 @@ TEST(KernelsAsCpp, SphereBouncesFromEachSurface) {
             normal[static_cast<int>(surface / 2)] = surface % 2 == 0 ? 1.0F : -1.0F;
         else
             normal = slanting;
-        Bed bed = sphereAt(0.501F * normal, vec4(0.8F, 0, 0, 0), bouncing | Feature::PLANES);
+        Bed bed = sphereAt(0.501F * normal, vec4(0.8F, 0, 0, 0), bouncing | Feature::OBSTACLES | Feature::PLANES);
         bed.parameters.wallMin = vec4(-100, -100, -100, 0);
         bed.parameters.closedFaces = surface < 6 ? 1U << surface : 0;
-        bed.parameters.planes = surface < 6 ? 0 : 1;
+        bed.setObstacles(surface < 6 ? 0 : 1);
         if (surface < 6) {
             vec4& face = surface % 2 == 0 ? bed.parameters.wallMin : bed.parameters.wallMax;
             face[static_cast<int>(surface / 2)] = 0;
@@ -74,9 +74,9 @@ TEST(KernelsAsCpp, SphereBouncesFromFacesEdgesAndCornersOfABox) {
     for (const vec3 from : {vec3(0, 0, 1), vec3(0.6F, 0, 0.8F), vec3(-0.48F, 0.64F, 0.6F), vec3(0, -1, 0)}) {
         const vec3 corner(from.x > 0 ? 1 : (from.x < 0 ? -1 : 0), from.y > 0 ? 1 : (from.y < 0 ? -1 : 0),
                           from.z > 0 ? 1 : 0);
-        Bed bed = sphereAt(corner + 0.501F * from, vec4(0.8F, 0, 0, 0), bouncing | Feature::BOXES);
+        Bed bed = sphereAt(corner + 0.501F * from, vec4(0.8F, 0, 0, 0), bouncing | Feature::OBSTACLES | Feature::BOXES);
         bed.parameters.closedFaces = 0;
-        bed.parameters.boxes = 1;
+        bed.setObstacles(1, 1);
         bed.obstacles[0].a = vec4(-1, -1, -1, 0);
         bed.obstacles[0].b = vec4(1, 1, 1, 0);
         bed.setVelocity(0, -2.0F * from);
@@ -169,10 +169,10 @@ TEST(KernelsAsCpp, SphereThatLeavesTheWallForgetsIt) {
 // A groove of two planes: a sphere in it remembers both, if it has room for two.
 TEST(KernelsAsCpp, MoreObstaclesThanRowsAreReported) {
     for (const uint rows : {5U, 4U}) {
-        Bed bed =
-            sphereAt({0, 0, std::sqrt(0.5F)}, vec4(0.5F, 0.3F, 0, 0), bouncing | Feature::PLANES | Feature::FRICTION);
+        Bed bed = sphereAt({0, 0, std::sqrt(0.5F)}, vec4(0.5F, 0.3F, 0, 0),
+                           bouncing | Feature::OBSTACLES | Feature::PLANES | Feature::FRICTION);
         bed.parameters.closedFaces = 0;
-        bed.parameters.planes = 2;
+        bed.setObstacles(2);
         bed.parameters.maxWallHistory = rows;
         bed.wallImpulse.assign(rows, vec4(0));
         bed.wallTorque.assign(rows, vec4(0));

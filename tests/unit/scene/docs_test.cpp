@@ -25,7 +25,7 @@ TEST(SceneDocs, CompleteExampleLoads) {
     const auto scene = load(folder.write("everything.json", blockOf("json")), "software");
     ASSERT_TRUE(scene) << scene.error().text();
     EXPECT_EQ(scene->spheres.size(), 2U + 1000U + 500U + 2U);
-    EXPECT_EQ(scene->obstacles.size(), 2U);
+    EXPECT_EQ(scene->obstacles.size(), 4U);
     EXPECT_EQ(scene->materials.size(), 3U);
     EXPECT_EQ(scene->pairs.size(), 1U);
     EXPECT_EQ(scene->spheres[0].spin, glm::vec3(0, -40, 0));

@@ -8,6 +8,7 @@
 
 #include "scene/quality.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "scene_support.h"
 
 namespace spherule::scene::testing {
@@ -183,7 +184,7 @@ TEST(SceneContactTime, DoesNotDependOnCommonMotion) {
 TEST(SceneContactTime, IgnoresMotionAlongFrictionlessPlanes) {
     Scene scene = swarm(4);
     scene.bounds.open[ZMin] = false;
-    scene.obstacles.push_back({Plane{{0, -1, 0}, {0, 1, 0}}, 0, ""});
+    scene.obstacles.push_back({planeShape({0, -1, 0}, {0, 1, 0}), 0, ""});
     const double at = contactTimeOf(scene).speed;
     move(scene, {10, 0, 0});
     EXPECT_NEAR(contactTimeOf(scene).speed, at, 0.05 * at);
@@ -193,7 +194,7 @@ TEST(SceneContactTime, IgnoresMotionAlongFrictionlessPlanes) {
     scene.materials[0].friction = 0.1;
     EXPECT_GT(contactTimeOf(scene).speed, 10) << "a rough floor stops some, and others come after them";
     scene.materials[0].friction = 0;
-    scene.obstacles.push_back({Box{{0, 0, 0}, {0.1, 0.1, 0.1}}, 0, ""});
+    scene.obstacles.push_back({boxShape({{0, 0, 0}, {0.1, 0.1, 0.1}}), 0, ""});
     EXPECT_GT(contactTimeOf(scene).speed, 10) << "a box is in the way of every motion";
 }
 

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/shapes.h"
 #include "scene_support.h"
 
 namespace spherule::scene::testing {
@@ -82,8 +83,8 @@ TEST(SceneBounds, AreLimitedByTheResolutionOfFloat32) {
 
 TEST(SceneObstacles, PlanesHaveUnitNormals) {
     const Scene scene = sceneWith(R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 3, 4]}}])");
-    const auto& plane = std::get<Plane>(scene.obstacles.at(0).shape);
-    EXPECT_NEAR(glm::distance(plane.normal, glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
+    const Shape& plane = *scene.obstacles.at(0).shape;
+    EXPECT_NEAR(glm::distance(plane.normalOfHalfSpace().value(), glm::dvec3(0, 0.6, 0.8)), 0, 1e-15);
     EXPECT_EQ(scene.obstacles[0].material, 0);
     EXPECT_EQ(scene.materials[0].restitution, 0.5);
     EXPECT_EQ(refusalOf(R"("obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 0]}}])"),
@@ -91,7 +92,8 @@ TEST(SceneObstacles, PlanesHaveUnitNormals) {
 }
 
 TEST(SceneObstacles, AreChecked) {
-    EXPECT_EQ(refusalOf(R"("obstacles": [{}])"), "obstacles[0]: has no shape, must be a plane or a box");
+    EXPECT_EQ(refusalOf(R"("obstacles": [{}])"),
+              "obstacles[0]: has no shape, must have one of plane, box, sphere, cylinder");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,0]}}])"),
               "obstacles[0].box.max[2]: is 0, must be above min, which is 0");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "material": "ice"}])"),

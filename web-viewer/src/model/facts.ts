@@ -1,20 +1,14 @@
 import type { GroupFacts, SceneFacts } from "../gen/spherule/v1/control_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
+import type { Obstacle as Message } from "../gen/spherule/v1/scene_pb";
 import { groupColour } from "../colour/groups";
 import { hexToRgb } from "../colour/rgb";
 import type { Rgb } from "../colour/rgb";
 
 export type Vec3 = [number, number, number];
 
-export interface Box {
-  min: Vec3;
-  max: Vec3;
-  colour: Rgb | undefined;
-}
-
-export interface Plane {
-  point: Vec3;
-  normal: Vec3; // unit length, towards the free side
+export interface Obstacle {
+  shape: Message["shape"]; // as in scene.proto
   colour: Rgb | undefined;
 }
 
@@ -34,8 +28,7 @@ export interface Facts {
   min: Vec3;
   max: Vec3;
   open: Set<Face>;
-  boxes: Box[];
-  planes: Plane[];
+  obstacles: Obstacle[];
   count: number;
   groups: Group[];
   radius: number; // of every sphere; 0 if they differ: see radii
@@ -51,16 +44,6 @@ export interface Facts {
 
 export function factsOf(scene: SceneFacts): Facts {
   const radii = scene.radius > 0 ? undefined : floats(scene.radii, scene.count);
-  const boxes: Box[] = [];
-  const planes: Plane[] = [];
-  for (const { shape, colour } of scene.obstacles) {
-    if (shape.case === "box") {
-      boxes.push({ min: vec3(shape.value.min), max: vec3(shape.value.max), colour: hexToRgb(colour) });
-    } else if (shape.case === "plane") {
-      const normal = unit(vec3(shape.value.normal));
-      planes.push({ point: vec3(shape.value.point), normal, colour: hexToRgb(colour) });
-    }
-  }
   const min = vec3(scene.boundsMin);
   const max = vec3(scene.boundsMax);
   return {
@@ -70,8 +53,7 @@ export function factsOf(scene: SceneFacts): Facts {
     min,
     max,
     open: new Set(scene.open),
-    boxes,
-    planes,
+    obstacles: scene.obstacles.map(({ shape, colour }) => ({ shape, colour: hexToRgb(colour) })),
     count: scene.count,
     groups: scene.groups.map(groupFrom),
     radius: scene.radius,
@@ -105,11 +87,6 @@ function between(a: Vec3, b: Vec3): Vec3 {
 
 function vec3(numbers: readonly number[]): Vec3 {
   return [numbers[0] ?? 0, numbers[1] ?? 0, numbers[2] ?? 0];
-}
-
-function unit(v: Vec3): Vec3 {
-  const length = Math.hypot(...v) || 1;
-  return [v[0] / length, v[1] / length, v[2] / length];
 }
 
 function floats(bytes: Uint8Array, count: number): Float32Array {

@@ -1,26 +1,31 @@
 import { Face } from "../gen/spherule/v1/scene_pb";
 import { niceAbove } from "../colour/range";
 import { hexToRgb } from "../colour/rgb";
-import type { Rgb } from "../colour/rgb";
 import type { Facts, Vec3 } from "../model/facts";
 import { Mesh } from "./mesh";
-import { boxSurface, faces, planeInBox, polygon } from "./shapes";
+import { surfaceOf } from "./obstacles";
+import type { Surface } from "./obstacles";
+import { faces, polygon, vertexFloats } from "./shapes";
 import type { Vertices } from "./shapes";
 import type { Theme } from "./theme";
 
 /** The static geometry around the spheres: floor, walls, edges of the bounds, obstacles. */
 export class Environment {
-  readonly solids: Mesh; // boxes, and planes whose free side faces the eye
-  readonly veils: Mesh; // translucent: far walls, and planes seen from behind
+  readonly solids: Mesh; // obstacles that are seen from outside alone
+  readonly facing: Mesh; // the parts of other obstacles whose free side faces the eye
+  readonly veils: Mesh; // translucent: far walls, and the parts of obstacles that are seen from behind
   readonly floor: Mesh;
   readonly edges: Mesh; // lines
   ruler = 1; // m between the lines on the floor
   fade = 1; // m around the bounds over which the floor fades out
   private facts: Facts | undefined;
   private theme: Theme | undefined;
+  private oneSided: Surface[] = [];
+  private eye: Vec3 | undefined; // for which the meshes are built
 
   constructor(gl: WebGL2RenderingContext) {
     this.solids = new Mesh(gl);
+    this.facing = new Mesh(gl);
     this.veils = new Mesh(gl);
     this.floor = new Mesh(gl);
     this.edges = new Mesh(gl);
@@ -41,24 +46,32 @@ export class Environment {
       [min[0] - reach, max[1] + reach, min[2]],
     ];
     this.floor.set(facts.open.has(Face.Z_MIN) ? [] : polygon(corners, [0, 0, 1], [1, 1, 1, 1]));
-    this.face(undefined);
+    const plain = hexToRgb(theme.solid) ?? [0.6, 0.6, 0.6];
+    const surfaces = facts.obstacles.map((obstacle) => surfaceOf(obstacle, [...(obstacle.colour ?? plain), 1], facts));
+    this.solids.set(surfaces.flatMap(({ vertices, oneSided }) => (oneSided ? [] : vertices)));
+    this.oneSided = surfaces.filter(({ oneSided }) => oneSided);
+    this.build(undefined);
   }
 
   /** Builds the meshes that depend on the eye's position: which surfaces face it. */
-  face(eye: Vec3 | undefined): void {
+  face(eye: Vec3): void {
+    if (this.eye?.every((value, axis) => value === eye[axis])) return;
+    this.build(eye);
+  }
+
+  private build(eye: Vec3 | undefined): void {
+    this.eye = eye && [...eye];
     const { facts, theme } = this;
     if (!facts || !theme) return;
-    const solids: Vertices = [];
+    const facing: Vertices = [];
     const veils: Vertices = [];
     const wall = hexToRgb(theme.wall) ?? [0.7, 0.8, 0.8];
-    const plain = hexToRgb(theme.solid) ?? [0.6, 0.6, 0.6];
-    const opaque = (rgb: Rgb | undefined, alpha = 1): number[] => [...(rgb ?? plain), alpha];
-    for (const box of facts.boxes) solids.push(...boxSurface(box, opaque(box.colour)));
-    for (const plane of facts.planes) {
-      const points = planeInBox(plane, facts.min, facts.max);
-      const free = !eye || dot(plane.normal, eye) > dot(plane.normal, plane.point);
-      if (free) solids.push(...polygon(points, plane.normal, opaque(plane.colour)));
-      else veils.push(...polygon(points, plane.normal, opaque(plane.colour, 0.25)));
+    for (const { vertices } of this.oneSided) {
+      for (let from = 0; from < vertices.length; from += 3 * vertexFloats) {
+        const triangle = vertices.slice(from, from + 3 * vertexFloats);
+        if (!eye || isBefore(triangle, eye)) facing.push(...triangle);
+        else veils.push(...triangle.map((value, i) => (i % vertexFloats === alphaAt ? 0.25 : value)));
+      }
     }
     const lines: Vertices = [];
     const lift = 1e-3 * (facts.max[2] - facts.min[2]); // keeps lines above the floor
@@ -78,10 +91,20 @@ export class Environment {
         lines.push(...point, ...normal, ...ink, strength, ...next, ...normal, ...ink, strength);
       });
     });
-    this.solids.set(solids);
+    this.facing.set(facing);
     this.veils.set(veils);
     this.edges.set(lines);
   }
+}
+
+const alphaAt = vertexFloats - 1;
+
+/** True if the eye is on the side of the triangle to which its normals point. */
+function isBefore(triangle: Vertices, eye: Vec3): boolean {
+  const sum = (at: number): number =>
+    (triangle[at] ?? 0) + (triangle[at + vertexFloats] ?? 0) + (triangle[at + 2 * vertexFloats] ?? 0);
+  const normal: Vec3 = [sum(3), sum(4), sum(5)];
+  return dot(normal, eye) > dot(normal, [sum(0) / 3, sum(1) / 3, sum(2) / 3]);
 }
 
 function dot(a: Vec3, b: Vec3): number {

@@ -72,7 +72,7 @@ export class FrameRenderer {
     if (shown) this.spheres.show(shown);
     else this.spheres.count = 0;
     const shadowKey = shown ? `${shown.from.sequence} ${shown.to.sequence} ${shown.mix}` : "none";
-    if (shadowKey !== this.shadowKey) shadow.draw(light, this.spheres, shown?.mix ?? 0, this.environment.solids);
+    if (shadowKey !== this.shadowKey) shadow.draw(light, this.spheres, shown?.mix ?? 0, this.environment);
     this.shadowKey = shadowKey;
     this.uniforms.fill(state.view, light, theme, target.height);
     this.environment.face(state.view.eye);

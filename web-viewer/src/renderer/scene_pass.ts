@@ -84,6 +84,7 @@ export class ScenePass {
 
     this.prepare(this.solids, state, shadow);
     environment.solids.draw();
+    environment.facing.draw();
     if (shown) this.drawSpheres(facts, shown, state, data, shadow);
 
     gl.enable(gl.BLEND);

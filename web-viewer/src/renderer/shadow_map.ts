@@ -1,5 +1,5 @@
+import type { Environment } from "./environment";
 import type { Light } from "./light";
-import type { Mesh } from "./mesh";
 import { columnDeclarations, program } from "./program";
 import type { Program } from "./program";
 import type { SphereData } from "./spheres";
@@ -31,7 +31,7 @@ export class ShadowMap {
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.texture, 0);
   }
 
-  draw(light: Light, data: SphereData, mix: number, solids: Mesh): void {
+  draw(light: Light, data: SphereData, mix: number, environment: Environment): void {
     const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
     gl.viewport(0, 0, this.size, this.size);
@@ -45,7 +45,8 @@ export class ShadowMap {
     data.draw(this.spheres, mix);
     this.solids.use();
     gl.uniformMatrix4fv(this.solids.at("u_matrix"), false, light.clip);
-    solids.draw();
+    environment.solids.draw();
+    environment.facing.draw();
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 

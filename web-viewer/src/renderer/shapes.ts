@@ -1,9 +1,15 @@
 import { vec3 } from "gl-matrix";
-import type { Box, Plane, Vec3 } from "../model/facts";
+import type { Vec3 } from "../model/facts";
 
 /** Vertices as a flat list: position (3), normal (3), colour (4). Three vertices make a triangle, or two a line. */
 export type Vertices = number[];
 export const vertexFloats = 10;
+
+/** `normal` is of unit length. */
+export interface Plane {
+  point: Vec3;
+  normal: Vec3;
+}
 
 /** The part of the plane that lies in the box, as a polygon around its normal; empty if they do not meet. */
 export function planeInBox(plane: Plane, min: Vec3, max: Vec3): Vec3[] {
@@ -59,11 +65,8 @@ export function faces(min: Vec3, max: Vec3): { normal: Vec3; points: Vec3[] }[] 
   );
 }
 
-export function boxSurface(box: Box, colour: number[]): Vertices {
-  return faces(box.min, box.max).flatMap(({ normal, points }) => polygon(points, normal, colour));
-}
-
-function across(normal: Vec3): [Vec3, Vec3] {
+/** Two unit vectors across the normal, and across each other. */
+export function across(normal: Vec3): [Vec3, Vec3] {
   const other: Vec3 = Math.abs(normal[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0];
   const u = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], other, normal)) as Vec3;
   return [u, vec3.cross([0, 0, 0], normal, u) as Vec3];

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "scene/scene.h"
+
+namespace spherule::v1 {
+class Obstacle;
+}
+
+namespace spherule::scene {
+
+class Check;
+
+// The shapes of obstacles: the rows of shaders/shapes.def. Each has a file in scene/shapes/.
+enum class ShapeKind : std::uint8_t {
+#define SHAPE(flag, Name, text, number, function) Name,
+#include "shapes.def"
+#undef SHAPE
+};
+
+// The shape of an obstacle in world coordinates (m). It bounds the solid that spheres cannot enter. Immutable, so that
+// scenes share it.
+class Shape {
+  public:
+    virtual ~Shape() = default;
+
+    [[nodiscard]] virtual ShapeKind kind() const = 0;
+    // Returns the number of surfaces that a sphere may touch at the same time.
+    [[nodiscard]] virtual std::uint32_t parts() const { return 1; }
+    // Returns the distance of a point from the solid (m), negative inside it.
+    [[nodiscard]] virtual double distance(const glm::dvec3& point) const = 0;
+    // Returns the normal of the surface if the solid is a half-space.
+    [[nodiscard]] virtual std::optional<glm::dvec3> normalOfHalfSpace() const { return std::nullopt; }
+    // Returns the largest coordinate (m) that kernels round when they compute distances from this shape, relative to
+    // `origin`; 0 if it is no larger than the coordinates of the spheres.
+    [[nodiscard]] virtual double largestCoordinate(const glm::dvec3& /*origin*/) const { return 0; }
+
+    // The members a and b of its row for kernels, where positions are relative to `origin`: see shaders/shapes/.
+    struct Row {
+        glm::vec4 a;
+        glm::vec4 b;
+    };
+    [[nodiscard]] virtual Row row(const glm::dvec3& origin) const = 0;
+    // Writes the shape in the form in which scenes give it.
+    virtual void write(v1::Obstacle& message) const = 0;
+};
+
+using ShapePointer = std::shared_ptr<const Shape>;
+
+// Reads the shape of an obstacle, whose field in the scene is `field`. Refuses an obstacle without one.
+ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field);
+
+// Returns a shape of this kind with a size of about 1 m, whose solid is below the plane z = `top`.
+ShapePointer exampleOf(ShapeKind kind, double top);
+
+// A half-space. `normal` is of unit length and points to the free side.
+ShapePointer planeShape(const glm::dvec3& point, const glm::dvec3& normal);
+ShapePointer boxShape(const Box& box);
+
+// How one kind of shape is read and made. Defined in its file in scene/shapes/.
+struct ShapeType {
+    int field = 0;  // v1::Obstacle::ShapeCase
+    ShapePointer (*read)(Check& check, const v1::Obstacle& message, const std::string& field) = nullptr;
+    ShapePointer (*example)(double top) = nullptr;
+};
+#define SHAPE(flag, Name, text, number, function) extern const ShapeType shapes##Name;
+#include "shapes.def"
+#undef SHAPE
+
+}  // namespace spherule::scene

@@ -1,0 +1,236 @@
+// Spheres and cylinders as obstacles, solid and hollow, in each model, against exact paths in double precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <spdlog/fmt/fmt.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "scene/quality.h"
+#include "scene/random.h"
+#include "scene/shapes.h"
+#include "support.h"
+
+namespace spherule::physics {
+namespace {
+
+constexpr double radius = 0.05;  // m
+constexpr scene::Model models[] = {scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate};
+
+glm::dvec3 randomDirection(scene::Random& random) {
+    return glm::normalize(glm::dvec3(random.normal(), random.normal(), random.normal()));
+}
+
+std::string text(const glm::dvec3& v) {
+    return fmt::format("[{:.17g},{:.17g},{:.17g}]", v.x, v.y, v.z);
+}
+
+scene::Obstacle ball(const glm::dvec3& centre, double size, bool hollow) {
+    return obstacleFrom(
+        fmt::format(R"({{"sphere":{{"centre":{},"radius":{:.17g},"hollow":{}}}}})", text(centre), size, hollow));
+}
+
+scene::Obstacle cylinder(const glm::dvec3& from, const glm::dvec3& to, double size, bool hollow) {
+    return obstacleFrom(fmt::format(R"({{"cylinder":{{"from":{},"to":{},"radius":{:.17g},"hollow":{}}}}})", text(from),
+                                    text(to), size, hollow));
+}
+
+// One sphere in open space, with steps of one substep of 1/480 s; `accurate` with substeps of 1/14,400 s.
+scene::Scene oneSphere(scene::Model model, const glm::dvec3& place, const glm::dvec3& velocity) {
+    scene::Scene scene = fineStepSpace(20);
+    scene.quality = {.model = model, .substeps = model == scene::Model::Accurate ? 30U : 1U};
+    scene::Sphere sphere;
+    sphere.radius = static_cast<float>(radius);
+    sphere.position = place;
+    sphere.velocity = glm::vec3(velocity);
+    scene.spheres.push_back(sphere);
+    return scene;
+}
+
+struct Motion {
+    glm::dvec3 x;
+    glm::dvec3 v;
+};
+
+Motion stateOf(sim::Simulation& simulation) {
+    const sim::State state = simulation.snapshot();
+    return {glm::dvec3(glm::vec3(state.position[0])) + simulation.scene().bounds.centre(),
+            glm::dvec3(glm::vec3(state.velocity[0]))};
+}
+
+class Obstacles : public testing::TestWithParam<scene::Model> {};
+
+// The normal of the surface at a point, by differences of the distance.
+glm::dvec3 normalAt(const scene::Shape& shape, const glm::dvec3& point) {
+    constexpr double step = 1e-6;
+    glm::dvec3 slope(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 by(0);
+        by[axis] = step;
+        slope[axis] = shape.distance(point + by) - shape.distance(point - by);
+    }
+    return glm::normalize(slope);
+}
+
+// The time at which a sphere on a straight path first touches the obstacle (s); 10 if it is not within two seconds.
+double meetingTime(const scene::Shape& shape, const Motion& start) {
+    constexpr double step = 1e-3;
+    const auto gap = [&](double t) { return shape.distance(start.x + start.v * t) - radius; };
+    for (double t = 0; t < 2; t += step) {
+        if (gap(t + step) > 0) continue;
+        double low = t;
+        double high = t + step;
+        for (int k = 0; k < 60; ++k) (gap(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
+        return low;
+    }
+    return 10;
+}
+
+// Obstacles of a random place and direction, and spheres that come from random places at random times.
+TEST_P(Obstacles, ReboundsAreThoseOfTheNormal) {
+    constexpr double seconds = 0.02;  // after the rebound
+    scene::Random random(21);
+    unsigned met = 0;
+    while (met < (GetParam() == scene::Model::Accurate ? 16U : 60U)) {
+        const glm::dvec3 centre = randomDirection(random) * random.uniform(0, 2);
+        const glm::dvec3 half = randomDirection(random) * random.uniform(0.2, 1);
+        const double size = random.uniform(0.2, 1);
+        const bool hollow = met % 2 == 1;
+        const scene::Obstacle obstacle =
+            met % 4 < 2 ? ball(centre, size, hollow) : cylinder(centre - half, centre + half, size, hollow);
+        const glm::dvec3 from = centre + randomDirection(random) * (hollow ? random.uniform(0, 0.1) : 3.0);
+        const glm::dvec3 aim = centre + randomDirection(random) * random.uniform(0, 0.9) * size;
+        const glm::dvec3 v = glm::normalize(aim - from) * random.uniform(0.5, 4);
+        if (obstacle.shape->distance(from) < 1.5 * radius) continue;
+        const double meeting = meetingTime(*obstacle.shape, {from, v});
+        if (meeting > 2) continue;
+        const double time = std::min(meeting, random.uniform(0.005, 0.03));
+        const Motion start{from + v * (meeting - time), v};
+        const double e = random.uniform(0, 1);
+        const glm::dvec3 place = start.x + start.v * time;
+        const glm::dvec3 n = normalAt(*obstacle.shape, place);
+        const glm::dvec3 after = start.v - (1 + e) * glm::dot(start.v, n) * n;
+        if (meetingTime(*obstacle.shape, {place + after * 1e-3, after}) < 2 * seconds) continue;  // in a corner
+        ++met;
+        scene::Scene scene = oneSphere(GetParam(), start.x, start.v);
+        scene.obstacles.push_back(obstacle);
+        setRestitution(scene, e);
+        const auto simulation = simulate(scene);
+        run(*simulation, time + seconds);
+        const Motion end = stateOf(*simulation);
+        const double speed = glm::length(start.v);
+        EXPECT_NEAR(glm::length(end.v), glm::length(after), 0.01 * speed) << met;
+        // During a soft contact the sphere moves along the surface, and the normal turns.
+        const bool soft = GetParam() == scene::Model::Accurate;
+        EXPECT_LT(glm::distance(end.v, after), (soft ? 0.03 : 0.01) * speed) << met;
+        const glm::dvec3 there = place + after * (simulation->time() - time);
+        EXPECT_LT(glm::distance(end.x, there), soft ? radius : 4e-5 * speed + 2e-5) << met;
+    }
+}
+
+// A sphere without bounce in a hollow of radius `size`, in contact, where gravity pulls along `down`.
+scene::Scene oneRolling(scene::Model model, const scene::Obstacle& hollow, const glm::dvec3& place,
+                        const glm::dvec3& down) {
+    scene::Scene scene = oneSphere(model, place, {});
+    scene.obstacles.push_back(hollow);
+    scene.forces.gravity = earth * down;
+    scene.materials[0].friction = 1;
+    setRestitution(scene, 0);
+    if (model == scene::Model::Accurate) {
+        scene.quality.substeps = 100;
+        scene.quality.overlap = 0.01;
+        scene.sphereContacts = false;  // its substeps are many
+    }
+    return scene;
+}
+
+// A sphere that rolls without slip in a hollow cylinder, across the axis, or in a hollow sphere is a pendulum:
+// a'' = -5/7 g / (R - r) sin a.
+TEST_P(Obstacles, SphereRollsInAHollowAsAPendulum) {
+    const bool soft = GetParam() == scene::Model::Accurate;
+    scene::Random random(23);
+    for (int k = 0; k < (soft ? 2 : 4); ++k) {
+        const double size = random.uniform(0.3, 1.2);
+        const glm::dvec3 axis = randomDirection(random);
+        const glm::dvec3 down = glm::normalize(glm::cross(axis, randomDirection(random)));
+        const glm::dvec3 side = glm::cross(axis, down);
+        const double path = size - radius;
+        double angle = random.uniform(0.3, 1);
+        double turning = 0;
+        const scene::Obstacle hollow = k % 2 == 0 ? cylinder(-axis, axis, size, true) : ball({}, size, true);
+        const glm::dvec3 start = path * (std::cos(angle) * down + std::sin(angle) * side);
+        const auto simulation = simulate(oneRolling(GetParam(), hollow, start, down));
+        const double fastest = std::sqrt(10.0 / 7 * earth * path * (1 - std::cos(angle)));
+        const auto pull = [&](double a) { return -5.0 / 7 * earth / path * std::sin(a); };
+        double worst = 0;
+        for (int tenth = 0; tenth < (soft ? 5 : 25); ++tenth) {
+            run(*simulation, 0.1);
+            constexpr int steps = 2000;
+            const double h = 0.1 / steps;
+            for (int step = 0; step < steps; ++step) {  // leapfrog
+                turning += 0.5 * h * pull(angle);
+                angle += h * turning;
+                turning += 0.5 * h * pull(angle);
+            }
+            const glm::dvec3 along = std::cos(angle) * side - std::sin(angle) * down;
+            worst = std::max(worst, std::abs(glm::dot(stateOf(*simulation).v, along) - path * turning) / fastest);
+        }
+        EXPECT_LT(worst, GetParam() == scene::Model::Fast ? 0.02 : (soft ? 2e-3 : 1e-3)) << size;
+    }
+}
+
+// Along the axis of a hollow cylinder a sphere keeps its speed.
+TEST_P(Obstacles, SphereRollsAlongAHollowCylinder) {
+    const bool soft = GetParam() == scene::Model::Accurate;
+    scene::Random random(24);
+    for (int k = 0; k < 3; ++k) {
+        const double size = random.uniform(0.2, 1);
+        const glm::dvec3 axis = randomDirection(random);
+        const glm::dvec3 down = glm::normalize(glm::cross(axis, randomDirection(random)));
+        scene::Scene scene = oneRolling(GetParam(), cylinder(-3.0 * axis, 3.0 * axis, size, true),
+                                        (size - radius) * down - 2.0 * axis, down);
+        const double speed = random.uniform(1, 5);
+        scene.spheres[0].velocity = glm::vec3(speed * axis);
+        scene.spheres[0].spin = glm::vec3(glm::cross(-down, speed * axis) / radius);
+        const auto simulation = simulate(scene);
+        run(*simulation, soft ? 0.1 : 0.8);
+        // A soft contact has a shorter lever than the radius.
+        const double allowed = GetParam() == scene::Model::Fast ? 1e-4 : (soft ? 1e-3 : 3e-4);
+        EXPECT_NEAR(glm::dot(stateOf(*simulation).v, axis), speed, allowed * speed);
+    }
+}
+
+// A sphere that falls through pegs, with the lists of near obstacles and without, where it visits all of them.
+TEST_P(Obstacles, ListsLeaveOutNoObstacleThatASphereMeets) {
+    scene::Random random(25);
+    for (int k = 0; k < (GetParam() == scene::Model::Accurate ? 2 : 8); ++k) {
+        const glm::dvec3 start(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 2.4);
+        scene::Scene scene = oneSphere(GetParam(), start, {});
+        scene.forces.gravity = {0, 0, -earth};
+        setRestitution(scene, 0.6);
+        for (int peg = 0; peg < 60; ++peg) {
+            const glm::dvec3 place(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-2, 2));
+            const glm::dvec3 half = 0.3 * randomDirection(random);
+            scene.obstacles.push_back(peg % 2 == 0 ? ball(place, random.uniform(0.05, 0.15), false)
+                                                   : cylinder(place - half, place + half, 0.06, false));
+        }
+        std::uint64_t hashes[2];
+        for (const bool contacts : {false, true}) {
+            scene.sphereContacts = contacts;
+            const auto simulation = simulate(scene);
+            run(*simulation, GetParam() == scene::Model::Accurate ? 0.7 : 1.2);
+            hashes[contacts ? 1 : 0] = sim::hashOf(simulation->snapshot());
+        }
+        EXPECT_EQ(hashes[0], hashes[1]) << k;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Obstacles, testing::ValuesIn(models),
+                         [](const auto& parameter) { return std::string(scene::nameOf(parameter.param)); });
+
+}  // namespace
+}  // namespace spherule::physics
