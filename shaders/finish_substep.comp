@@ -6,6 +6,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -304,6 +305,8 @@ LANE_KERNEL(params.spheres) {
         real3 since = to - real3(ROW(listReference, invocation)) - real3(driftPath());
         real3 relative = arc - real3(driftVelocity());
         real moved = sqrt(dot3(since, since)) + sqrt(dot3(relative, relative)) * h;
-        if (anyLane(inside && moved > params.rebuildMove)) atomicOr(counters[COUNTER_REBUILD], 1u);
+        mask leaves = inside && moved > params.rebuildMove;
+        if (HAS(PERIODIC)) leaves = leaves || (inside && mustWrap(to));
+        if (anyLane(leaves)) atomicOr(counters[COUNTER_REBUILD], 1u);
     }
 }

@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 #include "shared/limits.h"
@@ -48,7 +49,7 @@ void visitRange(uint a, uint begin, uint end) {
         uintRow at = ROWS_UP_TO(b, end);
         real radius = HAS(RADII) ? ROW(sortedRadius, at) : real(params.radius);
         real4 pb = real4(ROW(sortedX, at), ROW(sortedY, at), ROW(sortedZ, at), radius);
-        real3 d = real3(pa) - real3(pb);
+        real3 d = separation(real3(pa), real3(pb));
         real touch = radiusSum(pa, pb);
         real reach = touch + params.margin;
         real squared = dot3(d, d);

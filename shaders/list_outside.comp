@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/limits.h"
 #include "shared/outside.h"
 
@@ -42,7 +43,7 @@ KERNEL(MOST_OUTSIDE) {
         if (other == mine) continue;
         if (faster(other, fastest)) fastest = other;
         vec4 q = position[other];
-        vec3 d = vec3(p) - vec3(q);
+        vec3 d = separation(vec3(p), vec3(q));
         float touch = radiusSum(p, q);
         float reach = touch + params.margin;
         float squared = dot3(d, d);

@@ -19,6 +19,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/fields.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
@@ -42,7 +43,8 @@ BUFFER(coherent, uint, counters)
 bool isCalm(uint sphere, uint substep) {
     vec3 place = vec3(listReference[sphere]);
     uint level = levelOf(storedRadius(position[sphere]));
-    float width = 4.0f / inverseCellOf(level);
+    vec3 cells = inverseCellsOf(level);
+    vec3 width = vec3(4.0f / cells.x, 4.0f / cells.y, 4.0f / cells.z);
     for (uint k = 0u; k < 27u; ++k) {
         vec3 step = vec3(float(k % 3u) - 1.0f, float(k / 3u % 3u) - 1.0f, float(k / 9u) - 1.0f);
         if (restlessBlock[blockAt(place + step * width, level)] == substep) return false;
@@ -69,7 +71,7 @@ KERNEL(params.spheres) {
     float squared = dot3(vec3(v), vec3(v));
     bool quiet = squared < params.quietSpeed * params.quietSpeed;
     float quietTime = quiet ? quietTimeOf(rest) + params.substep : 0.0f;
-    vec3 sinceRest = p - vec3(rest);
+    vec3 sinceRest = separation(p, vec3(rest));
     if (dot3(sinceRest, sinceRest) > params.moveAwayDistance * params.moveAwayDistance) {
         restReference[id] = movedAway(p, together ? quietTime : 0.0f);
         return;

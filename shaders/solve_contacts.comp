@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 

@@ -7,6 +7,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 #include "shared/contact.h"
@@ -70,7 +71,7 @@ void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever
 void visitPair(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
-    vec3 d = vec3(pa) - vec3(pb);
+    vec3 d = separation(vec3(pa), vec3(pb));
     d = d + (vec3(positionLow[a]) - vec3(positionLow[b]));
     float squared = dot3(d, d);
     float ra = radiusOf(pa);

@@ -7,6 +7,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/fields.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
@@ -43,7 +44,7 @@ void visitPair(uint a, uint b) {
     if (HAS(SLEEP) && isAsleep(va) && isAsleep(vb)) return;
     vec4 pa = position[a];
     vec4 pb = position[b];
-    vec3 d = vec3(pa) - vec3(pb);
+    vec3 d = separation(vec3(pa), vec3(pb));
     float squared = dot3(d, d);
     float reach = radiusSum(pa, pb);
     if (!(squared < reach * reach)) return;
@@ -89,7 +90,7 @@ void visitPair(uint a, uint b) {
             // Both fly on from the point of impact at their new velocities. This keeps angular momentum.
             xa = xa + (vec3(velocity[a]) - vec3(va)) * since;
             xb = xb + (vec3(velocity[b]) - vec3(vb)) * since;
-            d = xa - xb;
+            d = separation(xa, xb);
             squared = dot3(d, d);
         }
     }

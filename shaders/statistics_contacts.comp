@@ -4,6 +4,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 
@@ -20,7 +21,7 @@ PRIVATE(float, largest)
 void visitPair(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
-    vec3 d = vec3(pa) - vec3(pb);
+    vec3 d = separation(vec3(pa), vec3(pb));
     float reach = radiusSum(pa, pb);
     float squared = dot3(d, d);
     if (!(squared < reach * reach)) return;

@@ -6,6 +6,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
@@ -31,7 +32,7 @@ void visitPair(uint a, uint b) {
     if (!(dot3(relative, relative) > 0.999f * least * least)) return;
     vec4 pa = position[a];
     vec4 pb = position[b];
-    vec3 d = vec3(pa) - vec3(pb);
+    vec3 d = separation(vec3(pa), vec3(pb));
     float squared = dot3(d, d);
     float reach = radiusSum(pa, pb) * (1.0f + TOUCH_TOLERANCE);
     if (!(squared < reach * reach)) {

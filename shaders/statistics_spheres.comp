@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/fields.h"
 #include "shared/shapes.h"
 
@@ -20,6 +21,7 @@ BUFFER(writeonly, SphereStatistics, sphereSums)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, vec4, wallSlip)
+BUFFER(readonly, uvec4, images)
 
 PRIVATE(uint, sphereSlot)
 PRIVATE(vec3, spherePoint)
@@ -58,6 +60,12 @@ bool outside(vec3 p) {
            p.z < params.wallMin.z || p.z > params.wallMax.z;
 }
 
+// The lengths of the periodic axes that the sphere has been moved back so far.
+vec3 countedTurns(uint id) {
+    uvec4 counted = images[id];
+    return vec3(float(int(counted.x)), float(int(counted.y)), float(int(counted.z)));
+}
+
 KERNEL(params.statisticBlocks) {
     uint end = min(params.spheres, (invocation + 1u) * STATISTIC_BLOCK);
     float energy = 0.0f;
@@ -76,10 +84,15 @@ KERNEL(params.statisticBlocks) {
     uint nonFinite = 0u;
     for (uint k = invocation * STATISTIC_BLOCK; k < end; ++k) {
         vec3 x = vec3(position[k]);
+        vec3 unwrapped = x;
         vec4 v = velocity[k];
         if (!finite3(x) || !finite3(vec3(v))) {
             nonFinite += 1u;
             continue;
+        }
+        if (HAS(PERIODIC)) {
+            unwrapped = movedBack(x, -countedTurns(idOf(idAndMaterial[k])));
+            x = wrapped(x);
         }
         float mass = 1.0f / inverseMassOf(v);
         float squared = dot3(vec3(v), vec3(v));
@@ -93,7 +106,7 @@ KERNEL(params.statisticBlocks) {
             angular = angular + spin * inertia;
             rotation += 0.5f * inertia * dot3(spin, spin);
         }
-        weighted = weighted + vec4(x * mass, mass);
+        weighted = weighted + vec4(unwrapped * mass, mass);
         height += x.z;
         if (HAS(FIELDS)) fieldEnergy += mass * fieldPotential(x);
         squares += squared;

@@ -5,6 +5,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
@@ -28,7 +29,7 @@ PRIVATE(vec3, displacement)
 float energyOf(uint a, uint b) {
     vec4 pa = position[a];
     vec4 pb = position[b];
-    vec3 d = vec3(pa) - vec3(pb);
+    vec3 d = separation(vec3(pa), vec3(pb));
     d = d + (vec3(positionLow[a]) - vec3(positionLow[b]));
     float squared = dot3(d, d);
     float ra = radiusOf(pa);

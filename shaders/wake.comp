@@ -6,6 +6,7 @@
 PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
+#include "shared/separation.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
 #include "shared/wake.h"
@@ -27,7 +28,7 @@ void wakeBy(uint sleeper, uint mover) {
     if (!canWake(v, restReference[idOf(idAndMaterial[mover])])) return;
     vec4 pa = position[sleeper];
     vec4 pb = position[mover];
-    vec3 d = vec3(pa) - vec3(pb);
+    vec3 d = separation(vec3(pa), vec3(pb));
     float reach = radiusSum(pa, pb) + wakeGap() + sqrt(dot3(vec3(v), vec3(v))) * params.substep;
     if (dot3(d, d) < reach * reach) velocity[sleeper] = sleepToggled(velocity[sleeper]);
 }

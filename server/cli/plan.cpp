@@ -24,6 +24,8 @@ int plan(const PlanOptions& options) {
     if (!loaded) return printError(loaded.error());
     const auto plan = sim::planFor(*loaded, sim::featuresOf(*loaded),
                                    static_cast<std::uint32_t>(loaded->spheres.size()), sim::radiusStatsOf(*loaded));
+    if (plan.features.has(sim::Feature::Contacts))
+        if (const auto fits = sim::checkPeriods(loaded->bounds, plan.grid); !fits) return printError(fits.error());
     const encode::EncoderBytes encoder = encode::encoderBytes(plan.spheres);
     const std::array more = {
         sim::MemoryPart{"device: order, if watched", encoder.contextArrays},

@@ -19,7 +19,7 @@ class EnergyWatch {
         double potential = 0;  // J, of gravity and fields
         double fields = 0;     // J, its part in fields
         double elastic = 0;    // J, in the springs of soft spheres
-        double given = 0;      // J, added by pushes out of walls
+        double given = 0;      // J, added by pushes out of walls, and by gravity along periodic axes
         bool soft = false;     // contacts store energy that the other fields do not include
     };
 

@@ -80,7 +80,7 @@ DiagnosticsSampler::Sample DiagnosticsSampler::sample(sim::Simulation& simulatio
                                         .potential = statistics.potentialEnergy,
                                         .fields = statistics.fieldEnergy,
                                         .elastic = statistics.elasticEnergy,
-                                        .given = statistics.pushWork,
+                                        .given = statistics.pushWork - statistics.unboundedEnergy,
                                         .soft = storesUnseen(simulation, statistics)}))
             sample.alarms.push_back(std::move(*alarm));
     if (auto alarm = overlap_.check(simulation.steps(), statistics.deepest()))

@@ -102,7 +102,7 @@ std::vector<Row> rows() {
 }
 
 Result<void> featureCosts(Bench& bench) {
-    const scene::Scene scene = bench.quick() ? lattice(1000, 0.05, 8.1) : lattice(4000, 0.05, 14.2);
+    const scene::Scene scene = bench.quick() ? lattice(1000, 0.05, 11.3) : lattice(4000, 0.05, 14.2);
     const auto state = settled(bench, scene);
     if (!state) return tl::unexpected(state.error());
     for (const Row& row : rows())

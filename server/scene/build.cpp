@@ -11,6 +11,7 @@
 #include "scene/group.h"
 #include "scene/materials.h"
 #include "scene/occupancy.h"
+#include "scene/periodic_axes.h"
 #include "scene/quality.h"
 #include "scene/radius_distribution.h"
 #include "scene/surroundings.h"
@@ -52,7 +53,7 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
                             fmt::format("has {} entries, must have at most {}", message.groups_size(), maxGroups));
     double largest = smallestRadius;
     for (const v1::Group& group : message.groups()) largest = std::max(largest, largestRadiusOf(group));
-    Occupancy occupancy(largest);
+    Occupancy occupancy(largest, scene.bounds);
     for (std::size_t i = 0; i < static_cast<std::size_t>(message.groups_size()) && check.ok(); ++i) {
         const v1::Group& group = message.groups(static_cast<int>(i));
         const auto first = static_cast<std::uint32_t>(scene.spheres.size());
@@ -102,6 +103,8 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     if (check.ok() && !scene.spheres.empty()) {
         checkResolution(check, scene, smallestRadiusOf(scene.spheres), "bounds");
     }
+    if (check.ok())
+        if (const auto fits = checkPeriodicAxes(scene); !fits) check.refuse(fits.error());
     if (check.ok()) readQuality(check, message.quality(), overrides, scene);
     if (!check.ok()) return check.error();
     return scene;
@@ -136,7 +139,7 @@ Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scen
         return fail(ErrorKind::Input, "group", fmt::format("is one too many, a scene has at most {}", maxGroups));
     double largest = largestRadiusOf(group);
     for (const Sphere& sphere : scene.spheres) largest = std::max(largest, static_cast<double>(sphere.radius));
-    Occupancy occupancy(largest);
+    Occupancy occupancy(largest, scene.bounds);
     std::vector<Sphere> spheres = readGroup(
         check, group, scene, {.field = "group", .taken = scene.spheres, .occupancy = occupancy, .room = room});
     if (check.ok() && !group.has_fill()) checkFree(check, spheres, scene.spheres, occupancy);

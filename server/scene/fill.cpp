@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "scene/occupancy.h"
+#include "scene/periodic_axes.h"
 #include "scene/source.h"
 #include "scene/surroundings.h"
 
@@ -33,25 +34,27 @@ std::vector<std::uint32_t> byFallingRadius(const std::vector<Sphere>& spheres) {
     return order;
 }
 
-glm::dvec3 drawPlace(Random& random, const Box& region, double radius) {
+glm::dvec3 drawPlace(Random& random, const Box& region, const Bounds& bounds, double radius) {
     glm::dvec3 place{};
     for (int axis = 0; axis < 3; ++axis) {
-        place[axis] = random.uniform(region.min[axis] + radius, region.max[axis] - radius);
+        const double inset = spansPeriod(bounds, region, axis) ? 0 : radius;
+        place[axis] = random.uniform(region.min[axis] + inset, region.max[axis] - inset);
     }
     return place;
 }
 
-bool placeAll(Check& check, std::vector<Sphere>& spheres, const Box& region, const std::vector<Obstacle>& obstacles,
-              Occupancy& occupancy, Random& random, std::size_t& placed) {
+bool placeAll(Check& check, std::vector<Sphere>& spheres, const Box& region, const Scene& scene, Occupancy& occupancy,
+              Random& random, std::size_t& placed) {
     const std::uint64_t budget =
         std::min(occupancy.work() + std::max(workPerSphere * spheres.size(), workAtLeast), workAtMost);
     for (const std::uint32_t i : byFallingRadius(spheres)) {
         const auto radius = static_cast<double>(spheres[i].radius);
         do {
-            occupancy.addWork(1 + obstacles.size());
+            occupancy.addWork(1 + scene.obstacles.size());
             if (occupancy.work() > budget || !check.goesOn("placing spheres", placed, spheres.size())) return false;
-            spheres[i].position = drawPlace(random, region, radius);
-        } while (obstacleAt(obstacles, spheres[i].position, radius) || !occupancy.isFree(spheres[i].position, radius));
+            spheres[i].position = drawPlace(random, region, scene.bounds, radius);
+        } while (obstacleAt(scene.obstacles, spheres[i].position, radius) ||
+                 !occupancy.isFree(spheres[i].position, radius));
         occupancy.add(spheres[i].position, radius);
         ++placed;
     }
@@ -60,8 +63,8 @@ bool placeAll(Check& check, std::vector<Sphere>& spheres, const Box& region, con
 
 }  // namespace
 
-std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
-                             Occupancy& taken, SourceInput input) {
+std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const Scene& scene, Occupancy& taken,
+                             SourceInput input) {
     const RadiusDistribution radii = requiredRadii(check, input);
     const Box region = check.box(fill.min(), fill.max(), input.field);
     const std::string countField = at(input.field, "count");
@@ -93,7 +96,7 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vect
         spheres.push_back({.velocity = input.velocity, .radius = radii.draw(input.random), .spin = input.spin});
     }
     std::size_t placed = 0;
-    if (!placeAll(check, spheres, region, obstacles, taken, input.random, placed)) {
+    if (!placeAll(check, spheres, region, scene, taken, input.random, placed)) {
         check.refuse(countField,
                      fmt::format("asks for {} spheres, but no free place was found after {}; lower the count "
                                  "or make the region larger",

@@ -41,10 +41,10 @@ std::vector<Sphere> fromSource(Check& check, const v1::Group& message, const Sce
         case v1::Group::kList:
             return fromList(check, message.list(), std::move(input));
         case v1::Group::kLattice:
-            return fromLattice(check, message.lattice(), std::move(input));
+            return fromLattice(check, message.lattice(), scene.bounds, std::move(input));
         case v1::Group::kFill:
             if (!addTaken(check, context.taken, context.occupancy)) return {};
-            return fromFill(check, message.fill(), scene.obstacles, context.occupancy, std::move(input));
+            return fromFill(check, message.fill(), scene, context.occupancy, std::move(input));
         case v1::Group::kCsv:
             if (context.directory) return fromCsv(check, message.csv(), *context.directory, std::move(input));
             check.refuse(input.field, fmt::format("names the file {}, but only a scene file may name files; give the "

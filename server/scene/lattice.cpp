@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scene/periodic_axes.h"
 #include "scene/source.h"
 
 namespace spherule::scene {
@@ -16,30 +17,32 @@ struct Places {
     [[nodiscard]] double total() const { return count.x * count.y * count.z; }
 };
 
-Places placesIn(const Box& region, double spacing, double reach) {
+Places placesIn(const Box& region, const Bounds& bounds, double spacing, double reach) {
     // Keeps a place that only rounding would exclude.
     constexpr double slack = 1e-9;
     Places places;
     for (int axis = 0; axis < 3; ++axis) {
-        const double steps = (region.max[axis] - region.min[axis] - 2 * reach) / spacing;
+        // The first and the last place are neighbours across a seam.
+        const double kept = spansPeriod(bounds, region, axis) ? spacing : 2 * reach;
+        const double steps = (region.max[axis] - region.min[axis] - kept) / spacing;
         places.count[axis] = steps < -slack ? 0 : std::floor(steps + slack) + 1;
     }
     const glm::dvec3 centre = 0.5 * (region.min + region.max);
     places.first = centre - 0.5 * spacing * (places.count - 1.0);
-    places.first.z = region.min.z + reach;
+    places.first.z = region.min.z + (spansPeriod(bounds, region, 2) ? 0.5 * spacing : reach);
     return places;
 }
 
 }  // namespace
 
-std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, SourceInput input) {
+std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, const Bounds& bounds, SourceInput input) {
     const RadiusDistribution radii = requiredRadii(check, input);
     const Box region = check.box(lattice.min(), lattice.max(), input.field);
     const double spacing = check.positive(lattice.spacing(), at(input.field, "spacing"));
     const double jitter = check.within(lattice.jitter(), 0, spacing, at(input.field, "jitter"), " m (the spacing)");
     if (!check.ok()) return {};
 
-    const Places places = placesIn(region, spacing, radii.max + jitter);
+    const Places places = placesIn(region, bounds, spacing, radii.max + jitter);
     const double wanted = lattice.has_count() ? lattice.count() : places.total();
     const std::string field = lattice.has_count() ? at(input.field, "count") : input.field;
     // Not "wanted > total": if one axis has no place and another infinitely many, the total is NaN.
@@ -64,6 +67,7 @@ std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, Source
                               .velocity = input.velocity,
                               .spin = input.spin};
                 for (int axis = 0; axis < 3; ++axis) sphere.position[axis] += input.random.uniform(-jitter, jitter);
+                sphere.position = insideBounds(bounds, sphere.position);
                 sphere.radius = radii.draw(input.random);
                 spheres.push_back(sphere);
             }

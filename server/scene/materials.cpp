@@ -119,7 +119,9 @@ ContactParameters contactParametersBetween(const Scene& scene, std::uint8_t a, s
 }
 
 bool hasWalls(const Scene& scene) {
-    return !std::ranges::all_of(scene.bounds.open, [](bool face) { return face; });
+    for (std::size_t face = 0; face < 6; ++face)
+        if (scene.bounds.walled(face)) return true;
+    return false;
 }
 
 std::vector<ContactParameters> actingContactParameters(const Scene& scene) {

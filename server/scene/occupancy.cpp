@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -56,7 +57,7 @@ void Occupancy::link(Level& level, std::size_t item) {
     level.items[item].next = std::exchange(head, static_cast<std::uint32_t>(item));
 }
 
-bool Occupancy::isFreeIn(const Level& level, const glm::dvec3& centre, double radius) {
+bool Occupancy::isImageFreeIn(const Level& level, const glm::dvec3& centre, double radius) {
     const glm::dvec3 reach(radius + 0.5 * level.cell);
     const glm::dvec3 low = glm::floor((centre - reach) / level.cell);
     const glm::dvec3 high = glm::floor((centre + reach) / level.cell);
@@ -77,6 +78,26 @@ bool Occupancy::isFreeIn(const Level& level, const glm::dvec3& centre, double ra
             }
         }
     }
+    return true;
+}
+
+// Looks at all images of the sphere that reach spheres in the bounds.
+bool Occupancy::isFreeIn(const Level& level, const glm::dvec3& centre, double radius) {
+    if (!bounds_.anyPeriodic()) return isImageFreeIn(level, centre, radius);
+    const double reach = radius + 0.5 * level.cell;
+    const glm::dvec3 periods = bounds_.periods();
+    std::array<std::vector<double>, 3> places;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double>& along = places[static_cast<std::size_t>(axis)];
+        along.push_back(centre[axis]);
+        if (!(periods[axis] > 0)) continue;
+        if (centre[axis] - reach < bounds_.min[axis]) along.push_back(centre[axis] + periods[axis]);
+        if (centre[axis] + reach > bounds_.max[axis]) along.push_back(centre[axis] - periods[axis]);
+    }
+    for (const double x : places[0])
+        for (const double y : places[1])
+            for (const double z : places[2])
+                if (!isImageFreeIn(level, {x, y, z}, radius)) return false;
     return true;
 }
 

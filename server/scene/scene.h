@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -71,14 +73,38 @@ struct Group {
 
 enum Face : std::uint8_t { XMin, XMax, YMin, YMax, ZMin, ZMax };
 
+// Each axis is periodic, or each of its faces is a wall or open. A sphere that leaves through one face of a periodic axis
+// comes back through the other.
 struct Bounds {
     glm::dvec3 min{};
     glm::dvec3 max{};
-    std::array<bool, 6> open{};  // by Face
+    std::array<bool, 6> open{};      // by Face
+    std::array<bool, 3> periodic{};  // by axis; its faces are not open
     std::uint8_t material = 0;
 
     [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (min + max); }
+    [[nodiscard]] bool walled(std::size_t face) const { return !open[face] && !periodic[face / 2]; }
+    [[nodiscard]] bool anyPeriodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+    // Returns the length of each periodic axis (m); 0 for the others.
+    [[nodiscard]] glm::dvec3 periods() const;
 };
+
+inline glm::dvec3 Bounds::periods() const {
+    glm::dvec3 lengths(0);
+    for (int axis = 0; axis < 3; ++axis)
+        if (periodic[static_cast<std::size_t>(axis)]) lengths[axis] = max[axis] - min[axis];
+    return lengths;
+}
+
+// The counterparts of shaders/shared/separation.h. `periods`: as Bounds::periods() returns them.
+
+// Returns the vector from b to the nearest image of a.
+inline glm::dvec3 separation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& periods) {
+    glm::dvec3 d = a - b;
+    for (int axis = 0; axis < 3; ++axis)
+        if (periods[axis] > 0) d[axis] -= periods[axis] * std::floor(d[axis] / periods[axis] + 0.5);
+    return d;
+}
 
 struct Box {
     glm::dvec3 min{};

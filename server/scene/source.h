@@ -36,15 +36,16 @@ RadiusDistribution requiredRadii(Check& check, const SourceInput& input);
 
 std::vector<Sphere> fromList(Check& check, const v1::List& list, SourceInput input);
 
-std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, SourceInput input);
+// `bounds`: a region with the whole length of a periodic axis is filled across the seam.
+std::vector<Sphere> fromLattice(Check& check, const v1::Lattice& lattice, const Bounds& bounds, SourceInput input);
 
 // Reads `directory`/csv.file(). Errors give places in the file as file:line:column.
 std::vector<Sphere> fromCsv(Check& check, const v1::Csv& csv, const std::filesystem::path& directory,
                             SourceInput input);
 
-// Places spheres clear of `obstacles` and of `taken`, and adds them to `taken`. Refuses if free places become too hard
-// to find.
-std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const std::vector<Obstacle>& obstacles,
-                             Occupancy& taken, SourceInput input);
+// Places spheres clear of the scene's obstacles and of `taken`, and adds them to `taken`. Refuses if free places become
+// too hard to find. A region with the whole length of a periodic axis is filled across the seam.
+std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const Scene& scene, Occupancy& taken,
+                             SourceInput input);
 
 }  // namespace spherule::scene

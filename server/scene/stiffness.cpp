@@ -112,7 +112,7 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
     for (unsigned face = 0; face < 6; ++face) {
         glm::dvec3 n(0);
         n[static_cast<int>(face / 2)] = 1;
-        if (!scene.bounds.open[face]) block(n);
+        if (scene.bounds.walled(face)) block(n);
     }
     for (const Obstacle& obstacle : scene.obstacles) {
         const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();

@@ -8,6 +8,7 @@
 
 #include "scene/load.h"
 #include "scene/materials.h"
+#include "scene/periodic_axes.h"
 #include "scene/shapes.h"
 
 namespace spherule::scene {
@@ -41,6 +42,7 @@ Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Mat
                                      static_cast<int>(message.open(i))));
         }
     }
+    readPeriodicAxes(check, message, field, bounds);
     bounds.material = materialNamed(check, message.material(), materials, at(field, "material"));
     return bounds;
 }
@@ -85,6 +87,11 @@ std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& ce
     constexpr const char* axes[] = {"x", "y", "z"};
     const double slack = touchTolerance * radius;
     for (int axis = 0; axis < 3; ++axis) {
+        if (bounds.periodic[static_cast<std::size_t>(axis)]) {
+            if (centre[axis] >= bounds.min[axis] && centre[axis] <= bounds.max[axis]) continue;
+            return fmt::format("has its centre at {} = {:.6g}, outside the bounds, which are {} to {}", axes[axis],
+                               centre[axis], bounds.min[axis], bounds.max[axis]);
+        }
         const double low = centre[axis] - radius;
         const double high = centre[axis] + radius;
         const bool below = low < bounds.min[axis] - slack;

@@ -24,7 +24,8 @@ void checkResolution(Check& check, const Scene& scene, double smallestRadius, st
 constexpr double touchTolerance = 1e-6;
 
 // Returns why a sphere cannot be at `centre` ("reaches x = -0.1, outside the bounds, which are 0 to 5"); nullopt if it
-// can. Open faces count like closed ones: spheres may leave through them later, but start inside.
+// can. Open faces count like closed ones: spheres may leave through them later, but start inside. Along a periodic
+// axis, only the centre must be inside.
 std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& centre, double radius);
 
 // Returns the first obstacle that a sphere reaches into; nullopt if there is none.

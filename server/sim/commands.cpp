@@ -99,6 +99,7 @@ Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State st
     state.position.insert(state.position.end(), fresh.position.begin(), fresh.position.end());
     state.velocity.insert(state.velocity.end(), fresh.velocity.begin(), fresh.velocity.end());
     state.spin.insert(state.spin.end(), fresh.spin.begin(), fresh.spin.end());
+    state.images.insert(state.images.end(), fresh.images.begin(), fresh.images.end());
     scene.spheres.insert(scene.spheres.end(), added->begin(), added->end());
     if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());
     if (auto fits = scene::checkSpeeds(scene, scene.spheres.size() - added->size()); !fits)
@@ -219,7 +220,8 @@ Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
         const double length = glm::length(ray->direction);
         if (!(length > 0)) return fail(ErrorKind::Refused, "ray.direction", "has no length");
         const glm::dvec3 origin = ray->origin - simulation_.scene_.bounds.centre();
-        const auto hit = firstHit(simulation_.snapshot(), origin, ray->direction / length);
+        const auto hit =
+            firstHit(simulation_.snapshot(), origin, ray->direction / length, simulation_.scene_.bounds.periods());
         if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere");
         return *hit;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "sim/layout.h"
 
 namespace spherule::sim {
@@ -17,17 +19,23 @@ constexpr std::uint32_t mostPerAxis = 1U << 16U;
 constexpr double thresholdInFull = 4;
 constexpr double smallestThreshold = 64;
 
-std::uint32_t cellsAlong(double extent, double cellSize) {
-    const double needed = std::ceil(extent / cellSize / 8) * 8;
-    return static_cast<std::uint32_t>(std::clamp(needed, 8.0, static_cast<double>(mostPerAxis)));
+constexpr double fewestPerAxis = 8;  // two blocks of 4
+
+// Returns the cells that cover the extent; along a periodic axis, the cells that fit in it.
+std::uint32_t cellsAlong(double extent, double cellSize, bool periodic) {
+    const double blocks = extent / cellSize / fewestPerAxis;
+    const double needed = (periodic ? std::floor(blocks) : std::ceil(blocks)) * fewestPerAxis;
+    return static_cast<std::uint32_t>(std::clamp(needed, fewestPerAxis, static_cast<double>(mostPerAxis)));
 }
 
-Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint64_t budget) {
+Level levelFor(const scene::Bounds& bounds, double largestRadius, double margin, std::uint64_t budget) {
+    const glm::dvec3 extent = bounds.max - bounds.min;
     Level level;
     const double cellSize = 2 * largestRadius + margin;
     level.cellSize = static_cast<float>(cellSize);
     level.largest = static_cast<float>(largestRadius);
-    for (int axis = 0; axis < 3; ++axis) level.cells[axis] = cellsAlong(extent[axis], cellSize);
+    for (int axis = 0; axis < 3; ++axis)
+        level.cells[axis] = cellsAlong(extent[axis], cellSize, bounds.periodic[static_cast<std::size_t>(axis)]);
 
     auto all = [&level] { return std::uint64_t{level.cells.x} * level.cells.y * level.cells.z; };
     while (all() > budget) {
@@ -36,6 +44,9 @@ Level levelFor(glm::dvec3 extent, double largestRadius, double margin, std::uint
             if (level.cells[axis] > level.cells[longest]) longest = axis;
         level.cells[longest] = level.cells[longest] / 16 * 8;
     }
+    for (int axis = 0; axis < 3; ++axis)
+        level.widths[axis] =
+            bounds.periodic[static_cast<std::size_t>(axis)] ? extent[axis] / level.cells[axis] : cellSize;
     return level;
 }
 
@@ -53,14 +64,14 @@ std::uint32_t Level::bundlesOfColour() const {
     return (blocks + BLOCKS_PER_BUNDLE - 1) / BLOCKS_PER_BUNDLE;
 }
 
-Grid gridFor(glm::dvec3 extent, const RadiusStats& radii, double marginInRadii) {
+Grid gridFor(const scene::Bounds& bounds, const RadiusStats& radii, double marginInRadii) {
     Grid grid;
     const double margin = marginInRadii * (radii.classes.size() > 1 ? radii.listing : radii.mean);
     grid.margin = static_cast<float>(margin);
     grid.levels.clear();
     for (const SizeClass& one : radii.classes) {
         const std::uint64_t budget = std::max(fewestCells / radii.classes.size(), cellsPerSphere * one.spheres);
-        Level level = levelFor(extent, one.largest, margin, budget);
+        Level level = levelFor(bounds, one.largest, margin, budget);
         level.spheres = one.spheres;
         if (!grid.levels.empty()) {
             level.first = grid.all();
@@ -71,6 +82,24 @@ Grid gridFor(glm::dvec3 extent, const RadiusStats& radii, double marginInRadii) 
         grid.levels.push_back(level);
     }
     return grid;
+}
+
+Result<void> checkPeriods(const scene::Bounds& bounds, const Grid& grid) {
+    constexpr const char* names[] = {"X", "Y", "Z"};
+    const Level& level = grid.coarsest();
+    const double margin = static_cast<double>(grid.margin);
+    const double largest = static_cast<double>(level.largest);
+    const double needed = fewestPerAxis * (2 * largest + margin);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = bounds.periods()[axis];
+        // Rounding of the radius to float32 must not refuse a length of just so many cells.
+        if (length == 0 || level.widths[axis] >= (2 * largest + margin) * (1 - 1e-6)) continue;
+        return fail(ErrorKind::Input, "bounds.periodic",
+                    fmt::format("has the axis {} of {:.6g} m, but needs {:.6g} m: {:.0f} cells of {:.6g} m + {:.6g} m "
+                                "(largest sphere, listed gap); use longer bounds or smaller spheres",
+                                names[axis], length, needed, fewestPerAxis, 2 * largest, margin));
+    }
+    return {};
 }
 
 }  // namespace spherule::sim

@@ -5,13 +5,17 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/result.h"
+#include "scene/scene.h"
 #include "sim/radius_stats.h"
 
 namespace spherule::sim {
 
-// Cells for spheres of similar size. They form a torus of cubes, so that memory is bounded wherever spheres go.
+// Cells for spheres of similar size. They form a torus, so that memory is bounded wherever spheres go. They are cubes,
+// except that they are wider along a periodic axis, so that a whole number of them fits its length.
 struct Level {
-    float cellSize = 0;       // m
+    float cellSize = 0;       // m, the narrowest width
+    glm::dvec3 widths{};      // m, per axis
     float largest = 0;        // radius, m
     glm::uvec3 cells{0};      // per axis, multiples of 8
     std::uint32_t first = 0;  // index of its first cell among the cells of all levels
@@ -39,6 +43,9 @@ struct Grid {
 // Returns cells as wide as the largest sphere plus the margin. They cover the domain, but there are at most about two
 // per sphere. In larger domains distant places share cells, which costs more tests and finds the same contacts.
 // `marginInRadii`: the gap up to which pairs are listed.
-Grid gridFor(glm::dvec3 extent, const RadiusStats& radii, double marginInRadii);
+Grid gridFor(const scene::Bounds& bounds, const RadiusStats& radii, double marginInRadii);
+
+// Refuses a periodic axis that is too short for the cells of the grid: two blocks of the pair order (shared/bundles.h).
+Result<void> checkPeriods(const scene::Bounds& bounds, const Grid& grid);
 
 }  // namespace spherule::sim

@@ -72,8 +72,8 @@ double InitialOverlapResolver::share() const {
     return static_cast<double>(sweeps_) / maxSweeps;
 }
 
-std::vector<glm::vec4> InitialOverlapResolver::takePositions() {
-    return simulation_->snapshot().position;
+State InitialOverlapResolver::takeState() {
+    return simulation_->snapshot();
 }
 
 }  // namespace spherule::sim

@@ -38,7 +38,7 @@ class InitialOverlapResolver {
     [[nodiscard]] std::uint32_t sweeps() const { return sweeps_; }
     // Returns the largest overlap at the last check, as a fraction of the smaller radius.
     [[nodiscard]] double overlap() const { return overlap_; }
-    [[nodiscard]] std::vector<glm::vec4> takePositions();  // m, relative to the bounds' centre; w = radius
+    [[nodiscard]] State takeState();  // at rest
 
   private:
     double maxOverlap_;

@@ -23,8 +23,17 @@ constexpr std::uint64_t uploadBytes = sizeof(std::uint32_t) + sizeof(std::uint8_
 // The radii that are sent to viewers: in a message, and in its encoded copy.
 constexpr std::uint64_t radiiBytes = 2 * sizeof(float);
 
+// With periodic axes, of a State and of a SlotState.
+constexpr std::uint64_t imageBytes = sizeof(glm::ivec3);
+constexpr std::uint64_t slotImageBytes = sizeof(glm::uvec4);
+
+std::uint64_t slotBytes(const Plan& plan) {
+    return slotBytes(plan.features.has(Feature::Friction)) +
+           (plan.features.has(Feature::Periodic) ? slotImageBytes : 0);
+}
+
 std::uint64_t snapshotBytes(const Plan& plan) {
-    return stateBytes + slotBytes(plan.features.has(Feature::Friction));
+    return stateBytes + slotBytes(plan) + (plan.features.has(Feature::Periodic) ? imageBytes : 0);
 }
 
 }  // namespace
@@ -47,7 +56,7 @@ MemoryNeeds memoryNeedsOf(const Plan& plan) {
     MemoryNeeds need{.arrays = plan.bytes(),
                      .host = {{"host: scene", n * sizeof(scene::Sphere)},
                               {"host: scene at the start", n * sizeof(scene::Sphere)},
-                              {"host: last good state", n * slotBytes(plan.features.has(Feature::Friction))}},
+                              {"host: last good state", n * slotBytes(plan)}},
                      .temporary = n * snapshotBytes(plan)};
     if (plan.features.has(Feature::Radii)) need.host.push_back({"host: radii for viewers", n * radiiBytes});
     return need;
@@ -59,8 +68,10 @@ std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan) {
     return bytes;
 }
 
-Result<memory::Claim> claimForState(std::size_t spheres) {
-    return memory::Claim::make("", fmt::format("the states of {} spheres", spheres), spheres * stateBytes);
+Result<memory::Claim> claimForState(const scene::Scene& scene) {
+    const std::size_t spheres = scene.spheres.size();
+    return memory::Claim::make("", fmt::format("the states of {} spheres", spheres),
+                               spheres * (stateBytes + (scene.bounds.anyPeriodic() ? imageBytes : 0)));
 }
 
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan) {

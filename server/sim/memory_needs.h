@@ -26,8 +26,8 @@ MemoryNeeds memoryNeedsOf(const Plan& plan);
 // Returns the host memory (bytes) of the plan's arrays on `device`.
 std::uint64_t arraysOnHost(const compute::Device& device, const Plan& plan);
 
-// Claims memory for the states of `spheres` spheres. Hold the claim until they are allocated.
-Result<memory::Claim> claimForState(std::size_t spheres);
+// Claims memory for the states of the spheres of a scene. Hold the claim until they are allocated.
+Result<memory::Claim> claimForState(const scene::Scene& scene);
 // Claims memory for the simulation of a scene that is in memory already.
 Result<memory::Claim> claimFor(const compute::Device& device, const Plan& plan);
 // Updates the claim once the simulation is made: its memory is held, and the memory for its commands is promised.

@@ -42,8 +42,10 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
     p.step = static_cast<float>(scene.step);
     p.spheres = plan.spheres;
     p.radius = static_cast<float>(radii.largest);
-    for (unsigned face = 0; face < 6; ++face)
-        if (!scene.bounds.open[face]) p.closedFaces |= 1U << face;
+    for (unsigned face = 0; face < 6; ++face) {
+        if (scene.bounds.walled(face)) p.closedFaces |= 1U << face;
+        if (scene.bounds.open[face]) p.openFaces |= 1U << face;
+    }
     p.materials = static_cast<std::uint32_t>(scene.materials.size());
     p.material = scene.spheres.empty() ? 0U : scene.spheres.front().material;
     p.wallMaterial = scene.bounds.material;

@@ -39,6 +39,18 @@ Error withTotalMemory(Error error, const Plan& plan) {
     return error;
 }
 
+// Moves a position back into the bounds along periodic axes, as shaders/wrap_positions.comp does.
+void wrap(glm::vec4& position, glm::ivec3& images, const glm::dvec3& periods) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto half = static_cast<float>(0.5 * periods[axis]);
+        float& p = position[axis];
+        if (half == 0 || (p >= -half && p < half) || !std::isfinite(p)) continue;
+        const float turns = std::floor(p / (2 * half) + 0.5F);
+        p -= turns * (2 * half);
+        images[axis] += static_cast<int>(std::clamp(turns, -1e6F, 1e6F));
+    }
+}
+
 bool growsWithPairs(Array array) {
     return typeOf(array).extent == Extent::Pair || typeOf(array).extent == Extent::PairTwice;
 }
@@ -51,10 +63,15 @@ State inIdOrder(const SlotState& slots) {
     state.position.resize(spheres);
     state.velocity.resize(spheres);
     state.spin.resize(spheres);
+    if (!slots.images.empty()) state.images.resize(spheres);
     for (std::size_t slot = 0; slot < spheres; ++slot) {
         const std::uint32_t id = slots.idAndMaterial[slot] & idMask;
         state.position[id] = slots.position[slot];
         state.velocity[id] = slots.velocity[slot];
+        if (!slots.images.empty()) {
+            state.images[id] = glm::ivec3(slots.images[id]);
+            wrap(state.position[id], state.images[id], slots.periods);
+        }
         if (!slots.angularVelocity.empty()) state.spin[id] = glm::vec4(glm::vec3(slots.angularVelocity[slot]), 0);
     }
     return state;
@@ -177,6 +194,11 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
     write<glm::vec4>(Array::Position, state.position);
     write<glm::vec4>(Array::Velocity, state.velocity);
     if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, state.spin);
+    if (plan_.has(Array::Images) && !state.images.empty()) {
+        std::vector<glm::uvec4> images;
+        for (const glm::ivec3& one : state.images) images.emplace_back(glm::uvec3(one), 0U);
+        write<glm::uvec4>(Array::Images, images);
+    }
     std::vector<std::uint32_t> ids(state.count());
     std::iota(ids.begin(), ids.end(), 0U);
     if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
@@ -199,6 +221,8 @@ void Pipeline::download(SlotState& slots) {
     readInto(slots.velocity, Array::Velocity);
     readInto(slots.angularVelocity, Array::AngularVelocity);
     readInto(slots.idAndMaterial, Array::IdAndMaterial);
+    readInto(slots.images, Array::Images);
+    slots.periods = plan_.periods;
 }
 
 std::uint32_t Pipeline::slotOf(std::uint32_t id) {

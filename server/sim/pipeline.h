@@ -14,14 +14,18 @@
 
 namespace spherule::sim {
 
-// The state of the spheres in slot order, as the device stores it.
+// The state of the spheres in slot order, as the device stores it. Positions may be outside the bounds along periodic
+// axes.
 struct SlotState {
     std::vector<glm::vec4> position;
     std::vector<glm::vec4> velocity;
     std::vector<glm::vec4> angularVelocity;  // with friction, else empty
     std::vector<std::uint32_t> idAndMaterial;
+    std::vector<glm::uvec4> images;  // with periodic axes, by id: signed
+    glm::dvec3 periods{};            // m, as Bounds::periods() returns them
 };
 
+// Returns the positions inside the bounds along periodic axes.
 State inIdOrder(const SlotState& slots);
 
 // Returns the arrays to bind for a launch, in the order of the buffers that its kernel declares. NoDevice for a buffer

@@ -131,8 +131,9 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     plan.features = features;
     plan.model = scene.quality.model;
     plan.spheres = spheres;
+    plan.periods = scene.bounds.periods();
     if (features.has(Feature::Contacts)) {
-        plan.grid = gridFor(scene.bounds.max - scene.bounds.min, radii, marginInRadii(features));
+        plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
         plan.features.set(Feature::Levels, plan.grid.levels.size() > 1);
         plan.pairCapacity = pairCapacity != 0
                                 ? pairCapacity

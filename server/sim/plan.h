@@ -50,6 +50,7 @@ struct Plan {
     Features features;
     scene::Model model{};
     std::uint32_t spheres = 0;
+    glm::dvec3 periods{};  // m: length of each periodic axis; 0: not periodic
     Grid grid;
     std::uint32_t pairCapacity = 0;
     std::uint32_t maxWallHistory = 0;          // remembered by each sphere

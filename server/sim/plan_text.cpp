@@ -53,6 +53,19 @@ std::string gridText(const Grid& grid) {
                               grid.levels.size() > 1 ? std::string(11, ' ') : ", ", grid.margin);
 }
 
+// Lists the periodic axes, with their lengths and cells.
+std::string periodsText(const Plan& plan) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(plan.periods[axis] > 0)) continue;
+        text += fmt::format("{:<11}{} every {:.4g} m", text.empty() ? "periodic" : "", "XYZ"[axis], plan.periods[axis]);
+        if (plan.features.has(Feature::Contacts))
+            text += fmt::format(", cells of {:.4g} m", plan.grid.coarsest().widths[axis]);
+        text += "\n";
+    }
+    return text;
+}
+
 // Describes the springs of `accurate` and how finely the substeps resolve their contacts.
 std::string contactText(const scene::Scene& scene) {
     const scene::ContactTime time = scene::contactTimeOf(scene);
@@ -89,6 +102,7 @@ std::string planText(const scene::Scene& scene, const Plan& plan, std::span<cons
     }
     text += "\n";
     if (plan.features.has(Feature::Contacts)) text += gridText(plan.grid);
+    text += periodsText(plan);
     if (plan.model == scene::Model::Accurate) text += contactText(scene);
     text += fmt::format("\n{:<16}{:>14}{:>16}\n", "array", "bytes", "bytes/sphere");
     for (const ArraySpec& spec : plan.arrays)
@@ -113,6 +127,7 @@ std::string planJson(const scene::Scene& scene, const Plan& plan, std::span<cons
     json["quality"] = scene::nameOf(plan.model);
     for (const Feature feature : allFeatures())
         json["features"][std::string(nameOf(feature))] = plan.features.has(feature);
+    json["periods"] = {plan.periods.x, plan.periods.y, plan.periods.z};
     const Level& coarsest = plan.grid.coarsest();
     json["cells"] = {coarsest.cells.x, coarsest.cells.y, coarsest.cells.z};
     json["cellSize"] = static_cast<double>(coarsest.cellSize);

@@ -16,7 +16,7 @@
 namespace spherule::sim {
 
 Result<SceneAndState> withInitialState(scene::Scene scene) {
-    const auto room = claimForState(scene.spheres.size());
+    const auto room = claimForState(scene);
     if (!room) return tl::unexpected(room.error());
     State state = stateOf(scene);
     return SceneAndState{std::move(scene), std::move(state)};
@@ -98,6 +98,8 @@ Result<void> Preparation::makePlan() {
     progress_.at("planning", 0);
     radii_ = radiusStatsOf(built_.scene);
     Plan plan = planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
+    if (plan.features.has(Feature::Contacts))
+        if (auto fits = checkPeriods(built_.scene.bounds, plan.grid); !fits) return fits;
     auto claim = claimFor(device_, plan);
     if (!claim) return tl::unexpected(claim.error());
     claim_ = std::move(*claim);
@@ -151,7 +153,9 @@ Result<void> Preparation::resolveOverlaps() {
     if (!*done) return {};
     resolvedOverlaps_->after = resolver_->overlap();
     resolvedOverlaps_->sweeps = resolver_->sweeps();
-    built_.state.position = resolver_->takePositions();
+    State moved = resolver_->takeState();
+    built_.state.position = std::move(moved.position);
+    built_.state.images = std::move(moved.images);
     resolver_.reset();
     pipeline_->upload(built_.state, materialsOf(built_.scene));
     stage_ = Stage::Done;

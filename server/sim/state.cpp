@@ -25,6 +25,7 @@ State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres)
         state.velocity.emplace_back(sphere.velocity, static_cast<float>(1 / mass));
         state.spin.emplace_back(sphere.spin, 0.0F);
     }
+    if (scene.bounds.anyPeriodic()) state.images.resize(spheres.size());
     return state;
 }
 
@@ -37,6 +38,10 @@ std::vector<std::uint8_t> materialsOf(const scene::Scene& scene) {
 
 glm::dvec3 positionOf(const State& state, std::uint32_t id) {
     return glm::dvec3(state.position[id]);
+}
+
+glm::dvec3 unwrappedOf(const State& state, std::uint32_t id, const glm::dvec3& periods) {
+    return positionOf(state, id) + (state.images.empty() ? glm::dvec3(0) : glm::dvec3(state.images[id]) * periods);
 }
 
 glm::dvec3 velocityOf(const State& state, std::uint32_t id) {

@@ -16,6 +16,8 @@ struct State {
     std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
     std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass, negative while asleep
     std::vector<glm::vec4> spin;      // angular velocity, rad/s; w = 0
+    // With periodic axes, else empty: the lengths of each axis by which positions were moved back into the bounds.
+    std::vector<glm::ivec3> images;
 
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size()); }
 };
@@ -28,6 +30,8 @@ std::vector<std::uint8_t> materialsOf(const scene::Scene& scene);
 
 // Values of a state as double, in SI units. Positions are relative to the bounds' centre.
 glm::dvec3 positionOf(const State& state, std::uint32_t id);
+// Returns the position that the sphere would have without wrapping. `periods`: as Bounds::periods() returns them.
+glm::dvec3 unwrappedOf(const State& state, std::uint32_t id, const glm::dvec3& periods);
 glm::dvec3 velocityOf(const State& state, std::uint32_t id);
 glm::dvec3 spinOf(const State& state, std::uint32_t id);
 double massOf(const State& state, std::uint32_t id);

@@ -9,11 +9,19 @@ namespace spherule::sim {
 
 namespace {
 
-// Returns the potential energy under gravity (J). `weighted`: sum of mass times position (kg m, relative to the bounds'
-// centre); w: total mass (kg).
+// Returns the components of gravity along the periodic axes (m/s^2), 0 along the others.
+glm::dvec3 periodicGravity(const scene::Scene& scene) {
+    glm::dvec3 g(0);
+    for (int axis = 0; axis < 3; ++axis)
+        if (scene.bounds.periodic[static_cast<std::size_t>(axis)]) g[axis] = scene.forces.gravity[axis];
+    return g;
+}
+
+// Returns the potential energy under gravity (J), without the components along periodic axes. `weighted`: sum of mass
+// times position (kg m, relative to the bounds' centre); w: total mass (kg).
 double potentialEnergy(const scene::Scene& scene, const glm::dvec4& weighted) {
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
-    const glm::dvec3& g = scene.forces.gravity;
+    const glm::dvec3 g = scene.forces.gravity - periodicGravity(scene);
     const glm::dvec3 lowest(std::copysign(half.x, g.x), std::copysign(half.y, g.y), std::copysign(half.z, g.z));
     return weighted.w * glm::dot(g, lowest) - glm::dot(g, glm::dvec3(weighted));
 }
@@ -74,6 +82,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     for (const float work : pipeline.read<float>(Array::WallWork)) sum.pushWork += static_cast<double>(work);
     addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
     sum.potentialEnergy = potentialEnergy(scene, weighted) + sum.fieldEnergy;
+    sum.unboundedEnergy = -glm::dot(periodicGravity(scene), glm::dvec3(weighted));
     sum.speedMax = std::sqrt(fastest);
     const double finite = pipeline.plan().spheres - sum.nonFinite;
     if (finite > 0) {

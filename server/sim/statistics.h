@@ -34,10 +34,13 @@ struct Statistics {
     double rotationalEnergy = 0;
     double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models
     double potentialEnergy = 0;  // of gravity, zero at the lowest corner of the bounds, and of fields
-    double fieldEnergy = 0;      // the part of the potential energy in fields, zero far away
+    // Potential energy of gravity along periodic axes, at unwrapped positions (J). It is no part of potentialEnergy,
+    // because it has no lowest value. Its fall is the work of this gravity.
+    double unboundedEnergy = 0;
+    double fieldEnergy = 0;  // the part of the potential energy in fields, zero far away
     double pushWork = 0;  // work of the pushes of `fast` out of walls against gravity and fields, since the last upload
     glm::dvec3 momentum{};
-    glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre
+    glm::dvec3 angularMomentum{};  // N m s, about the bounds' centre; not conserved with periodic axes
     std::uint64_t contacts = 0;
     double overlapMean = 0;  // over overlapping pairs
     double overlapMax = 0;

@@ -13,7 +13,7 @@ uint cellOf(vec4 sphere) {
     if (!finite3(point)) return 0u;
     uint level = levelOf(storedRadius(sphere));
     uvec4 cells = cellsOf(level);
-    vec3 p = point * inverseCellOf(level);
+    vec3 p = point * inverseCellsOf(level);
     return cellIndex(cells, wrapCell(p.x, cells.x), wrapCell(p.y, cells.y), wrapCell(p.z, cells.z));
 }
 
@@ -21,6 +21,6 @@ uint cellOf(vec4 sphere) {
 uint blockAt(vec3 point, uint level) {
     if (!finite3(point)) return 0u;
     uvec4 cells = cellsOf(level);
-    vec3 p = point * inverseCellOf(level);
+    vec3 p = point * inverseCellsOf(level);
     return blockNumber(cells, wrapCell(p.x, cells.x) / 4u, wrapCell(p.y, cells.y) / 4u, wrapCell(p.z, cells.z) / 4u);
 }

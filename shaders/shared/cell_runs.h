@@ -27,7 +27,7 @@ uint onRing(uint place, uint cells) {
 
 struct Reach {
     uvec4 cells;  // of the finer level
-    vec3 centre;  // in cells of that level, like the radius
+    vec3 centre;  // in cells of that level, like the radius, which is in the narrowest
     float radius;
     CellRun y;
     CellRun z;
@@ -37,7 +37,7 @@ struct Reach {
 Reach reachOf(vec4 sphere, uint level) {
     Reach r;
     r.cells = cellsOf(level);
-    r.centre = vec3(sphere) * inverseCellOf(level);
+    r.centre = vec3(sphere) * inverseCellsOf(level);
     // A little more than the exact radius, because the cells of the other spheres are rounded.
     float farthest = max(max(abs(r.centre.x), abs(r.centre.y)), abs(r.centre.z));
     r.radius = (storedRadius(sphere) + largestRadius(level) + params.margin) * inverseCellOf(level) * 1.0001f + 0.01f +

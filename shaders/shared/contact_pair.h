@@ -1,6 +1,6 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
-// included shared/contact_law.h.
+// included shared/separation.h and shared/contact_law.h.
 
 RARE real4 contactOfMaterials(slots a, slots b) {
     uints index = materialOf(ROW(idAndMaterial, a)) * params.materials + materialOf(ROW(idAndMaterial, b));
@@ -150,7 +150,7 @@ RARE void updateSleeper(mask where, slots sleeper, real4 v, real4 x, real3 impul
 mask solvePairs(mask where, slots a, slots b, bool remembers) {
     real4 pa = ROW(position, a);
     real4 pb = ROW(position, b);
-    real3 d = real3(pa) - real3(pb);
+    real3 d = separation(real3(pa), real3(pb));
     real squared = dot3(d, d);
     real reach = radiusSum(pa, pb);
     real interest = reach + contactReach;

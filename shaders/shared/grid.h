@@ -1,4 +1,4 @@
-// The cell grid is a torus, so that memory is bounded wherever the spheres go. Cells per axis are multiples of 8, so
+// The cell grid is a torus, so that memory is bounded wherever the spheres go, and periodic axes need no more. Cells per axis are multiples of 8, so
 // that blocks of 4 x 4 x 4 cells have 8 colours (shared/bundles.h).
 //
 // If radii differ much, each class of sizes has a grid of its own, a level. Its cells are as wide as its largest
@@ -10,8 +10,16 @@ uvec4 cellsOf(uint level) {
     return uvec4(params.cells.x, params.cells.y, params.cells.z, 0u);
 }
 
+// 1 over the width of the cells of a level (1/m). Along a periodic axis, cells are at least as wide.
 float inverseCellOf(uint level) {
     return HAS(LEVELS) ? params.levelSize[level].x : params.inverseCell;
+}
+
+// The same per axis. A whole number of cells fits the length of a periodic axis.
+vec3 inverseCellsOf(uint level) {
+    if (HAS(PERIODIC)) return vec3(params.cellsPerMetre[HAS(LEVELS) ? level : 0u]);
+    float inverse = inverseCellOf(level);
+    return vec3(inverse, inverse, inverse);
 }
 
 // A cell with more spheres of the level than this is overfull: a sample of its pairs is visited in each round.

@@ -13,6 +13,9 @@ struct Parameters {
     vec4 fieldPlace[MOST_FIELDS];   // of each field: see shared/fields.h
     vec4 fieldNumbers[MOST_FIELDS];
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, sample threshold, 0; from fine to coarse
+    vec4 halfLength;     // m: half the length of each periodic axis; 0: not periodic
+    vec4 perLength;      // 1/m: 1 / length of each periodic axis; 0: not periodic
+    vec4 cellsPerMetre[MOST_LEVELS];  // with periodic axes: 1 / cell width per axis, by level
     uvec4 cells;         // per axis, multiples of 8; w = cells of all levels together
     uvec4 levelCells[MOST_LEVELS];  // per axis, multiples of 8; w = first cell of the level among all cells
     uvec4 levelBundles[MOST_LEVELS];  // first bundle of the level, bundles of one colour, 0, 0
@@ -47,6 +50,9 @@ struct Parameters {
     uint maxWallHistory; // contacts with walls that a sphere can remember
     uint levels;
 
+    uint openFaces;      // as closedFaces; a face of a periodic axis is neither
+    uint unusedUints[3];
+
     float gravityChange; // m/s: change of the velocity by gravity alone in a substep
     float substepRatio;  // present substep over the one before, while impulses are scaled to it
     float quietSpeed;    // m/s; a sphere that stays below it is quiet
@@ -77,7 +83,7 @@ struct Obstacle {
 
 // Sums over a block of spheres.
 struct SphereStatistics {
-    vec4 weighted;          // sum of m x; w: sum of m
+    vec4 weighted;          // sum of m x, x without wrapping; w: sum of m
     vec4 momentum;          // sum of m v; w: sum of m v^2 / 2
     vec4 angular;           // sum of m x cross v + I spin; w: sum of I spin^2 / 2
     float heightSum;        // of z

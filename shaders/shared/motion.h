@@ -1,5 +1,6 @@
 // Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
-// included shared/shapes.h, shared/fields.h, shared/outside.h, shared/drift.h and shared/falling_frame.h.
+// included shared/separation.h, shared/shapes.h, shared/fields.h, shared/outside.h, shared/drift.h and
+// shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
 // sphere must see all that it may meet within two steps.
@@ -48,6 +49,7 @@ bool mayMeetSurface(vec3 p) {
 // Returns true if a sphere outside may soon meet a wall, an obstacle or a sphere inside the bounds.
 bool mayCollideSoon(vec3 p, vec3 v, float radius) {
     flightAcceleration = accelerationAt(p);
+    p = wrapped(p);
     flightVelocity = v;
     ownRadius = radius;
     if (HAS(CONTACTS)) {
@@ -79,6 +81,7 @@ float riskyMotion(vec4 sphere, vec3 v, vec4 reference) {
 
 // Returns true if the lists may lack a pair of this sphere, which has moved to `to` with velocity `v`.
 bool leavesLists(vec3 to, vec3 v, vec4 reference, float radius) {
+    if (HAS(PERIODIC) && mustWrap(to)) return true;
     vec3 since = to - vec3(reference);
     vec3 drifted = since - driftPath();
     float moved = sqrt(dot3(drifted, drifted));

@@ -27,13 +27,13 @@ float roomOf(vec4 reference) {
 #define LOST_DISTANCE 8388.608f
 
 float beyondFace(uint face, float distance) {
-    return (params.closedFaces & (1u << face)) == 0u ? distance : -1.0f;
+    return (params.openFaces & (1u << face)) != 0u ? distance : -1.0f;
 }
 
 // The distance of the point outside the bounds (m), along the axis on which it is largest. It is negative or 0 inside.
-// No point is outside a closed face.
+// No point is outside a closed face, or outside along a periodic axis.
 float beyond(vec3 p) {
-    if (params.closedFaces == 63u) return -1.0f;
+    if (params.openFaces == 0u) return -1.0f;
     float x = max(beyondFace(0u, params.wallMin.x - p.x), beyondFace(1u, p.x - params.wallMax.x));
     float y = max(beyondFace(2u, params.wallMin.y - p.y), beyondFace(3u, p.y - params.wallMax.y));
     float z = max(beyondFace(4u, params.wallMin.z - p.z), beyondFace(5u, p.z - params.wallMax.z));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -72,6 +73,28 @@ scene::Scene mixedBed(scene::Model model, double ratio) {
     return scene;
 }
 
+// Spheres of several sizes that fall, roll and collide across seams, in bounds that are periodic along x and y.
+scene::Scene periodicMixture(scene::Model model, double ratio) {
+    scene::Scene scene = mixture(model);
+    scene.obstacles.clear();
+    scene.obstacles.push_back({scene::Plane{{0, 0, -0.55}, {0, 0, 1}}, 0, ""});
+    scene.bounds.min = {-0.52, -0.48, -0.6};
+    scene.bounds.max = {0.52, 0.48, 0.6};
+    scene.bounds.periodic = {true, true, false};
+    scene.forces.gravity = {3, -2, -9};
+    scene.sleep.enabled = true;
+    for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
+        scene::Sphere& sphere = scene.spheres[k];
+        if (k % 3 > 0) sphere.radius /= static_cast<float>(ratio);
+        sphere.position += glm::dvec3(0.27, -0.24, 0);
+        for (int axis = 0; axis < 2; ++axis) {
+            const double length = scene.bounds.max[axis] - scene.bounds.min[axis];
+            sphere.position[axis] -= length * std::floor(sphere.position[axis] / length + 0.5);
+        }
+    }
+    return scene;
+}
+
 class Bits : public testing::TestWithParam<scene::Model> {};
 
 void expectTheSameBits(const scene::Scene& scene, double seconds) {
@@ -106,6 +129,11 @@ TEST_P(Bits, OfAMixtureAmongRoundObstaclesAreTheSameOnAllDevices) {
           R"("cylinder": {"from": [-0.3, -0.1, -0.35], "to": [0.2, 0.1, -0.2], "radius": 0.05})"})
         scene.obstacles.push_back(obstacleFrom(std::string("{") + shape + "}"));
     expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
+}
+
+TEST_P(Bits, AcrossSeamsAreTheSameOnAllDevices) {
+    for (const double ratio : {1.0, 10.0})
+        expectTheSameBits(periodicMixture(GetParam(), ratio), GetParam() == scene::Model::Accurate ? 0.1 : 0.4);
 }
 
 TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "scene/shapes.h"
 #include "sim/plan.h"
 #include "support.h"
@@ -193,6 +195,34 @@ TEST(Plan, OnlyBalancedScalesItsMemory) {
     for (const auto& [model, passes] : passesByModel)
         EXPECT_EQ(planOf(everything(model)).newSubstep.size(), model == scene::Model::Balanced ? 2U : 0U);
     EXPECT_EQ(planOf(dust()).newSubstep.size(), 1U) << "no pairs";
+}
+
+// A whole number of cells fits a periodic axis, a multiple of two blocks. Other axes have cubes.
+TEST(Plan, FitsCellsToPeriodicAxes) {
+    scene::Scene scene = everything();
+    scene.obstacles.clear();
+    EXPECT_FALSE(planOf(scene).has(Array::Images));
+    for (const double length : {1.5, 2.9, 3.0, 7.77, 10.0}) {
+        scene.bounds.min.x = -length / 2;
+        scene.bounds.max.x = length / 2;
+        scene.bounds.periodic = {true, false, false};
+        const sim::Plan plan = planOf(scene);
+        EXPECT_TRUE(plan.has(Array::Images));
+        EXPECT_EQ(plan.periods, glm::dvec3(length, 0, 0));
+        for (const sim::Level& level : plan.grid.levels) {
+            EXPECT_EQ(level.cells.x % 8, 0U);
+            EXPECT_DOUBLE_EQ(level.cells.x * level.widths.x, length);
+            EXPECT_DOUBLE_EQ(level.widths.y, level.widths.z);
+            EXPECT_FLOAT_EQ(level.cellSize, static_cast<float>(level.widths.y));
+            const bool fits = level.widths.x >= level.widths.y;
+            EXPECT_EQ(sim::checkPeriods(scene.bounds, plan.grid).has_value(), fits) << length;
+            EXPECT_EQ(fits, length > 2);
+        }
+        EXPECT_NE(sim::planText(scene, plan, {}).find(fmt::format("periodic   X every {:.4g} m", length)),
+                  std::string::npos);
+    }
+    scene.sphereContacts = false;
+    EXPECT_TRUE(planOf(scene).has(Array::Images));
 }
 
 TEST(Plan, DetectsUseOfGravityAndRadii) {

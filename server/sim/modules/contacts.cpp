@@ -45,6 +45,7 @@ void uploadGrid(const ParameterSource& from, layout::Parameters& p) {
     for (std::size_t k = 0; k < grid.levels.size(); ++k) {
         const Level& level = grid.levels[k];
         p.levelSize[k] = glm::vec4(inverse(level), level.largest, level.sampleThreshold, 0);
+        p.cellsPerMetre[k] = glm::vec4(glm::vec3(1.0 / level.widths), 0);
         p.levelCells[k] = glm::uvec4(level.cells, level.first);
         p.levelBundles[k] = glm::uvec4(level.firstBundle, level.bundlesOfColour(), 0, 0);
     }

@@ -1,0 +1,73 @@
+#include "scene/periodic_axes.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spherule::scene {
+
+namespace {
+
+constexpr const char* axisNames[] = {"X", "Y", "Z"};
+constexpr double parallel = 1e-9;  // component of a unit normal
+
+// Returns the first periodic axis along which the obstacle is not the same everywhere; nullopt if there is none.
+std::optional<std::size_t> axisAcross(const Obstacle& obstacle, const Bounds& bounds) {
+    const auto* const plane = std::get_if<Plane>(&obstacle.shape);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (bounds.periodic[axis] && (plane == nullptr || std::abs(plane->normal[static_cast<int>(axis)]) > parallel))
+            return axis;
+    return std::nullopt;
+}
+
+}  // namespace
+
+void readPeriodicAxes(Check& check, const v1::Bounds& message, std::string_view field, Bounds& bounds) {
+    for (int i = 0; i < message.periodic_size(); ++i) {
+        const std::string at = scene::at(scene::at(field, "periodic"), static_cast<std::size_t>(i));
+        const int axis = message.periodic(i) - v1::X;
+        if (axis < 0 || axis > 2) {
+            check.refuse(at, fmt::format("is {}, must be X, Y or Z", static_cast<int>(message.periodic(i))));
+            continue;
+        }
+        const auto index = static_cast<std::size_t>(axis);
+        for (const std::size_t face : {2 * index, 2 * index + 1})
+            if (bounds.open[face])
+                check.refuse(at, fmt::format("is {0}, but the face {0}_{1} is open; an axis is periodic, or its faces "
+                                             "are walls or open",
+                                             axisNames[index], face % 2 == 0 ? "MIN" : "MAX"));
+        bounds.periodic[index] = true;
+    }
+}
+
+bool spansPeriod(const Bounds& bounds, const Box& region, int axis) {
+    return bounds.periodic[static_cast<std::size_t>(axis)] && region.min[axis] == bounds.min[axis] &&
+           region.max[axis] == bounds.max[axis];
+}
+
+glm::dvec3 insideBounds(const Bounds& bounds, glm::dvec3 place) {
+    const glm::dvec3 periods = bounds.periods();
+    for (int axis = 0; axis < 3; ++axis)
+        if (periods[axis] > 0)
+            place[axis] -= periods[axis] * std::floor((place[axis] - bounds.min[axis]) / periods[axis]);
+    return place;
+}
+
+Result<void> checkPeriodicAxes(const Scene& scene) {
+    if (!scene.bounds.anyPeriodic()) return {};
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
+        if (const auto axis = axisAcross(scene.obstacles[k], scene.bounds))
+            return fail(ErrorKind::Input, at("obstacles", k),
+                        fmt::format("is not the same along the whole periodic axis {}; with periodic axes, obstacles "
+                                    "must be planes that are parallel to them",
+                                    axisNames[*axis]));
+    const auto& fields = scene.forces.fields;
+    for (std::size_t k = 0; k < fields.size(); ++k)
+        if (std::holds_alternative<Attraction>(fields[k]))
+            return fail(ErrorKind::Input, at(at("fields", k), "attraction"),
+                        "has one centre, but a periodic axis would repeat it; remove one of them");
+    return {};
+}
+
+}  // namespace spherule::scene
