@@ -34,12 +34,44 @@ PRIVATE(uint, bestField)
 // The quantised coordinate. Clamping works on the bits and rounding down avoids floor(), because compilers do not
 // vectorise min, max and floor. The bits of NaN are larger than the bits of infinity; NaN is clamped like minus
 // infinity.
-uint quantise(float x, float origin) {
-    uint bits = floatBitsToUint((x - origin) * params.grid.w + 0.5f);
+uint quantise(float x, float origin, float perQuantum) {
+    uint bits = floatBitsToUint((x - origin) * perQuantum + 0.5f);
     uint sign = (bits | (0x7f800000u - (floatBitsToUint(x) & 0x7fffffffu))) & 0x80000000u;
     float place = uintBitsToFloat(sign | min(bits & 0x7fffffffu, 0x4e800000u));
     int towardsZero = int(place);
     return uint(towardsZero - int(float(towardsZero) > place));
+}
+
+// The image inside the bounds of a coordinate (m) along a periodic axis.
+float imageOf(float x, float period) {
+    precise float turns = floor(x / period + 0.5f);
+    precise float image = x - turns * period;
+    return image;
+}
+
+// `value` plus or minus `turns`, within half of them of 0. `value` is less than 3/2 of them from 0.
+uint nearest(uint value, uint turns) {
+    int signedValue = int(value);
+    int middle = int(turns >> 1u);
+    if (signedValue >= int(turns) - middle) return value - turns;
+    if (signedValue < -middle) return value + turns;
+    return value;
+}
+
+// Moves the coordinates of the block along an axis to their images inside the bounds, before they are quantised.
+void takeImages(int first, float period) {
+    if (period == 0.0f) return;
+    for (int k = first; k < first + 64; ++k)
+        change[k] = floatBitsToUint(imageOf(uintBitsToFloat(change[k]), period));
+}
+
+// The same for quantised coordinates, which are counted modulo `turns`. A coordinate that is not finite becomes 0.
+void countModulo(int first, uint turns) {
+    if (turns == 0u) return;
+    for (int k = first; k < first + 64; ++k) {
+        bool inside = int(change[k]) <= int(turns) && int(change[k]) >= -int(turns);
+        change[k] = inside ? nearest(change[k], turns) : 0u;
+    }
 }
 
 // Indices of the long loops are int: C++ compilers cannot prove that uint indices, which may wrap around, are
@@ -75,9 +107,16 @@ void takePositions(int first) {
             change[lane + 64] = floatBitsToUint(p.y);
             change[lane + 128] = floatBitsToUint(p.z);
         }
-    for (int k = 0; k < 64; ++k) change[k] = quantise(uintBitsToFloat(change[k]), params.grid.x);
-    for (int k = 64; k < 128; ++k) change[k] = quantise(uintBitsToFloat(change[k]), params.grid.y);
-    for (int k = 128; k < 192; ++k) change[k] = quantise(uintBitsToFloat(change[k]), params.grid.z);
+    takeImages(0, params.period.x);
+    takeImages(64, params.period.y);
+    takeImages(128, params.period.z);
+    vec4 grid = params.perQuantum;
+    for (int k = 0; k < 64; ++k) change[k] = quantise(uintBitsToFloat(change[k]), params.origin.x, grid.x);
+    for (int k = 64; k < 128; ++k) change[k] = quantise(uintBitsToFloat(change[k]), params.origin.y, grid.y);
+    for (int k = 128; k < 192; ++k) change[k] = quantise(uintBitsToFloat(change[k]), params.origin.z, grid.z);
+    countModulo(0, params.turns.x);
+    countModulo(64, params.turns.y);
+    countModulo(128, params.turns.z);
 }
 
 void predict(uint predictor) {
@@ -210,6 +249,15 @@ void takeState(int first, uint keptBits) {
     }
 }
 
+// The shortest way around a periodic axis, for steps, and for changes from the newest positions.
+void takeShortest(int first, uint turns, bool changes) {
+    if (turns == 0u) return;
+    for (int k = first; k < first + 64; ++k) {
+        step[k] = nearest(step[k], turns);
+        if (changes) change[k] = nearest(change[k], turns);
+    }
+}
+
 KERNEL(params.blocks) {
     int first = int(invocation * CODEC_VALUES);
     bool alone = params.predictors == 1u << CODEC_NONE;
@@ -219,6 +267,9 @@ KERNEL(params.blocks) {
     } else {
         takePositions(int(invocation * CODEC_BLOCK));
         takeState(first, alone ? 0u : 0xffffffffu);
+        takeShortest(0, params.turns.x, !alone);
+        takeShortest(64, params.turns.y, !alone);
+        takeShortest(128, params.turns.z, !alone);
     }
     bestSize = 0xffffffffu;
     baseField = 0u;

@@ -27,13 +27,17 @@ KERNEL(params.groups) {
             scratch[last] = scratch[last] | (header << 16u);
         last = block * CODEC_SCRATCH + CODEC_HEADER;
     }
-    uint chunkStart = CODEC_FRAME_HEAD + params.chunks;
+    uint chunkStart = params.head + params.chunks;
     frame[chunkStart + start] = bitmap;
     if (invocation % CODEC_CHUNK == CODEC_CHUNK - 1u || invocation == params.groups - 1u)
-        frame[CODEC_FRAME_HEAD + invocation / CODEC_CHUNK] = (units + 1u) / 2u;
+        frame[params.head + invocation / CODEC_CHUNK] = (units + 1u) / 2u;
     if (invocation != 0u) return;
     frame[0] = CODEC_MAGIC | params.flags;
     frame[1] = params.spheres;
     frame[2] = params.number;
     frame[3] = 0u;
+    if (params.head == CODEC_FRAME_HEAD) return;
+    frame[4] = params.turns.x;
+    frame[5] = params.turns.y;
+    frame[6] = params.turns.z;
 }

@@ -12,7 +12,7 @@ KERNEL(params.blocks) {
     uint head = invocation * CODEC_SCRATCH;
     uint size = scratch[head + CODEC_SIZE];
     if (size == 0u) return;
-    uint offset = scratch[head + CODEC_OFFSET] + 2u * (CODEC_FRAME_HEAD + params.chunks);
+    uint offset = scratch[head + CODEC_OFFSET] + 2u * (params.head + params.chunks);
     uint behind = scratch[head + CODEC_HEADER] & 0xffff0000u;
     int from = int(invocation * CODEC_PACKED);
     int to = int((offset + 1u) / 2u);

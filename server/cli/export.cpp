@@ -15,6 +15,7 @@
 #include "core/log.h"
 #include "recording/exporter.h"
 #include "recording/recording.h"
+#include "recording/unwrap.h"
 
 namespace spherule::cli {
 
@@ -26,6 +27,7 @@ struct ExportOptions {
     std::string out;
     std::string every, from, to;
     bool replace = false;
+    bool unwrap = false;
 };
 
 // Times in simulated seconds.
@@ -86,7 +88,7 @@ struct Written {
 
 // With `every`, writes the first frame at or after each multiple of it, counted from the first frame. After an
 // interrupt it stops early and does not finish the export.
-Result<Written> write(recording::Recording& recording, const Range& range, recording::Exporter& exporter,
+Result<Written> write(recording::Recording& recording, const Range& range, bool unwrap, recording::Exporter& exporter,
                       const Interrupt& interrupt) {
     Written written;
     ProgressLine progress;
@@ -94,9 +96,16 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
     const double first = recording.time();
     double due = 0;
     std::optional<double> newest;
+    recording::Unwrapper unwrapper;
     for (; more && *more && !interrupt.asked(); more = recording.next()) {
         const double time = recording.time();
         if (time > range.to + sameTime) break;
+        // Spheres are followed through all frames, also those that are left out.
+        recording::Snapshot snapshot;
+        if (unwrap) {
+            snapshot = recording.now();
+            snapshot.positions = unwrapper.follow(snapshot);
+        }
         // A recording of a reset or a pause may have several frames of the same time.
         if (newest && time <= *newest) continue;
         if (range.every > 0) {
@@ -105,7 +114,7 @@ Result<Written> write(recording::Recording& recording, const Range& range, recor
             due = std::floor(at) + 1;
         }
         newest = time;
-        const recording::Snapshot snapshot = recording.now();
+        if (!unwrap) snapshot = recording.now();
         if (auto done = exporter.add(snapshot); !done) return tl::unexpected(done.error());
         ++written.frames;
         written.error = std::max(written.error, snapshot.error);
@@ -143,7 +152,7 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
     interrupt.finishFirst();
     auto exporter = exporterFor(options);
     if (!exporter) return tl::unexpected(exporter.error());
-    const auto written = write(*recording, *range, **exporter, interrupt);
+    const auto written = write(*recording, *range, options.unwrap, **exporter, interrupt);
     if (!written) return tl::unexpected(written.error());
     if (interrupt.asked()) {
         spdlog::warn("ended by {} after {} frames: {} was not written", interrupt.name(), written->frames,
@@ -171,6 +180,9 @@ void addExport(CLI::App& app, int& exitCode) {
     command->add_option("--every", options->every, "interval between frames, such as 0.1s [every frame]");
     command->add_option("--from", options->from, "simulated time of the first frame, such as 1.5s");
     command->add_option("--to", options->to, "simulated time of the last frame");
+    command->add_flag("--unwrap", options->unwrap,
+                      "follow spheres across periodic axes, so that positions never jump; give the frames often enough "
+                      "that none moves by half a length in between");
     command->add_flag("--force", options->replace, "replace existing files");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {

@@ -30,6 +30,16 @@ std::uint32_t unzigzag(std::uint32_t value) {
     return (value >> 1U) ^ (0U - (value & 1U));
 }
 
+// Returns the number that differs from `value` by a multiple of `turns` and is nearest to 0; `value` if turns is 0.
+std::uint32_t nearest(std::uint32_t value, std::uint32_t turns) {
+    if (turns == 0) return value;
+    const std::int64_t whole = static_cast<std::int32_t>(value);
+    const std::int64_t half = turns >> 1U;
+    std::int64_t rest = (whole + half) % std::int64_t{turns};
+    if (rest < 0) rest += turns;
+    return static_cast<std::uint32_t>(rest - half);
+}
+
 // Reads consecutive bit fields.
 class Bits {
   public:
@@ -130,19 +140,20 @@ void Block::readValues(const std::uint32_t* words, std::array<std::uint32_t, blo
     }
 }
 
-void Block::decode(const std::uint32_t* words, const glm::ivec3* newest, glm::ivec3* before) const {
+void Block::decode(const std::uint32_t* words, const glm::uvec3& turns, const glm::ivec3* newest,
+                   glm::ivec3* before) const {
     std::array<std::uint32_t, blockValues> values;
     readValues(words, values);
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint32_t base = base_[static_cast<unsigned>(axis)];
         for (unsigned k = 0; k < blockSpheres; ++k) {
             const auto q1 = static_cast<std::uint32_t>(newest[k][axis]);
-            const std::uint32_t step = q1 - static_cast<std::uint32_t>(before[k][axis]);
+            const std::uint32_t step = nearest(q1 - static_cast<std::uint32_t>(before[k][axis]), turns[axis]);
             std::uint32_t q = unzigzag(values[static_cast<unsigned>(axis) * blockSpheres + k]) + base;
             if (predictor_ != Predictor::None) q += q1;
             if (predictor_ == Predictor::Linear) q += step;
             if (predictor_ == Predictor::Half) q += static_cast<std::uint32_t>(static_cast<std::int32_t>(step) >> 1);
-            before[k][axis] = static_cast<std::int32_t>(q);
+            before[k][axis] = static_cast<std::int32_t>(nearest(q, turns[axis]));
         }
     }
 }

@@ -22,7 +22,9 @@ class Block {
     [[nodiscard]] std::size_t end() const { return end_; }  // first unit after the block
 
     // Writes the new positions of the block's 64 spheres to `before`. `words` must have one more word after the block.
-    void decode(const std::uint32_t* words, const glm::ivec3* newest, glm::ivec3* before) const;
+    // `turns`: as in FrameHead.
+    void decode(const std::uint32_t* words, const glm::uvec3& turns, const glm::ivec3* newest,
+                glm::ivec3* before) const;
 
   private:
     bool readMask(std::span<const std::uint32_t> words, std::size_t unit, std::size_t end);

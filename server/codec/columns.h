@@ -20,6 +20,7 @@ struct EncodedColumn {
 
 struct Column {
     std::string_view name;  // of its array on the device, see sim/arrays.def
+    bool places = false;    // values are places, which repeat along periodic axes
     // Returns the grid spacing of the values for a smallest radius (m).
     double (*quantumFor)(v1::Tier tier, double smallestRadius);
     EncodedColumn (*read)(const v1::Frame& frame);
@@ -29,6 +30,7 @@ struct Column {
 // The first column is the position (m), relative to the centre of the bounds.
 inline constexpr std::array columns = {
     Column{.name = "position",
+           .places = true,
            .quantumFor = quantumOf,
            .read =
                [](const v1::Frame& frame) {

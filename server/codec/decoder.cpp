@@ -34,11 +34,24 @@ Result<FrameHead> headOf(std::span<const std::byte> frame) {
     std::array<std::uint32_t, headWords> words{};
     if (frame.size() < sizeof words) return bad("head", "has " + std::to_string(frame.size()) + " bytes of 16");
     std::memcpy(words.data(), frame.data(), sizeof words);
-    if ((words[0] & ~(keyframeFlag | hashedFlag)) != magic) return bad("head", "is not a head of codec SPB, version 1");
+    if ((words[0] & ~(keyframeFlag | hashedFlag | turnsFlag)) != magic)
+        return bad("head", "is not a head of codec SPB, version 1");
     if (words[1] == 0) return bad("head", "has no spheres");
     FrameHead head{.spheres = words[1], .number = words[2], .keyframe = (words[0] & keyframeFlag) != 0, .hash = {}};
     if ((words[0] & hashedFlag) != 0) head.hash = words[3];
+    if ((words[0] & turnsFlag) == 0) return head;
+    if (frame.size() < sizeof(std::uint32_t) * turnsHeadWords)
+        return bad("head", "has " + std::to_string(frame.size()) + " bytes of 28");
+    std::memcpy(&head.turns, frame.data() + sizeof words, sizeof head.turns);
+    for (int axis = 0; axis < 3; ++axis)
+        if (head.turns[axis] > mostTurns || head.turns[axis] == 1)
+            return bad("head", "has " + std::to_string(head.turns[axis]) + " turns");
+    if (head.turns == glm::uvec3(0U)) return bad("head", "has no turns");
     return head;
+}
+
+std::size_t FrameHead::words() const {
+    return turns == glm::uvec3(0U) ? headWords : turnsHeadWords;
 }
 
 std::uint32_t hashOf(std::span<const glm::ivec3> positions) {
@@ -78,6 +91,7 @@ Result<FrameHead> Decoder::apply(std::span<const std::byte> frame) {
     }
     std::swap(newest_, before_);
     number_ = head->number;
+    turns_ = head->turns;
     history_ = head->keyframe ? 1 : 2;
     if (head->hash && *head->hash != hashOf(newest())) {
         history_ = 0;
@@ -92,6 +106,7 @@ Result<void> Decoder::checkOrder(const FrameHead& head) const {
                    "has " + std::to_string(head.spheres) + " spheres where there are " + std::to_string(spheres_));
     }
     if (head.keyframe) return {};
+    if (history_ != 0 && head.turns != turns_) return bad("head", "has other turns than the frame before");
     if (history_ == 0) return bad("head", "is no keyframe, and none came before");
     if (head.number != number_ + 1) {
         return bad("head",
@@ -102,11 +117,11 @@ Result<void> Decoder::checkOrder(const FrameHead& head) const {
 
 Result<void> Decoder::decode(const FrameHead& head, std::size_t words) {
     const std::uint32_t chunks = chunksFor(spheres_);
-    const std::size_t start = headWords + chunks;
+    const std::size_t start = head.words() + chunks;
     if (words < start) return bad("table", "goes beyond the end");
     std::size_t begin = start;
     for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t end = start + words_[headWords + chunk];
+        const std::size_t end = start + words_[head.words() + chunk];
         if (end < begin || end > words) return bad("chunk " + std::to_string(chunk), "ends outside of the frame");
         if (auto done = decodeChunk(head, chunk, begin, end); !done) return done;
         begin = end;
@@ -137,7 +152,7 @@ Result<void> Decoder::decodeChunk(const FrameHead& head, std::uint32_t chunk, st
             Block block;
             if (!block.read(words, unit, 2 * end)) return bad(blockName(first + k), "goes beyond its chunk");
             if (const char* const what = fault(block, head.keyframe, history_)) return bad(blockName(first + k), what);
-            block.decode(words_.data(), &newest_[at], &before_[at]);
+            block.decode(words_.data(), head.turns, &newest_[at], &before_[at]);
             unit = block.end();
         }
         word = (unit + 1) / 2;

@@ -19,6 +19,8 @@ struct FrameHead {
     std::uint32_t number = 0;
     bool keyframe = false;
     std::optional<std::uint32_t> hash;
+    glm::uvec3 turns{};                       // per axis: coordinates are counted modulo this number; 0: they are not
+    [[nodiscard]] std::size_t words() const;  // before the table of chunks
 };
 
 // Parses the first bytes of a frame. Input if they are no head.
@@ -40,6 +42,8 @@ class Decoder {
 
     // Positions of the newest frame, in codec order, on the grid.
     [[nodiscard]] std::span<const glm::ivec3> newest() const { return {newest_.data(), spheres_}; }
+    // Per axis, the grid cells in the length of a periodic axis, modulo which newest() counts; 0: not periodic.
+    [[nodiscard]] const glm::uvec3& turns() const { return turns_; }
     // Positions of the previous frame; valid only after a delta frame.
     [[nodiscard]] std::span<const glm::ivec3> before() const { return {before_.data(), spheres_}; }
     [[nodiscard]] bool wantsKeyframe() const { return history_ == 0; }
@@ -53,6 +57,7 @@ class Decoder {
     std::vector<glm::ivec3> newest_, before_;  // whole blocks
     std::vector<std::uint32_t> words_;         // of the frame, and two more, because reading bits looks ahead
     std::uint32_t number_ = 0;
+    glm::uvec3 turns_{};    // of the chain
     unsigned history_ = 0;  // number of known states, at most 2
 };
 

@@ -19,6 +19,9 @@ constexpr std::size_t headWords = 4;
 constexpr std::uint32_t magic = 0x00015053;  // includes the version; the flags are in the highest byte
 constexpr std::uint32_t keyframeFlag = 0x01000000;
 constexpr std::uint32_t hashedFlag = 0x02000000;
+constexpr std::uint32_t turnsFlag = 0x04000000;
+constexpr std::size_t turnsHeadWords = 7;  // of a frame with turns
+constexpr std::uint32_t mostTurns = 1U << 30U;
 
 enum class Mode : std::uint8_t { Plain, Mask, Runs, RunsWithBase };
 enum class Predictor : std::uint8_t { Previous, Linear, Half, None };

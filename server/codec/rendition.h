@@ -15,6 +15,7 @@ namespace spherule::codec {
 struct Rendition {
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 0;  // frames/s, one of `rates`; 0: no frames
+    bool turns = false;      // frames count modulo the lengths of periodic axes, if the scene has any (docs/codec.md)
 
     auto operator<=>(const Rendition&) const = default;
 };

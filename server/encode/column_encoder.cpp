@@ -1,6 +1,7 @@
 #include "encode/column_encoder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <string_view>
@@ -36,7 +37,7 @@ struct Counts {
     explicit Counts(std::uint32_t spheres)
         : blocks(over(spheres, CODEC_BLOCK)), groups(over(blocks, CODEC_GROUP)), chunks(over(groups, CODEC_CHUNK)) {}
     [[nodiscard]] std::size_t frameWords() const {
-        return CODEC_FRAME_HEAD + chunks + groups * (1 + CODEC_GROUP * std::size_t{CODEC_MOST_WORDS});
+        return CODEC_TURNS_HEAD + chunks + groups * (1 + CODEC_GROUP * std::size_t{CODEC_MOST_WORDS});
     }
 };
 
@@ -166,13 +167,21 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
     still_ = keyframe_;
 
     codec_layout::Parameters parameters{};
-    parameters.grid = glm::vec4(grid_.origin, static_cast<float>(1 / grid_.quantum));
+    parameters.origin = glm::vec4(grid_.origin, 0);
+    parameters.period = glm::vec4(glm::vec3(grid_.periods), 0);
+    parameters.turns = glm::uvec4(turns(), 0U);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double turns = parameters.turns[axis];
+        parameters.perQuantum[axis] = static_cast<float>(turns > 0 ? turns / grid_.periods[axis] : 1 / grid_.quantum);
+    }
+    parameters.head = headWords();
     parameters.spheres = context_.spheres_;
     parameters.blocks = context_.blocks_;
     parameters.groups = context_.groups_;
     parameters.chunks = context_.chunks_;
     parameters.number = number_;
-    parameters.flags = (keyframe_ ? CODEC_KEYFRAME : 0U) | (hash ? CODEC_HASHED : 0U);
+    parameters.flags = (keyframe_ ? CODEC_KEYFRAME : 0U) | (hash ? CODEC_HASHED : 0U) |
+                       (headWords() == CODEC_TURNS_HEAD ? CODEC_TURNS : 0U);
     parameters.predictors = 1U << CODEC_PREVIOUS;
     if (keyframe_)
         parameters.predictors = 1U << CODEC_NONE;
@@ -207,12 +216,24 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
     if (hash) context_.run(Hash, {{"newest", newest_.get()}, {"frame", frame}}, context_.blocks_);
 }
 
+// Quanta that are no wider than the grid's, so that the error is no larger.
+glm::uvec3 ColumnEncoder::turns() const {
+    glm::uvec3 counts(0U);
+    for (int axis = 0; axis < 3 && grid_.turns; ++axis)
+        counts[axis] = static_cast<std::uint32_t>(std::ceil(grid_.periods[axis] / grid_.quantum));
+    return counts;
+}
+
+std::uint32_t ColumnEncoder::headWords() const {
+    return turns() == glm::uvec3(0U) ? CODEC_FRAME_HEAD : CODEC_TURNS_HEAD;
+}
+
 std::size_t ColumnEncoder::headBytes() const {
-    return word * (CODEC_FRAME_HEAD + context_.chunks_);
+    return word * (headWords() + context_.chunks_);
 }
 
 std::size_t ColumnEncoder::bytesOf(std::span<const std::byte> head) const {
-    return headBytes() + word * wordAt(head, CODEC_FRAME_HEAD + context_.chunks_ - 1);
+    return headBytes() + word * wordAt(head, headWords() + context_.chunks_ - 1);
 }
 
 // Copies the head first, because it contains the length of the frame.

@@ -74,6 +74,10 @@ class ColumnEncoder {
     struct Grid {
         glm::vec3 origin{};  // where values count from; best in the middle of their range
         double quantum = 0;
+        // With periodic axes: values are positions (m, from the middle of the bounds), which repeat after these
+        // lengths; 0 along the other axes. They are moved to their images inside the bounds.
+        glm::dvec3 periods{};
+        bool turns = false;  // the frames count modulo these lengths
     };
 
     // `context` must outlive the encoder. Refused if there is no room.
@@ -99,6 +103,8 @@ class ColumnEncoder {
     void encode(Kind kind, const ColumnSource& source, bool hash);
     [[nodiscard]] std::size_t bytesOf(std::span<const std::byte> head) const;
     [[nodiscard]] std::size_t headBytes() const;
+    [[nodiscard]] glm::uvec3 turns() const;
+    [[nodiscard]] std::uint32_t headWords() const;
 
     EncoderContext& context_;
     memory::Claim claim_;

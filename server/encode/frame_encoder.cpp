@@ -33,11 +33,15 @@ FrameSource sourceOf(sim::Simulation& simulation) {
 }
 
 Result<std::unique_ptr<FrameEncoder>> FrameEncoder::create(EncoderContext& context, v1::Tier tier,
-                                                           double smallestRadius) {
+                                                           double smallestRadius, const glm::dvec3& periods,
+                                                           bool turns) {
     std::unique_ptr<FrameEncoder> encoder(new FrameEncoder);
     for (std::size_t column = 0; column < codec::columnCount; ++column) {
         encoder->quanta_[column] = codec::columns[column].quantumFor(tier, smallestRadius);
-        auto made = ColumnEncoder::create(context, {.quantum = encoder->quanta_[column]});
+        const bool places = codec::columns[column].places;
+        auto made = ColumnEncoder::create(context, {.quantum = encoder->quanta_[column],
+                                                    .periods = places ? periods : glm::dvec3(0),
+                                                    .turns = places && turns});
         if (!made) return tl::unexpected(made.error());
         encoder->encoders_[column] = std::move(*made);
     }

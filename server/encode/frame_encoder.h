@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <glm/vec3.hpp>
+
 #include "codec/columns.h"
 #include "core/result.h"
 #include "encode/column_encoder.h"
@@ -28,8 +30,10 @@ FrameSource sourceOf(sim::Simulation& simulation);
 // owns the device.
 class FrameEncoder {
   public:
-    // `context` must outlive the encoder. `smallestRadius` in m. Refused if there is no room.
-    static Result<std::unique_ptr<FrameEncoder>> create(EncoderContext& context, v1::Tier tier, double smallestRadius);
+    // `context` must outlive the encoder. `smallestRadius` in m. `periods`, `turns`: of positions, see
+    // ColumnEncoder::Grid. Refused if there is no room.
+    static Result<std::unique_ptr<FrameEncoder>> create(EncoderContext& context, v1::Tier tier, double smallestRadius,
+                                                        const glm::dvec3& periods = {}, bool turns = false);
 
     // See ColumnEncoder.
     void encodeKeyframe(const FrameSource& source, bool hash);

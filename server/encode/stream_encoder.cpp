@@ -97,7 +97,8 @@ Result<StreamEncoder::Chain*> StreamEncoder::chainOf(const codec::Rendition& ren
     if (const auto known = chains_.find(rendition); known != chains_.end()) return &known->second;
     if (input.epoch != epoch_)
         if (auto done = prepare(input); !done) return tl::unexpected(done.error());
-    auto encoder = FrameEncoder::create(*context_, rendition.tier, input.smallestRadius);
+    auto encoder =
+        FrameEncoder::create(*context_, rendition.tier, input.smallestRadius, input.periods, rendition.turns);
     if (!encoder) return tl::unexpected(encoder.error());
     Chain& chain = chains_[rendition];
     chain.encoder = std::move(*encoder);

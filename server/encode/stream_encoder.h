@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "codec/rendition.h"
@@ -22,6 +23,7 @@ struct EncoderInput {
     FrameSource source;
     std::uint32_t spheres = 0;
     double smallestRadius = 0;                          // m
+    glm::dvec3 periods{};                               // m: length of each periodic axis; 0: not periodic
     std::uint32_t epoch = 0;                            // changes when the spheres are replaced
     std::uint64_t version = 0;                          // changes when the spheres may have moved
     std::function<std::vector<glm::vec4>()> positions;  // m, in id order; waits for the device

@@ -74,10 +74,10 @@ Result<void> PlaybackProducer::show() {
     const auto order = recording.order();
     for (std::size_t column = 0; column < codec::columnCount; ++column) {
         const auto cells = recording.cells(column);
-        const auto quantum = static_cast<float>(recording.quantum(column));
+        const auto quanta = glm::vec3(recording.quanta(column));
         std::vector<glm::vec4>& values = values_[column];
         values.resize(cells.size());
-        for (std::size_t k = 0; k < cells.size(); ++k) values[order[k]] = glm::vec4(quantum * glm::vec3(cells[k]), 0);
+        for (std::size_t k = 0; k < cells.size(); ++k) values[order[k]] = glm::vec4(quanta * glm::vec3(cells[k]), 0);
         if (anotherScene) {
             auto made = device_->createBuffer(codec::columns[column].name, values.size() * sizeof(glm::vec4), "r");
             if (!made) return tl::unexpected(made.error());
@@ -133,6 +133,7 @@ void PlaybackProducer::produce(encode::StreamEncoder::Clock::time_point now) {
     encoder_.update({.source = source,
                      .spheres = static_cast<std::uint32_t>(values_[0].size()),
                      .smallestRadius = smallest_,
+                     .periods = player_.recording().periods(),
                      .epoch = epoch_,
                      .version = version_,
                      .positions = [this] { return values_[0]; },

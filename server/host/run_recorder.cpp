@@ -26,7 +26,8 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
         encode::EncoderContext::create(device, simulation.count(), encode::sourceOf(simulation).slotOf != nullptr);
     if (!context) return tl::unexpected(context.error());
     const double smallestRadius = sim::radiusStatsOf(simulation.scene()).smallest;
-    auto encoder = encode::FrameEncoder::create(**context, options.tier, smallestRadius);
+    auto encoder = encode::FrameEncoder::create(**context, options.tier, smallestRadius,
+                                                simulation.scene().bounds.periods(), true);
     if (!encoder) return tl::unexpected(encoder.error());
     // The file is created last, so that an existing file is kept if the device has no room.
     auto writer = recording::Writer::create(options.path, options.replace);

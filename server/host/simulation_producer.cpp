@@ -178,6 +178,7 @@ encode::EncoderInput SimulationProducer::encoderInput(Clock::time_point now) {
     return {.source = encode::sourceOf(simulation),
             .spheres = simulation.count(),
             .smallestRadius = simulation.radii().smallest,
+            .periods = simulation.scene().bounds.periods(),
             .epoch = epoch_,
             .version = version_,
             .positions = [&simulation] { return simulation.snapshot().position; },

@@ -55,6 +55,9 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     scene::setVector(*facts.mutable_bounds_max(), scene.bounds.max);
     for (int face = 0; face < 6; ++face)
         if (scene.bounds.open[static_cast<std::size_t>(face)]) facts.add_open(static_cast<v1::Face>(face + v1::X_MIN));
+    for (int axis = 0; axis < 3; ++axis)
+        if (scene.bounds.periodic[static_cast<std::size_t>(axis)])
+            facts.add_periodic(static_cast<v1::Axis>(axis + v1::X));
     setObstacles(facts, scene);
     setSpheres(facts, scene, plan.features.has(sim::Feature::Radii));
     scene::setVector(*facts.mutable_camera()->mutable_eye(), scene.camera.eye);

@@ -30,10 +30,10 @@ std::optional<std::uint32_t> below(std::uint32_t rate) {
 // nullopt if there is no lower rendition.
 std::optional<codec::Rendition> nextLower(const codec::Rendition& rendition) {
     const auto rate = below(rendition.rate);
-    if (rate && *rate >= minSmoothRate) return codec::Rendition{rendition.tier, *rate};
+    if (rate && *rate >= minSmoothRate) return codec::Rendition{rendition.tier, *rate, rendition.turns};
     if (rendition.tier != v1::ECO)
-        return codec::Rendition{rendition.tier == v1::FINE ? v1::NORMAL : v1::ECO, rendition.rate};
-    if (rate) return codec::Rendition{rendition.tier, *rate};
+        return codec::Rendition{rendition.tier == v1::FINE ? v1::NORMAL : v1::ECO, rendition.rate, rendition.turns};
+    if (rate) return codec::Rendition{rendition.tier, *rate, rendition.turns};
     return std::nullopt;
 }
 

@@ -133,6 +133,7 @@ void Session::onMessage(v1::ClientMessage message, std::size_t cost) {
 void Session::onHello(const v1::Hello& hello) {
     helloDone_ = true;
     client_ = sanitize(hello.client());
+    turns_ = hello.turns();
     timeouts_.helloReceived();
     const auto role = state_.admission->roleOf(hello.token());
     if (!role) return rejectToken(!hello.token().empty());
@@ -181,7 +182,7 @@ void Session::onView(const v1::View& view) {
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
     const codec::Rendition requested{known ? view.tier() : v1::NORMAL,
-                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate)};
+                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate), turns_};
     // An unchanged view does not restart the chain.
     if (rateController_.setTarget(requested, view.fixed(), RateController::Clock::now()))
         switchRendition("");

@@ -23,6 +23,15 @@ void appendArray(std::string& data, std::span<const T> values) {
     data.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
 }
 
+// Returns the lengths of the periodic axes as field data; empty if there are none.
+std::string periodsData(const glm::dvec3& periods) {
+    if (periods == glm::dvec3(0)) return "";
+    return fmt::format(
+        "\n<DataArray type=\"Float64\" Name=\"Periods\" NumberOfComponents=\"3\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">{:.9g} {:.9g} {:.9g}</DataArray>",
+        periods.x, periods.y, periods.z);
+}
+
 // Each point is also a vertex, because ParaView draws only vertices.
 std::string polyData(const Snapshot& snapshot) {
     const std::size_t count = snapshot.positions.size();
@@ -33,10 +42,10 @@ std::string polyData(const Snapshot& snapshot) {
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
         "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:.9g}"
-        "</DataArray></FieldData>\n"
+        "</DataArray>{}</FieldData>\n"
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"0\">\n",
-        snapshot.time, count, count);
+        snapshot.time, periodsData(snapshot.periods), count, count);
     std::string data;
     const auto array = [&](const char* type, const char* name, int components, const auto values) {
         fmt::format_to(std::back_inserter(head),

@@ -22,12 +22,13 @@ class Exporter {
 
 using MadeExporter = Result<std::unique_ptr<Exporter>>;
 
-// Extended XYZ for OVITO and ASE, all snapshots in one file. `path` "-": standard output.
+// Extended XYZ for OVITO and ASE, with the periodic axes in `pbc`, all snapshots in one file. `path` "-": standard
+// output.
 MadeExporter xyzExporter(const std::string& path, bool replace);
 // CSV with the columns time,id,x,y,z,radius in SI units, all snapshots in one file. `path` "-": standard output.
 MadeExporter csvExporter(const std::string& path, bool replace);
 // VTK. `path` (.pvd is appended if it is missing) lists the files of the snapshots, PolyData (.vtp) in a folder next to
-// it.
+// it. With periodic axes, the field data `Periods` has their lengths (m), 0 for the others.
 MadeExporter vtkExporter(const std::string& path, bool replace);
 
 }  // namespace spherule::recording

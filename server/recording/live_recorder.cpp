@@ -36,7 +36,7 @@ std::string fileNameOf(std::string name) {
 }  // namespace
 
 LiveRecorder::LiveRecorder(LiveOptions options, v1::Welcome source)
-    : options_(std::move(options)), rendition_{options_.tier, static_cast<std::uint32_t>(options_.rate)} {
+    : options_(std::move(options)), rendition_{options_.tier, static_cast<std::uint32_t>(options_.rate), true} {
     v1::ServerMessage message;
     *message.mutable_welcome() = std::move(source);
     source_ = codec::share(std::move(message));

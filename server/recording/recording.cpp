@@ -21,6 +21,13 @@ bool holds(Kind kind, const v1::ServerMessage& message) {
     return kind == Kind::Other || message.has_frame();
 }
 
+// Returns true if frames with these turns may be of a scene with these periodic axes.
+bool areOf(const glm::uvec3& turns, const glm::dvec3& periods) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (turns[axis] > 0 && !(periods[axis] > 0)) return false;
+    return true;
+}
+
 }  // namespace
 
 Result<Recording> Recording::open(const std::string& path) {
@@ -187,19 +194,31 @@ Result<void> Recording::decode(const v1::Frame& frame, std::uint64_t offset) {
         if (!(encoded.quantum > 0) || !std::isfinite(encoded.quantum)) return bad(offset, "its frame has no quantum");
         const auto done = decoders_[column]->apply(std::as_bytes(std::span(encoded.spb)));
         if (!done) return bad(offset, done.error().text());
+        if (!areOf(decoders_[column]->turns(), table_->periods))
+            return bad(offset, "its frame has turns along an axis that is not periodic");
         quanta_[column] = encoded.quantum;
     }
     step_ = frame.step();
     return {};
 }
 
+// A periodic axis of the scene has quanta of its own.
+glm::dvec3 Recording::quanta(std::size_t column) const {
+    glm::dvec3 each(quanta_[column]);
+    const glm::uvec3& turns = decoders_[column]->turns();
+    for (int axis = 0; axis < 3; ++axis)
+        if (turns[axis] > 0) each[axis] = table_->periods[axis] / turns[axis];
+    return each;
+}
+
 Snapshot Recording::now() {
     if (table_ && hasDecoders()) {
         const glm::dvec3 centre = 0.5 * (table_->low + table_->high);
         const auto cells = decoders_[0]->newest();
+        const glm::dvec3 each = quanta(0);
         positions_.resize(cells.size());
         for (std::size_t k = 0; k < cells.size(); ++k)
-            positions_[table_->ids[k]] = centre + quanta_[0] * glm::dvec3(cells[k]);
+            positions_[table_->ids[k]] = centre + each * glm::dvec3(cells[k]);
     }
     return {.time = time_,
             .step = step_,
@@ -207,7 +226,9 @@ Snapshot Recording::now() {
             .positions = positions_,
             .radii = table_ ? std::span<const float>(table_->radii) : std::span<const float>(),
             .low = table_ ? table_->low : glm::dvec3(),
-            .high = table_ ? table_->high : glm::dvec3()};
+            .high = table_ ? table_->high : glm::dvec3(),
+            .periods = table_ ? table_->periods : glm::dvec3(),
+            .scene = sceneOffset_};
 }
 
 }  // namespace spherule::recording

@@ -27,6 +27,8 @@ struct Snapshot {
     std::span<const glm::dvec3> positions;  // by id, m
     std::span<const float> radii;           // by id, m
     glm::dvec3 low{}, high{};               // bounds of the scene, m
+    glm::dvec3 periods{};                   // m: length of each periodic axis; 0: not periodic
+    std::uint64_t scene = 0;                // differs between scenes of a recording
 };
 
 // Plays a recording. The file may be cut off or hostile. Used by one thread. Allocates memory for the index, the
@@ -63,9 +65,11 @@ class Recording {
     [[nodiscard]] bool shows() const { return table_ && hasDecoders() && !decoders_[0]->wantsKeyframe(); }
     // Offset in the file of the current scene facts. Another offset means another scene, even with the same epoch.
     [[nodiscard]] std::uint64_t sceneOffset() const { return sceneOffset_; }
-    // The values of a column (see codec/columns.h): quantum(column) * cells(column), in codec order.
+    // The values of a column (see codec/columns.h): quanta(column) * cells(column), in codec order.
     [[nodiscard]] std::span<const glm::ivec3> cells(std::size_t column) const { return decoders_[column]->newest(); }
-    [[nodiscard]] double quantum(std::size_t column) const { return quanta_[column]; }
+    [[nodiscard]] glm::dvec3 quanta(std::size_t column) const;  // per axis
+    // Returns the length of each periodic axis (m); 0 along the others.
+    [[nodiscard]] const glm::dvec3& periods() const { return table_->periods; }
     [[nodiscard]] std::span<const std::uint32_t> order() const { return table_->ids; }  // ids, in codec order
     [[nodiscard]] std::span<const float> radii() const { return table_->radii; }        // by id, m
 

@@ -32,6 +32,12 @@ Result<SphereTable> SphereTable::from(const v1::SceneFacts& facts, const v1::Ord
     if (!set(table.low, facts.bounds_min()) || !set(table.high, facts.bounds_max())) return bad("have no bounds");
     for (int axis = 0; axis < 3; ++axis)
         if (table.low[axis] > table.high[axis]) return bad("have no bounds");
+    for (const int each : facts.periodic()) {
+        const int axis = each - v1::X;
+        if (axis < 0 || axis > 2) return bad("have a periodic axis that is none");
+        table.periods[axis] = table.high[axis] - table.low[axis];
+        if (!(table.periods[axis] > 0)) return bad("have a periodic axis without length");
+    }
     if (facts.count() == 0) return bad("have no spheres");
     auto ids = codec::idsOf(order, facts.count());
     if (!ids) return tl::unexpected(ids.error());

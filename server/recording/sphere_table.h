@@ -14,6 +14,7 @@ namespace spherule::recording {
 struct SphereTable {
     std::uint32_t epoch = 0;
     glm::dvec3 low{}, high{};        // bounds, m
+    glm::dvec3 periods{};            // m: length of each periodic axis; 0: not periodic
     std::vector<float> radii;        // by id, m
     std::uint32_t order = 0;         // number of the order
     std::vector<std::uint32_t> ids;  // in codec order

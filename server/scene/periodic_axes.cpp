@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/shapes.h"
+
 namespace spherule::scene {
 
 namespace {
@@ -14,9 +16,9 @@ constexpr double parallel = 1e-9;  // component of a unit normal
 
 // Returns the first periodic axis along which the obstacle is not the same everywhere; nullopt if there is none.
 std::optional<std::size_t> axisAcross(const Obstacle& obstacle, const Bounds& bounds) {
-    const auto* const plane = std::get_if<Plane>(&obstacle.shape);
+    const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (bounds.periodic[axis] && (plane == nullptr || std::abs(plane->normal[static_cast<int>(axis)]) > parallel))
+        if (bounds.periodic[axis] && (!normal || std::abs((*normal)[static_cast<int>(axis)]) > parallel))
             return axis;
     return std::nullopt;
 }

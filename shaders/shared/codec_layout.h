@@ -7,6 +7,7 @@
 #define CODEC_GROUP 32u         // blocks
 #define CODEC_CHUNK 8u          // groups
 #define CODEC_FRAME_HEAD 4u     // words
+#define CODEC_TURNS_HEAD 7u     // the same with turns
 #define CODEC_MOST_WORDS 197u   // of a block
 #define CODEC_PACKED 208u       // words from one packed block to the next before they are placed: whole cache lines
 #define CODEC_MASK_WIDTHS 12u   // no mask is tried if x, y and z together have more bits
@@ -14,6 +15,7 @@
 #define CODEC_MAGIC 0x00015053u
 #define CODEC_KEYFRAME 0x01000000u  // flags of a frame
 #define CODEC_HASHED 0x02000000u
+#define CODEC_TURNS 0x04000000u
 
 #define CODEC_PLAIN 0u          // modes
 #define CODEC_MASK 1u
@@ -36,7 +38,14 @@
 
 // The uniform block, std140.
 struct Parameters {
-    vec4 grid;           // origin in m; w = 1 / quantum
+    vec4 origin;         // m
+    vec4 perQuantum;     // 1/m: 1 / quantum of each axis
+    vec4 period;         // m: length of each periodic axis; 0: not periodic
+    uvec4 turns;         // quanta in these lengths, modulo which positions are counted; 0: they are not
+    uint head;           // words of the frame before the table of chunks
+    uint unusedUint1;
+    uint unusedUint2;
+    uint unusedUint3;
     uint spheres;
     uint blocks;
     uint groups;

@@ -51,7 +51,9 @@ struct Parameters {
     uint levels;
 
     uint openFaces;      // as closedFaces; a face of a periodic axis is neither
-    uint unusedUints[3];
+    uint unusedUint1;
+    uint unusedUint2;
+    uint unusedUint3;
 
     float gravityChange; // m/s: change of the velocity by gravity alone in a substep
     float substepRatio;  // present substep over the one before, while impulses are scaled to it

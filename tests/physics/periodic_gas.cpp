@@ -116,9 +116,9 @@ double carnahanStarling(double fraction) {
 
 GasPressure pressureOf(scene::Model model, double fraction, std::uint32_t count, std::uint64_t seed, double impacts) {
     // Slow enough for a sphere to meet one other in a substep.
-    constexpr double spread = 0.25;
+    constexpr double spread = 0.1;
     scene::Scene scene = periodicGas({.count = count, .fraction = fraction, .spread = spread}, seed);
-    chooseModel(scene, model, 0.03);
+    chooseModel(scene, model, 0.015);
     const double mass = 4.0 / 3 * std::numbers::pi * std::pow(gasRadius, 3) * scene.materials.front().density;
     const auto simulation = simulate(scene);
     // The lattice melts.

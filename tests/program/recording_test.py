@@ -205,6 +205,54 @@ class Record(RecordingTestCase):
         self.assertGreater(len(os.listdir(self.at("run"))), 0)
 
 
+PERIODIC = {"bounds": {"min": [0, 0, 0], "max": [2, 1, 3], "periodic": ["X", "Z"]}, "gravity": [0, 0, 0],
+            "materials": [{"restitution": 1}],
+            "groups": [{"radius": {"constant": 0.05}, "velocity": [3.1, 0, -1.7], "list": {"spheres": [
+                {"position": [0.1, 0.2, 2.95]}, {"position": [1.99, 0.5, 1]}]}}]}
+
+
+class Periodic(RecordingTestCase):
+    """Two spheres that fly across seams without meeting anything."""
+
+    def setUp(self):
+        super().setUp()
+        path = self.at("periodic.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(PERIODIC, file)
+        self.run_done(path, "--for", "4s")
+
+    def places(self, name, *more):
+        frames = frames_of(self.export("csv", name, *more))
+        return numpy.array([when for when, _ in frames]), numpy.array([rows[:, 1:4] for _, rows in frames])
+
+    def test_positions_are_inside_and_formats_know_the_axes(self):
+        _, places = self.places("a.csv")
+        self.assertTrue((places >= 0).all() and (places <= [2, 1, 3]).all())
+        self.assertGreater(numpy.abs(numpy.diff(places[:, :, 0], axis=0)).max(), 1.8)
+        atoms = read(self.export("xyz", "a.xyz"), index="0", format="extxyz")
+        self.assertEqual(list(atoms.pbc), [True, False, True])
+        reader = vtkXMLPolyDataReader()
+        self.export("vtk", "a.pvd", "--every", "1s")
+        reader.SetFileName(self.at("a/" + sorted(os.listdir(self.at("a")))[0]))
+        reader.Update()
+        periods = vtk_to_numpy(reader.GetOutput().GetFieldData().GetArray("Periods"))
+        numpy.testing.assert_array_equal(periods.ravel(), [2, 0, 3])
+
+    def test_unwrapped_paths_have_no_jump(self):
+        starts = numpy.array([sphere["position"] for sphere in PERIODIC["groups"][0]["list"]["spheres"]])
+        for more in (), ("--every", "0.7s"):
+            times, places = self.places("b.csv", "--unwrap", "--force", *more)
+            expected = starts + times[:, None, None] * numpy.array(PERIODIC["groups"][0]["velocity"])
+            numpy.testing.assert_allclose(places, expected, atol=0.05 / 500 + 1e-5)
+        times, places = self.places("c.csv", "--unwrap", "--from", "2s")
+        self.assertTrue((places[0] >= 0).all() and (places[0] <= [2, 1, 3]).all())
+        self.assertLess(numpy.abs(numpy.diff(places, axis=0)).max(), 0.2)
+
+    def test_what_knows_no_turns_refuses_the_file(self):
+        with open(self.recording, "rb") as file:
+            self.assertIn(b"SP\x01\x07", file.read())
+
+
 class Export(RecordingTestCase):
     def setUp(self):
         super().setUp()

@@ -147,7 +147,7 @@ export class Viewer {
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
     const shown = session.states.shown(wall);
-    this.ranges.update(shown, now);
+    this.ranges.update(this.session.facts, shown, now);
     camera.insets = this.page.insets();
     camera.advance(this.clock.elapsed);
     const state = {

@@ -172,3 +172,28 @@ test("runs of every width move their spheres, with every predictor", () => {
     }
   }
 });
+
+test("coordinates with turns count modulo their turns", () => {
+  const decoder = new Decoder(64);
+  const apply = (words: number[]) => decoder.apply(new Uint8Array(Uint32Array.from(words).buffer));
+  apply([0x05015053, 64, 1, 0, 100, 0, 0, 6, 1, 0x000f, 0, 49, 6, 0xfffffff9]);
+  assert.deepEqual(decoder.turns, [100, 0, 0]);
+  assert.deepEqual([...decoder.newest.subarray(0, 3)], [49, 6, -7]);
+  const group = [1, 0x20212011, 0x01010220, 0x00000a01];
+  apply([0x04015053, 64, 2, 0, 100, 0, 0, group.length, ...group]);
+  assert.deepEqual([...decoder.newest.subarray(0, 6)], [49, 6, -7, 48, 6, -7]);
+  assert.deepEqual([...decoder.newest.subarray(120, 123)], [-50, 5, -9]);
+  assert.throws(() => apply([0x04015053, 64, 3, 0, 101, 0, 0, 1, 0]), /head: has other turns than the frame before/);
+});
+
+test("invalid turns are refused", () => {
+  const refused = (turns: number[], reason: RegExp) => {
+    const words = [0x05015053, 64, 1, 0, ...turns, 6, 1, 0x000f, 0, 5, 6, 7].slice(0, 4 + turns.length + 7);
+    assert.throws(() => new Decoder(64).apply(new Uint8Array(Uint32Array.from(words).buffer)), reason);
+  };
+  refused([1, 0, 0], /head: has 1 turns/);
+  refused([0, 0, 2 ** 30 + 1], /head: has 1073741825 turns/);
+  refused([0, 0, 0], /head: has no turns/);
+  const short = Uint32Array.of(0x05015053, 64, 1, 0, 100);
+  assert.throws(() => new Decoder(64).apply(new Uint8Array(short.buffer)), /head: has 20 bytes of 28/);
+});

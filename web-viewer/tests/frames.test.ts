@@ -142,7 +142,7 @@ test("values are scattered from frame order to id order", () => {
   const units = Int32Array.of(1, 2, 3, 4, 5, 6);
   const scattered = (components: number): number[] => {
     const values = new Float32Array(2 * components);
-    scatter(units, Uint32Array.of(1, 0), components, 0.5, values);
+    scatter(units, Uint32Array.of(1, 0), components, [0.5, 0.5, 0.5], values);
     return [...values];
   };
   assert.deepEqual(scattered(3), [2, 2.5, 3, 0.5, 1, 1.5]);
@@ -157,4 +157,13 @@ test("after a refused order, frames are ignored until a valid order arrives", ()
   assert.equal(frames.decode(first({ order: 2 })).kind, "foreign");
   frames.setOrder(orderOf([2, 0, 1], { number: 3 }));
   positionsOf(frames, first({ order: 3 }));
+});
+
+test("a periodic axis has its own quantum", () => {
+  const frames = new Frames(new BufferPool());
+  frames.setScene(3, 64, [25, 0, 0]);
+  frames.setOrder(orderOf(Array.from({ length: 64 }, (_, k) => k)));
+  const words = [0x05015053, 64, 1, 0, 100, 0, 0, 6, 1, 0x000f, 0, 49, 6, 0xfffffff9];
+  const positions = positionsOf(frames, frameOf(new Uint8Array(Uint32Array.from(words).buffer), { count: 64 }));
+  assert.deepEqual([...positions.subarray(0, 3)], [49 / 4, 6 / 2, -7 / 2]);
 });

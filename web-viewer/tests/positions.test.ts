@@ -2,9 +2,10 @@ import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { highOf } from "../src/model/colour_ranges";
 import { factsOf, radiusOf } from "../src/model/facts";
-import { leastSpeed, positionOf, speedOf } from "../src/model/positions";
+import { leastSpeed, positionOf, shownImages, shownPosition, speedOf } from "../src/model/positions";
 import type { State } from "../src/model/states";
 
 const facts = factsOf(
@@ -35,9 +36,9 @@ test("radii are read as float32", () => {
 test("speed is the distance between two states over their time", () => {
   const from = state(2, [0, 0, 0, 0, 0, 0]);
   const to = state(4, [0, 0, 0, 3, 4, 0]);
-  assert.equal(speedOf(from, to, 1), 2.5);
-  assert.equal(speedOf(from, to, 0), 0);
-  assert.equal(speedOf(from, from, 1), 0);
+  assert.equal(speedOf(facts, from, to, 1), 2.5);
+  assert.equal(speedOf(facts, from, to, 0), 0);
+  assert.equal(speedOf(facts, from, from, 1), 0);
 });
 
 test("the least speed is one quantum in the time between two states", () => {
@@ -50,5 +51,47 @@ test("the high speed ignores the fastest spheres", () => {
   const many = Array.from({ length: 64 }, (_, id) => [0, 0, id === 63 ? 1000 : id]).flat();
   const from = state(2, many.map(() => 0));
   const to = state(2.5, many);
-  assert.equal(highOf((id) => speedOf(from, to, id), 64), 122);
+  assert.equal(highOf((id) => speedOf(facts, from, to, id), 64), 122);
+});
+
+const torus = factsOf(
+  create(SceneFactsSchema, {
+    count: 1,
+    boundsMin: [0, 0, 0],
+    boundsMax: [4, 2, 2],
+    radius: 0.25,
+    periodic: [Axis.X, Axis.Z],
+    cellSize: 0.5,
+    cells: [6, 4, 4],
+  }),
+);
+
+test("a sphere crosses a seam by the shortest way", () => {
+  const from = state(1, [1.75, 0.5, 0]);
+  const to = state(2, [-1.75, 0.75, 0]);
+  const at = (mix: number): number[] => shownPosition(torus, { from, to, mix, moving: true }, 0);
+  assert.deepEqual(at(0), [3.75, 1.5, 1]);
+  assert.deepEqual(at(0.25), [3.875, 1.5625, 1]);
+  assert.deepEqual(at(0.75), [0.125, 1.6875, 1]);
+  assert.deepEqual(at(1), [0.25, 1.75, 1]);
+  assert.equal(speedOf(torus, from, to, 0), Math.hypot(0.5, 0.25));
+});
+
+test("a sphere that reaches across periodic faces is drawn at each of them", () => {
+  const images = (place: number[]): number[][] => {
+    const one = state(1, place);
+    return shownImages(torus, { from: one, to: one, mix: 1, moving: false }, 0);
+  };
+  assert.deepEqual(images([1.5, 0.9375, 0.5]), [[3.5, 1.9375, 1.5]]);
+  assert.deepEqual(images([1.875, 0, 0]), [[3.875, 1, 1], [-0.125, 1, 1]]);
+  assert.deepEqual(images([-1.875, 0, 0.875]), [
+    [0.125, 1, 1.875],
+    [4.125, 1, 1.875],
+    [0.125, 1, -0.125],
+    [4.125, 1, -0.125],
+  ]);
+});
+
+test("cells fit the length of a periodic axis", () => {
+  assert.deepEqual(torus.cellWidths, [4 / 6, 0.5, 0.5]);
 });

@@ -18,9 +18,12 @@ constexpr double edge = 1073741824;
 }  // namespace
 
 Encoder::Encoder(const std::string& device, std::uint32_t spheres, double quantum, glm::vec3 origin)
+    : Encoder(device, spheres, encode::ColumnEncoder::Grid{.origin = origin, .quantum = quantum}) {}
+
+Encoder::Encoder(const std::string& device, std::uint32_t spheres, const encode::ColumnEncoder::Grid& grid)
     : device_(valueOf(compute::openDevice(device))),
       context_(valueOf(encode::EncoderContext::create(*device_, spheres, true))),
-      encoder_(valueOf(encode::ColumnEncoder::create(*context_, {.origin = origin, .quantum = quantum}))),
+      encoder_(valueOf(encode::ColumnEncoder::create(*context_, grid))),
       position_(valueOf(device_->createBuffer("position", spheres * sizeof(glm::vec4), "r"))),
       slotOf_(valueOf(device_->createBuffer("slotOf", spheres * sizeof(std::uint32_t)))),
       slots_(spheres) {

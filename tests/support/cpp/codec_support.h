@@ -21,6 +21,7 @@ using Positions = std::vector<glm::vec4>;
 class Encoder {
   public:
     Encoder(const std::string& device, std::uint32_t spheres, double quantum = 1, glm::vec3 origin = {});
+    Encoder(const std::string& device, std::uint32_t spheres, const encode::ColumnEncoder::Grid& grid);
 
     void setOrder(const std::vector<std::uint32_t>& order) { context_->setOrder(order); }
     Bytes begin(const Positions& byId);

@@ -95,6 +95,15 @@ Bytes garbled(Random& random, Bytes frame, const Bytes& other) {
     return frame;
 }
 
+// Half of the chains have periodic axes, of 2 to 2^21 cells.
+encode::ColumnEncoder::Grid gridOf(Random& random) {
+    encode::ColumnEncoder::Grid grid{.quantum = 1, .turns = true};
+    if (draw(random, 2) == 0) return grid;
+    for (int axis = 0; axis < 3; ++axis)
+        if (draw(random, 3) > 0) grid.periods[axis] = 2 + draw(random, 1U << (1 + draw(random, 21)));
+    return grid;
+}
+
 class Chain {
   public:
     Chain(Random& random, std::ostream& out) : random_(random), out_(out), spheres_(drawSpheres(random)) {}
@@ -152,7 +161,7 @@ class Chain {
     Random& random_;
     std::ostream& out_;
     std::uint32_t spheres_;
-    Encoder encoder_{"cpu:1", spheres_};
+    Encoder encoder_{"cpu:1", spheres_, gridOf(random_)};
     Motion motion_{spheres_, random_()};
     codec::Decoder decoder_{spheres_};
     Bytes last_;

@@ -57,7 +57,7 @@ TEST(CodecHostile, ReportsDefectAndPlace) {
     Decoder decoder(64);
     EXPECT_EQ(decoder.apply(Bytes(15)).error().text(), "frame, head: has 15 bytes of 16");
     EXPECT_EQ(refusal(decoder, {0x00025053, 64, 1, 0}), "frame, head: is not a head of codec SPB, version 1");
-    EXPECT_EQ(refusal(decoder, {0x04015053, 64, 1, 0}), "frame, head: is not a head of codec SPB, version 1");
+    EXPECT_EQ(refusal(decoder, {0x08015053, 64, 1, 0}), "frame, head: is not a head of codec SPB, version 1");
     EXPECT_EQ(refusal(decoder, {key, 0, 1, 0}), "frame, head: has no spheres");
     EXPECT_EQ(refusal(decoder, {key, 64, 1, 0}), "frame, table: goes beyond the end");
     EXPECT_EQ(refusal(decoder, {key, 64, 1, 0, 0xffffffff}), "frame, chunk 0: ends outside of the frame");

@@ -51,6 +51,12 @@ class Bits:
         return self.at == self._size
 
 
+def nearest(value, turns):
+    """The number that differs by a multiple of the turns and is nearest to 0."""
+    half = turns // 2
+    return (value + half) % turns - half if turns else value
+
+
 class Decoder:
     """q1 and q2 are lists of x y z for sphere after sphere, with the copies that fill the last block."""
 
@@ -58,6 +64,7 @@ class Decoder:
         self.spheres = spheres
         self.blocks = -(-spheres // BLOCK)
         self.number = None
+        self.turns = (0, 0, 0)
         self.q1 = [0] * (self.blocks * BLOCK * 3)
         self.q2 = None  # none behind a keyframe
         self.modes, self.predictors, self.codes = set(), set(), set()  # that have come
@@ -75,17 +82,26 @@ class Decoder:
             raise Refused("size")
         words = struct.unpack(f"<{len(frame) // 4}I", frame)
         magic, flags = frame[:3], frame[3]
-        if magic != b"\x53\x50\x01" or flags & ~3 or words[1] != self.spheres:
+        if magic != b"\x53\x50\x01" or flags & ~7 or words[1] != self.spheres:
             raise Refused("head")
         keyframe, hashed = flags & 1, flags & 2
         number = words[2]
         if not keyframe and (before is None or number != (before + 1) & 0xFFFFFFFF):
             raise Refused("does not follow")
+        turns = (0, 0, 0)
+        if flags & 4:
+            turns = words[4:7]
+            if len(turns) < 3 or not any(turns) or any(each == 1 or each > 1 << 30 for each in turns):
+                raise Refused("turns")
+        if not keyframe and turns != self.turns:
+            raise Refused("other turns")
+        self._turns = turns
         chunks = -(-self.spheres // CHUNK)
-        begin = 4 * (4 + chunks)
+        head = 7 if flags & 4 else 4
+        begin = 4 * (head + chunks)
         if len(frame) < begin:
             raise Refused("table")
-        ends = [begin + 4 * end for end in words[4:4 + chunks]]
+        ends = [begin + 4 * end for end in words[head:head + chunks]]
         if ends[-1] != len(frame) or any(a >= b for a, b in zip([begin, *ends], ends)):
             raise Refused("table")
         self._next = list(self.q1)
@@ -93,6 +109,7 @@ class Decoder:
             self._chunk(chunk, frame[first:last], keyframe)
         if hashed and self._hash() != words[3]:
             raise Refused("hash")
+        self.turns = turns
         self.q2 = None if keyframe else self.q1
         self.q1 = self._next
         return number
@@ -142,14 +159,14 @@ class Decoder:
                 value = values[axis][k]
                 residual = base[axis] + ((value >> 1) ^ -(value & 1))
                 at = 3 * (BLOCK * block + k) + axis
-                self._next[at] = signed(self._predicted(predictor, at) + residual)
+                self._next[at] = nearest(signed(self._predicted(predictor, at) + residual), self._turns[axis])
 
     def _predicted(self, predictor, at):
         if predictor == NONE:
             return 0
         if predictor == PREVIOUS:
             return self.q1[at]
-        change = signed(self.q1[at] - self.q2[at])
+        change = nearest(signed(self.q1[at] - self.q2[at]), self._turns[at % 3])
         return self.q1[at] + (change if predictor == LINEAR else change >> 1)
 
     @staticmethod
@@ -229,7 +246,7 @@ class Vectors(unittest.TestCase):
 
     def test_the_frames_that_the_document_writes_out(self):
         section = (SUBJECT / "docs/codec.md").read_text(encoding="utf-8").split("## Test vectors")[1].split("\n## ")[0]
-        keyframe, delta = (words(block) for block in re.findall(r"((?:^    (?:[0-9a-f]{8} *)+\n)+)", section, re.MULTILINE))
+        keyframe, delta, turning, turned = (words(block) for block in re.findall(r"((?:^    (?:[0-9a-f]{8} *)+\n)+)", section, re.MULTILINE))
         decoder = Decoder(64)
         decoder.apply(keyframe)
         self.assertEqual(decoder.newest(), 64 * [5, 6, -7])
@@ -237,6 +254,13 @@ class Vectors(unittest.TestCase):
         expected = 64 * [5, 6, -7]
         expected[3:6] = [4, 6, -7]
         expected[120:123] = [6, 5, -9]
+        self.assertEqual(decoder.newest(), expected)
+        decoder.apply(turning)
+        self.assertEqual(decoder.newest(), 64 * [49, 6, -7])
+        decoder.apply(turned)
+        expected = 64 * [49, 6, -7]
+        expected[3:6] = [48, 6, -7]
+        expected[120:123] = [-50, 5, -9]
         self.assertEqual(decoder.newest(), expected)
 
 

@@ -18,6 +18,7 @@ struct Cells {
         parameters.levels = 1;
         parameters.levelCells[0] = uvec4(4, 4, 4, 0);
         parameters.levelSize[0] = vec4(1, 0.1F, 0, 0);
+        parameters.cellsPerMetre[0] = vec4(1, 1, 1, 0);
         id.resize(position.size());
         std::iota(id.begin(), id.end(), 0U);
         std::shuffle(id.begin(), id.end(), std::mt19937(2));

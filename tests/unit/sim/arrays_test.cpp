@@ -88,7 +88,7 @@ TEST(SimLayout, WordsAreReadFromTheSource) {
     EXPECT_EQ(layout::wordsOf("Obstacle"), "rrrrrrrr");
     EXPECT_EQ(layout::wordsOf("Parameters").size() * 4, sizeof(layout::Parameters));
     EXPECT_EQ(layout::wordsOf("SphereStatistics").size() * 4, sizeof(layout::SphereStatistics));
-    EXPECT_EQ(layout::wordsOf("Parameters", "codec_layout.h"), "rrrruuuuuuuu");
+    EXPECT_EQ(layout::wordsOf("Parameters", "codec_layout.h"), "rrrrrrrrrrrruuuuuuuuuuuuuuuu");
     EXPECT_THROW(layout::wordsOf("Nothing"), std::logic_error);
     EXPECT_EQ(layout::wordsOf("Parameters").find('u') * 4, offsetof(layout::Parameters, cells));
     const auto word = [](std::size_t offset) { return layout::wordsOf("Parameters").at(offset / 4); };

@@ -1,5 +1,5 @@
 import { vec3, vec4 } from "gl-matrix";
-import { shownPosition } from "../model/positions";
+import { shownImages } from "../model/positions";
 import { radiusOf } from "../model/facts";
 import type { Facts, Vec3 } from "../model/facts";
 import type { Shown } from "../model/states";
@@ -41,8 +41,9 @@ export function pick(facts: Facts, shown: Shown, ray: Ray): number | undefined {
   let found: number | undefined;
   const count = Math.min(shown.from.count, shown.to.count);
   for (let id = 0; id < count; id++) {
-    const distance = enter(ray, shownPosition(facts, shown, id), radiusOf(facts, id));
-    if (distance < nearest) {
+    for (const centre of shownImages(facts, shown, id)) {
+      const distance = enter(ray, centre, radiusOf(facts, id));
+      if (distance >= nearest) continue;
       nearest = distance;
       found = id;
     }

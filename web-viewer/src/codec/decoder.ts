@@ -1,8 +1,9 @@
 import { BlockReader } from "./block";
-import { blockSpheres, chunkBlocks, groupBlocks, headWords } from "./format";
+import { blockSpheres, chunkBlocks, groupBlocks } from "./format";
 import { hashOf } from "./hash";
 import { headOf } from "./head";
 import type { FrameHead } from "./head";
+import { moveBack, noTurns, sameTurns, shortenSteps } from "./turns";
 
 /**
  * Decodes one chain of frames, after docs/codec.md. Frames may be hostile. The decoder allocates memory for its spheres
@@ -15,6 +16,8 @@ export class Decoder {
    */
   newest: Int32Array;
   before: Int32Array;
+  /** The turns of the newest frame. */
+  turns = noTurns;
   private words = new Uint32Array(0); // the frame, and two more words
   private view = new DataView(this.words.buffer); // the same bytes
   private number = 0; // of the newest frame
@@ -49,6 +52,7 @@ export class Decoder {
     this.decode(head, length, history);
     [this.newest, this.before] = [this.before, this.newest];
     this.number = head.number;
+    this.turns = head.turns;
     if (head.hash !== undefined && head.hash !== hashOf(this.newest, this.spheres)) {
       throw new Error("frame, head: has another hash than its positions");
     }
@@ -72,6 +76,9 @@ export class Decoder {
       throw new Error(`frame, head: has ${head.spheres} spheres where there are ${this.spheres}`);
     }
     if (head.keyframe) return;
+    if (history !== 0 && !sameTurns(head.turns, this.turns)) {
+      throw new Error("frame, head: has other turns than the frame before");
+    }
     if (history === 0) throw new Error("frame, head: is no keyframe, and none came before");
     if (head.number !== (this.number + 1) >>> 0) {
       throw new Error(`frame, head: is number ${head.number}, which does not follow ${this.number}`);
@@ -80,20 +87,22 @@ export class Decoder {
 
   private decode(head: FrameHead, length: number, history: number): void {
     const chunks = Math.ceil(this.blocks / chunkBlocks);
-    const start = headWords + chunks;
+    const start = head.words + chunks;
     if (length < start) throw new Error("frame, table: goes beyond the end");
     let begin = start;
     for (let chunk = 0; chunk < chunks; chunk++) {
-      const end = start + (this.words[headWords + chunk] as number);
+      const end = start + (this.words[head.words + chunk] as number);
       if (end < begin || end > length) throw new Error(`frame, chunk ${chunk}: ends outside of the frame`);
-      this.decodeChunk(head.keyframe, history === 2, chunk, begin, end);
+      this.decodeChunk(head, history === 2, chunk, begin, end);
       begin = end;
     }
     if (begin !== length) throw new Error("frame, end: differs from the end of the last chunk");
   }
 
-  private decodeChunk(keyframe: boolean, velocities: boolean, chunk: number, begin: number, end: number): void {
+  private decodeChunk(head: FrameHead, velocities: boolean, chunk: number, begin: number, end: number): void {
     const { words, view, newest, before, reader } = this;
+    const { keyframe, turns } = head;
+    const counts = turns !== noTurns;
     const last = Math.min(this.blocks, (chunk + 1) * chunkBlocks);
     let word = begin;
     for (let first = chunk * chunkBlocks; first < last; first += groupBlocks) {
@@ -107,8 +116,10 @@ export class Decoder {
       for (let k = 0; k < count; k++) {
         const at = (first + k) * 3 * blockSpheres;
         if ((bitmap >>> k) & 1) {
+          if (counts) shortenSteps(turns, newest, before, at);
           unit = reader.read(view, unit, 2 * end, keyframe, velocities, newest, before, at);
           if (unit < 0) throw new Error(`frame, block ${first + k}: ${reader.fault}`);
+          if (counts) moveBack(turns, before, at);
         } else {
           if (keyframe) throw new Error(`frame, block ${first + k}: is missing in a keyframe`);
           before.set(newest.subarray(at, at + 3 * blockSpheres), at);

@@ -4,10 +4,13 @@ export const blockSpheres = 64;
 export const groupBlocks = 32;
 export const chunkBlocks = 256;
 export const headWords = 4;
+export const turnsHeadWords = 7; // of a frame with turns
+export const mostTurns = 2 ** 30;
 
 export const magic = 0x00015053;
 export const keyframeFlag = 0x01000000;
 export const hashedFlag = 0x02000000;
+export const turnsFlag = 0x04000000;
 
 export const modeMask = 1;
 export const modeRuns = 2;

@@ -5,6 +5,8 @@ import type { Columns } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
 import type { BufferPool } from "./buffer_pool";
 import { idsOf, scatter } from "./order";
+import type { Quanta } from "./order";
+import type { Periods } from "./periods";
 
 /**
  * The result of decoding a frame. `state`: its columns. `foreign`: the frame is of another epoch or order, and is
@@ -19,6 +21,7 @@ export type Decoded = { kind: "state"; columns: Columns } | { kind: "foreign" } 
 export class Frames {
   private epoch: number | undefined;
   private count = 0;
+  private periods: Periods = [0, 0, 0];
   private order: number | undefined;
   private ids: Uint32Array = new Uint32Array(0);
   private decoders: Decoder[] = []; // one per column
@@ -33,7 +36,8 @@ export class Frames {
     this.chain = undefined;
   }
 
-  setScene(epoch: number, count: number): void {
+  setScene(epoch: number, count: number, periods: Periods = [0, 0, 0]): void {
+    this.periods = periods;
     if (epoch === this.epoch && count === this.count) return;
     this.epoch = epoch;
     this.count = count;
@@ -72,6 +76,11 @@ export class Frames {
     return { kind: "state", columns: this.columnsOf(quanta) };
   }
 
+  /** The quantum of each axis: a periodic one has its own, of which a whole number fits its length. */
+  private quantaOf({ turns }: Decoder, quantum: number): Quanta {
+    return turns.map((each, axis) => (each > 0 ? (this.periods[axis] as number) / each : quantum)) as Quanta;
+  }
+
   /** The columns of the frame that has just been decoded. */
   private columnsOf(quanta: number[]): Columns {
     const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * valuesPerSphere * this.count);
@@ -80,7 +89,8 @@ export class Frames {
       const { components } = columnFormats[name];
       const values = new Float32Array(buffer, at, components * this.count);
       const quantum = quanta[k] as number;
-      scatter((this.decoders[k] as Decoder).newest, this.ids, components, quantum, values);
+      const decoder = this.decoders[k] as Decoder;
+      scatter(decoder.newest, this.ids, components, this.quantaOf(decoder, quantum), values);
       at += values.byteLength;
       return [name, { values, quantum }];
     });

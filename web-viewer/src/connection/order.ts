@@ -20,8 +20,11 @@ export function idsOf(bytes: Uint8Array, count: number): Uint32Array {
   return ids;
 }
 
+/** The quantum of each axis. */
+export type Quanta = [number, number, number];
+
 /**
- * Multiplies the first `components` values of each sphere by the quantum. `units`: three values per sphere, in frame
+ * Multiplies the first `components` values of each sphere by their quanta. `units`: three values per sphere, in frame
  * order. `values`: `components` values per sphere, in id order. `ids`: see idsOf(). A loop over the components would
  * take a third more time.
  */
@@ -29,13 +32,13 @@ export function scatter(
   units: Int32Array,
   ids: Uint32Array,
   components: number,
-  quantum: number,
+  [x, y, z]: Quanta,
   values: Float32Array,
 ): void {
   for (let k = 0, from = 0; k < ids.length; k++, from += 3) {
     const to = components * (ids[k] as number);
-    values[to] = quantum * (units[from] as number);
-    if (components > 1) values[to + 1] = quantum * (units[from + 1] as number);
-    if (components > 2) values[to + 2] = quantum * (units[from + 2] as number);
+    values[to] = x * (units[from] as number);
+    if (components > 1) values[to + 1] = y * (units[from + 1] as number);
+    if (components > 2) values[to + 2] = z * (units[from + 2] as number);
   }
 }

@@ -6,6 +6,7 @@ import { bufferOf } from "../columns";
 import { BufferPool } from "./buffer_pool";
 import { Frames } from "./frames";
 import type { FromWorker, ToWorker, ViewRequest } from "./messages";
+import { periodsOf } from "./periods";
 import { clientName, decode, forPage } from "./protocol";
 import { Socket } from "./socket";
 import { Stream } from "./stream";
@@ -39,7 +40,7 @@ function received(data: ArrayBuffer): void {
     const kind = decode(data);
     if (kind.case === "frame") return stream.receive(kind.value, arrival, data.byteLength);
     if (kind.case === "order") return frames.setOrder(kind.value);
-    if (kind.case === "scene") frames.setScene(kind.value.epoch, kind.value.count);
+    if (kind.case === "scene") frames.setScene(kind.value.epoch, kind.value.count, periodsOf(kind.value));
     const message = forPage(kind);
     if (message) page.postMessage(message);
   } catch (error) {
@@ -59,7 +60,7 @@ function connect(url: string): void {
     opened: () => {
       const at = sharedNow();
       stream.reset();
-      send({ case: "hello", value: create(HelloSchema, { client: clientName, view, token }) });
+      send({ case: "hello", value: create(HelloSchema, { client: clientName, view, token, turns: true }) });
       page.postMessage({ kind: "link", state: "open", at });
     },
     received,

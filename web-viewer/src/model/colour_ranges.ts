@@ -6,7 +6,7 @@ import type { Shown } from "./states";
 
 interface Automatic {
   range: AutoRange;
-  value(shown: Shown, id: number): number;
+  value(facts: Facts, shown: Shown, id: number): number;
 }
 
 /** The range of values that the scale of each mode covers. */
@@ -35,12 +35,12 @@ export class ColourRanges {
   }
 
   /** Adapts the automatic ranges to the values that are shown. `now`: ms. */
-  update(shown: Shown | undefined, now: number): void {
-    if (!shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
+  update(facts: Facts | undefined, shown: Shown | undefined, now: number): void {
+    if (!facts || !shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
     this.measured = shown.to.sequence;
     const count = Math.min(shown.from.count, shown.to.count);
     for (const { range, value } of this.automatic.values()) {
-      range.update(highOf((id) => value(shown, id), count), now);
+      range.update(highOf((id) => value(facts, shown, id), count), now);
     }
   }
 

@@ -1,3 +1,4 @@
+import { periodsOf } from "../connection/periods";
 import type { GroupFacts, SceneFacts } from "../gen/spherule/v1/control_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
 import type { Obstacle as Message } from "../gen/spherule/v1/scene_pb";
@@ -28,6 +29,7 @@ export interface Facts {
   min: Vec3;
   max: Vec3;
   open: Set<Face>;
+  periods: Vec3; // m: length of each periodic axis; 0: not periodic
   obstacles: Obstacle[];
   count: number;
   groups: Group[];
@@ -37,6 +39,7 @@ export interface Facts {
   origin: Vec3; // the centre of the bounds; positions in states are relative to it
   cellSize: number; // m; 0 if there is no grid
   cells: Vec3;
+  cellWidths: Vec3; // m, per axis
   eye: Vec3 | undefined;
   target: Vec3 | undefined;
   fieldOfView: number; // degrees, vertical
@@ -46,6 +49,8 @@ export function factsOf(scene: SceneFacts): Facts {
   const radii = scene.radius > 0 ? undefined : floats(scene.radii, scene.count);
   const min = vec3(scene.boundsMin);
   const max = vec3(scene.boundsMax);
+  const periods = periodsOf(scene);
+  const cells = vec3(scene.cells);
   return {
     epoch: scene.epoch,
     name: scene.name,
@@ -53,6 +58,7 @@ export function factsOf(scene: SceneFacts): Facts {
     min,
     max,
     open: new Set(scene.open),
+    periods,
     obstacles: scene.obstacles.map(({ shape, colour }) => ({ shape, colour: hexToRgb(colour) })),
     count: scene.count,
     groups: scene.groups.map(groupFrom),
@@ -61,11 +67,17 @@ export function factsOf(scene: SceneFacts): Facts {
     radiusRange: radii ? rangeOf(radii) : [scene.radius, scene.radius],
     origin: between(min, max),
     cellSize: scene.cellSize,
-    cells: vec3(scene.cells),
+    cells,
+    cellWidths: periods.map((length, axis) => (cells[axis] && length / cells[axis]) || scene.cellSize) as Vec3,
     eye: scene.camera?.eye.length === 3 ? vec3(scene.camera.eye) : undefined,
     target: scene.camera?.target.length === 3 ? vec3(scene.camera.target) : undefined,
     fieldOfView: scene.camera?.fieldOfView ?? 45,
   };
+}
+
+/** Whether a face of the bounds is a wall: not open, and not of a periodic axis. */
+export function isWall({ open, periods }: Facts, face: Face): boolean {
+  return !open.has(face) && !periods[(face - Face.X_MIN) >> 1];
 }
 
 export function radiusOf(facts: Facts, id: number): number {

@@ -1,3 +1,4 @@
+import { radiusOf } from "./facts";
 import type { Facts, Vec3 } from "./facts";
 import type { Shown, State } from "./states";
 
@@ -9,23 +10,53 @@ export function positionOf(facts: Facts, state: State, id: number): Vec3 {
   return [origin[0] + (values[at] ?? 0), origin[1] + (values[at + 1] ?? 0), origin[2] + (values[at + 2] ?? 0)];
 }
 
-/** The position at which a sphere is drawn (m). */
+/** The distance along an axis by the shortest way (m). `period`: length of the axis if it is periodic, else 0. */
+function shortest(distance: number, period: number): number {
+  return period > 0 ? distance - period * Math.floor(distance / period + 0.5) : distance;
+}
+
+/** The position at which a sphere is drawn (m). Along a periodic axis, it moves by the shortest way. */
 export function shownPosition(facts: Facts, shown: Shown, id: number): Vec3 {
-  const a = positionOf(facts, shown.from, id);
-  const b = positionOf(facts, shown.to, id);
-  return [0, 1, 2].map((axis) => (a[axis] ?? 0) + shown.mix * ((b[axis] ?? 0) - (a[axis] ?? 0))) as Vec3;
+  const at = 3 * id;
+  const { values: from } = shown.from.columns.position;
+  const { values: to } = shown.to.columns.position;
+  return facts.origin.map((origin, axis) => {
+    const period = facts.periods[axis] ?? 0;
+    const begin = from[at + axis] ?? 0;
+    return origin + shortest(begin + shown.mix * shortest((to[at + axis] ?? 0) - begin, period), period);
+  }) as Vec3;
+}
+
+/**
+ * The positions at which a sphere is drawn (m): one that reaches across a face of a periodic axis is drawn at both
+ * faces.
+ */
+export function shownImages(facts: Facts, shown: Shown, id: number): Vec3[] {
+  const images = [shownPosition(facts, shown, id)];
+  facts.periods.forEach((period, axis) => {
+    if (period === 0) return;
+    const from = (images[0]?.[axis] ?? 0) - (facts.origin[axis] ?? 0);
+    if (Math.abs(from) + radiusOf(facts, id) <= period / 2) return;
+    for (const image of [...images]) {
+      const other: Vec3 = [...image];
+      other[axis] = (image[axis] ?? 0) - Math.sign(from) * period;
+      images.push(other);
+    }
+  });
+  return images;
 }
 
 /** The mean speed of a sphere between two states (m/s); 0 if no simulated time passed. */
-export function speedOf(from: State, to: State, id: number): number {
+export function speedOf(facts: Facts, from: State, to: State, id: number): number {
   const time = to.simTime - from.simTime;
   if (!(time > 0)) return 0;
   const at = 3 * id;
   const { values: a } = from.columns.position;
   const { values: b } = to.columns.position;
-  const dx = (b[at] ?? 0) - (a[at] ?? 0);
-  const dy = (b[at + 1] ?? 0) - (a[at + 1] ?? 0);
-  const dz = (b[at + 2] ?? 0) - (a[at + 2] ?? 0);
+  const [x, y, z] = facts.periods;
+  const dx = shortest((b[at] ?? 0) - (a[at] ?? 0), x);
+  const dy = shortest((b[at + 1] ?? 0) - (a[at + 1] ?? 0), y);
+  const dz = shortest((b[at + 2] ?? 0) - (a[at + 2] ?? 0), z);
   return Math.hypot(dx, dy, dz) / time;
 }
 

@@ -15,7 +15,7 @@ export type Range = [number, number];
  */
 export type Scale = { ramp: Ramp } & (
   | { range(facts: Facts): Range }
-  | { value(shown: Shown, id: number): number; least: number }
+  | { value(facts: Facts, shown: Shown, id: number): number; least: number }
 );
 
 export interface Swatch {
@@ -44,12 +44,12 @@ const groupsShown = 6; // in the legend
 export const quantities = {
   speed: {
     label: "Speed",
-    glsl: "length(a_positionTo - a_positionFrom) * u_inverseTime",
-    scale: { ramp: speedRamp, value: ({ from, to }, id) => speedOf(from, to, id), least: 0.1 },
+    glsl: "length(shortest(a_positionTo - a_positionFrom)) * u_inverseTime",
+    scale: { ramp: speedRamp, value: (facts, { from, to }, id) => speedOf(facts, from, to, id), least: 0.1 },
     legend: (_, [, high]) => ({ bar: speedRamp, low: "0", high: `${figure(high)} m/s` }),
-    describe: (_, { from, to }, id) => {
+    describe: (facts, { from, to }, id) => {
       const least = leastSpeed(from, to);
-      const speed = speedOf(from, to, id);
+      const speed = speedOf(facts, from, to, id);
       return speed < least ? `under ${figure(least)} m/s` : `${figure(speed)} m/s`;
     },
   },

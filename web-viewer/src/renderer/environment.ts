@@ -1,6 +1,7 @@
 import { Face } from "../gen/spherule/v1/scene_pb";
 import { niceAbove } from "../colour/range";
 import { hexToRgb } from "../colour/rgb";
+import { isWall } from "../model/facts";
 import type { Facts, Vec3 } from "../model/facts";
 import { Mesh } from "./mesh";
 import { surfaceOf } from "./obstacles";
@@ -45,7 +46,7 @@ export class Environment {
       [max[0] + reach, max[1] + reach, min[2]],
       [min[0] - reach, max[1] + reach, min[2]],
     ];
-    this.floor.set(facts.open.has(Face.Z_MIN) ? [] : polygon(corners, [0, 0, 1], [1, 1, 1, 1]));
+    this.floor.set(isWall(facts, Face.Z_MIN) ? polygon(corners, [0, 0, 1], [1, 1, 1, 1]) : []);
     const plain = hexToRgb(theme.solid) ?? [0.6, 0.6, 0.6];
     const surfaces = facts.obstacles.map((obstacle) => surfaceOf(obstacle, [...(obstacle.colour ?? plain), 1], facts));
     this.solids.set(surfaces.flatMap(({ vertices, oneSided }) => (oneSided ? [] : vertices)));
@@ -80,7 +81,7 @@ export class Environment {
       const face = index + 1; // faces are listed in the order of the enum
       const [first] = points;
       const away = !eye || !first || dot(normal, eye) < dot(normal, first);
-      const closed = !facts.open.has(face as Face);
+      const closed = isWall(facts, face as Face);
       if (closed && away && face !== Face.Z_MIN) {
         veils.push(...polygon(points, [-normal[0], -normal[1], -normal[2]], [...wall, 0.2]));
       }

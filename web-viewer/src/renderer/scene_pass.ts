@@ -108,7 +108,7 @@ export class ScenePass {
     gl.uniform2fv(spheres.at("u_range"), state.range);
     gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
     gl.uniform3fv(spheres.at("u_cellCentre"), facts.origin);
-    gl.uniform1f(spheres.at("u_cellSize"), facts.cellSize);
+    gl.uniform3fv(spheres.at("u_cellSize"), facts.cellWidths);
     gl.uniform3iv(spheres.at("u_cells"), facts.cells.map((n) => Math.max(1, n)));
     gl.uniform1i(spheres.at("u_selected"), state.selected ?? -1);
     const smooth = this.quality.samples > 0;

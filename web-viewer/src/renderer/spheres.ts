@@ -69,7 +69,10 @@ export class SphereData {
     gl.bindVertexArray(null);
   }
 
-  /** Draws all spheres in one instanced call, with a program that includes shaders/position.glsl. */
+  /**
+   * Draws all spheres in one instanced call, with a program that includes shaders/position.glsl. Spheres that reach
+   * across a face of a periodic axis are drawn again at the other face, with one more call for each set of axes.
+   */
   draw(program: Program, mix: number): void {
     const { gl, facts } = this;
     if (!facts || this.count === 0) return;
@@ -77,7 +80,12 @@ export class SphereData {
     gl.uniform1f(program.at("u_mix"), mix);
     gl.vertexAttrib1f(slot("a_radius"), facts.radius);
     gl.bindVertexArray(this.array);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+    gl.uniform3fv(program.at("u_period"), facts.periods);
+    gl.uniform3fv(program.at("u_perLength"), facts.periods.map((length) => (length > 0 ? 1 / length : 0)));
+    for (const image of imagesOf(facts)) {
+      gl.uniform3fv(program.at("u_image"), image);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+    }
     gl.bindVertexArray(null);
   }
 
@@ -99,6 +107,15 @@ export class SphereData {
     this.gl.enableVertexAttribArray(slot(name));
     this.gl.vertexAttribDivisor(slot(name), 1);
   }
+}
+
+/** All sets of periodic axes, as 1 per axis in the set and 0 for the others. The first one is empty. */
+function imagesOf({ periods }: Facts): number[][] {
+  return periods.reduce<number[][]>(
+    (sets, length, axis) =>
+      length > 0 ? [...sets, ...sets.map((set) => set.map((one, k) => (k === axis ? 1 : one)))] : sets,
+    [[0, 0, 0]],
+  );
 }
 
 function colours(facts: Facts): Uint8Array {

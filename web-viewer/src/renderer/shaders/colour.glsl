@@ -6,7 +6,7 @@ uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
 uniform vec3 u_cellCentre;      // m
-uniform float u_cellSize;       // m; 0: no grid
+uniform vec3 u_cellSize;        // m, per axis; 0: no grid
 uniform ivec3 u_cells;
 
 vec3 rampAt(float at) {
@@ -26,7 +26,7 @@ uint scrambled(uint x) {
 
 // The hue of a cell is random; its lightness alternates between neighbours.
 vec3 cellColour(vec3 position) {
-    if (u_cellSize <= 0.0) return vec3(0.62, 0.66, 0.70);
+    if (u_cellSize.x <= 0.0) return vec3(0.62, 0.66, 0.70);
     ivec3 cell = ivec3(floor((position - u_cellCentre) / u_cellSize));
     cell = ((cell % u_cells) + u_cells) % u_cells;
     uint hash = scrambled(uint(cell.x + u_cells.x * (cell.y + u_cells.y * cell.z)));

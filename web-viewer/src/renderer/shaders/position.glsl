@@ -3,5 +3,20 @@ in float a_radius;
 
 uniform vec3 u_origin;     // m
 uniform float u_mix;
+uniform vec3 u_period;     // m: length of each periodic axis; 0: not periodic
+uniform vec3 u_perLength;  // 1/m: 1 over these lengths, or 0
+uniform vec3 u_image;      // 1 for the axes across whose faces images are drawn, else 0
 
-vec3 centreNow() { return u_origin + mix(a_positionFrom, a_positionTo, u_mix); }
+// A distance (m) by the shortest way along periodic axes.
+vec3 shortest(vec3 distance) { return distance - u_period * floor(distance * u_perLength + 0.5); }
+
+// Relative to u_origin.
+vec3 placeNow() { return shortest(a_positionFrom + u_mix * shortest(a_positionTo - a_positionFrom)); }
+
+vec3 centreNow() {
+    vec3 place = placeNow();
+    return u_origin + place - u_image * u_period * sign(place);
+}
+
+// Whether the image reaches into the bounds. The sphere itself is always drawn.
+bool isDrawn() { return all(greaterThanEqual(abs(placeNow()) + a_radius, 0.5 * u_image * u_period)); }

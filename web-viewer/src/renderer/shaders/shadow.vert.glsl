@@ -7,5 +7,9 @@ out vec2 v_corner;
 
 void main() {
     v_corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    if (!isDrawn()) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
     gl_Position = u_light * vec4(centreNow() + a_radius * (v_corner.x * u_right + v_corner.y * u_up), 1.0);
 }

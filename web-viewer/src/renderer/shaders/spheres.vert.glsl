@@ -13,8 +13,8 @@ void main() {
     v_sphere = vec4(to, radius);
     v_colour = vec4(0.0);
     v_ray = vec3(0.0);
-    if (far <= radius * 1.05) {
-        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);    // the eye is inside
+    if (far <= radius * 1.05 || !isDrawn()) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);    // the eye is inside, or there is no such image
         return;
     }
     vec3 colour = colourNow(centre);
