@@ -73,8 +73,8 @@ struct Group {
 
 enum Face : std::uint8_t { XMin, XMax, YMin, YMax, ZMin, ZMax };
 
-// Each axis is periodic, or each of its faces is a wall or open. A sphere that leaves through one face of a periodic axis
-// comes back through the other.
+// Each axis is periodic, or each of its faces is a wall or open. A sphere that leaves through one face of a periodic
+// axis comes back through the other.
 struct Bounds {
     glm::dvec3 min{};
     glm::dvec3 max{};

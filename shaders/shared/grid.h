@@ -1,5 +1,5 @@
-// The cell grid is a torus, so that memory is bounded wherever the spheres go, and periodic axes need no more. Cells per axis are multiples of 8, so
-// that blocks of 4 x 4 x 4 cells have 8 colours (shared/bundles.h).
+// The cell grid is a torus, so that memory is bounded wherever the spheres go. (Periodic axes need no more.) Cells per
+// axis are multiples of 8, so that blocks of 4 x 4 x 4 cells have 8 colours (shared/bundles.h).
 //
 // If radii differ much, each class of sizes has a grid of its own, a level. Its cells are as wide as its largest
 // sphere. Levels are ordered from fine to coarse, and the cells of a level follow the cells of the finer ones.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "fake_app.h"
 
 namespace spherule::net {
@@ -39,6 +41,27 @@ TEST(Stream, DefaultsToThirtyFramesAndAllowsSixty) {
     EXPECT_TRUE(next(*greedy).has_welcome());
     EXPECT_EQ(next(*greedy).stream().rate(), 60U);
     EXPECT_TRUE(eventually([&] { return app.server().viewers() == 2 && app.server().subscriptions().size() == 2; }));
+}
+
+// A client that decodes frames with turns gets another chain than one that does not, at lower rates too.
+TEST(Stream, SendsFramesWithTurnsToClientsThatDecodeThem) {
+    FakeApp app;
+    const auto plain = connect(app);
+    ASSERT_TRUE(plain->send(helloOf(60)));
+    const auto turning = connect(app);
+    v1::ClientMessage hello = helloOf(60);
+    hello.mutable_hello()->set_turns(true);
+    ASSERT_TRUE(turning->send(hello));
+    const auto wants = [&](std::uint32_t rate, bool turns) {
+        return std::ranges::any_of(app.server().subscriptions(), [&](const codec::Subscription& one) {
+            return one.rendition == codec::Rendition{v1::NORMAL, rate, turns};
+        });
+    };
+    EXPECT_TRUE(eventually([&] { return wants(60, false) && wants(60, true); }));
+    v1::ClientMessage view;
+    view.mutable_view()->set_rate(10);
+    ASSERT_TRUE(turning->send(view));
+    EXPECT_TRUE(eventually([&] { return wants(60, false) && wants(10, true) && !wants(60, true); }));
 }
 
 TEST(Stream, ChangesRenditionOnRequest) {

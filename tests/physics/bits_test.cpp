@@ -133,7 +133,7 @@ TEST_P(Bits, OfAMixtureAmongRoundObstaclesAreTheSameOnAllDevices) {
 
 TEST_P(Bits, AcrossSeamsAreTheSameOnAllDevices) {
     for (const double ratio : {1.0, 10.0})
-        expectTheSameBits(periodicMixture(GetParam(), ratio), GetParam() == scene::Model::Accurate ? 0.1 : 0.25);
+        expectTheSameBits(periodicMixture(GetParam(), ratio), GetParam() == scene::Model::Accurate ? 0.06 : 0.25);
 }
 
 TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {

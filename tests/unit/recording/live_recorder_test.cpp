@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 using FrameKind = codec::EncodedFrame::Kind;
 constexpr std::uint32_t spheres = 70;
-constexpr codec::Rendition rendition{v1::FINE, 30};
+constexpr codec::Rendition rendition{v1::FINE, 30, true};
 
 // A live recorder, and a chain of frames for it.
 class LiveRecording : public testing::Test {
