@@ -25,6 +25,7 @@ namespace {
 
 // The commands with forms of their own. commandForms() adds the others.
 constexpr std::string_view ownForms =
+    "  query [hash]                               prints the statistics as JSON; hash: with the hash of the state\n"
     "  step [N]\n"
     "  load NAME | load FILE.json\n"
     "  set gravity X Y Z | set restitution E | set friction F | set speed S\n"
@@ -107,6 +108,12 @@ Result<Message> fromJson(const std::string& json, const std::string& where, cons
 Result<void> wantWords(Words words, std::size_t count, const std::string& command) {
     if (words.size() == count) return {};
     return refuse("'" + command + "' takes " + std::to_string(count) + " words, not " + std::to_string(words.size()));
+}
+
+Result<void> query(Words words, v1::Command& command) {
+    command.mutable_query()->set_hash(!words.empty());
+    if (words.empty() || (words.size() == 1 && words[0] == "hash")) return {};
+    return refuse("'query' takes nothing, or 'hash'");
 }
 
 Result<void> step(Words words, v1::Command& command) {
@@ -228,8 +235,9 @@ using Parse = Result<void> (*)(Words, v1::Command&);
 
 // The parsers of the commands with forms of their own.
 const std::map<std::string_view, Parse>& parsers() {
-    static const std::map<std::string_view, Parse> table = {{"step", step},   {"load", load}, {"set", set},
-                                                            {"spawn", spawn}, {"push", push}, {"record", record}};
+    static const std::map<std::string_view, Parse> table = {{"query", query},  {"step", step},   {"load", load},
+                                                            {"set", set},      {"spawn", spawn}, {"push", push},
+                                                            {"record", record}};
     return table;
 }
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <utility>
 
 #include "host/to_proto.h"
 #include "net/command_rules.h"
+#include "sim/memory_needs.h"
 
 namespace spherule::host {
 
@@ -20,6 +22,7 @@ constexpr auto oldestAnswer = 100ms;  // largest age of the answer to a query, w
 constexpr auto longestHold = 500ms;   // longest wait of a command for a change under way
 constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of the commands that wait for it
 constexpr std::size_t mostStepCommands = 64;
+constexpr std::size_t mostHashQueries = 64;
 
 constexpr const char* noMemory = "there is not enough memory for this";
 
@@ -50,6 +53,7 @@ void CommandExecutor::refuseAll(const std::string& reason) {
     if (change_) refuseChange(reason);
     while (!held_.empty()) refuse(takeHeld(), reason);
     refuseSteps(reason);
+    refuseHashQueries(reason);
 }
 
 // Removes and returns the first command that waits for a change.
@@ -174,7 +178,17 @@ void CommandExecutor::advanceChange(Clock::duration slice) {
 }
 
 void CommandExecutor::answerQueries() {
-    const auto queries = requests_.takeQueries();
+    auto queries = requests_.takeQueries();
+    const auto withHash =
+        std::ranges::stable_partition(queries, [](const Request& query) { return !query.command.query().hash(); });
+    for (Request& query : withHash) {
+        if (hashQueries_.size() < mostHashQueries)
+            hashQueries_.push_back(std::move(query));
+        else
+            refuse(query, "as many queries for the hash wait as may: send the next when one has been answered");
+    }
+    queries.erase(withHash.begin(), withHash.end());
+    answerHashQueries();
     if (queries.empty()) return;
     const auto now = Clock::now();
     if (!answered_ || now - *answered_ > oldestAnswer) {
@@ -182,6 +196,39 @@ void CommandExecutor::answerQueries() {
         answered_ = now;
     }
     for (const Request& query : queries) publisher_.reply(query.session, resultOf(query.command, answer_));
+}
+
+void CommandExecutor::answerHashQueries() {
+    if (hashing_ && hashing_->hash.wait_for(0s) == std::future_status::ready) {
+        hashing_->answer.statistics->stateHash = hashing_->hash.get();
+        for (const Request& query : hashing_->queries)
+            publisher_.reply(query.session, resultOf(query.command, hashing_->answer));
+        hashing_.reset();
+    }
+    if (hashing_ || hashQueries_.empty()) return;
+    auto begun = beginHash();
+    if (!begun) return refuseHashQueries(begun.error().text());
+    begun->queries = std::exchange(hashQueries_, {});
+    hashing_ = std::move(*begun);
+}
+
+// Copies the state of the device, and starts a thread that hashes the copy.
+Result<CommandExecutor::HashQueries> CommandExecutor::beginHash() {
+    sim::Simulation& simulation = host_.simulation();
+    auto claim = memory::Claim::make("", "a copy of the state", sim::copiesToHash(simulation.plan()));
+    if (!claim) return tl::unexpected(claim.error());
+    HashQueries begun{.queries = {}, .answer = host_.query(), .claim = std::move(*claim), .hash = {}};
+    sim::SlotState slots = simulation.pipeline().download();
+    if (auto alive = host_.device().status(); !alive) return tl::unexpected(alive.error());
+    begun.hash =
+        std::async(std::launch::async, [slots = std::move(slots)] { return sim::hashOf(sim::inIdOrder(slots)); });
+    return begun;
+}
+
+void CommandExecutor::refuseHashQueries(const std::string& reason) {
+    if (hashing_) hashQueries_.insert(hashQueries_.begin(), hashing_->queries.begin(), hashing_->queries.end());
+    hashing_.reset();
+    for (const Request& query : std::exchange(hashQueries_, {})) refuse(query, reason);
 }
 
 void CommandExecutor::countStep() {

@@ -3,10 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <future>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/memory.h"
 #include "core/result.h"
 #include "host/dispatch.h"
 #include "host/requests.h"
@@ -43,7 +46,9 @@ class CommandExecutor : private ProducerCommands {
     void serveWaiting();
     // Waits up to `timeout` for a command, and carries it out.
     void serveNext(Clock::duration timeout);
-    // Gives all waiting queries the same answer. It includes every applied command and every completed step command.
+    // Answers the waiting queries. Those without a hash get the same answer. Every answer includes every applied
+    // command and every completed step command. A hash takes a thread of its own: the world goes on, and the answer
+    // comes in a later call.
     void answerQueries();
     // The next query needs a new answer. Call after each change of the state that is not a step.
     void discardAnswer() { answered_.reset(); }
@@ -77,6 +82,17 @@ class CommandExecutor : private ProducerCommands {
         std::uint32_t left = 0;
     };
 
+    // Queries for the hash of one state, which a thread computes.
+    struct HashQueries {
+        std::vector<Request> queries;
+        sim::Applied answer;  // except the hash
+        memory::Claim claim;  // for the copy of the state
+        std::future<std::uint64_t> hash;
+    };
+
+    void answerHashQueries();
+    Result<HashQueries> beginHash();
+    void refuseHashQueries(const std::string& reason);
     void serve(Request request);
     void execute(Request request);
     void finish(const Request& request, const Result<sim::Applied>& applied);
@@ -99,6 +115,8 @@ class CommandExecutor : private ProducerCommands {
     std::deque<Steps> steps_;                    // step commands with steps left, in order
     Result<sim::Applied> answer_;                // to queries; reused while nothing newer is needed
     std::optional<Clock::time_point> answered_;  // time of answer_; nullopt: a newer one is needed
+    std::vector<Request> hashQueries_;           // queries for a hash that wait for the one under way
+    std::optional<HashQueries> hashing_;         // under way
 };
 
 }  // namespace spherule::host

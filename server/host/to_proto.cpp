@@ -3,6 +3,8 @@
 #include <cstring>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "core/text.h"
 #include "net/command_rules.h"
 #include "scene/check.h"
@@ -120,6 +122,7 @@ v1::Statistics statisticsMessage(const sim::Statistics& s) {
         message.set_restitution(s.impacts.restitution());
         message.set_restitution_asked(s.impacts.restitutionAsked());
     }
+    if (s.stateHash) message.set_state_hash(fmt::format("{:016x}", *s.stateHash));
     return message;
 }
 

@@ -95,4 +95,8 @@ std::uint64_t copiesToSpawn(const Plan& plan) {
     return copiesToChange(plan) + plan.spheres * (2 * sizeof(scene::Sphere) + scene::Occupancy::mostBytesPerSphere());
 }
 
+std::uint64_t copiesToHash(const Plan& plan) {
+    return plan.spheres * snapshotBytes(plan);
+}
+
 }  // namespace spherule::sim

@@ -37,5 +37,7 @@ void settleClaim(memory::Claim& claim, const compute::Device& device, const Plan
 // add spheres.
 std::uint64_t copiesToChange(const Plan& plan);
 std::uint64_t copiesToSpawn(const Plan& plan);
+// The same to hash the state of the spheres.
+std::uint64_t copiesToHash(const Plan& plan);
 
 }  // namespace spherule::sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include <glm/vec3.hpp>
 
@@ -52,6 +53,7 @@ struct Statistics {
     std::uint32_t outside = 0;
     std::uint32_t nonFinite = 0;
     Impacts impacts;  // since the spheres were last placed or added to
+    std::optional<std::uint64_t> stateHash{};  // of a query that asked for it: hashOf() of the same state
 
     // Returns the largest overlap with a sphere or a wall.
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }

@@ -298,6 +298,20 @@ class Serve(unittest.TestCase):
         done = self.ctl("query")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["spheres"], 5)
+        self.assertNotIn("stateHash", json.loads(done.stdout))
+
+    def test_a_query_for_the_hash_has_that_of_a_run(self):
+        for words in ("pause",), ("reset",), ("step", "20"):
+            self.assertEqual(self.ctl(*words).returncode, 0)
+        answer = json.loads(self.ctl("query", "hash").stdout)
+        self.assertEqual(answer["stateHash"], run_json("cradle", "--for", "0.33333s")["stateHash"])
+        self.assertEqual(answer["step"], "20")
+        self.assertEqual(json.loads(self.ctl("query", "hash").stdout), answer)
+        self.ctl("step")
+        self.assertNotEqual(json.loads(self.ctl("query", "hash").stdout)["stateHash"], answer["stateHash"])
+        self.assertEqual(self.ctl("resume").returncode, 0)
+        for _ in range(5):  # the world goes on
+            self.assertRegex(json.loads(self.ctl("query", "hash").stdout)["stateHash"], "^[0-9a-f]{16}$")
 
     def test_a_scene_file_that_cannot_be_loaded_is_answered_with_what_can(self):
         done = self.ctl("load", "nope.json")

@@ -23,6 +23,7 @@ TEST(CommandParser, ParsesEveryCommand) {
     EXPECT_EQ(parsed({"resume"}), "resume { }");
     EXPECT_EQ(parsed({"reset"}), "reset { }");
     EXPECT_EQ(parsed({"query"}), "query { }");
+    EXPECT_EQ(parsed({"query", "hash"}), "query { hash: true }");
     EXPECT_EQ(parsed({"cancel"}), "cancel { }");
     EXPECT_EQ(parsed({"seek", "12.5"}), "seek { time: 12.5 }");
     EXPECT_EQ(parsed({"record"}), "start_recording { }");
@@ -68,6 +69,8 @@ TEST(CommandParser, ReportsAcceptedForms) {
         {},
         {"dance"},
         {"pause", "now"},
+        {"query", "now"},
+        {"query", "hash", "now"},
         {"seek"},
         {"seek", "soon"},
         {"seek", "1", "2"},
