@@ -15,6 +15,7 @@
 #include "cli/progress_line.h"
 #include "cli/record_options.h"
 #include "cli/run_report.h"
+#include "cli/script.h"
 #include "cli/state_dump.h"
 #include "compute/device.h"
 #include "core/log.h"
@@ -34,6 +35,7 @@ struct RunOptions {
     std::string duration;
     std::string every;
     std::string dump;
+    std::string script;
     double watchdog = 0;
     bool json = false;
 };
@@ -65,13 +67,19 @@ class IntervalTimer {
         Interval interval{.simSeconds = simulation_.time() - simTime_,
                           .wallSeconds = secondsSince(began_),
                           .passSeconds = device_.takeTimes(),
-                          .rebuilds = simulation_.counters().rebuilds - rebuilds_,
+                          .rebuilds = rebuildsSince(rebuilds_),
                           .before = impacts_};
         interval.end = simulation_.statistics();
         return interval;
     }
 
   private:
+    // A command that makes other arrays begins the count anew.
+    [[nodiscard]] std::uint64_t rebuildsSince(std::uint64_t before) const {
+        const std::uint64_t now = simulation_.counters().rebuilds;
+        return now >= before ? now - before : now;
+    }
+
     sim::Simulation& simulation_;
     compute::Device& device_;
     double simTime_ = 0;
@@ -92,10 +100,11 @@ Result<bool> stepUnlessAsked(sim::Simulation& simulation, const Interrupt& inter
     }
 }
 
-// Runs `steps`, or fewer after a signal. Calls `every` after each `stride` steps and at the end. `recorder` may be
-// null.
-Result<void> runSteps(sim::Simulation& simulation, host::RunRecorder* recorder, const Interrupt& interrupt,
-                      std::uint64_t steps, std::uint64_t stride, const std::function<Result<void>()>& every) {
+// Runs `steps`, or fewer after a signal. Calls `every` after each `stride` steps and at the end, before the commands of
+// the script that are due at that step. `recorder` may be null.
+Result<void> runSteps(sim::Simulation& simulation, Script& script, host::RunRecorder* recorder,
+                      const Interrupt& interrupt, std::uint64_t steps, std::uint64_t stride,
+                      const std::function<Result<void>()>& every) {
     ProgressLine progress;
     const auto began = Clock::now();
     diagnostics::SubstepController controller;
@@ -104,6 +113,11 @@ Result<void> runSteps(sim::Simulation& simulation, host::RunRecorder* recorder, 
     };
     std::uint64_t k = 0;
     for (bool last = false; !last;) {
+        if (!simulation.midStep()) {
+            const auto applied = script.applyDue(simulation);
+            if (!applied) return tl::unexpected(applied.error());
+            if (*applied) controller.reset();
+        }
         const auto ended = stepUnlessAsked(simulation, interrupt);
         if (!ended) return tl::unexpected(ended.error());
         if (*ended) ++k;
@@ -158,8 +172,8 @@ struct Outputs {
     std::unique_ptr<host::RunRecorder> recorder;
 };
 
-Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, compute::Device& device, Outputs& outputs,
-                      const Interrupt& interrupt, Times times) {
+Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, Script& script, compute::Device& device,
+                      Outputs& outputs, const Interrupt& interrupt, Times times) {
     const double step = simulation.scene().step;
     const double every = times.every;
     const auto steps = static_cast<std::uint64_t>(std::llround(times.duration / step));
@@ -178,13 +192,13 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, co
             timer.start();
             return {};
         };
-        return steps == 0 ? report() : runSteps(simulation, recorder, interrupt, steps, stride, report);
+        return steps == 0 ? report() : runSteps(simulation, script, recorder, interrupt, steps, stride, report);
     }
     StateDump& dump = *outputs.dump;
     const auto write = [&] { return dump.write(simulation); };
     if (auto done = write(); !done) return done;
     if (steps > 0)
-        if (auto done = runSteps(simulation, recorder, interrupt, steps, stride, write); !done) return done;
+        if (auto done = runSteps(simulation, script, recorder, interrupt, steps, stride, write); !done) return done;
     print(options, device.info(), simulation, timer.take());
     return {};
 }
@@ -205,12 +219,12 @@ Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulati
 }
 
 // Opens the output files and runs the simulation. The recording is finished even if the run has failed.
-Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation, compute::Device& device,
-                          Interrupt& interrupt, Times times) {
+Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation, Script& script,
+                          compute::Device& device, Interrupt& interrupt, Times times) {
     interrupt.finishFirst();
     auto outputs = openOutputs(options, simulation, device);
     if (!outputs) return tl::unexpected(outputs.error());
-    auto done = simulate(options, simulation, device, *outputs, interrupt, times);
+    auto done = simulate(options, simulation, script, device, *outputs, interrupt, times);
     if (outputs->recorder) {
         auto finished = outputs->recorder->finish();
         if (done) done = finished;
@@ -246,6 +260,9 @@ Result<void> run(const RunOptions& options) {
     if (!every) return tl::unexpected(every.error());
     if (!options.every.empty() && !(*every > 0)) return fail(ErrorKind::Input, "--every", "must be above 0");
 
+    auto script = options.script.empty() ? Result<Script>(Script()) : Script::read(options.script);
+    if (!script) return tl::unexpected(script.error());
+
     // The watchdog outlives the device, whose destructor may hang.
     host::Watchdog watchdog{host::Watchdog::Seconds(options.watchdog)};
     watchdog.start([](const Error& error) { host::endNow(printError(error)); });
@@ -261,9 +278,10 @@ Result<void> run(const RunOptions& options) {
     if (!(*duration / loaded->step <= mostSteps))
         return fail(ErrorKind::Input, "--for",
                     fmt::format("is {:g} steps, at most {:g} are allowed", *duration / loaded->step, mostSteps));
+    if (auto fits = script->check(*loaded, *duration); !fits) return fits;
     auto simulation = sim::Simulation::create(**device, std::move(*loaded));
     if (!simulation) return tl::unexpected(simulation.error());
-    return simulateInto(options, **simulation, **device, interrupt, {.duration = *duration, .every = *every});
+    return simulateInto(options, **simulation, *script, **device, interrupt, {.duration = *duration, .every = *every});
 }
 
 }  // namespace
@@ -275,6 +293,8 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
     command->add_option("--every", options->every, "interval of reports, or with --dump of states [once, at the end]");
     command->add_option("--dump", options->dump, "write states to this CSV file");
+    command->add_option("--script", options->script,
+                        "carry out timed commands: lines such as 1.5s set gravity 0 0 -1.6");
     addRunRecording(*command, options->record);
     addWatchdog(*command, options->watchdog);
     command->add_flag("--json", options->json, "print JSON, one line per report");

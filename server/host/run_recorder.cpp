@@ -14,7 +14,7 @@ namespace {
 
 constexpr double keyframesEvery = 2;  // s simulated
 constexpr double roundedBy = 1e-6;    // tolerance (frames): times are sums of steps
-constexpr std::uint32_t epoch = 1, order = 1;
+constexpr std::uint32_t order = 1;
 
 }  // namespace
 
@@ -22,6 +22,26 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
                                                          sim::Simulation& simulation) {
     if (simulation.count() == 0)
         return fail(ErrorKind::Input, "--record", "has nothing to record: the scene has no spheres");
+    auto encoding = makeEncoding(options, device, simulation);
+    if (!encoding) return tl::unexpected(encoding.error());
+    // The file is created last, so that an existing file is kept if the device has no room.
+    auto writer = recording::Writer::create(options.path, options.replace);
+    if (!writer) return tl::unexpected(writer.error());
+    std::unique_ptr<RunRecorder> recorder(new RunRecorder(options, device, simulation, std::move(*writer)));
+    recorder->encoding_ = std::move(*encoding);
+    v1::ServerMessage welcome;
+    *welcome.mutable_welcome() = welcomeOf(device.info());
+    // These name the machine and the number of threads. A recording does not depend on them.
+    welcome.mutable_welcome()->clear_renderer();
+    welcome.mutable_welcome()->clear_reason();
+    auto done = recorder->add(recording::Kind::Other, welcome);
+    if (done) done = recorder->beginEpoch();
+    if (!done) return tl::unexpected(done.error());
+    return recorder;
+}
+
+Result<RunRecorder::Encoding> RunRecorder::makeEncoding(const recording::Options& options, compute::Device& device,
+                                                        sim::Simulation& simulation) {
     auto context =
         encode::EncoderContext::create(device, simulation.count(), encode::sourceOf(simulation).slotOf != nullptr);
     if (!context) return tl::unexpected(context.error());
@@ -29,37 +49,34 @@ Result<std::unique_ptr<RunRecorder>> RunRecorder::create(const recording::Option
     auto encoder = encode::FrameEncoder::create(**context, options.tier, smallestRadius,
                                                 simulation.scene().bounds.periods(), true);
     if (!encoder) return tl::unexpected(encoder.error());
-    // The file is created last, so that an existing file is kept if the device has no room.
-    auto writer = recording::Writer::create(options.path, options.replace);
-    if (!writer) return tl::unexpected(writer.error());
-    std::unique_ptr<RunRecorder> recorder(new RunRecorder(options, device, simulation, std::move(*writer)));
-    recorder->context_ = std::move(*context);
-    recorder->encoder_ = std::move(*encoder);
-    if (auto done = recorder->begin(); !done) return tl::unexpected(done.error());
-    return recorder;
+    return Encoding{.context = std::move(*context), .encoder = std::move(*encoder)};
 }
 
-Result<void> RunRecorder::begin() {
-    v1::ServerMessage welcome;
-    *welcome.mutable_welcome() = welcomeOf(device_.info());
-    // These name the machine and the number of threads. A recording does not depend on them.
-    welcome.mutable_welcome()->clear_renderer();
-    welcome.mutable_welcome()->clear_reason();
-    if (auto done = add(recording::Kind::Other, welcome); !done) return done;
-    if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch)); !done) return done;
-
+// Writes the scene facts, the order and a keyframe of the present spheres.
+Result<void> RunRecorder::beginEpoch() {
+    ++epoch_;
+    generation_ = simulation_.generation();
+    if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch_)); !done) return done;
     const std::vector<std::uint32_t> ids = encode::mortonOrder(simulation_.snapshot().position);
-    context_->setOrder(ids);
+    encoding_.context->setOrder(ids);
     v1::ServerMessage message;
-    *message.mutable_order() = codec::orderMessage(epoch, order, ids);
+    *message.mutable_order() = codec::orderMessage(epoch_, order, ids);
     if (auto done = add(recording::Kind::Order, message); !done) return done;
     if (auto done = writeSettings(); !done) return done;
     keyframe_ = simulation_.time();
-    due_ = 1;
+    due_ = std::floor(keyframe_ * options_.rate + roundedBy) + 1;
     return write(recording::Kind::Keyframe);
 }
 
 Result<void> RunRecorder::stepped(bool last) {
+    if (simulation_.generation() != generation_) {
+        encoding_.encoder.reset();
+        encoding_.context.reset();
+        auto encoding = makeEncoding(options_, device_, simulation_);
+        if (!encoding) return tl::unexpected(encoding.error());
+        encoding_ = std::move(*encoding);
+        return beginEpoch();
+    }
     if (auto done = writeSettings(); !done) return done;
     const double frames = simulation_.time() * options_.rate + roundedBy;
     if (frames < due_ && !last) return {};
@@ -90,18 +107,18 @@ Result<void> RunRecorder::writeSettings() {
 Result<void> RunRecorder::write(recording::Kind kind) {
     device_.beginTimer(static_cast<unsigned>(sim::Pass::Pack));
     if (kind == recording::Kind::Keyframe)
-        encoder_->encodeKeyframe(encode::sourceOf(simulation_), true);
+        encoding_.encoder->encodeKeyframe(encode::sourceOf(simulation_), true);
     else if (kind == recording::Kind::Delta)
-        encoder_->encodeDelta(encode::sourceOf(simulation_), true);
+        encoding_.encoder->encodeDelta(encode::sourceOf(simulation_), true);
     else
-        encoder_->encodeResync(true);
+        encoding_.encoder->encodeResync(true);
     device_.endTimer();
     v1::ServerMessage message;
     v1::Frame& frame = *message.mutable_frame();
-    encoder_->download(frame);
+    encoding_.encoder->download(frame);
     if (auto alive = device_.status(); !alive) return alive;  // the bytes are invalid after a device loss
     frame.set_sequence(kind == recording::Kind::Resync ? sequence_ : ++sequence_);
-    frame.set_epoch(epoch);
+    frame.set_epoch(epoch_);
     frame.set_step(simulation_.steps());
     frame.set_sim_time(simulation_.time());
     frame.set_count(simulation_.count());

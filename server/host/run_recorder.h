@@ -23,7 +23,8 @@ class RunRecorder {
     static Result<std::unique_ptr<RunRecorder>> create(const recording::Options& options, compute::Device& device,
                                                        sim::Simulation& simulation);
 
-    // Call after each step. `last`: no step follows, so this one is always recorded.
+    // Call after each step. `last`: no step follows, so this one is always recorded. So is the first step after the
+    // number of spheres has changed, with new scene facts.
     Result<void> stepped(bool last);
     Result<void> addEvent(v1::Event::Kind kind, const std::string& text);
     // Call at the end, even if the run has failed.
@@ -36,7 +37,15 @@ class RunRecorder {
                 recording::Writer writer)
         : options_(options), device_(device), simulation_(simulation), writer_(std::move(writer)) {}
 
-    Result<void> begin();
+    // The encoder must not outlive the context.
+    struct Encoding {
+        std::unique_ptr<encode::EncoderContext> context;
+        std::unique_ptr<encode::FrameEncoder> encoder;
+    };
+    static Result<Encoding> makeEncoding(const recording::Options& options, compute::Device& device,
+                                         sim::Simulation& simulation);
+
+    Result<void> beginEpoch();
     Result<void> writeSettings();
     Result<void> write(recording::Kind kind);
     Result<void> add(recording::Kind kind, const v1::ServerMessage& message);
@@ -45,8 +54,9 @@ class RunRecorder {
     compute::Device& device_;
     sim::Simulation& simulation_;
     recording::Writer writer_;
-    std::unique_ptr<encode::EncoderContext> context_;
-    std::unique_ptr<encode::FrameEncoder> encoder_;
+    Encoding encoding_;
+    std::uint32_t epoch_ = 0;
+    std::uint32_t generation_ = 0;  // of the simulation, in this epoch
     std::uint64_t sequence_ = 0;
     double due_ = 0;        // number of the next frame, which is due at due_ / rate
     double keyframe_ = 0;   // time of the last keyframe (s simulated)

@@ -109,6 +109,14 @@ Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State st
 
 }  // namespace
 
+Result<scene::Scene> changedBy(const Set& set, scene::Scene scene) {
+    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
+        if (auto done = part(scene, set); !done) return tl::unexpected(done.error());
+    // The longest usable substep depends on gravity and on the model.
+    if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());
+    return scene;
+}
+
 // Carries out each kind of Command.
 class Simulation::CommandHandler {
   public:
@@ -143,10 +151,9 @@ Result<Applied> Simulation::apply(const Command& command) {
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Set& set) {
     const bool disturbs = set.gravity || set.restitution || set.friction || set.model;
     if (!disturbs && !set.substeps && !set.goal) return {};
-    scene::Scene changed = simulation_.scene_;
-    for (auto part : {setGravity, setRestitution, setFriction, setModel, setSubsteps, setGoal})
-        if (auto done = part(changed, set); !done) return tl::unexpected(done.error());
-    return simulation_.change(std::move(changed), disturbs);
+    auto changed = changedBy(set, simulation_.scene_);
+    if (!changed) return tl::unexpected(changed.error());
+    return simulation_.change(std::move(*changed), disturbs);
 }
 
 // Features do not depend on the number of substeps, so the command needs no preparation.
@@ -154,14 +161,13 @@ Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
     scene::Scene changed = scene_;
     changed.quality.substepsFixed = true;
     changed.quality.substeps = substeps;
+    if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     auto outcome = change(std::move(changed), false);
     if (!outcome) return tl::unexpected(outcome.error());
     return {};
 }
 
 Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
-    // The longest usable substep depends on gravity and on the model.
-    if (auto fits = scene::fitSubsteps(changed); !fits) return refusal(fits.error());
     Features features = featuresOf(changed);
     features.set(Feature::Levels, plan().features.has(Feature::Levels));  // levels depend on the spheres alone
     if (features == plan().features) {

@@ -58,4 +58,8 @@ struct Applied {
     std::optional<Statistics> statistics{};  // of a query
 };
 
+// Returns the scene with the settings, and with the substeps that they require. Refused if a setting is out of range;
+// the error's `where` is the name of the setting.
+Result<scene::Scene> changedBy(const Set& set, scene::Scene scene);
+
 }  // namespace spherule::sim

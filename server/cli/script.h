@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/scene.h"
+#include "sim/commands.h"
+#include "sim/simulation.h"
+#include "spherule/v1/control.pb.h"
+
+namespace spherule::cli {
+
+// Timed commands for `spherule run`. A line of the file has a time, such as 1.5s, and a command in the words of
+// `spherule ctl`: set, spawn or push. A word that begins with { is JSON and reaches to the end of the line. Lines that
+// are empty or begin with # are skipped. Times do not decrease from line to line. Errors have the file and the line.
+class Script {
+  public:
+    // Input if a line is wrong.
+    static Result<Script> read(const std::string& path);
+
+    // Refuses a command that is certain to fail in a run of `duration` seconds that begins with `scene`. A setting or a
+    // group is out of range, a sphere does not exist, or no step follows.
+    [[nodiscard]] Result<void> check(const scene::Scene& scene, double duration) const;
+
+    // Carries out the commands that are due at the present step: those whose time is not after it. Returns true if
+    // there were any. Call it before each step.
+    Result<bool> applyDue(sim::Simulation& simulation);
+
+  private:
+    struct Line {
+        std::string where;  // "FILE:LINE"
+        double time = 0;    // s simulated
+        std::string name;   // of the command
+        sim::Command command;
+        v1::Spawn spawn;  // the message of a spawn, for check()
+    };
+
+    static Result<Line> parse(const std::string& where, const std::string& text);
+
+    std::vector<Line> lines_;
+    std::size_t next_ = 0;  // of lines_, the first that has not been carried out
+};
+
+}  // namespace spherule::cli
