@@ -1,4 +1,5 @@
-// Adds up the overlaps of the pairs of each bundle. The host adds up the bundles.
+// Adds up the overlaps of the pairs of each bundle. The host adds up the bundles. Counts them for each sphere, after
+// statistics_spheres.comp has counted the walls.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -7,11 +8,13 @@ PARAMETERS
 #include "shared/separation.h"
 #include "shared/grid.h"
 #include "shared/bundles.h"
+#include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
+BUFFER(coherent, uint, touching)   // spheres, walls and obstacles that each sphere touches
 BUFFER(writeonly, vec4, overlaps)  // contacts, sum and largest of overlap / r, energy in springs (J)
 
 PRIVATE(float, contacts)
@@ -23,7 +26,11 @@ void visitPair(uint a, uint b) {
     vec4 pb = position[b];
     vec3 d = separation(vec3(pa), vec3(pb));
     float reach = radiusSum(pa, pb);
+    float touch = reach * (1.0f + TOUCH_TOLERANCE);
     float squared = dot3(d, d);
+    if (!(squared < touch * touch)) return;
+    atomicAdd(touching[a], 1u);
+    atomicAdd(touching[b], 1u);
     if (!(squared < reach * reach)) return;
     float overlap = (reach - sqrt(squared)) / smallerRadius(pa, pb);
     contacts = contacts + 1.0f;

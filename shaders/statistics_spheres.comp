@@ -22,11 +22,13 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, vec4, wallSlip)
 BUFFER(readonly, uvec4, images)
+BUFFER(writeonly, uint, touching)  // walls and obstacles that each sphere touches
 
 PRIVATE(uint, sphereSlot)
 PRIVATE(vec3, spherePoint)
 PRIVATE(float, sphereRadius)
 PRIVATE(float, deepest)
+PRIVATE(uint, touched)
 PRIVATE(vec3, displacement)
 PRIVATE(float, springs)
 
@@ -39,6 +41,7 @@ vec3 velocityAlong() {
 
 void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
     deepest = max(deepest, -separation);
+    if (separation < TOUCHES * sphereRadius) touched = touched + 1u;
     if (!HAS(LOW_BITS)) return;
     float overlap = -separation - dot3(vec3(positionLow[sphereSlot]), normal);
     if (!(overlap > 0.0f)) return;
@@ -54,6 +57,11 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
 }
 
 #include "shared/surfaces.h"
+
+// True if spheres touch anything in this scene: without that, there is no array to count in.
+bool touches() {
+    return HAS(CONTACTS) || HAS(WALLS) || HAS(OBSTACLES);
+}
 
 bool outside(vec3 p) {
     return p.x < params.wallMin.x || p.x > params.wallMax.x || p.y < params.wallMin.y || p.y > params.wallMax.y ||
@@ -86,6 +94,7 @@ KERNEL(params.statisticBlocks) {
         vec3 x = vec3(position[k]);
         vec3 unwrapped = x;
         vec4 v = velocity[k];
+        if (touches()) touching[k] = 0u;
         if (!finite3(x) || !finite3(vec3(v))) {
             nonFinite += 1u;
             continue;
@@ -117,8 +126,10 @@ KERNEL(params.statisticBlocks) {
         spherePoint = x;
         sphereRadius = radiusOf(position[k]);
         deepest = 0.0f;
+        touched = 0u;
         visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(k, 0.0f) : NO_OBSTACLES);
         overlap = max(overlap, deepest / sphereRadius);
+        if (touches()) touching[k] = touched;
     }
     sphereSums[invocation].weighted = weighted;
     sphereSums[invocation].momentum = vec4(momentum, energy);

@@ -159,8 +159,10 @@ Result<void> exportRecording(const ExportOptions& options, Interrupt& interrupt)
                      (*exporter)->path());
         return {};
     }
-    spdlog::info("exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis",
-                 written->frames, (*exporter)->path(), written->error);
+    spdlog::info(
+        "exported {} frames to {}; positions are within {:.3g} m of the simulation's on each axis; recordings "
+        "have no velocities, spins, sleep or contacts: spherule run --dump writes these",
+        written->frames, (*exporter)->path(), written->error);
     return {};
 }
 

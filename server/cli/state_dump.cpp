@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 #include "core/heartbeat.h"
 
@@ -13,13 +14,14 @@ Result<StateDump> StateDump::create(const std::string& path, bool replace) {
     auto file = recording::OutputFile::create(path, replace);
     if (!file) return tl::unexpected(file.error());
     StateDump dump(std::move(*file));
-    if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius,wx,wy,wz,material,group,asleep\n"); !done)
+    if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius,wx,wy,wz,material,group,asleep,contacts\n"); !done)
         return tl::unexpected(done.error());
     return dump;
 }
 
 Result<void> StateDump::write(sim::Simulation& simulation) {
     const sim::State state = simulation.snapshot();
+    const std::vector<std::uint32_t> contacts = simulation.pipeline().contactCounts();
     const heartbeat::Pause writing;
     const scene::Scene& scene = simulation.scene();
     const glm::dvec3 centre = scene.bounds.centre();
@@ -32,9 +34,9 @@ Result<void> StateDump::write(sim::Simulation& simulation) {
         const glm::vec4& v = state.velocity[id];
         const glm::vec4& w = state.spin[id];
         fmt::format_to(std::back_inserter(text),
-                       "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{}\n",
+                       "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{}\n",
                        simulation.time(), id, x.x, x.y, x.z, v.x, v.y, v.z, state.position[id].w, w.x, w.y, w.z,
-                       scene.spheres[id].material, group, std::signbit(v.w) ? 1 : 0);
+                       scene.spheres[id].material, group, std::signbit(v.w) ? 1 : 0, contacts[id]);
         if (text.size() < part) continue;
         if (auto done = file_.write(text); !done) return done;
         text.clear();

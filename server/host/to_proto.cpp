@@ -31,6 +31,9 @@ void setSpheres(v1::SceneFacts& facts, const scene::Scene& scene, bool radiiDiff
         message.set_first(group.first);
         message.set_count(group.count);
         message.set_colour(group.colour);
+        if (group.count == 0) continue;
+        const scene::Sphere& first = scene.spheres[group.first];
+        message.set_material(first.material);
     }
     facts.set_count(static_cast<std::uint32_t>(scene.spheres.size()));
     if (!radiiDiffer) {

@@ -57,6 +57,8 @@ std::string polyData(const Snapshot& snapshot) {
     head += "<PointData Scalars=\"radius\">\n";
     array("Float32", "radius", 1, snapshot.radii);
     array("Int32", "id", 1, all.first(count));
+    array("Int32", "group", 1, snapshot.groups);
+    array("Int32", "material", 1, snapshot.materials);
     head += "</PointData>\n<Points>\n";
     array("Float64", "Points", 3, snapshot.positions);
     head += "</Points>\n<Verts>\n";

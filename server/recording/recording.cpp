@@ -225,6 +225,8 @@ Snapshot Recording::now() {
             .error = quanta_[0] / 2,
             .positions = positions_,
             .radii = table_ ? std::span<const float>(table_->radii) : std::span<const float>(),
+            .groups = table_ ? std::span<const std::int32_t>(table_->groups) : std::span<const std::int32_t>(),
+            .materials = table_ ? std::span<const std::int32_t>(table_->materials) : std::span<const std::int32_t>(),
             .low = table_ ? table_->low : glm::dvec3(),
             .high = table_ ? table_->high : glm::dvec3(),
             .periods = table_ ? table_->periods : glm::dvec3(),

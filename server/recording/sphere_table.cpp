@@ -24,10 +24,25 @@ bool set(glm::dvec3& target, const google::protobuf::RepeatedField<double>& from
     return true;
 }
 
+// Groups that do not fit the spheres set nothing.
+void setGroups(SphereTable& table, const v1::SceneFacts& facts) {
+    table.groups.assign(facts.count(), -1);
+    table.materials.assign(facts.count(), -1);
+    for (int k = 0; k < facts.groups_size(); ++k) {
+        const v1::GroupFacts& group = facts.groups(k);
+        if (group.first() > facts.count() || group.count() > facts.count() - group.first()) continue;
+        std::fill_n(table.groups.begin() + group.first(), group.count(), k);
+        if (group.has_material())
+            std::fill_n(table.materials.begin() + group.first(), group.count(),
+                        static_cast<std::int32_t>(group.material()));
+    }
+}
+
 }  // namespace
 
 Result<SphereTable> SphereTable::from(const v1::SceneFacts& facts, const v1::Order& order) {
-    SphereTable table{.epoch = facts.epoch(), .radii = {}, .order = order.number(), .ids = {}};
+    SphereTable table{
+        .epoch = facts.epoch(), .radii = {}, .groups = {}, .materials = {}, .order = order.number(), .ids = {}};
     if (order.epoch() != facts.epoch()) return bad("are of another epoch than the order");
     if (!set(table.low, facts.bounds_min()) || !set(table.high, facts.bounds_max())) return bad("have no bounds");
     for (int axis = 0; axis < 3; ++axis)
@@ -49,6 +64,7 @@ Result<SphereTable> SphereTable::from(const v1::SceneFacts& facts, const v1::Ord
     }
     if (!std::ranges::all_of(table.radii, [](float radius) { return radius > 0 && std::isfinite(radius); }))
         return bad("have a radius that is none");
+    setGroups(table, facts);
     return table;
 }
 

@@ -13,11 +13,12 @@ namespace spherule::recording {
 // Data of the spheres that frames do not repeat, from scene facts and order. Any thread.
 struct SphereTable {
     std::uint32_t epoch = 0;
-    glm::dvec3 low{}, high{};        // bounds, m
-    glm::dvec3 periods{};            // m: length of each periodic axis; 0: not periodic
-    std::vector<float> radii;        // by id, m
-    std::uint32_t order = 0;         // number of the order
-    std::vector<std::uint32_t> ids;  // in codec order
+    glm::dvec3 low{}, high{};                     // bounds, m
+    glm::dvec3 periods{};                         // m: length of each periodic axis; 0: not periodic
+    std::vector<float> radii;                     // by id, m
+    std::vector<std::int32_t> groups, materials;  // by id: numbers in the scene, from 0; -1: the facts have none
+    std::uint32_t order = 0;                      // number of the order
+    std::vector<std::uint32_t> ids;               // in codec order
 
     [[nodiscard]] std::uint32_t spheres() const { return static_cast<std::uint32_t>(ids.size()); }
 

@@ -332,6 +332,16 @@ void Pipeline::runStatistics() {
     run(statistics_, LaunchSet::Substep);
 }
 
+std::vector<std::uint32_t> Pipeline::contactCounts() {
+    std::vector<std::uint32_t> counts(plan_.spheres);
+    if (!plan_.has(touchingArray)) return counts;
+    runStatistics();
+    const auto words = read<std::uint32_t>(Array::IdAndMaterial);
+    const auto touching = read<std::uint32_t>(touchingArray);
+    for (std::uint32_t slot = 0; slot < plan_.spheres; ++slot) counts[words[slot] & idMask] = touching[slot];
+    return counts;
+}
+
 void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
     const auto skipped = [set](const LaunchSpec& spec) {
         const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::ContactMemory;

@@ -54,6 +54,9 @@ class Pipeline {
     // adds them up. Empty if no step was observed. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
     void runStatistics();  // of the current state; builds its lists first if they are out of date
+    // Returns the number of spheres, walls and obstacles that each sphere touches, by id. Bodies touch up to a gap of
+    // 1e-4 of the sum of the radii, or of 2e-4 of the radius at walls and obstacles. Waits for the device.
+    std::vector<std::uint32_t> contactCounts();
 
     // Returns an array as elements of T, at most the first `most`. Empty if the plan has no such array. Waits for the
     // device.

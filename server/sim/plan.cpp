@@ -148,8 +148,9 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     }
     PlanBuilder builder(plan, scene);
     builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});
+    if (features.has(Feature::Contacts) || features.hasSurfaceFeature()) builder.arrays({touchingArray});
     if (!features.has(Feature::Balanced)) builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");
-    builder.statistics("statistics_spheres.comp", blocksOf(spheres, STATISTIC_BLOCK));
+    builder.statistics("statistics_spheres.comp", blocksOf(spheres, STATISTIC_BLOCK), {{"touching", touchingArray}});
     for (const Module* module : modules())
         if (module->declare != nullptr && plan.features.has(module->feature)) module->declare(builder);
     builder.finish();

@@ -32,6 +32,9 @@ struct Alias {
     Array array{};
 };
 
+// Nothing else uses this array between two rebuilds: statistics count in it what each sphere touches.
+constexpr Array touchingArray = Array::SortScratchWords;
+
 struct LaunchSpec {
     Pass pass{};
     std::string_view kernel;  // file

@@ -270,7 +270,7 @@ test("the record button records the simulation to a readable file", async () => 
   const states = path.join(suite.folder, "states.csv");
   await spherule("export", path.join(suite.folder, recorded), "--format", "csv", "--out", states);
   const rows = (await readFile(states, "utf8")).trim().split("\n");
-  assert.equal(rows[0], "time,id,x,y,z,radius");
+  assert.equal(rows[0], "time,id,x,y,z,radius,group,material");
   assert.ok(rows.length > 1 + 5 * 10, `${rows.length} rows`);
   assert.deepEqual(live.faults, []);
   await live.close();

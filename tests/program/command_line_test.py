@@ -102,34 +102,6 @@ class Run(unittest.TestCase):
         rows = call("run", "two-spheres", "--for", "0.25s", "--every", "0.1s", "--device", DEVICE).stdout.splitlines()
         self.assertEqual([row.split()[0] for row in rows], ["time,", "0.1", "0.2", "0.25"])
 
-    def test_dump_has_its_header_and_a_row_per_sphere_and_state(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "states.csv")
-            run_json("two-spheres", "--for", "0.2s", "--every", "0.1", "--dump", path)
-            with open(path, encoding="utf-8") as file:
-                rows = list(csv.reader(file))
-        self.assertEqual(rows[0], "time id x y z vx vy vz radius wx wy wz material group asleep".split())
-        self.assertEqual(len(rows), 1 + 3 * 2)
-
-    def test_dump_has_spin_material_group_and_sleep(self):
-        spheres = [{"position": [0, 0, 0.1]}, {"position": [0.5, 0, 0.9], "spin": [1, -2, 3]}]
-        scene = {"bounds": {"min": [-1, -1, 0], "max": [1, 1, 1]},
-                 "materials": [{"name": "a", "friction": 0.5}, {"name": "b"}],
-                 "groups": [{"list": {"spheres": spheres[:1]}, "radius": {"constant": 0.1}},
-                            {"list": {}, "radius": {"constant": 0.1}},
-                            {"list": {"spheres": spheres[1:]}, "material": "b", "radius": {"constant": 0.1}}]}
-        with tempfile.TemporaryDirectory() as folder:
-            path, file_name = os.path.join(folder, "states.csv"), os.path.join(folder, "scene.json")
-            with open(file_name, "w", encoding="utf-8") as file:
-                json.dump(scene, file)
-            run_json(file_name, "--for", "2s", "--every", "1s", "--dump", path)
-            with open(path, encoding="utf-8") as file:
-                rows = list(csv.DictReader(file))
-        self.assertEqual([[row[name] for name in ("id", "wx", "wy", "wz", "material", "group", "asleep")]
-                          for row in rows[:2]],
-                         [["0", "0", "0", "0", "0", "0", "0"], ["1", "1", "-2", "3", "1", "2", "0"]])
-        self.assertEqual([row["asleep"] for row in rows if row["id"] == "0"], ["0", "1", "1"])
-
     def test_a_dump_replaces_nothing_unless_told_and_a_refused_start_leaves_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
             path, recording = os.path.join(folder, "states.csv"), os.path.join(folder, "run.sph")

@@ -21,12 +21,13 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from program import FolderTestCase, runner
 
 BINARY = sys.argv.pop()
-COLUMNS = ["id", "x", "y", "z", "radius"]
+COLUMNS = ["id", "x", "y", "z", "radius", "group", "material"]
+NUMBERS = ["id", "group", "material"]
 FLOAT = 1e-6  # m; rounding of float32 and of nine digits, some metres from the origin
-MIXED = {"bounds": {"min": [0, 0, 0], "max": [1, 2, 1.5]},
+MIXED = {"bounds": {"min": [0, 0, 0], "max": [1, 2, 1.5]}, "materials": [{}, {"name": "heavy", "density": 4000}],
          "groups": [{"name": "small", "radius": {"constant": 0.03},
                      "fill": {"count": 150, "min": [0, 0, 0], "max": [1, 2, 1.5]}},
-                    {"name": "mixed", "radius": {"uniform": {"min": 0.04, "max": 0.09}},
+                    {"name": "mixed", "material": "heavy", "radius": {"uniform": {"min": 0.04, "max": 0.09}},
                      "fill": {"count": 60, "min": [0, 0, 0], "max": [1, 2, 1.5]}}]}
 
 
@@ -79,9 +80,10 @@ class Formats(RecordingTestCase):
             json.dump(MIXED, file)
         return path
 
-    def same(self, when, positions, radii, ids, dumped):
+    def same(self, when, positions, radii, numbers, dumped):
+        """`numbers`: columns of ids, groups and materials."""
         self.assertAlmostEqual(when, dumped[0], delta=1e-8)
-        numpy.testing.assert_array_equal(ids, dumped[1][:, 0])
+        numpy.testing.assert_array_equal(numpy.column_stack(numbers), dumped[1][:, [0, 5, 6]])
         self.assertLessEqual(numpy.abs(positions - dumped[1][:, 1:4]).max(), self.bound)
         numpy.testing.assert_allclose(radii, dumped[1][:, 4], rtol=1e-7)
 
@@ -89,12 +91,13 @@ class Formats(RecordingTestCase):
         exported = frames_of(self.export("csv", "run.csv"))
         self.assertEqual(len(exported), len(self.dumped))
         for (when, rows), dumped in zip(exported, self.dumped):
-            self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
+            self.same(when, rows[:, 1:4], rows[:, 4], rows[:, [0, 5, 6]].T, dumped)
 
         exported = read(self.export("xyz", "run.xyz"), index=":", format="extxyz")
         self.assertEqual(len(exported), len(self.dumped))
         for atoms, dumped in zip(exported, self.dumped):
-            self.same(atoms.info["Time"], atoms.positions, atoms.arrays["radius"], atoms.arrays["id"], dumped)
+            self.same(atoms.info["Time"], atoms.positions, atoms.arrays["radius"],
+                      [atoms.arrays[name] for name in NUMBERS], dumped)
 
         listed = xml.parse(self.export("vtk", "run.pvd")).getroot().findall("Collection/DataSet")
         self.assertEqual(len(listed), len(self.dumped))
@@ -106,7 +109,8 @@ class Formats(RecordingTestCase):
             self.assertEqual(data.GetNumberOfVerts(), len(dumped[1]))
             arrays = data.GetPointData()
             self.same(float(entry.get("timestep")), vtk_to_numpy(data.GetPoints().GetData()),
-                      vtk_to_numpy(arrays.GetArray("radius")), vtk_to_numpy(arrays.GetArray("id")), dumped)
+                      vtk_to_numpy(arrays.GetArray("radius")),
+                      [vtk_to_numpy(arrays.GetArray(name)) for name in NUMBERS], dumped)
         return exported
 
     def test_two_spheres(self):
@@ -126,7 +130,7 @@ class Formats(RecordingTestCase):
             exported = frames_of(self.export("csv", f"{tier}.csv"))
             self.assertEqual(len(exported), len(self.dumped))
             for (when, rows), dumped in zip(exported, self.dumped):
-                self.same(when, rows[:, 1:4], rows[:, 4], rows[:, 0], dumped)
+                self.same(when, rows[:, 1:4], rows[:, 4], rows[:, [0, 5, 6]].T, dumped)
 
 
 class Record(RecordingTestCase):

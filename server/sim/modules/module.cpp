@@ -94,8 +94,9 @@ void PlanBuilder::onNewSubstepOverSpheres(std::string_view kernel) {
     plan_.newSubstep.push_back({.pass = Pass::ContactMemory, .kernel = kernel, .count = plan_.spheres});
 }
 
-void PlanBuilder::statistics(std::string_view kernel, std::uint32_t count) {
-    staged_.push_back({Stage::Statistics, {.pass = Pass::Statistics, .kernel = kernel, .count = count}});
+void PlanBuilder::statistics(std::string_view kernel, std::uint32_t count, std::vector<Alias> aliases) {
+    staged_.push_back({Stage::Statistics,
+                       {.pass = Pass::Statistics, .kernel = kernel, .count = count, .aliases = std::move(aliases)}});
 }
 
 void PlanBuilder::finish() {

@@ -72,7 +72,7 @@ class PlanBuilder {
     void onNewSubstepOverPairs(std::string_view kernel);
     void onNewSubstepOverSpheres(std::string_view kernel);
     // Runs on demand.
-    void statistics(std::string_view kernel, std::uint32_t count);
+    void statistics(std::string_view kernel, std::uint32_t count, std::vector<Alias> aliases = {});
 
     // Adds the launches that sort the columns, and puts arrays and launches in order.
     void finish();

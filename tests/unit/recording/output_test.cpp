@@ -148,8 +148,14 @@ TEST_F(Output, RecordingWithoutFramesIsRemoved) {
 struct Small {
     std::vector<glm::dvec3> positions{{1, 2, 3}};
     std::vector<float> radii{0.5F};
+    std::vector<std::int32_t> numbers{0};
     [[nodiscard]] Snapshot snapshot() const {
-        return {.positions = positions, .radii = radii, .low = {0, 0, 0}, .high = {4, 4, 4}};
+        return {.positions = positions,
+                .radii = radii,
+                .groups = numbers,
+                .materials = numbers,
+                .low = {0, 0, 0},
+                .high = {4, 4, 4}};
     }
 };
 

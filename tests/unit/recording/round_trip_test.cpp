@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/order.h"
 #include "recording_support.h"
 
 namespace spherule::recording {
@@ -36,8 +37,33 @@ TEST_F(RoundTrip, EveryFrameIsReadInIdOrderInMetres) {
         EXPECT_EQ(now.error, Film::quantum / 2);
         EXPECT_EQ(now.radii[0], 1.5F);
         EXPECT_EQ(now.radii[69], 0.5F);
+        EXPECT_EQ(std::ranges::count(now.groups, -1), 70) << "the film has no groups";
+        EXPECT_EQ(std::ranges::count(now.materials, -1), 70);
     }
     EXPECT_FALSE(*recording->next());
+}
+
+TEST(SphereTable, HasTheGroupsThatFitTheSpheres) {
+    v1::SceneFacts facts;
+    facts.set_epoch(1);
+    facts.set_count(6);
+    facts.set_radius(1);
+    for (auto* const bound : {facts.mutable_bounds_min(), facts.mutable_bounds_max()}) bound->Resize(3, 0);
+    const auto add = [&facts](std::uint32_t first, std::uint32_t count) -> v1::GroupFacts& {
+        v1::GroupFacts& group = *facts.add_groups();
+        group.set_first(first);
+        group.set_count(count);
+        return group;
+    };
+    add(0, 2).set_material(3);
+    add(2, 2);  // from a server that does not tell the material
+    add(5, 2).set_material(1);
+    add(7, 0xffffffffU).set_material(1);
+    const std::vector<std::uint32_t> ids{0, 1, 2, 3, 4, 5};
+    const auto table = SphereTable::from(facts, codec::orderMessage(1, 1, ids));
+    ASSERT_TRUE(table) << table.error().text();
+    EXPECT_EQ(table->groups, (std::vector<std::int32_t>{0, 0, 1, 1, -1, -1}));
+    EXPECT_EQ(table->materials, (std::vector<std::int32_t>{3, 3, -1, -1, -1, -1}));
 }
 
 TEST_F(RoundTrip, FilePlaysWhileItIsWritten) {
