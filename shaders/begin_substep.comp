@@ -25,7 +25,7 @@ BUFFER(readonly, uint, counters)
 
 LANE_KERNEL(params.spheres) {
     real4 v = ROW(velocity, invocation);
-    mask awake = liveLanes() && !isAsleep(v);
+    mask awake = liveLanes() && isAwake(v);
     if (!anyLane(awake)) return;
     real4 held = ROW(heldVelocity, invocation);
     real3 fall = real3(0.0f, 0.0f, 0.0f);

@@ -239,7 +239,7 @@ mask leavesBounds(real3 p) {
 
 LANE_KERNEL(params.spheres) {
     real4 v = ROW(velocity, invocation);
-    sphereAwake = liveLanes() && !isAsleep(v);
+    sphereAwake = liveLanes() && isAwake(v);
     if (!anyLane(sphereAwake)) return;
     float h = params.substep;
     real4 x = ROW(position, invocation);

@@ -27,7 +27,7 @@ BUFFER(readonly, Obstacle, obstacles)
 
 KERNEL(params.spheres) {
     vec4 v = velocity[invocation];
-    if (HAS(SLEEP) && isAsleep(v)) return;
+    if ((HAS(SLEEP) || HAS(FIXED)) && !isAwake(v)) return;
     vec4 x = position[invocation];
     if (farthestOf(vec3(x)) > LAST_PLACE && finite3(vec3(x))) return;
     float h = params.substep;

@@ -1,5 +1,5 @@
 // Finds the pairs of each group of 2 x 2 x 2 cells whose gap is below the margin: the candidates. One walk fills a
-// local array, which is then copied. A group with more pairs walks a second time.
+// local array, which is then copied. A group with more pairs walks a second time. Pairs of fixed spheres are left out.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -12,6 +12,7 @@ PARAMETERS
 #include "shared/outside.h"
 
 BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, float, sortedX)
 BUFFER(readonly, float, sortedY)
 BUFFER(readonly, float, sortedZ)
@@ -45,6 +46,7 @@ void visitRange(uint a, uint begin, uint end) {
     visited = a;
     vec4 sphere = position[a];
     real4 pa = real4(sphere);
+    bool fixedHere = HAS(FIXED) && isFixed(velocity[a]);
     for (uint b = begin; b < end; b += LANES) {
         uintRow at = ROWS_UP_TO(b, end);
         real radius = HAS(RADII) ? ROW(sortedRadius, at) : real(params.radius);
@@ -55,6 +57,7 @@ void visitRange(uint a, uint begin, uint end) {
         real squared = dot3(d, d);
         mask listed = IN_ROWS(at) && squared < reach * reach;
         if (!anyLane(listed)) continue;
+        if (fixedHere) listed = listed && !isFixed(ROW(velocity, at));
         if (lost(sphere)) return;
         listed = listed && !lost(pb);
         real close = touch + smallerRadius(pa, pb) * FAR_GAP;

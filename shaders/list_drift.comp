@@ -1,4 +1,5 @@
-// Sets the drift of new lists: the middle of the box of all velocities, or 0 if a sphere sleeps.
+// Sets the drift of new lists: the middle of the box of all velocities, or 0 if a sphere sleeps or is
+// fixed.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS

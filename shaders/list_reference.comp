@@ -53,7 +53,7 @@ KERNEL(params.spheres) {
     sortedY[invocation] = sphere.y;
     sortedZ[invocation] = sphere.z;
     if (HAS(RADII)) sortedRadius[invocation] = storedRadius(sphere);
-    if (HAS(SLEEP) && isAsleep(v)) {
+    if ((HAS(SLEEP) || HAS(FIXED)) && !isAwake(v)) {
         atomicOr(counters[COUNTER_RESTING], RESTS);
     } else if (room == 0.0f && finite3(vec3(v)) && finite3(vec3(sphere))) {
         addToDriftBox(vec3(v));

@@ -28,7 +28,7 @@ BUFFER(readonly, vec4, heldVelocity)
 #define RESTLESS_PAIRS 5.0f
 
 KERNEL(params.spheres) {
-    if (isAsleep(velocity[invocation])) return;
+    if (!isAwake(velocity[invocation])) return;
     vec4 reference = listReference[invocation];
     uint levels = HAS(LEVELS) ? params.levels : 1u;
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;

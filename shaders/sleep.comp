@@ -65,6 +65,7 @@ KERNEL(params.spheres) {
         }
         return;
     }
+    if (HAS(FIXED) && isFixed(v)) return;
     vec3 p = vec3(position[invocation]);
     vec4 u = velocityBefore[invocation];
     vec4 rest = restReference[id];

@@ -83,6 +83,8 @@ void visitPair(uint a, uint b) {
     vec4 va = velocity[a];
     vec4 vb = velocity[b];
     float inverseMassSum = awakeInverseMass(va) + awakeInverseMass(vb);
+    touches = !HAS(FIXED) || inverseMassSum > 0.0f;
+    if (!touches) return;
     vec4 normal = normalAndDistance(d, squared, a, b);
     vec3 n = vec3(normal);
     float speed = dot3(vec3(va) - vec3(vb), n);

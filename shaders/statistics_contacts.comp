@@ -11,6 +11,7 @@ PARAMETERS
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, velocity)
 BUFFER(readonly, uint, cellStart)
 BUFFER(readonly, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
@@ -29,6 +30,7 @@ void visitPair(uint a, uint b) {
     float touch = reach * (1.0f + TOUCH_TOLERANCE);
     float squared = dot3(d, d);
     if (!(squared < touch * touch)) return;
+    if (HAS(FIXED) && isFixed(velocity[a]) && isFixed(velocity[b])) return;
     atomicAdd(touching[a], 1u);
     atomicAdd(touching[b], 1u);
     if (!(squared < reach * reach)) return;

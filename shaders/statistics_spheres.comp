@@ -1,5 +1,5 @@
 // Adds up the spheres with finite states and counts the others, in parts of STATISTIC_BLOCK spheres. The host adds up
-// the parts.
+// the parts. Fixed spheres are counted and take part in no sum.
 #include "shared/kernel.h"
 #include "shared/layout.h"
 PARAMETERS
@@ -90,11 +90,16 @@ KERNEL(params.statisticBlocks) {
     uint sleeping = 0u;
     uint outsideCount = 0u;
     uint nonFinite = 0u;
+    uint fixedSpheres = 0u;
     for (uint k = invocation * STATISTIC_BLOCK; k < end; ++k) {
         vec3 x = vec3(position[k]);
         vec3 unwrapped = x;
         vec4 v = velocity[k];
         if (touches()) touching[k] = 0u;
+        if (HAS(FIXED) && isFixed(v)) {
+            fixedSpheres += 1u;
+            continue;
+        }
         if (!finite3(x) || !finite3(vec3(v))) {
             nonFinite += 1u;
             continue;
@@ -143,4 +148,5 @@ KERNEL(params.statisticBlocks) {
     sphereSums[invocation].sleeping = sleeping;
     sphereSums[invocation].outside = outsideCount;
     sphereSums[invocation].nonFinite = nonFinite;
+    sphereSums[invocation].fixedSpheres = fixedSpheres;
 }

@@ -123,6 +123,7 @@ KERNEL(params.spheres) {
     if (!remembersWall(spin) && near == NO_OBSTACLES && clearOfFaces(reach)) return;
     residual = vec3(positionLow[invocation]);
     vec4 v = velocity[invocation];
+    if (HAS(FIXED) && isFixed(v)) return;
     sphereInverseMass = awakeInverseMass(v);
     sphereVelocity = vec3(v);
     impulseSum = vec3(0.0f, 0.0f, 0.0f);

@@ -90,7 +90,7 @@ KERNEL(params.spheres) {
     uint near = HAS(OBSTACLES) ? obstaclesNear(invocation, reach) : NO_OBSTACLES;
     if (near == NO_OBSTACLES && clearOfFaces(reach)) return;
     vec4 v = velocity[invocation];
-    if (HAS(SLEEP) && isAsleep(v)) return;
+    if ((HAS(SLEEP) || HAS(FIXED)) && !isAwake(v)) return;
     solvedVelocity = vec3(v);
     pushedOut = vec3(0.0f, 0.0f, 0.0f);
     touched = false;

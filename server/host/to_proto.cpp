@@ -34,6 +34,7 @@ void setSpheres(v1::SceneFacts& facts, const scene::Scene& scene, bool radiiDiff
         if (group.count == 0) continue;
         const scene::Sphere& first = scene.spheres[group.first];
         message.set_material(first.material);
+        message.set_fixed(first.fixed);
     }
     facts.set_count(static_cast<std::uint32_t>(scene.spheres.size()));
     if (!radiiDiffer) {

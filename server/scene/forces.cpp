@@ -13,7 +13,8 @@ double strongestAcceleration(const Scene& scene) {
     if (std::ranges::none_of(scene.forces.fields, attracts)) return strongest;
     const std::size_t stride = scene.spheres.size() / mostPlaces + 1;
     for (std::size_t id = 0; id < scene.spheres.size(); id += stride)
-        strongest = std::max(strongest, glm::length(scene.forces.accelerationAt(scene.spheres[id].position)));
+        if (!scene.spheres[id].fixed)
+            strongest = std::max(strongest, glm::length(scene.forces.accelerationAt(scene.spheres[id].position)));
     return strongest;
 }
 

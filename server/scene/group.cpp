@@ -98,6 +98,18 @@ void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, con
     }
 }
 
+// Refuses fixed spheres that move.
+void checkAtRest(Check& check, const v1::Group& message, const std::string& source,
+                 const std::vector<Sphere>& spheres) {
+    const auto moves = [](const Sphere& sphere) {
+        return sphere.velocity != glm::vec3(0) || sphere.spin != glm::vec3(0);
+    };
+    const auto mover = std::ranges::find_if(spheres, moves);
+    if (mover == spheres.end()) return;
+    refuseSphere(check, message, source, static_cast<std::size_t>(mover - spheres.begin()), *mover,
+                 "is fixed, so it can have neither velocity nor spin; leave these out, or leave out fixed");
+}
+
 }  // namespace
 
 bool addTaken(Check& check, std::span<const Sphere> taken, Occupancy& occupancy) {
@@ -126,7 +138,11 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     if (!check.ok()) return {};
 
     std::vector<Sphere> spheres = fromSource(check, message, scene, context, std::move(input));
-    for (Sphere& sphere : spheres) sphere.material = material;
+    for (Sphere& sphere : spheres) {
+        sphere.material = material;
+        sphere.fixed = message.fixed();
+    }
+    if (message.fixed()) checkAtRest(check, message, source, spheres);
     if (check.ok()) checkWork(check, scene, source, context.taken.size() + spheres.size());
     if (check.ok()) checkPlaces(check, message, scene, source, spheres);
     return spheres;

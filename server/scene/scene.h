@@ -22,6 +22,7 @@ struct Sphere {
     glm::vec3 velocity{};       // m/s
     float radius = 0;           // m
     std::uint8_t material = 0;  // index into Scene::materials
+    bool fixed = false;         // infinite mass: nothing moves it
     glm::vec3 spin{};           // angular velocity, rad/s
 };
 

@@ -40,9 +40,15 @@ double shearModulus(const Material& material) {
     return material.young / (2 * (1 + material.poisson));
 }
 
+// Returns true if spheres meet fixed spheres, which are surfaces to them.
+bool meetsFixed(const Scene& scene) {
+    return scene.sphereContacts && std::ranges::any_of(scene.spheres, &Sphere::fixed);
+}
+
 std::set<std::uint8_t> materialsOfSpheres(const Scene& scene) {
     std::set<std::uint8_t> used;
-    for (const Sphere& sphere : scene.spheres) used.insert(sphere.material);
+    for (const Sphere& sphere : scene.spheres)
+        if (!sphere.fixed) used.insert(sphere.material);
     return used;
 }
 
@@ -50,9 +56,13 @@ std::set<std::uint8_t> materialsOfSurfaces(const Scene& scene) {
     std::set<std::uint8_t> used;
     if (hasWalls(scene)) used.insert(scene.bounds.material);
     for (const Obstacle& obstacle : scene.obstacles) used.insert(obstacle.material);
+    if (meetsFixed(scene))
+        for (const Sphere& sphere : scene.spheres)
+            if (sphere.fixed) used.insert(sphere.material);
     return used;
 }
 
+// The extremes of the spheres that are not fixed.
 struct Extremes {
     double smallest = std::numeric_limits<double>::infinity();  // radius, m
     double largest = 0;
@@ -72,6 +82,7 @@ Extremes extremesOf(const Scene& scene) {
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
     const double floor = -glm::dot(glm::abs(up), half);
     for (const Sphere& sphere : scene.spheres) {
+        if (sphere.fixed) continue;
         const auto r = static_cast<double>(sphere.radius);
         found.smallest = std::min(found.smallest, r);
         found.largest = std::max(found.largest, r);
@@ -89,7 +100,7 @@ Extremes extremesOf(const Scene& scene) {
 }
 
 bool hasSurfaces(const Scene& scene) {
-    return hasWalls(scene) || !scene.obstacles.empty();
+    return hasWalls(scene) || !scene.obstacles.empty() || meetsFixed(scene);
 }
 
 // Returns true if a wall or an obstacle has friction with any sphere.
@@ -101,9 +112,11 @@ bool surfacesRub(const Scene& scene) {
     });
 }
 
-// Returns the part of `motion` that is parallel to all closed faces and planes. Returns 0 if there are other obstacles.
+// Returns the part of `motion` that is parallel to all closed faces and planes. Returns 0 if there are other obstacles
+// or fixed spheres.
 // A common motion of this kind has no effect on contacts.
 glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
+    if (meetsFixed(scene)) return glm::dvec3(0);
     std::vector<glm::dvec3> across;  // orthonormal
     const auto block = [&across](glm::dvec3 n) {
         for (const glm::dvec3& other : across) n -= other * glm::dot(n, other);
@@ -126,7 +139,7 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
 
 // Returns the square of the speed (m^2/s^2) that a sphere gains by falling in the fields.
 double fieldDrop(const Scene& scene, const Extremes& extremes) {
-    if (scene.forces.fields.empty() || scene.spheres.empty()) return 0;
+    if (scene.forces.fields.empty() || !(extremes.largest > 0)) return 0;
     const Bounds& bounds = scene.bounds;
     const bool closed = std::ranges::find(bounds.open, true) == bounds.open.end();
     const auto nearestTo = [&](const glm::dvec3& centre) {
@@ -149,7 +162,7 @@ struct Meetings {
 Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     constexpr double grain = 1.0 / 30;
     Meetings fastest;
-    if (scene.spheres.empty()) return fastest;
+    if (!(extremes.largest > 0)) return fastest;
     const bool stopped = hasSurfaces(scene);
     glm::dvec3 common(0);
     if (!stopped || !surfacesRub(scene)) common = alongSurfaces(scene, 0.5 * (extremes.slowest + extremes.fastest));
@@ -328,7 +341,7 @@ ContactTime contactTimeOf(const Scene& scene) {
         time.substep = std::min(time.substep, rayleigh / rayleighShare);
     }
     time.substep = std::min(time.substep, time.contact / substepsPerContact(scene));
-    if (!scene.spheres.empty()) time.overlap = time.speed * time.contact / pi / extremes.smallest;
+    if (extremes.largest > 0) time.overlap = time.speed * time.contact / pi / extremes.smallest;
     return time;
 }
 

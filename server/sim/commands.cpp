@@ -209,6 +209,8 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& push) {
     const auto id = targetOf(push);
     if (!id) return tl::unexpected(id.error());
+    if (simulation_.scene_.spheres[*id].fixed)
+        return fail(ErrorKind::Refused, "", fmt::format("sphere {} is fixed: nothing moves it", *id));
     if (auto slow = checkPush(*id, push.impulse); !slow) return tl::unexpected(slow.error());
     Pipeline& pipeline = *simulation_.pipeline_;
     const scene::Scene& scene = simulation_.scene_;

@@ -22,7 +22,7 @@ State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres)
         const auto r = static_cast<double>(sphere.radius);
         const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * scene.materials[sphere.material].density;
         state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
-        state.velocity.emplace_back(sphere.velocity, static_cast<float>(1 / mass));
+        state.velocity.emplace_back(sphere.velocity, sphere.fixed ? 0.0F : static_cast<float>(1 / mass));
         state.spin.emplace_back(sphere.spin, 0.0F);
     }
     if (scene.bounds.anyPeriodic()) state.images.resize(spheres.size());
@@ -52,6 +52,10 @@ glm::dvec3 spinOf(const State& state, std::uint32_t id) {
     return glm::dvec3(state.spin[id]);
 }
 
+bool isFixed(const State& state, std::uint32_t id) {
+    return state.velocity[id].w == 0;
+}
+
 double massOf(const State& state, std::uint32_t id) {
     return 1 / std::abs(static_cast<double>(state.velocity[id].w));
 }
@@ -63,6 +67,7 @@ double radiusOf(const State& state, std::uint32_t id) {
 double kineticEnergyOf(const State& state) {
     double sum = 0;
     for (std::uint32_t id = 0; id < state.count(); ++id) {
+        if (isFixed(state, id)) continue;
         const glm::dvec3 v = velocityOf(state, id);
         const glm::dvec3 rim = radiusOf(state, id) * spinOf(state, id);
         sum += massOf(state, id) * (glm::dot(v, v) / 2 + glm::dot(rim, rim) / 5);
@@ -72,13 +77,15 @@ double kineticEnergyOf(const State& state) {
 
 glm::dvec3 momentumOf(const State& state) {
     glm::dvec3 sum{};
-    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * velocityOf(state, id);
+    for (std::uint32_t id = 0; id < state.count(); ++id)
+        if (!isFixed(state, id)) sum += massOf(state, id) * velocityOf(state, id);
     return sum;
 }
 
 double momentumScale(const State& state) {
     double sum = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id) sum += massOf(state, id) * glm::length(velocityOf(state, id));
+    for (std::uint32_t id = 0; id < state.count(); ++id)
+        if (!isFixed(state, id)) sum += massOf(state, id) * glm::length(velocityOf(state, id));
     return sum;
 }
 

@@ -14,7 +14,7 @@ namespace spherule::sim {
 // The state of the spheres, in id order.
 struct State {
     std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
-    std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass, negative while asleep
+    std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass: negative while asleep, 0 if fixed
     std::vector<glm::vec4> spin;      // angular velocity, rad/s; w = 0
     // With periodic axes, else empty: the lengths of each axis by which positions were moved back into the bounds.
     std::vector<glm::ivec3> images;
@@ -34,8 +34,10 @@ glm::dvec3 positionOf(const State& state, std::uint32_t id);
 glm::dvec3 unwrappedOf(const State& state, std::uint32_t id, const glm::dvec3& periods);
 glm::dvec3 velocityOf(const State& state, std::uint32_t id);
 glm::dvec3 spinOf(const State& state, std::uint32_t id);
-double massOf(const State& state, std::uint32_t id);
+bool isFixed(const State& state, std::uint32_t id);
+double massOf(const State& state, std::uint32_t id);  // infinite if fixed
 double radiusOf(const State& state, std::uint32_t id);
+// The sums are over the spheres that are not fixed.
 glm::dvec3 momentumOf(const State& state);
 double momentumScale(const State& state);    // sum of m |v|
 double kineticEnergyOf(const State& state);  // of translation and rotation

@@ -63,6 +63,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     double squares = 0;
     double heights = 0;
     double fastest = 0;
+    std::uint32_t fixedSpheres = 0;
     for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereSums)) {
         weighted += glm::dvec4(part.weighted);
         sum.momentum += glm::dvec3(part.momentum);
@@ -78,13 +79,14 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
         sum.sleeping += part.sleeping;
         sum.outside += part.outside;
         sum.nonFinite += part.nonFinite;
+        fixedSpheres += part.fixedSpheres;
     }
     for (const float work : pipeline.read<float>(Array::WallWork)) sum.pushWork += static_cast<double>(work);
     addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
     sum.potentialEnergy = potentialEnergy(scene, weighted) + sum.fieldEnergy;
     sum.unboundedEnergy = -glm::dot(periodicGravity(scene), glm::dvec3(weighted));
     sum.speedMax = std::sqrt(fastest);
-    const double finite = pipeline.plan().spheres - sum.nonFinite;
+    const double finite = pipeline.plan().spheres - sum.nonFinite - fixedSpheres;
     if (finite > 0) {
         sum.speedRms = std::sqrt(squares / finite);
         sum.meanHeight = heights / finite + 0.5 * (scene.bounds.max.z - scene.bounds.min.z);

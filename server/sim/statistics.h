@@ -47,7 +47,7 @@ struct Statistics {
     double overlapMax = 0;
     double wallOverlapMax = 0;
     double speedMax = 0;
-    double speedRms = 0;
+    double speedRms = 0;    // over the spheres that are not fixed, as all sums
     double meanHeight = 0;  // z above the bounds' floor
     std::uint32_t sleeping = 0;
     std::uint32_t outside = 0;

@@ -23,7 +23,8 @@ ANY_REAL smallerRadius(ANY_REAL4 a, ANY_REAL4 b) {
     return HAS(RADII) ? min(a.w, b.w) : params.radius;
 }
 
-// A row of `velocity`: w is the inverse mass (1/kg), negative while the sphere is asleep.
+// A row of `velocity`: w is the inverse mass (1/kg). It is negative while the sphere is asleep, and 0 if the sphere is
+// fixed. A fixed sphere is neither asleep nor awake.
 ANY_MASK isAsleep(ANY_REAL4 v) {
     return v.w < 0.0f;
 }
@@ -32,17 +33,21 @@ ANY_MASK isAwake(ANY_REAL4 v) {
     return v.w > 0.0f;
 }
 
+ANY_MASK isFixed(ANY_REAL4 v) {
+    return v.w == 0.0f;
+}
+
 ANY_REAL inverseMassOf(ANY_REAL4 v) {
     return abs(v.w);
 }
 
-// The inverse mass of a sphere that is awake, as all spheres are in the model `accurate`.
+// The inverse mass of a sphere that is awake or fixed, as all spheres are in the model `accurate`.
 float awakeInverseMass(vec4 v) {
     return v.w;
 }
 
-// The inverse mass with which a sphere takes part in a contact. It is 0 for a sleeper, so that its neighbours cannot
-// move it.
+// The inverse mass with which a sphere takes part in a contact. It is 0 for a sleeper and for a fixed sphere, so that
+// their neighbours cannot move them.
 ANY_REAL effectiveInverseMass(ANY_REAL4 v) {
     return max(v.w, 0.0f);
 }

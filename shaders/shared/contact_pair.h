@@ -74,6 +74,11 @@ RARE Impact impactOf(mask approaching, mask held, slots a, slots b, real3 d, rea
     real loadA = select(ma > 0.0f, heldNow - dot3(changeA, result.n) / max(ma, real(1.0e-30f)), heldNow);
     real loadB = select(mb > 0.0f, heldNow + dot3(changeB, result.n) / max(mb, real(1.0e-30f)), heldNow);
     real load = min(loadA, loadB);
+    if (HAS(FIXED)) {
+        // A fixed sphere bears any load.
+        load = select(isFixed(va), loadB, load);
+        load = select(isFixed(vb), loadA, load);
+    }
     result.load = select(load > -impactSpeed * mass * LEAST_LOAD, load, real(0.0f));
     precise real rebound = -e * impactSpeed;
     real3 bounce = result.n * ((rebound - impactSpeed) * mass);

@@ -98,7 +98,7 @@ struct SphereStatistics {
     uint sleeping;
     uint outside;
     uint nonFinite;
-    uint unused;
+    uint fixedSpheres;
 };
 
 // The w of a row of `restReference` that marks a sphere as moved away, with a quiet time of 0 (shared/accessors.h).
@@ -134,7 +134,7 @@ struct SphereStatistics {
 #define COUNTER_WORDS 36u
 
 // Bits of COUNTER_RESTING.
-#define RESTS 1u                // spheres sleep, or have slept since the lists were built
+#define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed
 #define RESTED_BEFORE 2u        // the same for the lists before, while the lists are rebuilt
 
 // If more spheres are outside, their distances from each other are not computed, and each has a room of one margin.

@@ -136,6 +136,15 @@ TEST_P(Bits, AcrossSeamsAreTheSameOnAllDevices) {
         expectTheSameBits(periodicMixture(GetParam(), ratio), GetParam() == scene::Model::Accurate ? 0.06 : 0.25);
 }
 
+TEST_P(Bits, OfAMixtureWithFixedSpheresAreTheSameOnAllDevices) {
+    scene::Scene scene = mixture(GetParam());
+    for (std::size_t k = 0; k < scene.spheres.size(); k += 5) {
+        scene.spheres[k].fixed = true;
+        scene.spheres[k].velocity = scene.spheres[k].spin = glm::vec3(0);
+    }
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.4);
+}
+
 TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {
     expectTheSameBits(mixedBed(GetParam(), 10), GetParam() == scene::Model::Accurate ? 0.1 : 0.3);
 }

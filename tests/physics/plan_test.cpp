@@ -39,6 +39,7 @@ scene::Scene everything(scene::Model model = scene::Model::Balanced) {
         sphere.material = addMaterial(scene, {.restitution = 0.01 * k, .friction = 0.3, .rollingResistance = 0.1});
         scene.spheres.push_back(sphere);
     }
+    scene.spheres.back().fixed = true;
     return scene;
 }
 
@@ -46,6 +47,7 @@ scene::Scene dust() {
     scene::Scene scene = fineStepSpace(10);
     scene.sphereContacts = false;
     scene.spheres = everything().spheres;
+    scene.spheres.back().fixed = false;
     for (scene::Sphere& sphere : scene.spheres) {
         sphere.radius = 0.05F;
         sphere.material = 0;

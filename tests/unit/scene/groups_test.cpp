@@ -35,6 +35,22 @@ TEST(SceneGroups, ListSpheresInheritPropertiesOfTheGroup) {
     EXPECT_EQ(scene.groups[1].count, 1U);
 }
 
+TEST(SceneGroups, FixedSpheresAreMarkedAndAtRest) {
+    const Scene scene = sceneWith(R"("groups": [
+        {"fixed": true, "radius": {"constant": 0.1}, "list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]}},
+        {"radius": {"constant": 0.1}, "list": {"spheres": [{"position": [0.2, 0.5, 0.5]}]}}])");
+    EXPECT_TRUE(scene.spheres.at(0).fixed);
+    EXPECT_FALSE(scene.spheres.at(1).fixed);
+    const std::string reason =
+        " is at [0.5, 0.5, 0.5] with radius 0.1 and is fixed, so it can have neither velocity nor spin; leave these "
+        "out, or leave out fixed";
+    for (const char* const motion : {R"("velocity": [0, 0, 1])", R"("spin": [1, 0, 0])"})
+        EXPECT_EQ(
+            refusalOf(group(std::string(R"("fixed": true, )") + motion +
+                            R"(, "radius": {"constant": 0.1}, "list": {"spheres": [{"position": [0.5, 0.5, 0.5]}]})")),
+            "groups[0].list.spheres[0]:" + reason);
+}
+
 TEST(SceneGroups, OverlapsBetweenSpheresAreAllowed) {
     EXPECT_EQ(refusalOf(group(R"("radius": {"constant": 0.1}, "list": {"spheres": [
         {"position": [0.5, 0.5, 0.5]}, {"position": [0.5, 0.5, 0.5]}]})")),
