@@ -18,7 +18,7 @@ BUFFER(coherent, vec4, heldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, uvec2, pairs)
-BUFFER(readonly, uint, bundles)
+BUFFER(restrict, uint, bundles)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
 BUFFER(restrict, float, contactZ)
@@ -32,13 +32,19 @@ PRIVATE(uint, remembered)  // the first element of the contact memory of the pre
 #include "shared/contact.h"
 #include "shared/friction.h"
 #include "shared/contact_law.h"
+#include "shared/contact_sums.h"
 #include "shared/contact_pair.h"
 
 bool beginBundle(uint bundle) {
     if (!hasList(bundle) || listedPairs(bundle) == 0u || (HAS(SLEEP) && !isActive(bundle))) return false;
     remembered = firstRemembered();
     contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    if (HAS(CONTACT_SUMS)) beginContactSums();
     return true;
+}
+
+void endBundle(uint bundle) {
+    if (HAS(CONTACT_SUMS)) endContactSums(bundle);
 }
 
 // From this number on, the spheres exceed the caches of most processors. Below, prefetches cost more than they save.

@@ -21,7 +21,7 @@ BUFFER(coherent, vec4, deltaVelocity)
 BUFFER(coherent, vec4, deltaOmega)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
-BUFFER(readonly, uint, bundles)
+BUFFER(restrict, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(restrict, float, contactX)
 BUFFER(restrict, float, contactY)
@@ -34,6 +34,7 @@ PRIVATE(bool, touches)
 PRIVATE(bool, listed)     // the pair keeps its displacement; an unlisted pair begins anew in each substep
 
 #include "shared/contact_params.h"
+#include "shared/contact_sums.h"
 #include "shared/deltas.h"
 #include "shared/spring.h"
 
@@ -49,6 +50,7 @@ void applySpringFriction(uint a, uint b, vec3 n, float ra, float rb, float lever
     displacement = rotateToPlane(displacement, n);
     float slipPerImpulse = (awakeInverseMass(va) + awakeInverseMass(vb)) * (1.0f + 2.5f * lever * lever);
     vec3 impulse = tangentialImpulse(slip, slip, slipPerImpulse, spring, frictionOf(contact));
+    if (HAS(CONTACT_SUMS)) addToContactSums(true, n * (lever * (ra + rb)), impulse, false);
     vec3 slipMoment = cross3(n, impulse) * (2.5f * lever);
     vec3 moment = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(ROLLING)) {
@@ -91,6 +93,8 @@ void visitPair(uint a, uint b) {
     Spring spring = springOf(reach - distanceOf(normal), speed, speed, ra * rb / reach, inverseMassSum,
                              stiffnessOf(a, b));
     vec3 impulse = n * spring.impulse;
+    // A collision is counted when the spheres begin to touch.
+    if (HAS(CONTACT_SUMS)) addToContactSums(true, n * distanceOf(normal), impulse, spring.share < 1.0f);
     addDeltaVelocity(a, impulse * awakeInverseMass(va));
     addDeltaVelocity(b, impulse * -awakeInverseMass(vb));
     if (HAS(FRICTION)) applySpringFriction(a, b, n, ra, rb, distanceOf(normal) / reach, spring, contactOf(a, b));
@@ -101,10 +105,16 @@ void visitPair(uint a, uint b) {
 #include "shared/visit_range.h"
 #include "shared/group.h"
 
+void endBundle(uint bundle) {
+    if (HAS(CONTACT_SUMS)) endContactSums(bundle);
+}
+
 bool beginBundle(uint bundle) {
+    if (HAS(CONTACT_SUMS)) beginContactSums();
     listed = hasList(bundle);
     if (listed) return listedPairs(bundle) > 0u;
     if (FIRST_THREAD) visitBundle(bundle, firstPair(bundle));
+    endBundle(bundle);
     return false;
 }
 

@@ -19,11 +19,12 @@ BUFFER(coherent, vec4, velocity)
 BUFFER(coherent, vec4, angularVelocity)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, uint, cellStart)
-BUFFER(readonly, uint, bundles)
+BUFFER(restrict, uint, bundles)
 BUFFER(readonly, uvec2, pairs)
 BUFFER(readonly, ContactParams, contactParams)
 
 #include "shared/contact_params.h"
+#include "shared/contact_sums.h"
 #include "shared/friction_pair.h"
 
 // An impact may be found late, because the sweep visits a pair once, perhaps before other impacts change its course.
@@ -86,6 +87,11 @@ void visitPair(uint a, uint b) {
         if (mb > 0.0f) velocity[b] = withXyz(vb, vec3(vb) - impulse * mb);
         if (HAS(FRICTION))
             applyPairFriction(a, b, n, radiusOf(pa), radiusOf(pb), normalImpulse, contact);
+        if (HAS(CONTACT_SUMS)) {
+            vec3 total = ma > 0.0f ? (vec3(velocity[a]) - vec3(va)) * (1.0f / ma)
+                                   : (vec3(vb) - vec3(velocity[b])) * (1.0f / mb);
+            addToContactSums(true, n * (impact ? reach : sqrt(squared)), total, impact);
+        }
         if (impact) {
             // Both fly on from the point of impact at their new velocities. This keeps angular momentum.
             xa = xa + (vec3(velocity[a]) - vec3(va)) * since;
@@ -108,10 +114,16 @@ void visitPair(uint a, uint b) {
 #include "shared/visit_range.h"
 #include "shared/group.h"
 
+void endBundle(uint bundle) {
+    if (HAS(CONTACT_SUMS)) endContactSums(bundle);
+}
+
 bool beginBundle(uint bundle) {
     if (HAS(SLEEP) && !isActive(bundle)) return false;
+    if (HAS(CONTACT_SUMS)) beginContactSums();
     if (hasList(bundle)) return listedPairs(bundle) > 0u;
     if (FIRST_THREAD) visitBundle(bundle, firstPair(bundle));
+    endBundle(bundle);
     return false;
 }
 

@@ -18,12 +18,13 @@ BUFFER(restrict, vec4, heldSpin)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(readonly, uint, cellStart)
-BUFFER(readonly, uint, bundles)
+BUFFER(restrict, uint, bundles)
 
 #include "shared/bundle_words.h"
 #include "shared/contact.h"
 #include "shared/friction.h"
 #include "shared/contact_law.h"
+#include "shared/contact_sums.h"
 #include "shared/contact_pair.h"
 
 void visitPair(uint a, uint b) {
@@ -39,5 +40,7 @@ KERNEL(bundlesOfPhase()) {
     uint bundle = bundleOfPhase(invocation);
     if (hasList(bundle)) return;
     contactReach = 2.0f * fastestSpeed() * params.substep + SLOP * params.radius;
+    if (HAS(CONTACT_SUMS)) beginContactSums();
     visitBundle(bundle, firstPair(bundle));
+    if (HAS(CONTACT_SUMS)) endContactSums(bundle);
 }

@@ -83,6 +83,8 @@ KERNEL(params.statisticBlocks) {
     vec4 weighted = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     float height = 0.0f;
     float fieldEnergy = 0.0f;
+    vec3 flowDiagonal = vec3(0.0f, 0.0f, 0.0f);
+    vec3 flowOther = flowDiagonal;
     float squares = 0.0f;
     float fastest = 0.0f;
     float overlap = 0.0f;
@@ -122,6 +124,10 @@ KERNEL(params.statisticBlocks) {
         }
         weighted = weighted + vec4(unwrapped * mass, mass);
         height += x.z;
+        if (HAS(CONTACT_SUMS)) {
+            flowDiagonal = flowDiagonal + vec3(v.x * v.x, v.y * v.y, v.z * v.z) * mass;
+            flowOther = flowOther + vec3(v.x * v.y, v.x * v.z, v.y * v.z) * mass;
+        }
         if (HAS(FIELDS)) fieldEnergy += mass * fieldPotential(x);
         squares += squared;
         fastest = max(fastest, squared);
@@ -145,6 +151,8 @@ KERNEL(params.statisticBlocks) {
     sphereSums[invocation].wallOverlapMax = overlap;
     sphereSums[invocation].wallSprings = springs;
     sphereSums[invocation].fieldEnergy = fieldEnergy;
+    sphereSums[invocation].flowDiagonal = vec4(flowDiagonal, 0.0f);
+    sphereSums[invocation].flowOther = vec4(flowOther, 0.0f);
     sphereSums[invocation].sleeping = sleeping;
     sphereSums[invocation].outside = outsideCount;
     sphereSums[invocation].nonFinite = nonFinite;

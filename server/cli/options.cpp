@@ -63,6 +63,7 @@ void SceneOptions::addTo(CLI::App& command) {
     addGoal(command, overrides);
     command.add_option("--seed", overrides.seed, "seed, in place of the scene's seeds");
     command.add_flag("--no-sleep", overrides.noSleep, "put no sphere to sleep");
+    command.add_flag("--contact-sums", overrides.contactSums, "measure stress, dissipated energy and collisions");
     command
         .add_option_function<std::uint64_t>(
             "--memory-limit", memory::setLimit,

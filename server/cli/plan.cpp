@@ -48,6 +48,8 @@ void addPlan(CLI::App& app, int& exitCode) {
     addQuality(*command, options->overrides);
     command->add_option("--seed", options->overrides.seed, "seed, in place of the scene's seeds");
     command->add_flag("--no-sleep", options->overrides.noSleep, "put no sphere to sleep");
+    command->add_flag("--contact-sums", options->overrides.contactSums,
+                      "measure stress, dissipated energy and collisions");
     command->add_flag("--json", options->json, "print one line of JSON");
     command->callback([options, &exitCode] { exitCode = plan(*options); });
 }

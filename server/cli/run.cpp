@@ -59,6 +59,7 @@ class IntervalTimer {
         simTime_ = simulation_.time();
         rebuilds_ = simulation_.counters().rebuilds;
         impacts_ = simulation_.impacts();
+        sums_ = simulation_.contactSums();
         began_ = Clock::now();
     }
     // Waits for the device.
@@ -70,6 +71,8 @@ class IntervalTimer {
                           .rebuilds = rebuildsSince(rebuilds_),
                           .before = impacts_};
         interval.end = simulation_.statistics();
+        if (const auto& sums = interval.end.contactSums)
+            interval.end.contactStress = sim::meanContactStress(sums->since(sums_), simulation_.scene().bounds);
         return interval;
     }
 
@@ -85,6 +88,7 @@ class IntervalTimer {
     double simTime_ = 0;
     std::uint64_t rebuilds_ = 0;
     sim::Impacts impacts_;
+    sim::ContactSums sums_;
     Clock::time_point began_;
 };
 

@@ -30,6 +30,8 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
     const sim::Statistics& s = interval.end;
     const sim::Impacts impacts = s.impacts.since(interval.before);
     const auto ofImpacts = [&impacts](double ratio) { return impacts.count > 0 ? nlohmann::json(ratio) : nullptr; };
+    const auto ofSums = [&s](const auto& value) { return s.contactSums ? nlohmann::json(value) : nullptr; };
+    const sim::ContactSums sums = s.contactSums.value_or(sim::ContactSums());
     const sim::State state = simulation.snapshot();
     return {
         {"scene", simulation.scene().name},
@@ -66,6 +68,10 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"impacts", static_cast<std::uint64_t>(impacts.count)},
         {"restitution", ofImpacts(impacts.restitution())},
         {"restitutionAsked", ofImpacts(impacts.restitutionAsked())},
+        {"collisions", ofSums(static_cast<std::uint64_t>(sums.collisions))},
+        {"dissipatedEnergy", ofSums(sums.dissipated)},
+        {"kineticStress", ofSums(s.kineticStress)},
+        {"contactStress", s.contactStress ? nlohmann::json(*s.contactStress) : nullptr},
         {"stateHash", fmt::format("{:016x}", sim::hashOf(state))},
     };
 }

@@ -50,6 +50,7 @@ bool DiagnosticsSampler::updateDial(const sim::Simulation& simulation, std::uint
     if (epoch != epoch_) {
         ratio_ = 0;
         impacts_ = {};
+        sums_ = {};
     }
     epoch_ = epoch;
     std::string basis = std::to_string(epoch) + settings.SerializeAsString();
@@ -67,6 +68,9 @@ DiagnosticsSampler::Sample DiagnosticsSampler::sample(sim::Simulation& simulatio
     v1::Diagnostics& diagnostics = sample.diagnostics;
     sim::Statistics statistics = simulation.statistics();
     statistics.impacts = statistics.impacts.since(std::exchange(impacts_, statistics.impacts));
+    if (const auto& sums = statistics.contactSums)
+        statistics.contactStress =
+            sim::meanContactStress(sums->since(std::exchange(sums_, *sums)), simulation.scene().bounds);
     *diagnostics.mutable_statistics() = statisticsMessage(statistics);
     diagnostics.set_substeps(simulation.substeps());
     addPasses(diagnostics, passSeconds, steps_);

@@ -44,9 +44,10 @@ class DiagnosticsSampler {
     diagnostics::Table table_;
     diagnostics::EnergyWatch energy_;
     diagnostics::OverlapWatch overlap_;
-    sim::Impacts impacts_;  // reported so far
-    v1::Dial dial_;         // not calibrated
-    std::string basis_;     // epoch and settings from which dial_ was built
+    sim::Impacts impacts_;   // reported so far
+    sim::ContactSums sums_;  // reported so far
+    v1::Dial dial_;          // not calibrated
+    std::string basis_;      // epoch and settings from which dial_ was built
     std::uint32_t epoch_ = 0;
     double ratio_ = 0;  // measured time of a step over its estimate; 0: unknown
     std::uint32_t substeps_ = 0;

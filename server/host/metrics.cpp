@@ -101,6 +101,19 @@ void Metrics::addDiagnostics(const v1::Diagnostics& diagnostics) {
         to.gauge("spherule_restitution_asked_ratio", "Restitution that the materials require for the observed impacts",
                  now.restitution_asked());
     }
+    if (now.has_collisions()) {
+        to.gauge("spherule_collisions", "Collisions between spheres since the spheres were last placed or added",
+                 static_cast<double>(now.collisions()));
+        to.gauge("spherule_dissipated_joules", "Energy that contacts have dissipated since then",
+                 now.dissipated_energy());
+        const auto tensor = [&to](const char* name, const char* help, const auto& values) {
+            constexpr std::array<const char*, 6> components = {"xx", "yy", "zz", "xy", "xz", "yz"};
+            for (int k = 0; k < values.size(); ++k) to.gauge(name, help, values[k], {{"component", components[k]}});
+        };
+        tensor("spherule_kinetic_stress_pascals", "Sum of m v v over the volume of the bounds", now.kinetic_stress());
+        tensor("spherule_contact_stress_pascals", "Virial stress of the contacts between spheres, mean of a second",
+               now.contact_stress());
+    }
     to.gauge("spherule_contacts", "Pairs of spheres that overlap", static_cast<double>(now.contacts()));
     to.gauge("spherule_overlap_mean_ratio", "Mean overlap of pairs that overlap, over the smaller radius",
              now.overlap_mean());

@@ -126,6 +126,12 @@ v1::Statistics statisticsMessage(const sim::Statistics& s) {
         message.set_restitution(s.impacts.restitution());
         message.set_restitution_asked(s.impacts.restitutionAsked());
     }
+    if (s.contactSums) {
+        message.set_collisions(static_cast<std::uint64_t>(s.contactSums->collisions));
+        message.set_dissipated_energy(s.contactSums->dissipated);
+        message.mutable_kinetic_stress()->Add(s.kineticStress.begin(), s.kineticStress.end());
+    }
+    if (s.contactStress) message.mutable_contact_stress()->Add(s.contactStress->begin(), s.contactStress->end());
     if (s.stateHash) message.set_state_hash(fmt::format("{:016x}", *s.stateHash));
     return message;
 }

@@ -94,6 +94,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     if (check.ok()) scene.pairs = readPairs(check, message.pairs(), scene.materials);
     if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
     if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
+    scene.contactSums = message.contact_sums() || overrides.contactSums;
     scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
     if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");
     scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");

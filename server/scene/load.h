@@ -27,6 +27,7 @@ struct Overrides {
     std::optional<QualityGoal> goal{};
     std::optional<std::uint64_t> seed{};  // replaces every seed of the scene
     bool noSleep = false;
+    bool contactSums = false;
 };
 
 // `source` is a path to a JSON file, or the name of a scene that comes with the program. `deviceKind` ("gpu", "cpu",

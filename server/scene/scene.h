@@ -147,6 +147,7 @@ struct Scene {
     Camera camera;
     Sleep sleep;
     bool sphereContacts = true;
+    bool contactSums = false;  // statistics have sums over the contacts of all substeps
 };
 
 }  // namespace spherule::scene

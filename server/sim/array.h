@@ -28,7 +28,7 @@ enum class Extent : std::uint8_t {
     Group,           // of 2 x 2 x 2 cells
     Block,           // of 4 x 4 x 4 cells
     Bundle,          // of blocks
-    BundleWord,      // BUNDLE_WORDS for each bundle and once more
+    BundleWord,      // BUNDLE_WORDS for each bundle and once more; then the rows of contact sums, if the scene has them
     Pair,            // each listed pair; the array grows and keeps its content when the lists need room
     PairTwice,       // two halves with an element for each listed pair; grows in the same way
     CarriedContact,  // CARRIED_MOST for each sphere

@@ -171,10 +171,12 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
     Features features = featuresOf(changed);
     features.set(Feature::Levels, plan().features.has(Feature::Levels));  // levels depend on the spheres alone
     if (features == plan().features) {
+        closeContactSums();
         scene_ = std::move(changed);
         maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
         writeConstants(*pipeline_, scene_);
         useSubsteps(scene_.quality.substeps);
+        openContactSums();
         // A change of the substeps alone wakes no sphere.
         if (disturbs) pipeline_->wakeAll();
         return {};

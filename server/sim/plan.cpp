@@ -54,7 +54,10 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::Bundle:
             return plan.grid.bundles();
         case Extent::BundleWord:
-            return (std::uint64_t{plan.grid.bundles()} + 1) * BUNDLE_WORDS;
+            return (std::uint64_t{plan.grid.bundles()} + 1) * BUNDLE_WORDS +
+                   (plan.features.has(Feature::ContactSums)
+                        ? std::uint64_t{plan.grid.bundles()} * SUM_THREADS * SUM_WORDS
+                        : 0);
         case Extent::Pair:
             return plan.pairCapacity;
         case Extent::PairTwice:

@@ -69,8 +69,27 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
     return simulation;
 }
 
+// Adds the sums of the device.
+void Simulation::takeContactSums() {
+    addContactSums(contactSums_, *pipeline_);
+    contactSums_.seconds = time() - sumsBegin_;
+}
+
+// Ends a stretch of contact sums, before an event other than motion changes the energies that contacts hold.
+void Simulation::closeContactSums() {
+    if (!hasContactSums()) return;
+    contactSums_ = *statistics().contactSums;
+}
+
+// Begins a stretch of contact sums.
+void Simulation::openContactSums() {
+    if (!hasContactSums()) return;
+    elasticBefore_ = measure(*pipeline_, scene_).elasticEnergy;
+}
+
 // Takes the results of a preparation that is done. Cannot fail.
 void Simulation::install(Preparation& preparation) {
+    if (pipeline_) closeContactSums();
     scene_ = std::move(preparation.built_.scene);
     radii_ = preparation.radii_;
     pipeline_ = std::move(preparation.pipeline_);
@@ -91,6 +110,7 @@ void Simulation::install(Preparation& preparation) {
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
     useSubsteps(scene_.quality.substeps);
     limitMotionPerSubstep(largestMotion(scene_, preparation.built_.state, scene_.step / substeps_));
+    openContactSums();
     saveLastFinite();
 }
 
@@ -115,6 +135,8 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     install(*preparation);
     if (resetScope_ != ResetScope::Nothing) {
         impacts_ = {};
+        contactSums_ = lastFiniteSums_ = {};
+        sumsBegin_ = time();
         ++generation_;
     }
     return {.step = steps_};
@@ -187,6 +209,12 @@ Statistics Simulation::statistics() {
     now.spheres = count();
     addImpacts(impacts_, *pipeline_);
     now.impacts = impacts_;
+    if (hasContactSums()) {
+        takeContactSums();
+        now.contactSums = contactSums_;
+        now.contactStress = meanContactStress(contactSums_, scene_.bounds);
+        now.contactSums->dissipated -= now.elasticEnergy - elasticBefore_;  // the energy in springs is not lost
+    }
     return now;
 }
 
@@ -219,6 +247,8 @@ Result<void> Simulation::checkStep() {
 void Simulation::saveLastFinite() {
     pipeline_->download(lastFinite_);
     lastFiniteStep_ = steps_;
+    if (hasContactSums()) takeContactSums();  // also keeps the sums of the device short
+    lastFiniteSums_ = contactSums_;
 }
 
 std::string Simulation::divergence() const {
@@ -238,6 +268,10 @@ void Simulation::rollback() {
     remainderBegin_ = 0;
     substepsLeft_ = 0;
     counters_ = {};
+    contactSums_ = lastFiniteSums_;
+    const double elasticBefore = elasticBefore_;
+    openContactSums();
+    contactSums_.dissipated -= elasticBefore_ - elasticBefore;
 }
 
 // Raises the number of substeps at once when the fastest sphere has moved too far in a substep. Lowers it gradually

@@ -49,6 +49,9 @@ class Simulation {
     [[nodiscard]] Statistics statistics();
     // Returns the impacts as of the last call of statistics().
     [[nodiscard]] const Impacts& impacts() const { return impacts_; }
+    // Returns the contact sums as of the last call of statistics(), with a dissipated energy that lacks the change of
+    // the energy in springs.
+    [[nodiscard]] const ContactSums& contactSums() const { return contactSums_; }
     // Turns observed steps on or off. Default: on. Observing never changes the state.
     void observe(bool on) { observing_ = on; }
     [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download()); }
@@ -115,6 +118,10 @@ class Simulation {
     void uploadParameters();
     void limitMotionPerSubstep(double radiiPerSubstep);
     void saveLastFinite();
+    void takeContactSums();
+    void closeContactSums();
+    void openContactSums();
+    [[nodiscard]] bool hasContactSums() const { return plan().features.has(Feature::ContactSums); }
 
     class CommandHandler;
     Result<Outcome> change(scene::Scene changed, bool disturbs);
@@ -128,6 +135,11 @@ class Simulation {
     Counters counters_;
     bool observing_ = true;
     Impacts impacts_;
+    // dissipated: without the change of the energy in springs since openContactSums().
+    ContactSums contactSums_;
+    ContactSums lastFiniteSums_;
+    double sumsBegin_ = 0;         // s simulated
+    double elasticBefore_ = 0;     // J, in springs at openContactSums()
     bool noticedDropped_ = false;  // a notice about dropped wall contacts was given
     bool pairsExhausted_ = false;  // no room for more pairs
     bool noticedSampled_ = false;  // a notice about sampled pairs was given

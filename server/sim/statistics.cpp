@@ -37,7 +37,19 @@ void addOverlaps(Statistics& sum, const std::vector<glm::vec4>& groups) {
     if (sum.contacts > 0) sum.overlapMean = overlaps / static_cast<double>(sum.contacts);
 }
 
+double volumeOf(const scene::Bounds& bounds) {
+    const glm::dvec3 size = bounds.max - bounds.min;
+    return size.x * size.y * size.z;
+}
+
 }  // namespace
+
+std::optional<Tensor> meanContactStress(const ContactSums& sums, const scene::Bounds& bounds) {
+    if (!(sums.seconds > 0)) return std::nullopt;
+    Tensor stress = sums.virial;
+    for (double& component : stress) component /= sums.seconds * volumeOf(bounds);
+    return stress;
+}
 
 Impacts Impacts::since(const Impacts& before) const {
     if (count < before.count) return *this;  // `before` is of another world
@@ -64,6 +76,7 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     double heights = 0;
     double fastest = 0;
     std::uint32_t fixedSpheres = 0;
+    Tensor flow{};
     for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereSums)) {
         weighted += glm::dvec4(part.weighted);
         sum.momentum += glm::dvec3(part.momentum);
@@ -80,7 +93,12 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
         sum.outside += part.outside;
         sum.nonFinite += part.nonFinite;
         fixedSpheres += part.fixedSpheres;
+        for (int axis = 0; axis < 3; ++axis) {
+            flow[static_cast<std::size_t>(axis)] += static_cast<double>(part.flowDiagonal[axis]);
+            flow[static_cast<std::size_t>(3 + axis)] += static_cast<double>(part.flowOther[axis]);
+        }
     }
+    for (std::size_t k = 0; k < flow.size(); ++k) sum.kineticStress[k] = flow[k] / volumeOf(scene.bounds);
     for (const float work : pipeline.read<float>(Array::WallWork)) sum.pushWork += static_cast<double>(work);
     addOverlaps(sum, pipeline.read<glm::vec4>(Array::Overlaps));
     sum.potentialEnergy = potentialEnergy(scene, weighted) + sum.fieldEnergy;

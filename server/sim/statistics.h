@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "scene/scene.h"
+#include "sim/contact_sums.h"
 #include "sim/pipeline.h"
 
 namespace spherule::sim {
@@ -53,11 +54,19 @@ struct Statistics {
     std::uint32_t outside = 0;
     std::uint32_t nonFinite = 0;
     Impacts impacts;  // since the spheres were last placed or added to
+    // In scenes with contact sums:
+    std::optional<ContactSums> contactSums{};  // since then
+    std::optional<Tensor> contactStress{};     // Pa: mean since then; absent at the beginning
+    Tensor kineticStress{};                    // Pa: sum of m v v over the volume of the bounds
     std::optional<std::uint64_t> stateHash{};  // of a query that asked for it: hashOf() of the same state
 
     // Returns the largest overlap with a sphere or a wall.
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }
 };
+
+// Returns the mean stress by contacts (Pa): the virial over the time and over the volume of the bounds. Returns nullopt
+// if the time is 0.
+std::optional<Tensor> meanContactStress(const ContactSums& sums, const scene::Bounds& bounds);
 
 // Computes statistics. The device sums in blocks, the host adds the blocks in double. Waits for the device.
 Statistics measure(Pipeline& pipeline, const scene::Scene& scene);

@@ -1,6 +1,6 @@
 // Solves the contact of two spheres by the law of the model `balanced`. The includer binds `position`, `velocity`,
 // `angularVelocity`, `velocityBefore`, `heldVelocity`, `heldSpin`, `idAndMaterial` and `contactParams`, and has
-// included shared/separation.h and shared/contact_law.h.
+// included shared/separation.h, shared/contact_law.h and shared/contact_sums.h.
 
 RARE real4 contactOfMaterials(slots a, slots b) {
     uints index = materialOf(ROW(idAndMaterial, a)) * params.materials + materialOf(ROW(idAndMaterial, b));
@@ -252,6 +252,7 @@ mask solvePairs(mask where, slots a, slots b, bool remembers) {
     }
 
     real3 impulse = n * normalImpulse + friction;
+    if (HAS(CONTACT_SUMS)) addToContactSums(touching, n * (lever * reach), impulse, impact);
     mask forgets = touching && (impact || !remembers);
     if (anyLane(forgets)) {
         real keep = heldAfterImpact(max(before, real(0.0f)), normalImpulse, e, load);

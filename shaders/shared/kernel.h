@@ -19,7 +19,8 @@
 //   LANE_PAIR_KERNEL            Visits the listed pairs of the bundles of the launch's colour, batch after batch
 //   PAIR_KERNEL                 (shared/bundles.h). The same with one lane in C++ too. The includer defines
 //                               `bool beginBundle(uint bundle)`, which returns false to skip the bundle, and
-//                               `void visitPairs(slots a, slots b, uintRow at)`, where `at` is the number of the pair.
+//                               `void visitPairs(slots a, slots b, uintRow at)`, where `at` is the number of the pair,
+//                               and `void endBundle(uint bundle)`, which each thread calls at the end.
 //                               With lanes, also `bool expectsPairs()`, which returns true if it is worth while that
 //                               `void expectPairs(uint first, uint count)` prefetches the data of later pairs.
 //
@@ -35,6 +36,8 @@
 //   RARE                        Before a function: keeps it out of the code around its calls.
 //   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.
 //   EACH_LANE_WITH(where, flag, function, at)  The same for a uintRow, in order, with the bool of a second mask.
+//   SUM_OF_LANES(value)         The sum of a real over the lanes.
+//   THREAD                      The number of the thread in the work group that visits a bundle; 0 in C++.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
 #ifndef __cplusplus
 
@@ -84,7 +87,9 @@ layout(location = 0) uniform uint phase;
 #define LANES 1u
 #define RARE
 #define LANE_LOOP_KERNEL(count) KERNEL(count)
-#define FIRST_THREAD (gl_LocalInvocationID.x == 0u)
+#define SUM_OF_LANES(value) (value)
+#define THREAD gl_LocalInvocationID.x
+#define FIRST_THREAD (THREAD == 0u)
 #define PAIR_KERNEL                                                                              \
     void main() {                                                                                \
         uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;                   \
@@ -103,6 +108,7 @@ layout(location = 0) uniform uint phase;
         }                                                                                        \
         if (FIRST_THREAD)                                                                        \
             for (uint k = from; k < endOfPairs(bundle); ++k) visitPairs(pairs[k].x, pairs[k].y, k); \
+        endBundle(bundle);                                                                       \
     }
 #define LANE_PAIR_KERNEL PAIR_KERNEL
 

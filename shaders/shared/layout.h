@@ -95,6 +95,8 @@ struct SphereStatistics {
     float wallSprings;      // sum of the energies of the springs at walls, in the model `accurate` (J)
     float fieldEnergy;      // sum of the potential energies in the fields (J)
     float unusedReals[2];   // keep the size a multiple of 16 bytes, and the next members aligned for doubles
+    vec4 flowDiagonal;      // sum of m v v: xx, yy, zz, 0, in scenes with contact sums (J)
+    vec4 flowOther;         // xy, xz, yz, 0
     uint sleeping;
     uint outside;
     uint nonFinite;
@@ -171,6 +173,9 @@ struct SphereStatistics {
 // Words behind the last bundle, for the solver, which binds as many buffers as a kernel may.
 #define WORD_FASTEST 0u         // largest squared speed in this substep, relative to the drift, as bits of a float
 #define WORD_HALF 1u            // first element of the contact memory of the present lists (shared/contact_memory.h)
+// Rows of contact sums behind these words (shared/contact_sums.h), for each thread of a work group.
+#define SUM_THREADS 64u
+#define SUM_WORDS 8u            // virial xx yy zz xy xz yz (J s), collisions, 0
 #define PAIR_PADDING 16u        // unused pairs behind each bundle: lanes beyond the last pair lie here
 
 // A sphere carries over at most this many contacts when the lists are rebuilt. A sphere touches at most 12 others that

@@ -30,6 +30,7 @@ scene::Scene everything(scene::Model model = scene::Model::Balanced) {
     scene::Scene scene = fineStepBox(10);
     scene.quality.model = model;
     scene.sleep.enabled = true;
+    scene.contactSums = true;
     scene.obstacles.push_back({scene::planeShape({0, 0, -4}, {0, 0, 1}), 0, ""});
     scene.obstacles.push_back({scene::boxShape({{1, 1, 1}, {2, 2, 2}}), 0, ""});
     for (int k = 0; k < 64; ++k) {

@@ -20,7 +20,7 @@ BINARY = sys.argv.pop()
 KEYS = """scene device renderer quality spheres steps substepsPerStep simSeconds intervalSeconds wallSeconds realTimeFactor
 deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy elasticEnergy potentialEnergy pushWork momentum angularMomentum contacts
 overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite impacts restitution
-restitutionAsked stateHash""".split()
+restitutionAsked collisions dissipatedEnergy kineticStress contactStress stateHash""".split()
 
 
 call = runner(BINARY)
@@ -58,6 +58,20 @@ class Run(unittest.TestCase):
         self.assertAlmostEqual(first["restitution"], 1, places=4)
         self.assertEqual(first["restitutionAsked"], 1)
         self.assertEqual((second["impacts"], second["restitution"], second["restitutionAsked"]), (0, None, None))
+
+    def test_contact_sums_are_there_if_asked_for(self):
+        plain = run_json("box-4k", "--for", "0.6s", "--no-sleep")
+        names = "collisions", "dissipatedEnergy", "kineticStress", "contactStress"
+        self.assertEqual([plain[name] for name in names], [None] * 4)
+        done = call("run", "box-4k", "--for", "0.6s", "--every", "0.3s", "--contact-sums", "--no-sleep", "--device", DEVICE,
+                    "--json")
+        first, second = (json.loads(line) for line in done.stdout.splitlines())
+        self.assertEqual(second["stateHash"], plain["stateHash"])
+        self.assertGreater(second["collisions"], first["collisions"])
+        lost = sum(first[name] - second[name] for name in ("kineticEnergy", "rotationalEnergy", "potentialEnergy"))
+        self.assertAlmostEqual((second["dissipatedEnergy"] - first["dissipatedEnergy"]) / lost, 1, delta=0.1)
+        self.assertEqual((len(second["kineticStress"]), len(second["contactStress"])), (6, 6))
+        self.assertGreater(second["contactStress"][2], first["contactStress"][2])  # more spheres lie on others
 
     def test_same_scene_and_seed_give_the_same_hash_and_another_seed_another(self):
         def hash_of(*more):
@@ -239,6 +253,19 @@ class Others(unittest.TestCase):
     def test_probe_names_the_renderer(self):
         chosen = json.loads(call("probe", "--device", DEVICE, "--json").stdout)["chosen"]
         self.assertIn({"software": "llvmpipe", "cpu": "thread"}[DEVICE], chosen["renderer"])
+
+
+class ServeWithContactSums(unittest.TestCase):
+    def test_queries_and_metrics_have_them(self):
+        with Server(BINARY, "serve", "cradle", "--contact-sums", "--device", DEVICE) as server:
+            answer = wait_for(lambda: (figures := json.loads(call("ctl", server.stream, "query").stdout))["simTime"] > 1
+                              and figures)
+            self.assertGreater(int(answer["collisions"]), 0)
+            self.assertGreater(answer["contactStress"][0], 0)
+            metrics = wait_for(lambda: (all_of := server.metrics()).get(("spherule_collisions", ""), 0) > 0 and all_of)
+        self.assertGreater(metrics["spherule_contact_stress_pascals", "xx"], 0)
+        self.assertGreaterEqual(metrics["spherule_kinetic_stress_pascals", "xx"], 0)
+        self.assertIn(("spherule_dissipated_joules", ""), metrics)
 
 
 class Serve(unittest.TestCase):

@@ -241,6 +241,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     void kernelBody([[maybe_unused]] uint invocation)
 
 #define RARE __attribute__((noinline, flatten))
+#define THREAD 0U
 #define FIRST_THREAD true
 // Visits the pairs of a bundle, `step` of one batch at a time.
 #define SPHERULE_PAIR_KERNEL(step, visit)                                         \
@@ -257,6 +258,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
             from = to;                                                            \
         }                                                                         \
         for (uint k = from; k < endOfPairs(bundle); ++k) visit(k, 1);             \
+        endBundle(bundle);                                                        \
     }
 #define SPHERULE_VISIT_ONE(k, count) visitPairs(pairs[k].x, pairs[k].y, k)
 #define PAIR_KERNEL SPHERULE_PAIR_KERNEL(1U, SPHERULE_VISIT_ONE)
@@ -280,6 +282,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
     }
 #define IN_ROWS(at) firstLanes((at).live)
 #define LANES lanes
+#define SUM_OF_LANES(value) sumOf(value)
 #define LANE_LOOP_KERNEL(count) KERNEL(count)
 #define RAISE_TO(where, word, value)                                                               \
     if (const mask raising = (where) && (value) > uintBitsToFloat(wordOf(word)); anyLane(raising)) \
@@ -318,6 +321,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define ROWS_UP_TO(first, end) (first)
 #define IN_ROWS(at) true
 #define LANES 1U
+#define SUM_OF_LANES(value) (value)
 #define LANE_LOOP_KERNEL(count) KERNEL(count)
 #define RAISE_TO(where, word, value) \
     if (where) atomicMax(word, floatBitsToUint(value));

@@ -327,6 +327,13 @@ SPHERULE_INLINE mask finiteLanes(const real3& a) {
     return abs(a.x) <= largest && abs(a.y) <= largest && abs(a.z) <= largest;
 }
 
+// The sum over the lanes.
+SPHERULE_INLINE float sumOf(real value) {
+    float sum = 0;
+    for (unsigned k = 0; k < lanes; ++k) sum += value.v[k];
+    return sum;
+}
+
 // The largest value of the lanes in `where`, at least 0.
 SPHERULE_INLINE float largestOf(mask where, real value) {
     const Reals all = select(where, value, real(0.0F)).v;

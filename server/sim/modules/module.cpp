@@ -26,6 +26,10 @@ void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
     staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.grid.bundles()}});
 }
 
+void PlanBuilder::overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel) {
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = blocksOf(plan_.spheres, STATISTIC_BLOCK)}});
+}
+
 void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads) {
     if (!has(Feature::Contacts)) return;
     for (std::uint32_t level = 0; level < plan_.grid.levels.size(); ++level)

@@ -27,11 +27,12 @@ enum class Stage : std::uint8_t {
     Lists,
     Restore,      // gives the new pairs what their contacts remember
     Activity,     // finds the bundles that hold anything that moves
+    ContactSums,  // copies the state for the work of contacts
     Begin,        // of `balanced`
     BeforeSolve,  // observed steps only
     Solve,
     Finish,      // of `balanced`: walls and motion
-    AfterSolve,  // observed steps only
+    AfterSolve,  // measures: in observed steps, or in scenes with contact sums
     Sleep,
     Statistics,  // on demand
 };
@@ -53,6 +54,8 @@ class PlanBuilder {
     // `aliases`: buffers of the kernel whose names differ from the arrays to bind.
     void overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases = {});
     void overBundles(Stage stage, Pass pass, std::string_view kernel);
+    // Runs for each STATISTIC_BLOCK spheres.
+    void overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel);
     // Runs over all listed pairs: one colour of bundles after the other, level after level. `threads`: invocations for
     // each bundle.
     void overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads = 64);
