@@ -8,6 +8,7 @@
 
 #include "scene/quality.h"
 #include "scene/random.h"
+#include "scene/shapes.h"
 #include "support.h"
 
 namespace spherule::physics {
@@ -63,8 +64,8 @@ TEST_P(ContactCounts, AreThoseOfAllPairsAndSurfaces) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         scene::Scene scene = fineStepBox(0.8);
         scene.bounds.open[scene::ZMax] = true;
-        scene.obstacles = {{scene::Plane{{-0.3, 0, 0}, {std::sqrt(0.5), 0, std::sqrt(0.5)}}, 0, ""},
-                           {scene::Box{{0.1, 0.1, -0.4}, {0.3, 0.3, -0.2}}, 0, ""}};
+        scene.obstacles = {{scene::planeShape({-0.3, 0, 0}, {std::sqrt(0.5), 0, std::sqrt(0.5)}), 0, ""},
+                           {scene::boxShape({{0.1, 0.1, -0.4}, {0.3, 0.3, -0.2}}), 0, ""}};
         scene::Random random(seed);
         for (int k = 0; k < 400; ++k) {
             const glm::dvec3 place(random.uniform(-0.2, 0.35), random.uniform(-0.35, 0.35), random.uniform(-0.1, 0.4));
