@@ -23,12 +23,7 @@ std::vector<double> depthsOf(const scene::Scene& scene, const glm::dvec3& x, dou
         depths.push_back(radius -
                          (face % 2 == 0 ? x[axis] - scene.bounds.min[axis] : scene.bounds.max[axis] - x[axis]));
     }
-    for (const scene::Obstacle& obstacle : scene.obstacles) {
-        if (const auto* const plane = std::get_if<scene::Plane>(&obstacle.shape))
-            depths.push_back(radius - glm::dot(plane->normal, x - plane->point));
-        if (const auto* const box = std::get_if<scene::Box>(&obstacle.shape))
-            depths.push_back(radius - glm::distance(x, glm::clamp(x, box->min, box->max)));
-    }
+    for (const scene::Obstacle& obstacle : scene.obstacles) depths.push_back(radius - obstacle.shape->distance(x));
     for (double& depth : depths) depth += 2e-4 * radius;
     return depths;
 }
