@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include "measure/scenes.h"
+#include "scene/check.h"
 #include "scene/shapes.h"
+#include "spherule/v1/scene.pb.h"
 
 namespace spherule::physics {
 
@@ -39,21 +41,24 @@ void rotateBounds(scene::Scene& scene, const Frame& frame) {
     bounds.min = glm::dvec3(-reach);
     bounds.max = glm::dvec3(reach);
     for (scene::Obstacle& obstacle : scene.obstacles) {
-        auto* const plane = std::get_if<scene::Plane>(&obstacle.shape);
-        if (plane == nullptr) throw std::invalid_argument("a box cannot be rotated");
-        plane->point = frame.turn * plane->point;
-        plane->normal = frame.turn * plane->normal;
+        const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();
+        if (!normal) throw std::invalid_argument("only planes can be rotated");
+        const glm::dvec3 point = -obstacle.shape->distance(glm::dvec3(0)) * *normal;
+        obstacle.shape = scene::planeShape(frame.turn * point, frame.turn * *normal);
     }
 }
 
 void scaleObstacle(scene::Obstacle& obstacle, double scale) {
-    if (auto* const plane = std::get_if<scene::Plane>(&obstacle.shape)) {
-        plane->point *= scale;
+    v1::Obstacle message;
+    obstacle.shape->write(message);
+    if (message.has_plane()) {
+        for (double& value : *message.mutable_plane()->mutable_point()) value *= scale;
     } else {
-        auto& box = std::get<scene::Box>(obstacle.shape);
-        box.min *= scale;
-        box.max *= scale;
+        for (double& value : *message.mutable_box()->mutable_min()) value *= scale;
+        for (double& value : *message.mutable_box()->mutable_max()) value *= scale;
     }
+    scene::Check check;
+    obstacle.shape = scene::readShape(check, message, "obstacle");
 }
 
 }  // namespace
