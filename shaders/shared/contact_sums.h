@@ -25,17 +25,16 @@ RARE void addToContactSums(mask where, real3 branch, real3 impulse, mask collide
     collisions = collisions + select(where && collides, real(1.0f), real(0.0f));
 }
 
-void addToSum(uint word, real value) {
-    bundles[word] = floatBitsToUint(uintBitsToFloat(bundles[word]) + SUM_OF_LANES(value));
-}
+// A macro: with a function, glslang needs minutes, because `precise` spreads through its parameter.
+#define ADD_TO_SUM(word, value) bundles[word] = floatBitsToUint(uintBitsToFloat(bundles[word]) + SUM_OF_LANES(value));
 
 void endContactSums(uint bundle) {
     uint row = (params.bundles + 1u) * BUNDLE_WORDS + (bundle * SUM_THREADS + THREAD) * SUM_WORDS;
-    addToSum(row, virialDiagonal.x);
-    addToSum(row + 1u, virialDiagonal.y);
-    addToSum(row + 2u, virialDiagonal.z);
-    addToSum(row + 3u, virialOther.x);
-    addToSum(row + 4u, virialOther.y);
-    addToSum(row + 5u, virialOther.z);
-    addToSum(row + 6u, collisions);
+    ADD_TO_SUM(row, virialDiagonal.x)
+    ADD_TO_SUM(row + 1u, virialDiagonal.y)
+    ADD_TO_SUM(row + 2u, virialDiagonal.z)
+    ADD_TO_SUM(row + 3u, virialOther.x)
+    ADD_TO_SUM(row + 4u, virialOther.y)
+    ADD_TO_SUM(row + 5u, virialOther.z)
+    ADD_TO_SUM(row + 6u, collisions)
 }

@@ -48,7 +48,7 @@ class Dump(FolderTestCase):
                           for row in rows[:2]],
                          [["0", "0", "0", "0", "0", "0", "0"], ["1", "1", "-2", "3", "1", "2", "0"]])
         self.assertEqual([row["asleep"] for row in rows if row["id"] == "0"], ["0", "1", "1"])
-        self.assertEqual([row["contacts"] for row in rows if row["id"] == "0"], ["0", "1", "1"])
+        self.assertEqual([row["contacts"] for row in rows if row["id"] == "0"], ["1", "1", "1"])
 
     def test_it_has_the_flight_of_a_sphere(self):
         place, velocity, spin, radius = [0.1, -0.2, 0.5], [0.3, 0.2, 1.5], [4, -5, 6], 0.07

@@ -48,7 +48,7 @@ TEST(SphereTable, HasTheGroupsThatFitTheSpheres) {
     facts.set_epoch(1);
     facts.set_count(6);
     facts.set_radius(1);
-    for (auto* const bound : {facts.mutable_bounds_min(), facts.mutable_bounds_max()}) bound->Resize(3, 0);
+    for (auto* const corner : {facts.mutable_bounds_min(), facts.mutable_bounds_max()}) corner->Resize(3, 0);
     const auto add = [&facts](std::uint32_t first, std::uint32_t count) -> v1::GroupFacts& {
         v1::GroupFacts& group = *facts.add_groups();
         group.set_first(first);

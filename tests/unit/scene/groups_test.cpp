@@ -42,7 +42,7 @@ TEST(SceneGroups, FixedSpheresAreMarkedAndAtRest) {
     EXPECT_TRUE(scene.spheres.at(0).fixed);
     EXPECT_FALSE(scene.spheres.at(1).fixed);
     const std::string reason =
-        " is at [0.5, 0.5, 0.5] with radius 0.1 and is fixed, so it can have neither velocity nor spin; leave these "
+        " is at (0.5, 0.5, 0.5) with radius 0.1 and is fixed, so it can have neither velocity nor spin; leave these "
         "out, or leave out fixed";
     for (const char* const motion : {R"("velocity": [0, 0, 1])", R"("spin": [1, 0, 0])"})
         EXPECT_EQ(
