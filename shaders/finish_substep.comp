@@ -7,6 +7,7 @@ PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/separation.h"
+#include "shared/wrap.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)

@@ -6,6 +6,7 @@ PARAMETERS
 #include "shared/accessors.h"
 #include "shared/math.h"
 #include "shared/separation.h"
+#include "shared/wrap.h"
 #include "shared/fields.h"
 #include "shared/shapes.h"
 
