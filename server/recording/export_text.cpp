@@ -57,11 +57,12 @@ class Xyz : public TextExporter {
     void print(const Snapshot& snapshot, std::string& text) override {
         const glm::dvec3 size = snapshot.high - snapshot.low;
         const auto periodic = [&](int axis) { return snapshot.periods[axis] > 0 ? 'T' : 'F'; };
-        fmt::format_to(std::back_inserter(text),
-                       "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
-                       "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1:group:I:1:material:I:1 Time={:.9g} pbc=\"{} {} {}\"\n",
-                       snapshot.positions.size(), size.x, size.y, size.z, snapshot.low.x, snapshot.low.y,
-                       snapshot.low.z, snapshot.time, periodic(0), periodic(1), periodic(2));
+        fmt::format_to(
+            std::back_inserter(text),
+            "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
+            "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1:group:I:1:material:I:1 Time={:.9g} pbc=\"{} {} {}\"\n",
+            snapshot.positions.size(), size.x, size.y, size.z, snapshot.low.x, snapshot.low.y, snapshot.low.z,
+            snapshot.time, periodic(0), periodic(1), periodic(2));
         for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
             const glm::dvec3& p = snapshot.positions[id];
             fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g} {:.9g} {} {} {}\n", p.x, p.y, p.z,

@@ -18,8 +18,7 @@ constexpr double parallel = 1e-9;  // component of a unit normal
 std::optional<std::size_t> axisAcross(const Obstacle& obstacle, const Bounds& bounds) {
     const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (bounds.periodic[axis] && (!normal || std::abs((*normal)[static_cast<int>(axis)]) > parallel))
-            return axis;
+        if (bounds.periodic[axis] && (!normal || std::abs((*normal)[static_cast<int>(axis)]) > parallel)) return axis;
     return std::nullopt;
 }
 

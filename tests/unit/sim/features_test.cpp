@@ -150,11 +150,18 @@ TEST(SimFeatures, OneClosedFaceAddsWalls) {
     EXPECT_EQ(featuresAfter([](v1::Scene& s) { s.mutable_bounds()->mutable_open()->RemoveLast(); }), bareWith({Walls}));
 }
 
-TEST(SimFeatures, ObstaclesArePlanesOrBoxes) {
+TEST(SimFeatures, EachShapeOfAnObstacleIsAFeature) {
     const v1::Scene donor = parsed(R"({"obstacles": [{"plane": {"point": [0,0,0], "normal": [0,0,1]}},
-        {"box": {"min": [0.8, 0.8, 0.8], "max": [1, 1, 1]}, "material": "rubber"}]})");
-    EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(0); }), bareWith({Planes}));
-    Features boxes = bareWith({Boxes});
+        {"box": {"min": [0.8, 0.8, 0.8], "max": [1, 1, 1]}, "material": "rubber"},
+        {"sphere": {"centre": [0.9, 0.9, 0.9], "radius": 0.1}},
+        {"cylinder": {"from": [0.8, 0.9, 0.9], "to": [1, 0.9, 0.9], "radius": 0.1}}]})");
+    EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(0); }),
+              bareWith({Obstacles, Planes}));
+    EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(2); }),
+              bareWith({Obstacles, SphereObstacles}));
+    EXPECT_EQ(featuresAfter([&](v1::Scene& s) { *s.add_obstacles() = donor.obstacles(3); }),
+              bareWith({Obstacles, Cylinders}));
+    Features boxes = bareWith({Obstacles, Boxes});
     boxes.set(Restitution);
     EXPECT_EQ(featuresAfter([&](v1::Scene& s) {
                   *s.add_obstacles() = donor.obstacles(1);
