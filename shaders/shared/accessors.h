@@ -29,8 +29,9 @@ ANY_MASK isAsleep(ANY_REAL4 v) {
     return v.w < 0.0f;
 }
 
+// True also if the mass is not finite: the sphere is reported when it moves.
 ANY_MASK isAwake(ANY_REAL4 v) {
-    return v.w > 0.0f;
+    return !(v.w <= 0.0f);
 }
 
 ANY_MASK isFixed(ANY_REAL4 v) {

@@ -12,8 +12,10 @@
 // It binds `obstacles`, `obstacleLists`, `nearObstacles` and `listReference`, and has included shared/shapes.h.
 
 void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
+    // The springs of `accurate` need the difference of the places without rounding.
+    real aboveLow = HAS(BALANCED) ? coordinate - sphereRadius - low : coordinate - low - sphereRadius;
     if ((params.closedFaces & (1u << (2u * axis))) != 0u)
-        visitSurface(true, normal, coordinate - sphereRadius - low, real(0.0f), params.wallMaterial, 2u * axis);
+        visitSurface(true, normal, aboveLow, real(0.0f), params.wallMaterial, 2u * axis);
     if ((params.closedFaces & (2u << (2u * axis))) != 0u)
         visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial,
                      2u * axis + 1u);

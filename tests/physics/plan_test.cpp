@@ -79,7 +79,11 @@ TEST(Plan, WithAllFeaturesHasExactlyThePassesOfItsModel) {
 TEST(Plan, WithAllFeaturesInAllModelsHasEveryArray) {
     std::set<Array> arrays;
     for (const auto& [model, passes] : passesByModel)
-        for (const sim::ArraySpec& spec : planOf(everything(model)).arrays) arrays.insert(spec.array);
+        for (const bool periodic : {false, true}) {
+            scene::Scene scene = everything(model);
+            scene.bounds.periodic[0] = periodic;
+            for (const sim::ArraySpec& spec : planOf(scene).arrays) arrays.insert(spec.array);
+        }
     for (std::size_t k = 0; k < sim::arrayCount; ++k)
         EXPECT_TRUE(arrays.contains(static_cast<Array>(k))) << nameOf(static_cast<Array>(k));
 }
