@@ -1,12 +1,4 @@
-// Places in bounds that may be periodic along some axes: see shared/separation.h.
-
-// The whole lengths of an axis in the distance d (m), to the nearest. `perLength`: 1 over the length (1/m); 0 for an
-// axis that is not periodic, which has none.
-ANY_REAL turnsIn(ANY_REAL d, float perLength) {
-    precise ANY_REAL scaled = d * perLength;
-    precise ANY_REAL turns = floor(scaled + 0.5f);
-    return turns;
-}
+// Places in bounds that may be periodic along some axes. The includer has included shared/separation.h.
 
 // The whole lengths by which a coordinate p (m) lies outside the bounds; 0 inside.
 float turnsOutside(float p, float halfLength, float perLength) {
