@@ -68,17 +68,21 @@ recording::MadeExporter exporterFor(const ExportOptions& options) {
 // Moves to the first frame that is not before `from`. Returns false if there is none, or when the export is
 // interrupted.
 Result<bool> enter(recording::Recording& recording, double from, const Interrupt& interrupt) {
-    if (auto done = recording.seek(from); !done) {
-        // After damage, the next readable keyframe is the first usable frame.
-        spdlog::warn("{}", done.error().text());
-        if (!recording.recover(from)) return tl::unexpected(done.error());
-    }
-    while (recording.time() < from - sameTime) {
-        auto more = recording.next();
-        if (!more || !*more) return more;
-        if (interrupt.asked()) return false;
-    }
-    return true;
+    const auto readOn = [&]() -> Result<bool> {
+        while (recording.time() < from - sameTime) {
+            auto more = recording.next();
+            if (!more || !*more) return more;
+            if (interrupt.asked()) return false;
+        }
+        return true;
+    };
+    const auto sought = recording.seek(from);
+    const Result<bool> entered = sought ? readOn() : tl::unexpected(sought.error());
+    if (entered) return entered;
+    // After damage, the next readable keyframe is the first usable frame.
+    spdlog::warn("{}", entered.error().text());
+    if (!recording.recover(from)) return entered;
+    return readOn();
 }
 
 struct Written {

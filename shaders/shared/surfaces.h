@@ -38,9 +38,9 @@ uints obstaclesNear(uintRow at, real reach) {
     return select(listed, MEMBER(nearObstacles, at, x), uints(ALL_OBSTACLES));
 }
 
-// Visits a curved part of an obstacle as the plane that touches it where the sphere meets it in this substep. `surface`
-// is the surface nearest to the sphere now.
-void visitCurved(mask where, Obstacle obstacle, uint part, real4 surface) {
+// Visits a curved part of an obstacle. Lanes in `close` may meet it in this substep: for them it is the plane that touches
+// it where they meet it. `surface` is the surface nearest to the sphere now.
+void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface) {
     real h = real(params.substep);
     real3 v = velocityAlong();
     real3 normal = real3(surface);
@@ -48,8 +48,8 @@ void visitCurved(mask where, Obstacle obstacle, uint part, real4 surface) {
     real recession = real(0.0f);
     real closing = -dot3(v, normal);
     // `fast` has moved the sphere beyond the meeting, `balanced` has not moved it yet.
-    mask meets = closing > 0.0f && (HAS(FAST) ? separation < 0.0f : separation > 0.0f);
-    if (anyLane(where && meets)) {
+    mask meets = close && closing > 0.0f && (HAS(FAST) ? separation < 0.0f : separation > 0.0f);
+    if (anyLane(meets)) {
         real earliest = HAS(FAST) ? -h : real(0.0f);
         real latest = HAS(FAST) ? real(0.0f) : h;
         real time = separation / max(closing, real(1.0e-30f));
@@ -69,7 +69,7 @@ void visitCurved(mask where, Obstacle obstacle, uint part, real4 surface) {
     if (HAS(BALANCED)) {
         real3 along = v - normal * dot3(v, normal);
         real4 end = surfaceAt(obstacle, part, spherePoint + along * h);
-        recession = dot3(real3(end), along) * 0.5f;
+        recession = select(close, dot3(real3(end), along) * 0.5f, recession);
     }
     visitSurface(where, normal, separation, recession, obstacle.material, obstacle.surface + part);
 }
@@ -82,7 +82,7 @@ void visitObstacle(mask where, uint number) {
         real3 v = velocityAlong();
         mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
         if (isCurved(obstacle) && anyLane(close))
-            visitCurved(where, obstacle, part, surface);
+            visitCurved(where, close, obstacle, part, surface);
         else
             visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, obstacle.surface + part);
     }

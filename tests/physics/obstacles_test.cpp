@@ -43,11 +43,7 @@ scene::Obstacle cylinder(const glm::dvec3& from, const glm::dvec3& to, double si
 scene::Scene oneSphere(scene::Model model, const glm::dvec3& place, const glm::dvec3& velocity) {
     scene::Scene scene = fineStepSpace(20);
     scene.quality = {.model = model, .substeps = model == scene::Model::Accurate ? 30U : 1U};
-    scene::Sphere sphere;
-    sphere.radius = static_cast<float>(radius);
-    sphere.position = place;
-    sphere.velocity = glm::vec3(velocity);
-    scene.spheres.push_back(sphere);
+    measure::addSphere(scene, place, radius, velocity);
     return scene;
 }
 

@@ -12,7 +12,7 @@ import termios
 import time
 import unittest
 
-from program import FolderTestCase, runner, wait_for
+from program import FolderTestCase, json_runner, runner, wait_for
 from serving import Server
 
 DEVICE = sys.argv.pop()
@@ -24,13 +24,7 @@ restitutionAsked collisions dissipatedEnergy kineticStress contactStress stateHa
 
 
 call = runner(BINARY)
-
-
-def run_json(*arguments):
-    done = call("run", *arguments, "--device", DEVICE, "--json")
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.count("\n") == 1, done.stdout
-    return json.loads(done.stdout)
+run_json = json_runner(call, DEVICE)
 
 
 def scene_in(folder, name, radius, *positions):

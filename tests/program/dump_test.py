@@ -6,18 +6,11 @@ import math
 import sys
 import unittest
 
-from program import FolderTestCase, runner
+from program import FolderTestCase, json_runner, runner
 
 BINARY = sys.argv.pop()
-
-
 call = runner(BINARY)
-
-
-def run_json(*arguments):
-    done = call("run", *arguments, "--device", "cpu", "--json")
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+run_json = json_runner(call, "cpu")
 
 
 class Dump(FolderTestCase):

@@ -329,12 +329,15 @@ class Export(RecordingTestCase):
                                "xyz; see `spherule export --help`")
 
     def test_a_damaged_frame_ends_it_and_it_goes_on_behind(self):
-        with open(self.recording, "r+b") as file:
-            content = bytearray(file.read())
-            content[len(content) // 2] ^= 1
-            file.seek(0)
-            file.write(content)
-        said = self.refused("export", self.recording, "--format", "csv", "--out", self.at("a.csv"))
+        with open(self.recording, "rb") as file:
+            content = file.read()
+        for byte in 0, 40:  # in different parts of a record
+            self.goes_on_behind(content, len(content) // 2 + byte)
+
+    def goes_on_behind(self, content, byte):
+        with open(self.recording, "wb") as file:
+            file.write(content[:byte] + bytes([content[byte] ^ 1]) + content[byte + 1:])
+        said = self.refused("export", self.recording, "--format", "csv", "--out", self.at("a.csv"), "--force")
         self.assertRegex(said, r"the record at byte [0-9]+ is damaged: its checksum differs; [0-9]+ frames before it "
                                "were exported; --from exports the part after it$")
         before = frames_of(self.at("a.csv"))

@@ -1,4 +1,5 @@
 """Runs the program under test to its end, and gives each test a folder for its files."""
+import json
 import os
 import subprocess
 import tempfile
@@ -15,6 +16,16 @@ def runner(binary, *first, timeout=120):
         return subprocess.run([binary, *first, *arguments], capture_output=True, text=True, timeout=timeout,
                               check=False, env={**os.environ, **variables}, preexec_fn=preexec_fn)
     return call
+
+
+def json_runner(call, device):
+    """Returns a function that runs `spherule run` with its arguments on the device, and returns the last report."""
+    def run_json(*arguments):
+        done = call("run", *arguments, "--device", device, "--json")
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.count("\n") == 1, done.stdout
+        return json.loads(done.stdout)
+    return run_json
 
 
 def wait_for(condition, seconds=20):
