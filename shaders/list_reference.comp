@@ -40,6 +40,7 @@ void addToDriftBox(vec3 v) {
 
 KERNEL(params.spheres) {
     vec4 sphere = position[invocation];
+    if (isRemoved(sphere)) return;
     vec4 v = velocity[invocation];
     float room = 0.0f;
     if (finite3(vec3(sphere)) && beyond(vec3(sphere)) > 0.0f) {

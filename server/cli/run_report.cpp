@@ -39,6 +39,8 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"renderer", device.renderer},
         {"quality", scene::nameOf(simulation.scene().quality.model)},
         {"spheres", simulation.count()},
+        {"born", s.born},
+        {"removed", s.removed},
         {"steps", simulation.steps()},
         {"substepsPerStep", simulation.scene().quality.substeps},
         {"simSeconds", simulation.time()},

@@ -59,16 +59,31 @@ Result<sim::Command> commandOf(const std::string& where, const v1::Command& mess
         if (!push) return wrong(where, name, push.error());
         return *push;
     }
-    return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn and push", name));
+    if (message.has_remove()) {
+        auto remove = host::removeOf(message.remove());
+        if (!remove) return wrong(where, name, remove.error());
+        return *remove;
+    }
+    return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn, remove and push", name));
 }
 
-// Refuses a push of a sphere that does not exist, or that is fixed.
+Result<void> checkId(const std::string& where, std::string_view does, std::uint64_t id, const scene::Scene& scene) {
+    if (id < scene.spheres.size()) return {};
+    return wrong(where, fmt::format("{} sphere {}, but the scene has {} spheres by then, from 0 on", does, id,
+                                    scene.spheres.size()));
+}
+
+Result<void> checkRemove(const std::string& where, const sim::Remove& remove, const scene::Scene& scene) {
+    for (const std::uint64_t id : remove.spheres)
+        if (auto right = checkId(where, "removes", id, scene); !right) return right;
+    return {};
+}
+
+// Refuses a push of a sphere that does not exist, or that is fixed. `scene` has every sphere that was born by then.
 Result<void> checkPush(const std::string& where, const sim::Push& push, const scene::Scene& scene) {
-    const auto* const id = std::get_if<std::uint32_t>(&push.target);
+    const auto* const id = std::get_if<std::uint64_t>(&push.target);
     if (id == nullptr) return {};
-    if (*id >= scene.spheres.size())
-        return wrong(where, fmt::format("pushes sphere {}, but the scene has {} spheres by then, from 0 on", *id,
-                                        scene.spheres.size()));
+    if (auto right = checkId(where, "pushes", *id, scene); !right) return right;
     if (scene.spheres[*id].fixed) return wrong(where, fmt::format("pushes sphere {}, which is fixed", *id));
     return {};
 }
@@ -142,6 +157,8 @@ Result<void> Script::check(const scene::Scene& scene, double duration) const {
             const auto added = scene::buildGroup(line.spawn.group(), empty);
             if (!added) return wrong(line.where, line.name, added.error());
             then.spheres.insert(then.spheres.end(), added->begin(), added->end());
+        } else if (const auto* const remove = std::get_if<sim::Remove>(&line.command)) {
+            if (auto fits = checkRemove(line.where, *remove, then); !fits) return fits;
         } else if (auto fits = checkPush(line.where, std::get<sim::Push>(line.command), then); !fits) {
             return fits;
         }

@@ -32,6 +32,7 @@ constexpr std::string_view ownForms =
     "  set model fast|balanced|accurate | set substeps N\n"
     "  set auto MSms | set auto PERCENT% | set auto off   adapt substeps to a time per step or a mean overlap\n"
     "  spawn JSON                                 adds a group of spheres\n"
+    "  remove SPHERE ... | remove region XMIN YMIN ZMIN XMAX YMAX ZMAX\n"
     "  push SPHERE JX JY JZ                       applies an impulse (N s)\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        to the first sphere that the ray hits\n"
     "  record | record stop\n";
@@ -185,6 +186,23 @@ Result<void> spawn(Words words, v1::Command& command) {
     return {};
 }
 
+Result<void> remove(Words words, v1::Command& command) {
+    v1::Remove& remove = *command.mutable_remove();
+    if (!words.empty() && words[0] == "region") {
+        if (auto right = wantWords(words, 7, "remove"); !right) return right;
+        auto read = numbers(words.subspan(1, 3), remove.mutable_region()->mutable_min());
+        if (read) read = numbers(words.subspan(4, 3), remove.mutable_region()->mutable_max());
+        return read;
+    }
+    if (words.empty()) return refuse("'remove' needs ids of spheres, or a region");
+    for (const std::string& word : words) {
+        const auto sphere = number<std::uint64_t>(word);
+        if (!sphere) return tl::unexpected(sphere.error());
+        remove.add_spheres(*sphere);
+    }
+    return {};
+}
+
 Result<void> push(Words words, v1::Command& command) {
     v1::Push& push = *command.mutable_push();
     if (!words.empty() && words[0] == "ray") {
@@ -195,7 +213,7 @@ Result<void> push(Words words, v1::Command& command) {
         return read;
     }
     if (auto right = wantWords(words, 4, "push"); !right) return right;
-    const auto sphere = number<std::uint32_t>(words[0]);
+    const auto sphere = number<std::uint64_t>(words[0]);
     if (!sphere) return tl::unexpected(sphere.error());
     push.set_sphere(*sphere);
     return numbers(words.subspan(1), push.mutable_impulse());
@@ -236,7 +254,7 @@ using Parse = Result<void> (*)(Words, v1::Command&);
 // The parsers of the commands with forms of their own.
 const std::map<std::string_view, Parse>& parsers() {
     static const std::map<std::string_view, Parse> table = {{"query", query},  {"step", step},   {"load", load},
-                                                            {"set", set},      {"spawn", spawn}, {"push", push},
+                                                            {"set", set},      {"spawn", spawn}, {"remove", remove}, {"push", push},
                                                             {"record", record}};
     return table;
 }

@@ -16,9 +16,13 @@ struct Rendition {
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 0;  // frames/s, one of `rates`; 0: no frames
     bool turns = false;      // frames count modulo the lengths of periodic axes, if the scene has any (docs/codec.md)
+    bool population = false;  // the sessions follow Population messages
 
     auto operator<=>(const Rendition&) const = default;
 };
+
+// Sessions that follow Population messages, and the others.
+enum class Audience : std::uint8_t { Everybody, Followers, Others };
 
 // Frames per second. The list is short, so that viewers share chains.
 constexpr std::array<std::uint32_t, 5> rates = {5, 10, 20, 30, 60};

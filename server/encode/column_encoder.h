@@ -36,8 +36,7 @@ class EncoderContext {
     // slot. Refused if there is no room.
     static Result<std::unique_ptr<EncoderContext>> create(compute::Device& device, std::uint32_t spheres, bool slots);
 
-    // Sets the ids in codec order, a permutation of 0 .. spheres - 1. Every encoder must encode
-    // a keyframe next.
+    // Sets the id of each sphere in codec order: its index in slotOf, or its slot.
     void setOrder(std::span<const std::uint32_t> order);
 
     [[nodiscard]] std::uint32_t spheres() const { return spheres_; }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "codec/order.h"
-#include "encode/morton.h"
 #include "sim/pass.h"
 
 namespace spherule::encode {
@@ -30,8 +29,13 @@ std::uint64_t microsecondsNow() {
 
 }  // namespace
 
-StreamEncoder::StreamEncoder(compute::Device& device, Publish publish, PublishOrder publishOrder, Warn warn)
-    : device_(device), publish_(std::move(publish)), publishOrder_(std::move(publishOrder)), warn_(std::move(warn)) {}
+StreamEncoder::StreamEncoder(compute::Device& device, Publish publish, PublishOrder publishOrder, Warn warn,
+                             std::uint64_t& sequence)
+    : device_(device),
+      publish_(std::move(publish)),
+      publishOrder_(std::move(publishOrder)),
+      warn_(std::move(warn)),
+      sequence_(sequence) {}
 
 void StreamEncoder::update(const EncoderInput& input, const std::vector<codec::Subscription>& subscriptions,
                            Clock::time_point now) {
@@ -74,7 +78,6 @@ Result<void> StreamEncoder::open(const codec::Rendition& rendition, const Encode
     return {};
 }
 
-// Creates the order of the spheres for an epoch. Neighbours at its beginning stay near each other for long.
 Result<void> StreamEncoder::prepare(const EncoderInput& input) {
     const bool slots = input.source.slotOf != nullptr;
     if (!context_ || context_->spheres() != input.spheres || slots_ != slots) {
@@ -84,11 +87,11 @@ Result<void> StreamEncoder::prepare(const EncoderInput& input) {
         context_ = std::move(*made);
         slots_ = slots;
     }
-    const std::vector<std::uint32_t> order = mortonOrder(input.positions());
-    context_->setOrder(order);
+    const CodecOrder order = input.order();
+    context_->setOrder(order.handles);
     epoch_ = input.epoch;
     v1::ServerMessage message;
-    *message.mutable_order() = codec::orderMessage(epoch_, ++order_, order);
+    *message.mutable_order() = codec::orderMessage(epoch_, ++order_, order.ids);
     publishOrder_(codec::share(std::move(message)));
     return {};
 }
@@ -124,6 +127,7 @@ void StreamEncoder::begin(const codec::Subscription& subscription, Chain& chain,
     chain.newest.set_epoch(epoch_);
     chain.newest.set_order(order_);
     chain.newest.set_count(input.spheres);
+    chain.newest.set_population(input.population);
     chain.newest.set_tier(subscription.rendition.tier);
     start(chain, begun ? Delta : Keyframe, chain.newest, input.source, now);
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,22 @@
 
 namespace spherule::encode {
 
+// The spheres in the order of the codec.
+struct CodecOrder {
+    std::vector<std::uint32_t> ids;      // their numbers in frames: a permutation of 0, 1, ...
+    std::vector<std::uint32_t> handles;  // the handle of each on the device
+};
+
 // The data that the streams need.
 struct EncoderInput {
     FrameSource source;
-    std::uint32_t spheres = 0;
+    std::uint32_t spheres = 0;                          // in frames
     double smallestRadius = 0;                          // m
     glm::dvec3 periods{};                               // m: length of each periodic axis; 0: not periodic
     std::uint32_t epoch = 0;                            // changes when the spheres are replaced
     std::uint64_t version = 0;                          // changes when the spheres may have moved
-    std::function<std::vector<glm::vec4>()> positions;  // m, in id order; waits for the device
+    std::uint32_t population = 0;                       // number of the last Population message
+    std::function<CodecOrder()> order;                  // for a new epoch; may wait for the device
     std::function<v1::Frame()> head;                    // head of a frame of the present state: step, time, status
 };
 
@@ -51,7 +59,9 @@ class StreamEncoder {
     using PublishOrder = std::function<void(codec::SharedMessage)>;
     using Warn = std::function<void(const std::string&)>;  // sends to viewers and to the log
 
-    StreamEncoder(compute::Device& device, Publish publish, PublishOrder publishOrder, Warn warn);
+    // `sequence`: counts the frames of all encoders that share it.
+    StreamEncoder(compute::Device& device, Publish publish, PublishOrder publishOrder, Warn warn,
+                  std::uint64_t& sequence);
 
     // Publishes the frames that have arrived, and starts the frames that are due. A chain without room on the device is
     // left out and reported. It is tried again after 10 s, or in another epoch.
@@ -62,9 +72,13 @@ class StreamEncoder {
     // or removes it.
     Result<void> open(const codec::Rendition& rendition, const EncoderInput& input);
 
+    // True if the epoch has an order: frames of it were made, or may be.
+    [[nodiscard]] bool hasOrder(std::uint32_t epoch) const { return context_ && epoch == epoch_; }
+    // Sets the handles in the codec's order, for the next frames of the epoch.
+    void setHandles(std::span<const std::uint32_t> handles) { context_->setOrder(handles); }
+
     // When to call update() again; nullopt if there is nothing to do before the world or the subscriptions change.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
-    [[nodiscard]] std::uint64_t framesMade() const { return sequence_; }  // number of frames since the start
 
   private:
     // One chain, and its frame that is being encoded.
@@ -101,7 +115,7 @@ class StreamEncoder {
     std::uint64_t starts_ = 0;
     Clock::time_point retry_{};       // when to try refused chains again
     std::uint32_t refusedEpoch_ = 0;  // epoch of the last refused chain
-    std::uint64_t sequence_ = 0;
+    std::uint64_t& sequence_;
 };
 
 }  // namespace spherule::encode

@@ -221,7 +221,9 @@ Result<CommandExecutor::HashQueries> CommandExecutor::beginHash() {
     sim::SlotState slots = simulation.pipeline().download();
     if (auto alive = host_.device().status(); !alive) return tl::unexpected(alive.error());
     begun.hash =
-        std::async(std::launch::async, [slots = std::move(slots)] { return sim::hashOf(sim::inIdOrder(slots)); });
+        std::async(std::launch::async, [slots = std::move(slots), population = simulation.population()] {
+            return sim::hashOf(sim::inIdOrder(slots, population));
+        });
     return begun;
 }
 

@@ -24,6 +24,12 @@ Outcome push(const v1::Push& message, SimulationHost& host) {
     return host.change(*push);
 }
 
+Outcome remove(const v1::Remove& message, SimulationHost& host) {
+    auto remove = removeOf(message);
+    if (!remove) return tl::unexpected(remove.error());
+    return host.change(std::move(*remove));
+}
+
 Outcome load(const v1::LoadScene& message, SimulationHost& host) {
     auto make = makeSceneOf(message, host.device().info().kind, host.overrides());
     if (!make) return tl::unexpected(make.error());
@@ -56,6 +62,8 @@ Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerComma
             return set(command.set(), host);
         case v1::Command::kSpawn:
             return host.change(spawnOf(command.spawn()));
+        case v1::Command::kRemove:
+            return remove(command.remove(), host);
         case v1::Command::kPush:
             return push(command.push(), host);
         case v1::Command::kQuery:

@@ -54,6 +54,18 @@ sim::Spawn spawnOf(const v1::Spawn& message) {
             }};
 }
 
+Result<sim::Remove> removeOf(const v1::Remove& message) {
+    sim::Remove remove{.spheres = {message.spheres().begin(), message.spheres().end()}};
+    if (message.has_region()) {
+        const auto region = scene::boxOf(message.region(), "region");
+        if (!region) return tl::unexpected(region.error());
+        remove.region = *region;
+    }
+    if (remove.spheres.empty() && !remove.region)
+        return fail(ErrorKind::Refused, "spheres", "are missing: give ids of spheres, or a region");
+    return remove;
+}
+
 Result<sim::Push> pushOf(const v1::Push& message) {
     sim::Push push;
     const auto impulse = scene::vectorOf(message.impulse(), "impulse");

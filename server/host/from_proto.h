@@ -16,6 +16,7 @@ namespace spherule::host {
 
 Result<sim::Set> setOf(const v1::Set& message);  // without the speed
 sim::Spawn spawnOf(const v1::Spawn& message);
+Result<sim::Remove> removeOf(const v1::Remove& message);
 Result<sim::Push> pushOf(const v1::Push& message);
 
 // Reads and builds a scene. May run on any thread.

@@ -34,6 +34,8 @@ std::string Metrics::text(const ServerStatus& status, const net::Counters& net) 
 
     to.gauge("spherule_device_info", "The device, as labels", 1,
              {{"device", status.device.kind}, {"renderer", status.device.renderer}});
+    to.counter("spherule_spheres_born_total", "Spheres that were there at the beginning, or were added", status.born);
+    to.counter("spherule_spheres_removed_total", "Spheres that were removed", status.removed);
     to.gauge("spherule_spheres", "Spheres in the scene", status.spheres);
     to.gauge("spherule_sleeping_spheres", "Spheres asleep, while a viewer watches", status.status.sleeping());
     to.gauge("spherule_outside_spheres", "Spheres outside the bounds, while a viewer watches", status.status.outside());

@@ -7,6 +7,7 @@
 #include "core/heartbeat.h"
 #include "core/log.h"
 #include "core/text.h"
+#include "encode/morton.h"
 #include "host/to_proto.h"
 
 namespace spherule::host {
@@ -27,8 +28,8 @@ PlaybackProducer::PlaybackProducer(std::unique_ptr<compute::Device> device, Play
       publisher_(io.publisher),
       encoder_(
           *device_, [this](const codec::EncodedFrame& encoded) { publish(encoded); },
-          [this](codec::SharedMessage order) { publisher_.setOrder(std::move(order)); },
-          [this](const std::string& text) { notify(v1::Event::WARNING, text); }) {}
+          [this](codec::SharedMessage order) { publisher_.setOrder(std::move(order), codec::Audience::Everybody); },
+          [this](const std::string& text) { notify(v1::Event::WARNING, text); }, framesMade_) {}
 
 Result<void> PlaybackProducer::run(const std::stop_token& stop) {
     v1::ServerMessage timeline;
@@ -136,7 +137,11 @@ void PlaybackProducer::produce(encode::StreamEncoder::Clock::time_point now) {
                      .periods = player_.recording().periods(),
                      .epoch = epoch_,
                      .version = version_,
-                     .positions = [this] { return values_[0]; },
+                     .order =
+                         [this] {
+                             std::vector<std::uint32_t> ids = encode::mortonOrder(values_[0]);
+                             return encode::CodecOrder{.ids = ids, .handles = ids};
+                         },
                      .head =
                          [this, now] {
                              v1::Frame head;
@@ -169,7 +174,7 @@ void PlaybackProducer::report(encode::StreamEncoder::Clock::time_point now) {
         current.setState(player_.paused() ? "paused" : "running");
         current.steps = step_;
         current.simSeconds = time_;
-        current.framesProduced = encoder_.framesMade();
+        current.framesProduced = framesMade_;
         current.status = status(now);
     });
 }

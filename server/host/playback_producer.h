@@ -40,6 +40,7 @@ class PlaybackProducer : public FrameProducer {
     Requests& requests_;
     StatusBoard& board_;
     net::Publisher& publisher_;
+    std::uint64_t framesMade_ = 0;
     encode::StreamEncoder encoder_;
     RateMeter frameRate_;
     codec::PerColumn<std::vector<glm::vec4>> values_;             // of the current frame, by id; w = 0

@@ -56,9 +56,12 @@ Result<RunRecorder::Encoding> RunRecorder::makeEncoding(const recording::Options
 Result<void> RunRecorder::beginEpoch() {
     ++epoch_;
     generation_ = simulation_.generation();
+    population_ = simulation_.population().version();
     if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch_)); !done) return done;
     const std::vector<std::uint32_t> ids = encode::mortonOrder(simulation_.snapshot().position);
-    encoding_.context->setOrder(ids);
+    std::vector<std::uint32_t> handles;
+    for (const std::uint32_t rank : ids) handles.push_back(simulation_.population().handleAt(rank));
+    encoding_.context->setOrder(handles);
     v1::ServerMessage message;
     *message.mutable_order() = codec::orderMessage(epoch_, order, ids);
     if (auto done = add(recording::Kind::Order, message); !done) return done;
@@ -69,7 +72,11 @@ Result<void> RunRecorder::beginEpoch() {
 }
 
 Result<void> RunRecorder::stepped(bool last) {
-    if (simulation_.generation() != generation_) {
+    const double frames = simulation_.time() * options_.rate + roundedBy;
+    const bool due = frames >= due_ || last;
+    const bool otherSpheres = simulation_.population().version() != population_;
+    if (otherSpheres && simulation_.count() == 0) return {};
+    if (simulation_.generation() != generation_ || (otherSpheres && due)) {
         encoding_.encoder.reset();
         encoding_.context.reset();
         auto encoding = makeEncoding(options_, device_, simulation_);
@@ -78,8 +85,7 @@ Result<void> RunRecorder::stepped(bool last) {
         return beginEpoch();
     }
     if (auto done = writeSettings(); !done) return done;
-    const double frames = simulation_.time() * options_.rate + roundedBy;
-    if (frames < due_ && !last) return {};
+    if (!due) return {};
     due_ = std::floor(frames) + 1;
     if (auto done = write(recording::Kind::Delta); !done) return done;
     if (simulation_.time() - keyframe_ + roundedBy / options_.rate < keyframesEvery) return {};

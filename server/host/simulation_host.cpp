@@ -39,16 +39,16 @@ void SimulationHost::adopt(std::unique_ptr<sim::Preparation> preparation) {
     scheduler_.setStep(simulation_->scene().step);
     scheduler_.resume(Clock::now());
     pendingSteps_ = 0;
-    refreshFacts();
+    beginEpoch();
 }
 
-void SimulationHost::refreshFacts() {
+void SimulationHost::beginEpoch() {
     generation_ = simulation_->generation();
     ++epoch_;
 }
 
-v1::ServerMessage SimulationHost::facts() const {
-    return factsMessage(*simulation_, epoch_);
+void SimulationHost::noticeGeneration() {
+    if (generation_ != simulation_->generation()) beginEpoch();
 }
 
 v1::ServerMessage SimulationHost::settings() const {
@@ -129,7 +129,7 @@ sim::Applied SimulationHost::finishChange() {
     if (change.speed) scheduler_.setSpeed(*change.speed);
     scheduler_.resume(Clock::now());
     if (change.kind == Change::Kind::Reset) pendingSteps_ = 0;
-    if (simulation_->generation() != generation_) refreshFacts();
+    if (simulation_->generation() != generation_) beginEpoch();
     return done;
 }
 

@@ -52,9 +52,10 @@ class SimulationHost {
     // Does substeps until `until` or the end of the step, at least one. Returns true at the end of the step.
     Result<bool> advance(Clock::time_point until);
 
-    // Changes when the static facts change.
+    // Changes when the world or its spheres are replaced.
     [[nodiscard]] std::uint32_t epoch() const { return epoch_; }
-    [[nodiscard]] v1::ServerMessage facts() const;
+    // Begins a new epoch if the simulation has replaced its spheres.
+    void noticeGeneration();
     [[nodiscard]] v1::ServerMessage settings() const;
 
     [[nodiscard]] sim::Simulation& simulation() { return *simulation_; }
@@ -75,7 +76,7 @@ class SimulationHost {
     };
     sim::Applied finishChange();
     void adopt(std::unique_ptr<sim::Preparation> preparation);
-    void refreshFacts();
+    void beginEpoch();
     [[nodiscard]] bool heldStill() const { return change_ && change_->kind != Change::Kind::Load; }
 
     std::unique_ptr<compute::Device> device_;

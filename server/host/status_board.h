@@ -18,6 +18,8 @@ struct ServerStatus {
     compute::DeviceInfo device;
     std::vector<std::string> scenes;  // names of scenes that can be loaded
     std::string scene;
+    std::uint64_t born = 0;
+    std::uint64_t removed = 0;
     std::uint32_t spheres = 0;
     std::uint64_t steps = 0;
     double simSeconds = 0;

@@ -1,5 +1,6 @@
 #include "host/to_proto.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -24,17 +25,22 @@ void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
     }
 }
 
+void setGroup(v1::GroupFacts& message, const scene::Scene& scene, std::size_t number) {
+    const scene::Group& group = scene.groups[number];
+    message.set_name(group.name);
+    message.set_colour(group.colour);
+    if (group.count == 0) return;
+    const scene::Sphere& first = scene.spheres[group.first];
+    message.set_material(first.material);
+    message.set_fixed(first.fixed);
+}
+
 void setSpheres(v1::SceneFacts& facts, const scene::Scene& scene, bool radiiDiffer) {
-    for (const scene::Group& group : scene.groups) {
+    for (std::size_t k = 0; k < scene.groups.size(); ++k) {
         v1::GroupFacts& message = *facts.add_groups();
-        message.set_name(group.name);
-        message.set_first(group.first);
-        message.set_count(group.count);
-        message.set_colour(group.colour);
-        if (group.count == 0) continue;
-        const scene::Sphere& first = scene.spheres[group.first];
-        message.set_material(first.material);
-        message.set_fixed(first.fixed);
+        setGroup(message, scene, k);
+        message.set_first(scene.groups[k].first);
+        message.set_count(scene.groups[k].count);
     }
     facts.set_count(static_cast<std::uint32_t>(scene.spheres.size()));
     if (!radiiDiffer) {
@@ -75,6 +81,81 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     return message;
 }
 
+namespace {
+
+// The group of each sphere comes from its rank.
+void addRun(google::protobuf::RepeatedPtrField<v1::Places>& to, std::uint32_t first, std::uint32_t count,
+            std::uint64_t id, std::size_t group) {
+    v1::Places& message = *to.Add();
+    message.set_first(first);
+    message.set_count(count);
+    message.set_id(id);
+    message.set_group(static_cast<std::uint32_t>(group));
+}
+
+// Adds runs of places, cut where the group changes. `runs` are in the order of the ids. Calls `each` with each message
+// and the rank of its first sphere.
+template <class Each>
+void addRuns(google::protobuf::RepeatedPtrField<v1::Places>& to, const std::vector<encode::PlaceRun>& runs,
+             const sim::Simulation& simulation, Each each) {
+    const auto& groups = simulation.scene().groups;
+    for (const encode::PlaceRun& run : runs) {
+        for (std::uint32_t done = 0; done < run.count;) {
+            const std::uint32_t rank = simulation.population().rankOf(run.id + done).value_or(0);
+            // The last group that begins at the sphere or before it, and has spheres.
+            std::size_t group = 0;
+            while (group + 1 < groups.size() && rank >= groups[group].first + groups[group].count) ++group;
+            const std::uint32_t end = groups.empty() ? rank + run.count : groups[group].first + groups[group].count;
+            const std::uint32_t count = std::min(run.count - done, std::max(end, rank + 1) - rank);
+            addRun(to, run.first + done, count, run.id + done, group);
+            each(to[to.size() - 1], rank);
+            done += count;
+        }
+    }
+}
+
+}  // namespace
+
+v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t epoch, const encode::Places& places,
+                               std::uint32_t population) {
+    v1::ServerMessage message = factsMessage(simulation, epoch);
+    v1::SceneFacts& facts = *message.mutable_scene();
+    const std::vector<scene::Sphere>& spheres = simulation.scene().spheres;
+    const bool radiiDiffer = !facts.radii().empty() || spheres.empty();
+    facts.set_count(places.count());
+    facts.set_population(population);
+    std::string radii(radiiDiffer ? places.count() * sizeof(float) : 0, '\0');
+    addRuns(*facts.mutable_places(), places.inUse(), simulation, [&](const v1::Places& run, std::uint32_t rank) {
+        for (std::uint32_t k = 0; radiiDiffer && k < run.count(); ++k)
+            std::memcpy(&radii[(run.first() + k) * sizeof(float)], &spheres[rank + k].radius, sizeof(float));
+    });
+    facts.set_radii(std::move(radii));
+    return message;
+}
+
+v1::ServerMessage populationMessage(const sim::Simulation& simulation, const encode::Places::Change& change,
+                                    std::size_t groupsBefore) {
+    v1::ServerMessage message;
+    v1::Population& population = *message.mutable_population();
+    const scene::Scene& scene = simulation.scene();
+    for (const encode::PlaceRun& run : change.removed) {
+        v1::Places& places = *population.add_removed();
+        places.set_first(run.first);
+        places.set_count(run.count);
+    }
+    const bool radiiDiffer = simulation.plan().features.has(sim::Feature::Radii);
+    addRuns(*population.mutable_added(), change.added, simulation, [&](v1::Places& run, std::uint32_t rank) {
+        if (!radiiDiffer) return;
+        std::string radii(run.count() * sizeof(float), '\0');
+        for (std::uint32_t k = 0; k < run.count(); ++k)
+            std::memcpy(&radii[k * sizeof(float)], &scene.spheres[rank + k].radius, sizeof(float));
+        run.set_radii(std::move(radii));
+    });
+    for (std::size_t k = groupsBefore; k < scene.groups.size(); ++k) setGroup(*population.add_groups(), scene, k);
+    population.set_step(simulation.steps());
+    return message;
+}
+
 v1::Welcome welcomeOf(const compute::DeviceInfo& device) {
     v1::Welcome welcome;
     welcome.set_server(std::string("spherule ") + SPHERULE_VERSION);
@@ -104,6 +185,8 @@ v1::Statistics statisticsMessage(const sim::Statistics& s) {
     message.set_step(s.step);
     message.set_sim_time(s.time);
     message.set_spheres(s.spheres);
+    message.set_born(s.born);
+    message.set_removed(s.removed);
     message.set_kinetic_energy(s.kineticEnergy);
     message.set_rotational_energy(s.rotationalEnergy);
     message.set_elastic_energy(s.elasticEnergy);
@@ -142,6 +225,7 @@ v1::Applied appliedMessage(const sim::Applied& applied) {
     v1::Applied message;
     message.set_step(applied.step);
     if (applied.sphere) message.set_sphere(*applied.sphere);
+    if (applied.removed) message.set_removed(*applied.removed);
     if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
     return message;
 }

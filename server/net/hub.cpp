@@ -24,11 +24,29 @@ Hub::Entry* Hub::find(SessionId id) {
     return found == entries_.end() ? nullptr : &found->second;
 }
 
-void Hub::join(SessionId id) {
+bool Hub::isAmong(const Entry& entry, codec::Audience audience) {
+    return audience == codec::Audience::Everybody || entry.follows == (audience == codec::Audience::Followers);
+}
+
+void Hub::sendScene(Entry& entry) {
+    const SceneState& scene = sceneFor(entry);
+    if (!scene.facts) return;
+    entry.session->send(scene.facts);
+    for (const auto& change : scene.changes) entry.session->send(change);
+}
+
+void Hub::resendScene(SessionId id) {
+    const std::lock_guard lock(mutex_);
+    if (Entry* const entry = find(id)) sendScene(*entry);
+}
+
+void Hub::join(SessionId id, bool followsPopulation) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
     entry->joined = true;
+    entry->follows = followsPopulation;
+    sendScene(*entry);
     for (const auto& [kind, message] : retained_) entry->session->send(message);
 }
 
@@ -36,7 +54,8 @@ void Hub::subscribe(SessionId id, const codec::Rendition& rendition) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
-    if (entry->rendition.rate == 0 && rendition.rate > 0 && order_) entry->session->send(order_);
+    const codec::SharedMessage& order = sceneFor(*entry).order;
+    if (entry->rendition.rate == 0 && rendition.rate > 0 && order) entry->session->send(order);
     entry->rendition = rendition;
     entry->newcomer = rendition.rate > 0;
     entry->lost = false;
@@ -48,20 +67,39 @@ void Hub::requestKeyframe(SessionId id) {
     if (Entry* const entry = find(id)) entry->lost = entry->rendition.rate > 0;
 }
 
-void Hub::setOrder(codec::SharedMessage order) {
+void Hub::setOrder(codec::SharedMessage order, codec::Audience audience) {
     const std::lock_guard lock(mutex_);
-    order_ = std::move(order);
+    if (audience != codec::Audience::Others) followers_.order = order;
+    if (audience != codec::Audience::Followers) others_.order = order;
     for (const auto& [id, entry] : entries_)
-        if (entry.rendition.rate > 0) entry.session->send(order_);
+        if (entry.rendition.rate > 0 && isAmong(entry, audience)) entry.session->send(order);
 }
 
-void Hub::retain(codec::SharedMessage message) {
+void Hub::follow(codec::SharedMessage population) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, entry] : entries_)
+        if (entry.joined && entry.follows) entry.session->send(population);
+    followers_.changes.push_back(std::move(population));
+}
+
+void Hub::refreshScene(codec::SharedMessage scene) {
+    const std::lock_guard lock(mutex_);
+    followers_.facts = std::move(scene);
+    followers_.changes.clear();
+}
+
+void Hub::retain(codec::SharedMessage message, codec::Audience audience) {
     const std::lock_guard lock(mutex_);
     for (const auto& [id, entry] : entries_) {
-        if (entry.joined) entry.session->send(message);
+        if (entry.joined && isAmong(entry, audience)) entry.session->send(message);
     }
-    if (message->content().has_scene()) order_.reset();  // the order belongs to the previous scene
-    retained_[message->content().kind_case()] = std::move(message);
+    if (!message->content().has_scene()) {
+        retained_[message->content().kind_case()] = std::move(message);
+        return;
+    }
+    // The order belongs to the previous scene.
+    if (audience != codec::Audience::Others) followers_ = {.facts = message, .order = {}, .changes = {}};
+    if (audience != codec::Audience::Followers) others_ = {.facts = message, .order = {}, .changes = {}};
 }
 
 void Hub::publish(const codec::EncodedFrame& encoded) {

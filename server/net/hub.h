@@ -31,16 +31,22 @@ class Hub {
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
     // Sends the retained messages. Call after the welcome.
-    void join(SessionId id);
+    void join(SessionId id, bool followsPopulation = false);
+    // Sends the scene facts again: the session has missed changes of the population.
+    void resendScene(SessionId id);
     // Sends frames of this rendition from its next keyframe on. Rate 0: no frames.
     void subscribe(SessionId id, const codec::Rendition& rendition);
     // The session has lost its chain and needs a keyframe.
     void requestKeyframe(SessionId id);
 
-    // Sends to all sessions. New sessions get the newest message of each kind.
-    void retain(codec::SharedMessage message);
-    // Sets the order of the spheres in the next frames and sends it to all sessions that want frames.
-    void setOrder(codec::SharedMessage order);
+    // Sends to the audience. New sessions get the newest message of each kind.
+    void retain(codec::SharedMessage message, codec::Audience audience = codec::Audience::Everybody);
+    // Sets the order of the spheres in the next frames and sends it to the sessions of the audience that want frames.
+    void setOrder(codec::SharedMessage order, codec::Audience audience = codec::Audience::Everybody);
+    // Sends a Population message to all followers. New ones get it after the scene facts.
+    void follow(codec::SharedMessage population);
+    // Replaces the followers' facts of the present epoch, for new sessions: they include all changes so far.
+    void refreshScene(codec::SharedMessage scene);
     void publish(const codec::EncodedFrame& encoded);
     void broadcast(const codec::SharedMessage& message);
     void sendTo(SessionId id, codec::SharedMessage message);
@@ -59,6 +65,7 @@ class Hub {
     struct Entry {
         std::shared_ptr<Subscriber> session;
         bool joined = false;
+        bool follows = false;
         codec::Rendition rendition{};  // rate 0: no frames
         bool newcomer = false;         // has had no frame of the rendition yet
         bool lost = false;
@@ -72,8 +79,18 @@ class Hub {
     std::unordered_map<SessionId, Entry> entries_;
     SessionId lastId_ = 0;
     bool draining_ = false;
+    // What an audience knows of the scene.
+    struct SceneState {
+        codec::SharedMessage facts;
+        codec::SharedMessage order;
+        std::vector<codec::SharedMessage> changes;  // Population messages since the facts
+    };
+    void sendScene(Entry& entry);
+    SceneState& sceneFor(const Entry& entry) { return entry.follows ? followers_ : others_; }
+    static bool isAmong(const Entry& entry, codec::Audience audience);
+
+    SceneState followers_, others_;
     std::map<v1::ServerMessage::KindCase, codec::SharedMessage> retained_;  // sent to new sessions in this order
-    codec::SharedMessage order_;
     std::atomic<std::uint32_t> viewers_ = 0;
 };
 

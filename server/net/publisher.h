@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "codec/message.h"
@@ -18,10 +19,16 @@ class Publisher {
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    // Sends to all sessions. A new session gets the newest message of each kind after its welcome.
-    virtual void retain(codec::SharedMessage message) = 0;
+    // Sends to the audience. A new session gets the newest message of each kind after its welcome. `audience`: only for
+    // scene facts and orders.
+    virtual void retain(codec::SharedMessage message, codec::Audience audience) = 0;
+    void retain(codec::SharedMessage message) { retain(std::move(message), codec::Audience::Everybody); }
     // Sets the order of the spheres in the next frames. Call after retain() of their scene facts.
-    virtual void setOrder(codec::SharedMessage order) = 0;
+    virtual void setOrder(codec::SharedMessage order, codec::Audience audience) = 0;
+    // Sends a Population message to the followers. New ones get it after the scene facts.
+    virtual void follow(codec::SharedMessage population) = 0;
+    // Replaces the followers' facts of the present epoch, for new sessions: they include all changes so far.
+    virtual void refreshScene(codec::SharedMessage scene) = 0;
     // Lossy lane. A session that has not sent the previous frame yet has lost the chain: it gets no frame before the
     // next keyframe. A frame waits until the scene facts and the order that it belongs to have been sent.
     virtual void publish(const codec::EncodedFrame& encoded) = 0;

@@ -32,14 +32,33 @@ void SendQueue::breakChain() {
     frame_.reset();
 }
 
+void SendQueue::dropChanges() {
+    std::erase_if(reliable_, [](const auto& waiting) { return waiting->content().has_population(); });
+}
+
 bool SendQueue::push(codec::SharedMessage message) {
+    constexpr auto mostChanges = 64;
     const auto kind = message->content().kind_case();
+    if (message->content().has_scene()) dropChanges();
+    if (message->content().has_population()) {
+        if (awaitsScene_) return true;
+        if (std::ranges::count_if(reliable_, [](const auto& one) { return one->content().has_population(); }) >=
+            mostChanges) {
+            dropChanges();
+            missedChanges_ = awaitsScene_ = true;
+            return true;
+        }
+        population_ = message->content().population().number();
+    }
     if (replaceable(kind))
         std::erase_if(reliable_, [kind](const auto& waiting) { return waiting->content().kind_case() == kind; });
     if (reliable_.size() >= capacity_) return false;
     if (message->content().has_scene()) {
+        // The same epoch again: the client has missed changes of the population.
+        if (sceneEpoch_ != message->content().scene().epoch()) orderNumber_.reset();
         sceneEpoch_ = message->content().scene().epoch();
-        orderNumber_.reset();
+        population_ = message->content().scene().population();
+        awaitsScene_ = false;
     }
     if (message->content().has_order()) orderNumber_ = message->content().order().number();
     reliable_.push_back(std::move(message));
@@ -76,7 +95,7 @@ codec::SharedMessage SendQueue::next(bool frames) {
 
 bool SendQueue::frameIsReady() const {
     return frame_ && sceneEpoch_ == frame_->content().frame().epoch() &&
-           orderNumber_ == frame_->content().frame().order();
+           orderNumber_ == frame_->content().frame().order() && population_ >= frame_->content().frame().population();
 }
 
 void SendQueue::clear() {

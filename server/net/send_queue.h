@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "codec/rendition.h"
 
@@ -23,6 +24,9 @@ class SendQueue {
     // Appends to the reliable lane; returns false when it is full. A message that describes a current state replaces a
     // queued one of its kind.
     [[nodiscard]] bool push(codec::SharedMessage message);
+    // Returns true once after Population messages were dropped, because too many waited: the session needs the scene
+    // facts again.
+    [[nodiscard]] bool takeMissedChanges() { return std::exchange(missedChanges_, false); }
     enum class OfferResult : std::uint8_t {
         Accepted,
         Busy,  // chain lost: the previous frame has not been sent yet
@@ -45,12 +49,16 @@ class SendQueue {
 
   private:
     void breakChain();
+    void dropChanges();
     [[nodiscard]] bool frameIsReady() const;
 
     const std::size_t capacity_;
     codec::Rendition rendition_;
     std::optional<std::uint32_t> sceneEpoch_;   // of the latest scene facts queued
     std::optional<std::uint32_t> orderNumber_;  // of the latest order queued
+    std::uint32_t population_ = 0;              // number of the latest change that was queued
+    bool missedChanges_ = false;
+    bool awaitsScene_ = false;  // after that, until the facts come
     std::optional<std::uint32_t> lastNumber_;   // of the newest frame accepted; nullopt: chain lost
     std::uint32_t lastEpoch_ = 0;               // epoch of lastNumber_; numbers restart in each epoch
     std::uint64_t keyframeSequence_ = 0;        // of the newest keyframe accepted

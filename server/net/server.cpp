@@ -49,8 +49,14 @@ class RunningServer final : public Server {
 
     [[nodiscard]] std::uint16_t port() const override { return listener_->port(); }
 
-    void retain(codec::SharedMessage message) override { state_.hub.retain(std::move(message)); }
-    void setOrder(codec::SharedMessage order) override { state_.hub.setOrder(std::move(order)); }
+    void retain(codec::SharedMessage message, codec::Audience audience) override {
+        state_.hub.retain(std::move(message), audience);
+    }
+    void setOrder(codec::SharedMessage order, codec::Audience audience) override {
+        state_.hub.setOrder(std::move(order), audience);
+    }
+    void follow(codec::SharedMessage population) override { state_.hub.follow(std::move(population)); }
+    void refreshScene(codec::SharedMessage scene) override { state_.hub.refreshScene(std::move(scene)); }
     void publish(const codec::EncodedFrame& encoded) override { state_.hub.publish(encoded); }
     void broadcast(codec::SharedMessage message) override { state_.hub.broadcast(message); }
 

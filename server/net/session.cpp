@@ -134,6 +134,7 @@ void Session::onHello(const v1::Hello& hello) {
     helloDone_ = true;
     client_ = sanitize(hello.client());
     turns_ = hello.turns();
+    population_ = hello.population();
     timeouts_.helloReceived();
     const auto role = state_.admission->roleOf(hello.token());
     if (!role) return rejectToken(!hello.token().empty());
@@ -156,7 +157,7 @@ void Session::admit(const v1::Hello& hello, v1::Role role) {
     message.mutable_welcome()->set_role(role);
     message.mutable_welcome()->set_session(id_);
     queue(codec::share(std::move(message)));
-    state_.hub.join(id_);
+    state_.hub.join(id_, population_);
     onView(hello.view());
 }
 
@@ -182,7 +183,8 @@ void Session::onView(const v1::View& view) {
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
     const codec::Rendition requested{known ? view.tier() : v1::NORMAL,
-                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate), turns_};
+                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate), turns_,
+                                     population_};
     // An unchanged view does not restart the chain.
     if (rateController_.setTarget(requested, view.fixed(), RateController::Clock::now()))
         switchRendition("");

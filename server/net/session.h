@@ -121,6 +121,7 @@ class Session : public Subscriber, public std::enable_shared_from_this<Session> 
     TokenBucket commands_;
     TokenBucket views_;
     bool turns_ = false;                   // the client decodes frames with turns
+    bool population_ = false;              // the client follows Population messages
     std::optional<v1::View> pendingView_;  // received too soon after others; applied later
     v1::Role role_ = v1::ROLE_UNSPECIFIED;
     SessionId id_ = 0;

@@ -88,6 +88,7 @@ void Session::queue(codec::SharedMessage message) {
         return close(close_code::try_again_later, "too many messages wait for this client to read them",
                      CloseCause::Overflow);
     }
+    if (sendQueue_.takeMissedChanges()) state_.hub.resendScene(id_);
     pump();
 }
 

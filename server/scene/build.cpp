@@ -70,6 +70,19 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
     }
 }
 
+std::vector<Box> readSinks(Check& check, const v1::Scene& message) {
+    std::vector<Box> sinks;
+    if (static_cast<std::size_t>(message.sinks_size()) > maxSinks)
+        check.refuse("sinks", fmt::format("has {} entries, must have at most {}", message.sinks_size(), maxSinks));
+    for (int i = 0; i < message.sinks_size() && check.ok(); ++i) {
+        const std::string field = at(at("sinks", static_cast<std::size_t>(i)), "region");
+        const v1::Box& region = message.sinks(i).region();
+        if (!message.sinks(i).has_region()) check.refuse(field, "is missing; give min and max");
+        sinks.push_back(check.box(region.min(), region.max(), field));
+    }
+    return sinks;
+}
+
 Sleep readSleep(Check& check, const v1::Sleep& message, bool noSleep) {
     Sleep sleep;
     if (message.has_enabled()) sleep.enabled = message.enabled();
@@ -95,6 +108,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     if (message.has_step()) scene.step = check.within(message.step(), 1e-6, 1, "step", " s");
     if (message.has_sphere_contacts()) scene.sphereContacts = message.sphere_contacts();
     scene.contactSums = message.contact_sums() || overrides.contactSums;
+    scene.sinks = readSinks(check, message);
     scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
     if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");
     scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");
@@ -154,6 +168,13 @@ Result<glm::dvec3> vectorOf(const Numbers& values, std::string_view field) {
     const glm::dvec3 result = check.vector(values, field);
     if (!check.ok()) return check.error();
     return result;
+}
+
+Result<Box> boxOf(const v1::Box& message, std::string_view field) {
+    Check check;
+    const Box box = check.box(message.min(), message.max(), field);
+    if (!check.ok()) return check.error();
+    return box;
 }
 
 }  // namespace spherule::scene

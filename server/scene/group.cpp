@@ -1,5 +1,7 @@
 #include "scene/group.h"
 
+#include <algorithm>
+
 #include <spdlog/fmt/fmt.h>
 
 #include "scene/load.h"
@@ -146,6 +148,26 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     if (check.ok()) checkWork(check, scene, source, context.taken.size() + spheres.size());
     if (check.ok()) checkPlaces(check, message, scene, source, spheres);
     return spheres;
+}
+
+void removeSpheres(Scene& scene, const std::vector<std::uint32_t>& numbers) {
+    auto next = numbers.begin();
+    std::uint32_t kept = 0;
+    for (std::uint32_t k = 0; k < scene.spheres.size(); ++k) {
+        if (next != numbers.end() && *next == k)
+            ++next;
+        else
+            scene.spheres[kept++] = scene.spheres[k];
+    }
+    scene.spheres.resize(kept);
+    for (Group& group : scene.groups) {
+        const auto before = [&](std::uint32_t end) {
+            return static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, end) - numbers.begin());
+        };
+        const std::uint32_t end = group.first + group.count;
+        group.count -= before(end) - before(group.first);
+        group.first -= before(group.first);
+    }
 }
 
 }  // namespace spherule::scene

@@ -18,6 +18,7 @@ constexpr std::uint32_t maxObstacles = 1000;
 constexpr std::uint64_t maxObstaclePairs = 30'000'000;  // every sphere meets each obstacle, in each substep
 constexpr std::uint32_t maxGroups = 10'000;             // all are sent to every viewer, again with each new group
 constexpr std::size_t longestName = 200;                // bytes; of a scene and of a group
+constexpr std::size_t maxSinks = 8;
 constexpr std::uint32_t maxSubsteps = 1'000'000;
 
 // Values of a scene that a caller may replace before it is built.
@@ -45,6 +46,9 @@ Result<std::vector<Sphere>> buildGroup(const v1::Group& group, const Scene& scen
 
 // Returns a vector of three finite numbers, or an error with `field`.
 Result<glm::dvec3> vectorOf(const google::protobuf::RepeatedField<double>& values, std::string_view field);
+
+// Returns a box with min below max on every axis, or an error with `field`.
+Result<Box> boxOf(const v1::Box& message, std::string_view field);
 
 // Returns the substeps per step that suit the scene and its model; may exceed maxSubsteps.
 double defaultSubsteps(const Scene& scene);

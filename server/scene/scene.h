@@ -15,7 +15,7 @@
 
 namespace spherule::scene {
 
-// A validated scene, in SI units and world coordinates. Ids are indices into `spheres`.
+// A validated scene, in SI units and world coordinates. `spheres` are in the order of their ids.
 
 struct Sphere {
     glm::dvec3 position{};      // m
@@ -110,6 +110,11 @@ inline glm::dvec3 separation(const glm::dvec3& a, const glm::dvec3& b, const glm
 struct Box {
     glm::dvec3 min{};
     glm::dvec3 max{};
+
+    // The faces belong to the box.
+    [[nodiscard]] bool contains(const glm::dvec3& p) const {
+        return p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y && p.z <= max.z;
+    }
 };
 
 class Shape;
@@ -146,8 +151,12 @@ struct Scene {
     Quality quality;
     Camera camera;
     Sleep sleep;
+    std::vector<Box> sinks;  // spheres whose centre is inside at the end of a step are removed
     bool sphereContacts = true;
     bool contactSums = false;  // statistics have sums over the contacts of all substeps
 };
+
+// Removes the spheres with these numbers, in ascending order, from the scene and its groups.
+void removeSpheres(Scene& scene, const std::vector<std::uint32_t>& numbers);
 
 }  // namespace spherule::scene

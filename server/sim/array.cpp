@@ -10,6 +10,7 @@ namespace {
 
 constexpr unsigned sorted = 1;
 constexpr unsigned cleared = 2;
+constexpr unsigned byId = 4;
 
 std::string wordsOf(std::string_view type) {
     if (type == "vec4") return "rrrr";
@@ -25,7 +26,14 @@ ArrayType row(std::string name, std::string_view type, Extent extent, unsigned f
     name[0] = static_cast<char>(name[0] - 'A' + 'a');
     std::string words = wordsOf(type);
     const std::size_t bytes = 4 * words.size();
-    return {std::move(name), type, bytes, std::move(words), extent, (flags & sorted) != 0, (flags & cleared) != 0};
+    return {.name = std::move(name),
+            .type = type,
+            .elementBytes = bytes,
+            .words = std::move(words),
+            .extent = extent,
+            .sorted = (flags & sorted) != 0,
+            .cleared = (flags & cleared) != 0,
+            .byId = (flags & byId) != 0};
 }
 
 const std::array<ArrayType, arrayCount>& rows() {

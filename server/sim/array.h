@@ -50,6 +50,7 @@ struct ArrayType {
     Extent extent{};
     bool sorted = false;   // a column: a rebuild sorts it into cell order with the other columns
     bool cleared = false;  // zeroed when spheres are uploaded
+    bool byId = false;     // indexed by handle, not by slot
 };
 
 const ArrayType& typeOf(Array array);

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -125,11 +129,15 @@ class Simulation::CommandHandler {
     Result<Outcome> operator()(const Set& set);
     Result<Outcome> operator()(const Reset& reset);
     Result<Outcome> operator()(const Spawn& spawn);
+    Result<Outcome> operator()(const Remove& remove);
     Result<Outcome> operator()(const Push& push);
 
   private:
+    // Ranks, see Population.
     Result<std::uint32_t> targetOf(const Push& push);
-    Result<void> checkPush(std::uint32_t id, const glm::dvec3& impulse);
+    Result<std::uint32_t> rankOf(std::uint64_t id, std::string_view field);
+    Result<std::vector<std::uint32_t>> ranksOf(const Remove& remove);
+    Result<void> checkPush(std::uint32_t rank, const glm::dvec3& impulse);
 
     Simulation& simulation_;
 };
@@ -168,9 +176,8 @@ Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
 }
 
 Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
-    Features features = featuresOf(changed);
-    features.set(Feature::Levels, plan().features.has(Feature::Levels));  // levels depend on the spheres alone
-    if (features == plan().features) {
+    // The plan may have more features than the present spheres require, if some were removed.
+    if (featuresOf(changed) == featuresOf(scene_)) {
         closeContactSums();
         scene_ = std::move(changed);
         maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
@@ -201,31 +208,71 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& 
     if (!copies) return tl::unexpected(copies.error());
     auto live = simulation_.liveState();
     if (!live) return tl::unexpected(live.error());
-    return simulation_.prepare(
-        ResetScope::Spheres, std::move(*copies),
+    return simulation_.prepareSpawn(
+        std::move(*copies),
         [spawn, scene = simulation_.scene_, state = std::move(*live)](Progress& progress) mutable {
             return withGroup(spawn, std::move(scene), std::move(state), progress);
         });
 }
 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& push) {
-    const auto id = targetOf(push);
-    if (!id) return tl::unexpected(id.error());
-    if (simulation_.scene_.spheres[*id].fixed)
-        return fail(ErrorKind::Refused, "", fmt::format("sphere {} is fixed: nothing moves it", *id));
-    if (auto slow = checkPush(*id, push.impulse); !slow) return tl::unexpected(slow.error());
-    Pipeline& pipeline = *simulation_.pipeline_;
+    const auto rank = targetOf(push);
+    if (!rank) return tl::unexpected(rank.error());
     const scene::Scene& scene = simulation_.scene_;
-    pipeline.applyImpulse(*id, glm::vec3(push.impulse));
-    const double speed = glm::length(glm::dvec3(pipeline.velocityOf(*id)));
-    const double moved = speed * scene.step / simulation_.substeps_ / static_cast<double>(scene.spheres[*id].radius);
+    const scene::Sphere& sphere = scene.spheres[*rank];
+    const std::uint64_t id = simulation_.population_.idAt(*rank);
+    if (sphere.fixed) return fail(ErrorKind::Refused, "", fmt::format("sphere {} is fixed: nothing moves it", id));
+    if (auto slow = checkPush(*rank, push.impulse); !slow) return tl::unexpected(slow.error());
+    Pipeline& pipeline = *simulation_.pipeline_;
+    const std::uint32_t handle = simulation_.population_.handleAt(*rank);
+    pipeline.applyImpulse(handle, glm::vec3(push.impulse));
+    const double speed = glm::length(glm::dvec3(pipeline.velocityOf(handle)));
+    const double moved = speed * scene.step / simulation_.substeps_ / static_cast<double>(sphere.radius);
     if (moved > static_cast<double>(SAFE_MOTION)) simulation_.limitMotionPerSubstep(moved);
-    return Outcome{.applied = {.sphere = *id}};
+    return Outcome{.applied = {.sphere = id}};
 }
 
-// Returns the id of the sphere to push.
+Result<std::uint32_t> Simulation::CommandHandler::rankOf(std::uint64_t id, std::string_view field) {
+    const Population& population = simulation_.population_;
+    if (const auto rank = population.rankOf(id)) return *rank;
+    return fail(ErrorKind::Refused, std::string(field),
+                population.wasBorn(id)
+                    ? fmt::format("is {}, a sphere that was removed", id)
+                    : fmt::format("is {}, the scene has {} spheres", id, population.count()));
+}
+
+Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Remove& remove) {
+    std::vector<std::uint32_t> ranks;
+    for (std::size_t k = 0; k < remove.spheres.size(); ++k) {
+        const auto rank = rankOf(remove.spheres[k], fmt::format("spheres[{}]", k));
+        if (!rank) return tl::unexpected(rank.error());
+        ranks.push_back(*rank);
+    }
+    if (remove.region) {
+        const State state = simulation_.snapshot();
+        const glm::dvec3 centre = simulation_.scene_.bounds.centre();
+        const std::size_t named = ranks.size();
+        for (std::uint32_t rank = 0; rank < state.count(); ++rank)
+            if (remove.region->contains(positionOf(state, rank) + centre)) ranks.push_back(rank);
+        if (ranks.size() == named) return fail(ErrorKind::Refused, "region", "has no sphere's centre in it");
+    }
+    std::ranges::sort(ranks);
+    ranks.erase(std::ranges::unique(ranks).begin(), ranks.end());
+    return ranks;
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Remove& remove) {
+    const auto copies = memory::Claim::make("", "removing spheres", copiesToChange(simulation_.plan()));
+    if (!copies) return tl::unexpected(copies.error());
+    const auto ranks = ranksOf(remove);
+    if (!ranks) return tl::unexpected(ranks.error());
+    if (ranks->empty()) return fail(ErrorKind::Refused, "", "names no sphere and no region");
+    if (auto done = simulation_.remove(*ranks); !done) return tl::unexpected(done.error());
+    return Outcome{.applied = {.removed = static_cast<std::uint32_t>(ranks->size())}};
+}
+
+// Returns the rank of the sphere to push.
 Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
-    const std::uint32_t count = simulation_.count();
     if (const auto* const ray = std::get_if<Ray>(&push.target)) {
         const double length = glm::length(ray->direction);
         if (!(length > 0)) return fail(ErrorKind::Refused, "ray.direction", "has no length");
@@ -235,19 +282,16 @@ Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
         if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere");
         return *hit;
     }
-    const auto id = std::get<std::uint32_t>(push.target);
-    if (id >= count)
-        return fail(ErrorKind::Refused, "sphere", fmt::format("is {}, the scene has {} spheres", id, count));
-    return id;
+    return rankOf(std::get<std::uint64_t>(push.target), "sphere");
 }
 
 // Refuses an impulse that would make the sphere faster than the scene can compute.
-Result<void> Simulation::CommandHandler::checkPush(std::uint32_t id, const glm::dvec3& impulse) {
+Result<void> Simulation::CommandHandler::checkPush(std::uint32_t rank, const glm::dvec3& impulse) {
     const scene::Scene& scene = simulation_.scene_;
-    const glm::dvec4 now(simulation_.pipeline_->velocityOf(id));
+    const glm::dvec4 now(simulation_.pipeline_->velocityOf(simulation_.population_.handleAt(rank)));
     const glm::dvec3 velocity(now);
     const glm::dvec3 change = impulse * std::abs(now.w);
-    const double radius = static_cast<double>(scene.spheres[id].radius);
+    const double radius = static_cast<double>(scene.spheres[rank].radius);
     // A sphere that is already faster may still be slowed down.
     const double most =
         std::max(scene::safeMotion * radius * simulation_.maxSubsteps_ / scene.step, glm::length(velocity));
@@ -260,7 +304,7 @@ Result<void> Simulation::CommandHandler::checkPush(std::uint32_t id, const glm::
     return fail(ErrorKind::Refused, "impulse",
                 fmt::format("is {:g} N s, which gives sphere {} {:g} m/s; the scene can compute {:g} m/s at most: give "
                             "it at most {:g} N s",
-                            glm::length(impulse), id, glm::length(velocity + change), most,
+                            glm::length(impulse), simulation_.population_.idAt(rank), glm::length(velocity + change), most,
                             std::max(share, 0.0) * glm::length(impulse)));
 }
 

@@ -38,6 +38,12 @@ struct Spawn {
     std::function<Result<std::vector<scene::Sphere>>(const scene::Scene&, Progress&)> place{};
 };
 
+// Removes the spheres with these ids, and those whose centre is in the region.
+struct Remove {
+    std::vector<std::uint64_t> spheres{};
+    std::optional<scene::Box> region{};  // m
+};
+
 struct Ray {
     glm::dvec3 origin{};     // m
     glm::dvec3 direction{};  // any length but zero
@@ -45,16 +51,17 @@ struct Ray {
 
 // Gives an impulse to a sphere.
 struct Push {
-    std::variant<std::uint32_t, Ray> target{};  // the id of the sphere, or a ray: the first sphere that it meets
+    std::variant<std::uint64_t, Ray> target{};  // the id of the sphere, or a ray: the first sphere that it meets
     glm::dvec3 impulse{};                       // N s
 };
 
-using Command = std::variant<Set, Reset, Spawn, Push>;
+using Command = std::variant<Set, Reset, Spawn, Remove, Push>;
 
 // The result of a command.
 struct Applied {
     std::uint64_t step = 0;                  // the command holds from this step on
-    std::optional<std::uint32_t> sphere{};   // the sphere that a push hit
+    std::optional<std::uint64_t> sphere{};   // the sphere that a push hit
+    std::optional<std::uint32_t> removed{};  // spheres that a Remove removed
     std::optional<Statistics> statistics{};  // of a query
 };
 

@@ -36,6 +36,7 @@ class Features {
     // Returns true if the scene has any surface that a sphere may hit.
     [[nodiscard]] bool hasSurfaceFeature() const { return has(Feature::Walls) || has(Feature::Obstacles); }
 
+    [[nodiscard]] bool hasAll(const Features& others) const { return (others.bits_ & ~bits_) == 0; }
     bool operator==(const Features&) const = default;
 
   private:

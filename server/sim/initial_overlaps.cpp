@@ -23,6 +23,7 @@ scene::Scene withoutForces(const scene::Scene& scene) {
     still.step = 1.0 / 480;
     still.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};
     still.pairs.clear();
+    still.sinks.clear();
     for (scene::Material& material : still.materials)
         material = {.name = material.name, .density = material.density, .restitution = 0};
     return still;

@@ -90,6 +90,14 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
     return rows;
 }
 
+std::vector<scene::Box> sinksOnDevice(const scene::Scene& scene) {
+    const glm::dvec3 centre = scene.bounds.centre();
+    std::vector<scene::Box> sinks;
+    for (const scene::Box& sink : scene.sinks)
+        sinks.push_back({glm::dvec3(glm::vec3(sink.min - centre)), glm::dvec3(glm::vec3(sink.max - centre))});
+    return sinks;
+}
+
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
     if (pipeline.plan().has(Array::Obstacles)) {
         pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));

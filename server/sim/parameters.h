@@ -21,4 +21,7 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);
 // Writes the scene data that kernels read in addition to the spheres and the parameters.
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene);
 
+// Returns the sinks as the device compares them: relative to the bounds' centre (m), rounded to float32.
+std::vector<scene::Box> sinksOnDevice(const scene::Scene& scene);
+
 }  // namespace spherule::sim

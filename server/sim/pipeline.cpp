@@ -57,22 +57,28 @@ bool growsWithPairs(Array array) {
 
 }  // namespace
 
-State inIdOrder(const SlotState& slots) {
+State inIdOrder(const SlotState& slots, const Population& population) {
     const std::size_t spheres = slots.idAndMaterial.size();
+    const std::vector<std::uint32_t> ranks = population.ranksByHandle();
     State state;
+    if (!population.plain()) {
+        state.ids.resize(spheres);
+        for (std::uint32_t rank = 0; rank < spheres; ++rank) state.ids[rank] = population.idAt(rank);
+    }
     state.position.resize(spheres);
     state.velocity.resize(spheres);
     state.spin.resize(spheres);
     if (!slots.images.empty()) state.images.resize(spheres);
     for (std::size_t slot = 0; slot < spheres; ++slot) {
-        const std::uint32_t id = slots.idAndMaterial[slot] & idMask;
-        state.position[id] = slots.position[slot];
-        state.velocity[id] = slots.velocity[slot];
+        const std::uint32_t handle = slots.idAndMaterial[slot] & idMask;
+        const std::uint32_t rank = ranks.empty() ? handle : ranks[handle];
+        state.position[rank] = slots.position[slot];
+        state.velocity[rank] = slots.velocity[slot];
         if (!slots.images.empty()) {
-            state.images[id] = glm::ivec3(slots.images[id]);
-            wrap(state.position[id], state.images[id], slots.periods);
+            state.images[rank] = glm::ivec3(slots.images[handle]);
+            wrap(state.position[rank], state.images[rank], slots.periods);
         }
-        if (!slots.angularVelocity.empty()) state.spin[id] = glm::vec4(glm::vec3(slots.angularVelocity[slot]), 0);
+        if (!slots.angularVelocity.empty()) state.spin[rank] = glm::vec4(glm::vec3(slots.angularVelocity[slot]), 0);
     }
     return state;
 }
@@ -100,7 +106,7 @@ Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Ke
 }
 
 Pipeline::Pipeline(compute::Device& device, Plan plan) : device_(device), plan_(std::move(plan)) {
-    for (const auto* launches : {&plan_.substep, &plan_.newSubstep, &plan_.statistics})
+    for (const auto* launches : {&plan_.substep, &plan_.newSubstep, &plan_.statistics, &plan_.stepEnd})
         for (const LaunchSpec& launch : *launches)
             if (std::ranges::find(kernelFiles_, launch.kernel) == kernelFiles_.end())
                 kernelFiles_.push_back(launch.kernel);
@@ -169,7 +175,10 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
 
 Result<void> Pipeline::bindAll() {
     for (const auto& [launches, bound] :
-         {std::pair(&plan_.substep, &substep_), {&plan_.newSubstep, &newSubstep_}, {&plan_.statistics, &statistics_}})
+         {std::pair(&plan_.substep, &substep_),
+          {&plan_.newSubstep, &newSubstep_},
+          {&plan_.statistics, &statistics_},
+          {&plan_.stepEnd, &stepEnd_}})
         for (const LaunchSpec& spec : *launches) {
             const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
             const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
@@ -187,7 +196,9 @@ void Pipeline::setParameters(layout::Parameters parameters) {
     if (parameters.substepRatio != 1) run(newSubstep_, LaunchSet::Substep);
 }
 
-void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials) {
+void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials,
+                      std::span<const std::uint32_t> handles) {
+    setSpheres(state.count());
     // Clears all other data of the spheres that were in these slots.
     for (const ArraySpec& spec : plan_.arrays)
         if (typeOf(spec.array).cleared) device_.fill(buffer(spec.array), 0);
@@ -195,15 +206,24 @@ void Pipeline::upload(const State& state, std::span<const std::uint8_t> material
     write<glm::vec4>(Array::Velocity, state.velocity);
     if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, state.spin);
     if (plan_.has(Array::Images) && !state.images.empty()) {
-        std::vector<glm::uvec4> images;
-        for (const glm::ivec3& one : state.images) images.emplace_back(glm::uvec3(one), 0U);
+        std::vector<glm::uvec4> images(plan_.room);
+        for (std::uint32_t rank = 0; rank < state.count(); ++rank)
+            images[handles.empty() ? rank : handles[rank]] = glm::uvec4(glm::uvec3(state.images[rank]), 0U);
         write<glm::uvec4>(Array::Images, images);
     }
-    std::vector<std::uint32_t> ids(state.count());
-    std::iota(ids.begin(), ids.end(), 0U);
-    if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, ids);
-    for (std::uint32_t id = 0; id < state.count(); ++id) ids[id] |= std::uint32_t{materials[id]} << idBits;
-    write<std::uint32_t>(Array::IdAndMaterial, ids);
+    std::vector<std::uint32_t> words(state.count());
+    std::iota(words.begin(), words.end(), 0U);
+    if (plan_.has(Array::SlotOf)) {
+        std::vector<std::uint32_t> slots(words);
+        if (!handles.empty()) {
+            slots.resize(plan_.room);
+            for (std::uint32_t slot = 0; slot < state.count(); ++slot) slots[handles[slot]] = slot;
+        }
+        write<std::uint32_t>(Array::SlotOf, slots);
+    }
+    if (!handles.empty()) words.assign(handles.begin(), handles.end());
+    for (std::uint32_t slot = 0; slot < state.count(); ++slot) words[slot] |= std::uint32_t{materials[slot]} << idBits;
+    write<std::uint32_t>(Array::IdAndMaterial, words);
     std::array<std::uint32_t, COUNTER_WORDS> counters{};
     counters[COUNTER_REBUILD] = 1;
     write<std::uint32_t>(Array::Counters, counters);
@@ -217,38 +237,38 @@ SlotState Pipeline::download() {
 }
 
 void Pipeline::download(SlotState& slots) {
-    readInto(slots.position, Array::Position);
-    readInto(slots.velocity, Array::Velocity);
-    readInto(slots.angularVelocity, Array::AngularVelocity);
-    readInto(slots.idAndMaterial, Array::IdAndMaterial);
+    readInto(slots.position, Array::Position, plan_.spheres);
+    readInto(slots.velocity, Array::Velocity, plan_.spheres);
+    readInto(slots.angularVelocity, Array::AngularVelocity, plan_.spheres);
+    readInto(slots.idAndMaterial, Array::IdAndMaterial, plan_.spheres);
     readInto(slots.images, Array::Images);
     slots.periods = plan_.periods;
 }
 
-std::uint32_t Pipeline::slotOf(std::uint32_t id) {
-    std::uint32_t slot = id;
+std::uint32_t Pipeline::slotOf(std::uint32_t handle) {
+    std::uint32_t slot = handle;
     if (plan_.has(Array::SlotOf))
-        device_.download(buffer(Array::SlotOf), id * sizeof slot, std::as_writable_bytes(std::span(&slot, 1)));
+        device_.download(buffer(Array::SlotOf), handle * sizeof slot, std::as_writable_bytes(std::span(&slot, 1)));
     return slot;
 }
 
-glm::vec4 Pipeline::velocityOf(std::uint32_t id) {
+glm::vec4 Pipeline::velocityOf(std::uint32_t handle) {
     glm::vec4 velocity;
-    device_.download(buffer(Array::Velocity), slotOf(id) * sizeof velocity,
+    device_.download(buffer(Array::Velocity), slotOf(handle) * sizeof velocity,
                      std::as_writable_bytes(std::span(&velocity, 1)));
     return velocity;
 }
 
-void Pipeline::applyImpulse(std::uint32_t id, glm::vec3 impulse) {
-    const std::uint32_t slot = slotOf(id);
-    glm::vec4 velocity = velocityOf(id);
+void Pipeline::applyImpulse(std::uint32_t handle, glm::vec3 impulse) {
+    const std::uint32_t slot = slotOf(handle);
+    glm::vec4 velocity = velocityOf(handle);
     velocity.w = std::abs(velocity.w);
     velocity += glm::vec4(impulse * velocity.w, 0);
     write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
     if (!plan_.features.has(Feature::Sleep)) return;
     // A slow push must also wake the sleepers that the sphere touches.
     constexpr float movedAway = MOVED_AWAY;
-    device_.upload(buffer(Array::RestReference), id * sizeof(glm::vec4) + 3 * sizeof movedAway,
+    device_.upload(buffer(Array::RestReference), handle * sizeof(glm::vec4) + 3 * sizeof movedAway,
                    std::as_bytes(std::span(&movedAway, 1)));
 }
 
@@ -296,13 +316,162 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
         spec.bytes = (*next)->bytes();
         setBuffer(spec.array, std::move(*next++));
     }
-    plan_.pairCapacity = capacity;
-    for (LaunchSpec& launch : plan_.newSubstep)
-        if (launch.forEachPair) launch.count = 2 * capacity;
+    plan_.setPairCapacity(capacity);
+    requestRebuild();
+    return {};
+}
+
+Result<void> Pipeline::growSpheres(std::uint32_t room, const scene::Scene& scene) {
+    Plan larger = plan_;
+    larger.room = room;
+    std::uint64_t onHost = 0;
+    for (const ArraySpec& spec : plan_.arrays) {
+        const std::uint64_t bytes = larger.bytesFor(spec.array, scene);
+        if (bytes > spec.bytes) onHost += device_.hostBytes(bytes, typeOf(spec.array).words);
+    }
+    const auto claim = memory::Claim::make("", fmt::format("arrays of {} spheres", room), onHost);
+    if (!claim) return tl::unexpected(claim.error());
+    for (ArraySpec& spec : plan_.arrays) {
+        const std::uint64_t bytes = larger.bytesFor(spec.array, scene);
+        if (bytes <= spec.bytes) continue;
+        auto made = device_.createBuffer(nameOf(spec.array), bytes, typeOf(spec.array).words);
+        if (!made) return tl::unexpected(made.error());
+        copy(buffer(spec.array), 0, spec.bytes, **made, 0);
+        spec.bytes = bytes;
+        setBuffer(spec.array, std::move(*made));
+    }
+    plan_.room = room;
+    return {};
+}
+
+void Pipeline::setSpheres(std::uint32_t count) {
+    plan_.setSpheres(count);
+    if (plan_.has(Array::DispatchSizes)) writeDispatchSizes();
+}
+
+void Pipeline::requestRebuild() {
     const std::uint32_t rebuild = 1;
     write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&rebuild, 1), COUNTER_REBUILD);
     listsPending_ = true;
+}
+
+// The next lists of overfull cells depend on two counters, which must count only the lists of substeps.
+void Pipeline::rebuildLists() {
+    const auto before = read<std::uint32_t>(Array::Counters);
+    run(substep_, LaunchSet::Rebuild);
+    for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
+        write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
+    listsPending_ = false;
+}
+
+// Sets rows of an array with elements for each sphere to zero.
+void Pipeline::clearRows(const ArraySpec& spec, std::size_t first, std::size_t count) {
+    const std::vector<std::byte> zeros(count * rowBytes(spec));
+    device_.upload(buffer(spec.array), first * rowBytes(spec), zeros);
+}
+
+void Pipeline::append(const State& born, std::span<const std::uint8_t> materials,
+                      std::span<const std::uint32_t> handles) {
+    const std::uint32_t first = plan_.spheres;
+    for (const ArraySpec& spec : plan_.arrays) {
+        const ArrayType& type = typeOf(spec.array);
+        if (!type.cleared || (type.extent != Extent::Sphere && type.extent != Extent::RememberedWall)) continue;
+        if (type.byId)
+            for (const std::uint32_t handle : handles) clearRows(spec, handle, 1);
+        else
+            clearRows(spec, first, handles.size());
+    }
+    write<glm::vec4>(Array::Position, born.position, first);
+    write<glm::vec4>(Array::Velocity, born.velocity, first);
+    if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, born.spin, first);
+    std::vector<std::uint32_t> words(handles.begin(), handles.end());
+    for (std::uint32_t k = 0; k < words.size(); ++k) {
+        const std::uint32_t slot = first + k;
+        if (plan_.has(Array::SlotOf))
+            write<std::uint32_t>(Array::SlotOf, std::span<const std::uint32_t>(&slot, 1), handles[k]);
+        if (plan_.has(Array::RestReference)) {
+            const glm::vec4 rest(glm::vec3(born.position[k]), MOVED_AWAY);
+            write<glm::vec4>(Array::RestReference, std::span<const glm::vec4>(&rest, 1), handles[k]);
+        }
+        words[k] |= std::uint32_t{materials[k]} << idBits;
+    }
+    write<std::uint32_t>(Array::IdAndMaterial, words, first);
+    setSpheres(first + static_cast<std::uint32_t>(handles.size()));
+    requestRebuild();
+}
+
+Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
+    if (auto made = makeSlotOf(); !made) return made;
+    std::vector<bool> gone(plan_.room);
+    for (const std::uint32_t handle : handles) gone[handle] = true;
+    const auto words = read<std::uint32_t>(Array::IdAndMaterial, plan_.spheres);
+    if (plan_.features.has(Feature::Sleep)) wakeNeighbours(gone, words);
+    const std::uint32_t left = plan_.spheres - static_cast<std::uint32_t>(handles.size());
+    if (plan_.features.has(Feature::Contacts)) {
+        auto position = read<glm::vec4>(Array::Position, plan_.spheres);
+        for (std::size_t slot = 0; slot < words.size(); ++slot)
+            if (gone[words[slot] & idMask]) position[slot].w = -std::abs(position[slot].w);
+        write<glm::vec4>(Array::Position, position);
+        requestRebuild();
+        rebuildLists();
+    } else {
+        std::vector<std::uint32_t> slots;
+        for (std::uint32_t slot = 0; slot < words.size(); ++slot)
+            if (gone[words[slot] & idMask]) slots.push_back(slot);
+        moveLastInto(std::move(slots));
+    }
+    setSpheres(left);
     return {};
+}
+
+// Makes the array SlotOf: in scenes without contacts, slots are handles until a sphere is removed.
+Result<void> Pipeline::makeSlotOf() {
+    if (plan_.has(Array::SlotOf)) return {};
+    const ArraySpec spec{Array::SlotOf, std::uint64_t{plan_.room} * typeOf(Array::SlotOf).elementBytes};
+    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
+    if (!made) return tl::unexpected(made.error());
+    setBuffer(spec.array, std::move(*made));
+    plan_.arrays.push_back(spec);
+    return {};
+}
+
+// Lets the spheres that go wake their neighbours, as if they moved away.
+void Pipeline::wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words) {
+    auto velocity = read<glm::vec4>(Array::Velocity, plan_.spheres);
+    auto rest = read<glm::vec4>(Array::RestReference);
+    for (std::size_t slot = 0; slot < words.size(); ++slot) {
+        if (!gone[words[slot] & idMask]) continue;
+        velocity[slot].w = std::abs(velocity[slot].w);
+        rest[words[slot] & idMask].w = MOVED_AWAY;
+    }
+    write<glm::vec4>(Array::Velocity, velocity);
+    write<glm::vec4>(Array::RestReference, rest);
+    run(substep_, LaunchSet::Waking);
+}
+
+// Without contacts, nothing sorts the columns: the last spheres move to the places of those that go.
+void Pipeline::moveLastInto(std::vector<std::uint32_t> slots) {
+    std::vector<std::uint32_t> from(plan_.spheres);
+    std::iota(from.begin(), from.end(), 0U);
+    for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot) {
+        from[*slot] = from.back();
+        from.pop_back();
+    }
+    for (const ArraySpec& spec : plan_.arrays) {
+        if (!typeOf(spec.array).sorted) continue;
+        const std::size_t row = rowBytes(spec);
+        std::vector<std::byte> before(plan_.spheres * row);
+        device_.download(buffer(spec.array), 0, before);
+        std::vector<std::byte> after(from.size() * row);
+        for (std::size_t slot = 0; slot < from.size(); ++slot)
+            std::copy_n(before.begin() + static_cast<std::ptrdiff_t>(from[slot] * row), row,
+                        after.begin() + static_cast<std::ptrdiff_t>(slot * row));
+        device_.upload(buffer(spec.array), 0, after);
+    }
+    const auto words = read<std::uint32_t>(Array::IdAndMaterial, from.size());
+    std::vector<std::uint32_t> slotOf(plan_.room);
+    for (std::uint32_t slot = 0; slot < words.size(); ++slot) slotOf[words[slot] & idMask] = slot;
+    write<std::uint32_t>(Array::SlotOf, slotOf);
 }
 
 void Pipeline::substep(bool observed) {
@@ -321,19 +490,13 @@ std::vector<glm::vec4> Pipeline::takeImpacts() {
 
 void Pipeline::runStatistics() {
     if (listsPending_) {
-        // Reading statistics must not change the simulation: the next lists of overfull cells depend on these two
-        // counters.
-        const auto before = read<std::uint32_t>(Array::Counters);
-        run(substep_, LaunchSet::Rebuild);
-        for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
-            write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
-        listsPending_ = false;
+        rebuildLists();  // reading statistics does not change the simulation
     }
     run(statistics_, LaunchSet::Substep);
 }
 
 std::vector<std::uint32_t> Pipeline::contactCounts() {
-    std::vector<std::uint32_t> counts(plan_.spheres);
+    std::vector<std::uint32_t> counts(plan_.room);
     if (!plan_.has(touchingArray)) return counts;
     runStatistics();
     const auto words = read<std::uint32_t>(Array::IdAndMaterial);
@@ -345,7 +508,17 @@ std::vector<std::uint32_t> Pipeline::contactCounts() {
 void Pipeline::run(const std::vector<BoundLaunch>& launches, LaunchSet set) {
     const auto skipped = [set](const LaunchSpec& spec) {
         const bool rebuild = spec.pass == Pass::Grid || spec.pass == Pass::Lists || spec.pass == Pass::ContactMemory;
-        return set == LaunchSet::Rebuild ? !rebuild : spec.observing && set != LaunchSet::ObservedSubstep;
+        switch (set) {
+            case LaunchSet::Rebuild:
+                return !rebuild;
+            case LaunchSet::Waking:
+                return !spec.waking;
+            case LaunchSet::Substep:
+                return spec.observing;
+            case LaunchSet::ObservedSubstep:
+                break;
+        }
+        return false;
     };
     std::optional<Pass> timed;
     std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};

@@ -10,6 +10,7 @@
 #include "compute/device.h"
 #include "sim/layout.h"
 #include "sim/plan.h"
+#include "sim/population.h"
 #include "sim/state.h"
 
 namespace spherule::sim {
@@ -25,8 +26,8 @@ struct SlotState {
     glm::dvec3 periods{};            // m, as Bounds::periods() returns them
 };
 
-// Returns the positions inside the bounds along periodic axes.
-State inIdOrder(const SlotState& slots);
+// Returns the state of the spheres in the order of their ids, with positions inside the bounds along periodic axes.
+State inIdOrder(const SlotState& slots, const Population& population);
 
 // Returns the arrays to bind for a launch, in the order of the buffers that its kernel declares. NoDevice for a buffer
 // without an array, for a buffer whose type differs from its array, and for an alias that the kernel does not declare.
@@ -35,6 +36,9 @@ Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Ke
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
+    // Handles are below this number.
+    static constexpr std::uint32_t mostHandles = 1U << 24U;
+
     // Makes neither arrays nor kernels: makeNext() does.
     Pipeline(compute::Device& device, Plan plan);
 
@@ -44,17 +48,30 @@ class Pipeline {
 
     // Scales what contacts hold if the length of the substep has changed.
     void setParameters(layout::Parameters parameters);
-    // Uploads the spheres. `state` and `materials` are in id order. The lists are rebuilt in the next substep.
-    void upload(const State& state, std::span<const std::uint8_t> materials);
+    // Uploads the spheres, at most plan().room. `state` and `materials` are in id order. `handles`: the handle of each
+    // sphere, below plan().room; empty: 0, 1, ... The lists are rebuilt in the next substep.
+    void upload(const State& state, std::span<const std::uint8_t> materials,
+                std::span<const std::uint32_t> handles = {});
     [[nodiscard]] SlotState download();  // waits for the device
     void download(SlotState& slots);     // the same, reusing the memory of `slots`
 
+    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. The lists
+    // are rebuilt in the next substep. Call setParameters() next.
+    void append(const State& born, std::span<const std::uint8_t> materials, std::span<const std::uint32_t> handles);
+    // Removes the spheres with these handles, wakes the sleepers within their reach, and rebuilds the lists. Call
+    // setParameters() next. Waits for the device. Refused, with the state unchanged, if there is no memory for it.
+    Result<void> remove(std::span<const std::uint32_t> handles);
+    // Makes room for more spheres. Refused, with the state unchanged, if there is no memory for it.
+    Result<void> growSpheres(std::uint32_t room, const scene::Scene& scene);
+
     void substep(bool observed = false);
+    // Runs the launches at the end of a step.
+    void endStep() { run(stepEnd_, LaunchSet::Substep); }
     // Returns the impacts in the observed steps since the last call: one sum per bundle, as statistics_impacts.comp
     // adds them up. Empty if no step was observed. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
     void runStatistics();  // of the current state; builds its lists first if they are out of date
-    // Returns the number of spheres, walls and obstacles that each sphere touches, by id. Bodies touch up to a gap of
+    // Returns the number of spheres, walls and obstacles that each sphere touches, by handle. Bodies touch up to a gap of
     // 1e-4 of the sum of the radii, or of 2e-4 of the radius at walls and obstacles. Waits for the device.
     std::vector<std::uint32_t> contactCounts();
 
@@ -77,8 +94,8 @@ class Pipeline {
     }
 
     // Wakes a sphere and gives it an impulse (N s). Waits for the device.
-    void applyImpulse(std::uint32_t id, glm::vec3 impulse);
-    [[nodiscard]] glm::vec4 velocityOf(std::uint32_t id);  // waits for the device
+    void applyImpulse(std::uint32_t handle, glm::vec3 impulse);
+    [[nodiscard]] glm::vec4 velocityOf(std::uint32_t handle);  // waits for the device
 
     // Wakes all spheres. Waits for the device.
     void wakeAll();
@@ -95,7 +112,15 @@ class Pipeline {
     Result<void> makeKernel(std::string_view file);
     void writeDispatchSizes();
     void copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to, std::size_t toBegin);
-    std::uint32_t slotOf(std::uint32_t id);
+    std::uint32_t slotOf(std::uint32_t handle);
+    void setSpheres(std::uint32_t count);
+    void requestRebuild();
+    void rebuildLists();
+    void clearRows(const ArraySpec& spec, std::size_t first, std::size_t count);
+    void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
+    Result<void> makeSlotOf();
+    void moveLastInto(std::vector<std::uint32_t> slots);
+    [[nodiscard]] std::uint64_t rowBytes(const ArraySpec& spec) const { return spec.bytes / plan_.room; }
     void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
     // A launch of the plan, its kernel, and the arrays to bind by slot.
     struct BoundLaunch {
@@ -104,7 +129,7 @@ class Pipeline {
         std::vector<Array> arrays;
     };
     Result<void> bindAll();
-    enum class LaunchSet : std::uint8_t { Substep, ObservedSubstep, Rebuild };
+    enum class LaunchSet : std::uint8_t { Substep, ObservedSubstep, Rebuild, Waking };
     void run(const std::vector<BoundLaunch>& launches, LaunchSet set);
 
     compute::Device& device_;
@@ -119,7 +144,7 @@ class Pipeline {
     std::unique_ptr<compute::Buffer> absent_;
     std::unique_ptr<compute::Buffer> parameters_;
     std::vector<std::unique_ptr<compute::Kernel>> kernels_;
-    std::vector<BoundLaunch> substep_, newSubstep_, statistics_;
+    std::vector<BoundLaunch> substep_, newSubstep_, statistics_, stepEnd_;
     float substepLength_ = 0;  // s; 0: none yet
 };
 

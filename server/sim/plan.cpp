@@ -35,7 +35,7 @@ std::uint32_t surfacesOf(const std::vector<scene::Obstacle>& obstacles) {
 }
 
 std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& scene) {
-    const std::uint64_t n = plan.spheres;
+    const std::uint64_t n = plan.room;
     const std::uint32_t cells = plan.grid.all();
     const std::uint32_t scanned = cells + 1;
     switch (extent) {
@@ -79,7 +79,21 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::Counter:
             return COUNTER_WORDS;
         case Extent::StatisticBlock:
+            return blocksOf(plan.room, STATISTIC_BLOCK);
+    }
+    return 0;
+}
+
+std::uint32_t invocationsOver(Varying what, const Plan& plan) {
+    switch (what) {
+        case Varying::Spheres:
+            return plan.spheres;
+        case Varying::StatisticBlocks:
             return blocksOf(plan.spheres, STATISTIC_BLOCK);
+        case Varying::PairsTwice:
+            return 2 * plan.pairCapacity;
+        case Varying::Nothing:
+            break;
     }
     return 0;
 }
@@ -106,6 +120,14 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
     return rows;
 }
 
+void updateLaunches(Plan& plan) {
+    for (auto* launches : {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd})
+        for (LaunchSpec& launch : *launches) {
+            if (launch.launchRow) launch.count = plan.dispatchSizes.at(*launch.launchRow);
+            if (launch.over != Varying::Nothing) launch.count = invocationsOver(launch.over, plan);
+        }
+}
+
 }  // namespace
 
 bool Plan::has(Array array) const {
@@ -123,6 +145,17 @@ std::uint64_t Plan::bytesFor(Array array, const scene::Scene& scene) const {
     return std::max<std::uint64_t>(elementsOf(type.extent, *this, scene), 1) * type.elementBytes;
 }
 
+void Plan::setSpheres(std::uint32_t count) {
+    spheres = count;
+    if (features.has(Feature::Contacts)) dispatchSizes = launchTable(*this);
+    updateLaunches(*this);
+}
+
+void Plan::setPairCapacity(std::uint32_t pairs) {
+    pairCapacity = pairs;
+    updateLaunches(*this);
+}
+
 std::uint64_t Plan::bytes() const {
     return std::accumulate(arrays.begin(), arrays.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const ArraySpec& spec) { return sum + spec.bytes; });
@@ -133,7 +166,7 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     Plan plan;
     plan.features = features;
     plan.model = scene.quality.model;
-    plan.spheres = spheres;
+    plan.spheres = plan.room = spheres;
     plan.periods = scene.bounds.periods();
     if (features.has(Feature::Contacts)) {
         plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
@@ -153,7 +186,7 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});
     if (features.has(Feature::Contacts) || features.hasSurfaceFeature()) builder.arrays({touchingArray});
     if (!features.has(Feature::Balanced)) builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");
-    builder.statistics("statistics_spheres.comp", blocksOf(spheres, STATISTIC_BLOCK), {{"touching", touchingArray}});
+    builder.statisticsOfSpheres("statistics_spheres.comp", {{"touching", touchingArray}});
     for (const Module* module : modules())
         if (module->declare != nullptr && plan.features.has(module->feature)) module->declare(builder);
     builder.finish();

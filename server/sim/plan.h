@@ -35,6 +35,9 @@ struct Alias {
 // Nothing else uses this array between two rebuilds: statistics count in it what each sphere touches.
 constexpr Array touchingArray = Array::SortScratchWords;
 
+// Things of which a simulation may get more or fewer.
+enum class Varying : std::uint8_t { Nothing, Spheres, StatisticBlocks, PairsTwice };
+
 struct LaunchSpec {
     Pass pass{};
     std::string_view kernel;  // file
@@ -42,8 +45,9 @@ struct LaunchSpec {
     std::optional<std::uint32_t> launchRow =
         std::nullopt;  // row of the launch table, for launches that only a rebuild needs
     std::uint32_t phase = 0;
-    bool observing = false;    // only in observed steps
-    bool forEachPair = false;  // `count` grows with the lists
+    Varying over = Varying::Nothing;  // each has an invocation: `count` follows
+    bool observing = false;           // only in observed steps
+    bool waking = false;              // finds the sleepers that a neighbour wakes
     std::vector<Alias> aliases = {};
 };
 
@@ -52,8 +56,9 @@ struct LaunchSpec {
 struct Plan {
     Features features;
     scene::Model model{};
-    std::uint32_t spheres = 0;
-    glm::dvec3 periods{};  // m: length of each periodic axis; 0: not periodic
+    std::uint32_t spheres = 0;  // present spheres
+    std::uint32_t room = 0;     // spheres for which the arrays have room
+    glm::dvec3 periods{};       // m: length of each periodic axis; 0: not periodic
     Grid grid;
     std::uint32_t pairCapacity = 0;
     std::uint32_t maxWallHistory = 0;          // remembered by each sphere
@@ -61,6 +66,7 @@ struct Plan {
     std::vector<LaunchSpec> substep;           // in order
     std::vector<LaunchSpec> newSubstep;        // when the length of the substep has changed
     std::vector<LaunchSpec> statistics;        // on demand
+    std::vector<LaunchSpec> stepEnd;           // at the end of a step
     std::vector<std::uint32_t> dispatchSizes;  // invocations per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;
@@ -69,6 +75,9 @@ struct Plan {
     // Returns the size of an array (bytes), whether the plan has it or not: at least one element.
     [[nodiscard]] std::uint64_t bytesFor(Array array, const scene::Scene& scene) const;
     [[nodiscard]] std::uint32_t groups() const { return grid.all() / 8; }  // of 2 x 2 x 2 cells
+    // Sets the number of spheres, within the room, and the launches that depend on it.
+    void setSpheres(std::uint32_t count);
+    void setPairCapacity(std::uint32_t pairs);
 };
 
 // Returns the number of blocks of `block` values that hold `values` values.

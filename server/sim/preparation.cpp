@@ -11,6 +11,7 @@
 #include "core/log.h"
 #include "sim/memory_needs.h"
 #include "sim/parameters.h"
+#include "sim/simulation.h"
 #include "sim/statistics.h"
 
 namespace spherule::sim {
@@ -38,6 +39,11 @@ Preparation::Preparation(compute::Device& device, Build build, memory::Claim cop
     });
     building_ = task.get_future();
     builder_ = std::jthread(std::move(task));
+}
+
+Preparation::Preparation(compute::Device& device, Build build, memory::Claim copies, Simulation& addsTo)
+    : Preparation(device, std::move(build), std::move(copies)) {
+    addsTo_ = &addsTo;
 }
 
 Preparation::~Preparation() {
@@ -96,6 +102,12 @@ Result<void> Preparation::awaitBuilt(std::chrono::milliseconds maxWait) {
 // Claims all memory before any of it is allocated.
 Result<void> Preparation::makePlan() {
     progress_.at("planning", 0);
+    if (addsTo_ != nullptr && addsTo_->canAppend(built_.scene)) {
+        if (auto room = addsTo_->makeRoomFor(built_.state.count() - addsTo_->count()); !room) return room;
+        appends_ = true;
+        stage_ = Stage::Done;
+        return {};
+    }
     radii_ = radiusStatsOf(built_.scene);
     Plan plan = planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
     if (plan.features.has(Feature::Contacts))

@@ -20,6 +20,8 @@
 
 namespace spherule::sim {
 
+class Simulation;
+
 // A scene and the initial state of its spheres, in id order.
 struct SceneAndState {
     scene::Scene scene;
@@ -40,6 +42,9 @@ class Preparation {
     // `build` runs on a thread of its own and may not use the device. An exception in it, such as bad_alloc, becomes an
     // error.
     Preparation(compute::Device& device, Build build, memory::Claim copies = {});
+    // The same, to add spheres to those of a simulation: if its arrays and kernels suit the new ones, only the arrays
+    // grow, and everything else is kept.
+    Preparation(compute::Device& device, Build build, memory::Claim copies, Simulation& addsTo);
     // Cancels `build` and waits for its thread.
     ~Preparation();
     Preparation(const Preparation&) = delete;
@@ -91,6 +96,8 @@ class Preparation {
     SceneAndState built_;
     RadiusStats radii_;
     std::unique_ptr<Pipeline> pipeline_;
+    Simulation* addsTo_ = nullptr;
+    bool appends_ = false;    // the simulation takes the new spheres as they are
     double maxOverlap_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
     std::unique_ptr<InitialOverlapResolver> resolver_;
     std::optional<ResolvedOverlaps> resolvedOverlaps_;

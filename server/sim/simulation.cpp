@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -65,6 +66,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(compute::Device& device, 
 std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> preparation) {
     std::unique_ptr<Simulation> simulation(new Simulation(preparation->device_));
     simulation->initial_ = preparation->built_.scene;
+    simulation->population_ = Population(preparation->built_.state.count());
     simulation->install(*preparation);
     return simulation;
 }
@@ -114,9 +116,9 @@ void Simulation::install(Preparation& preparation) {
     saveLastFinite();
 }
 
-Simulation::Outcome Simulation::prepare(ResetScope scope, memory::Claim copies, Preparation::Build build) {
-    auto preparation = std::make_unique<Preparation>(device_, std::move(build), std::move(copies));
-    resetScope_ = scope;
+Simulation::Outcome Simulation::prepareSpawn(memory::Claim copies, Preparation::Build build) {
+    auto preparation = std::make_unique<Preparation>(device_, std::move(build), std::move(copies), *this);
+    resetScope_ = ResetScope::Spheres;
     return {.preparation = std::move(preparation)};
 }
 
@@ -127,12 +129,24 @@ Simulation::Outcome Simulation::prepare(ResetScope scope, memory::Claim copies, 
 }
 
 Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
+    if (preparation->appends_) {
+        append(*preparation);
+        return {.step = steps_};
+    }
+    const std::uint32_t spheres = preparation->built_.state.count();
+    bool newHandles = false;
     if (resetScope_ == ResetScope::World) {
         steps_ = 0;
         remainderBegin_ = 0;
         substepsLeft_ = 0;
+        population_ = Population(spheres);
+    } else {
+        newHandles = !population_.plain();
+        population_.add(spheres - population_.count(), steps_);
+        population_.renumber();
     }
     install(*preparation);
+    if (newHandles) ++generation_;
     if (resetScope_ != ResetScope::Nothing) {
         impacts_ = {};
         contactSums_ = lastFiniteSums_ = {};
@@ -143,7 +157,102 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
 }
 
 void Simulation::upload(const State& state) {
-    pipeline_->upload(state, materialsOf(scene_));
+    std::vector<std::uint32_t> handles;
+    if (!population_.plain())
+        for (std::uint32_t rank = 0; rank < count(); ++rank) handles.push_back(population_.handleAt(rank));
+    pipeline_->upload(state, materialsOf(scene_), handles);
+    uploadParameters();
+}
+
+std::vector<std::uint32_t> Simulation::contactCounts() {
+    const std::vector<std::uint32_t> byHandle = pipeline_->contactCounts();
+    std::vector<std::uint32_t> counts(count());
+    for (std::uint32_t rank = 0; rank < count(); ++rank) counts[rank] = byHandle[population_.handleAt(rank)];
+    return counts;
+}
+
+// True if the spheres that `grown` has in addition need no other arrays or kernels, and no cells of another size.
+bool Simulation::canAppend(const scene::Scene& grown) const {
+    // With more spheres, the cells would be too few for them.
+    constexpr std::uint32_t mostGrowth = 2;
+    if (!plan().features.hasAll(featuresOf(grown))) return false;
+    if (!plan().features.has(Feature::Contacts)) return true;
+    std::uint64_t planned = 0;
+    for (const Level& level : plan().grid.levels) planned += level.spheres;
+    if (grown.spheres.size() > mostGrowth * planned) return false;
+    return std::ranges::all_of(grown.spheres.begin() + count(), grown.spheres.end(), [&](const scene::Sphere& sphere) {
+        const auto radius = static_cast<double>(sphere.radius);
+        return radius >= radii_.smallest && radius <= radii_.largest;
+    });
+}
+
+// Makes room for more spheres in the arrays. Refused, with the state unchanged, if there is no memory for it.
+Result<void> Simulation::makeRoomFor(std::uint32_t spheres) {
+    const std::uint64_t handles = std::uint64_t{population_.handles()} + spheres;
+    if (handles > Pipeline::mostHandles)
+        return fail(ErrorKind::Refused, "",
+                    fmt::format("the numbers of removed spheres are in use for {} more steps: try again after them",
+                                Population::restSteps));
+    if (handles <= plan().room) return {};
+    const std::uint64_t ahead = std::min<std::uint64_t>(plan().room + plan().room / 2, Pipeline::mostHandles);
+    spdlog::info("making room for {} spheres", std::max(handles, ahead));
+    auto grown = pipeline_->growSpheres(static_cast<std::uint32_t>(std::max(handles, ahead)), scene_);
+    if (grown) settleClaim(claim_, device_, plan());
+    return grown;
+}
+
+// Takes the spheres that a preparation has built, for which there is room. Cannot fail.
+void Simulation::append(Preparation& preparation) {
+    closeContactSums();
+    keepLastFinite();
+    scene::Scene& grown = preparation.built_.scene;
+    const auto first = static_cast<std::ptrdiff_t>(count());
+    scene_.spheres.insert(scene_.spheres.end(), grown.spheres.begin() + first, grown.spheres.end());
+    scene_.groups = std::move(grown.groups);
+    scene_.quality = grown.quality;
+    const std::span<const scene::Sphere> added = std::span(scene_.spheres).subspan(count());
+    const State born = stateOf(scene_, added);
+    std::vector<std::uint8_t> materials;
+    for (const scene::Sphere& sphere : added) materials.push_back(sphere.material);
+    pipeline_->append(born, materials, population_.add(born.count(), steps_));
+    writeConstants(*pipeline_, scene_);
+    maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
+    // Substeps that were raised for a fast sphere stay.
+    useSubsteps(std::max(substeps_, scene_.quality.substeps));
+    limitMotionPerSubstep(largestMotion(scene_, born, scene_.step / substeps_));
+    openContactSums();
+    settleClaim(claim_, device_, plan());
+}
+
+// Removes the spheres with these ranks, in ascending order. Refused, with the state unchanged, if there is no memory.
+Result<void> Simulation::remove(const std::vector<std::uint32_t>& ranks) {
+    const auto room = memory::Claim::make("", "the numbers of the spheres",
+                                          std::uint64_t{count()} * Population::bytesPerSphere);
+    if (!room) return tl::unexpected(room.error());
+    closeContactSums();
+    keepLastFinite();
+    std::vector<std::uint32_t> handles;
+    for (const std::uint32_t rank : ranks) handles.push_back(population_.handleAt(rank));
+    if (auto removed = pipeline_->remove(handles); !removed) return removed;
+    population_.remove(ranks, steps_);
+    scene::removeSpheres(scene_, ranks);
+    uploadParameters();
+    openContactSums();
+    settleClaim(claim_, device_, plan());
+    return {};
+}
+
+// Removes the spheres that are in sinks at the end of the step.
+Result<void> Simulation::emptySinks() {
+    const std::vector<scene::Box> sinks = sinksOnDevice(scene_);
+    const State state = snapshot();
+    std::vector<std::uint32_t> ranks;
+    for (std::uint32_t rank = 0; rank < state.count(); ++rank)
+        if (std::ranges::any_of(sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); }))
+            ranks.push_back(rank);
+    const std::uint32_t none = 0;
+    pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_SUNK);
+    return remove(ranks);
 }
 
 // Uses the length of the substeps that are left in the step under way, or else of the next step's substeps.
@@ -195,6 +304,7 @@ Result<bool> Simulation::advance() {
     }
     pipeline_->substep(stepObserved_);
     if (--substepsLeft_ > 0) return false;
+    pipeline_->endStep();
     ++steps_;
     // The next step has its full length again.
     if (std::exchange(remainderBegin_, 0) > 0) uploadParameters();
@@ -207,6 +317,8 @@ Statistics Simulation::statistics() {
     now.step = steps_;
     now.time = time();
     now.spheres = count();
+    now.born = population_.born();
+    now.removed = population_.removed();
     addImpacts(impacts_, *pipeline_);
     now.impacts = impacts_;
     if (hasContactSums()) {
@@ -239,6 +351,8 @@ Result<void> Simulation::checkStep() {
     if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !pairsExhausted_)
         growPairs();
     limitMotionPerSubstep(counters_.largestMotion);
+    if (counters_.sunk > 0 && !counters_.nonFinite)
+        if (auto emptied = emptySinks(); !emptied) return emptied;
     const double since = static_cast<double>(steps_ - lastFiniteStep_) * scene_.step;
     if (!counters_.nonFinite && since > saveInterval - 0.5 * scene_.step) saveLastFinite();
     return {};
@@ -247,23 +361,41 @@ Result<void> Simulation::checkStep() {
 void Simulation::saveLastFinite() {
     pipeline_->download(lastFinite_);
     lastFiniteStep_ = steps_;
+    lastFiniteSpheres_.reset();
     if (hasContactSums()) takeContactSums();  // also keeps the sums of the device short
     lastFiniteSums_ = contactSums_;
 }
 
+// Keeps the spheres of the last good state. Call before spheres are added or removed.
+void Simulation::keepLastFinite() {
+    if (!lastFiniteSpheres_) lastFiniteSpheres_ = Spheres{population_, scene_.spheres, scene_.groups};
+}
+
 std::string Simulation::divergence() const {
-    const std::uint32_t id = counters_.firstNonFinite;
-    const State lastFinite = inIdOrder(lastFinite_);
-    if (id >= lastFinite.count()) return fmt::format("a sphere has no finite position any more at step {}", steps_);
-    const glm::dvec3 x = positionOf(lastFinite, id) + scene_.bounds.centre();
+    const Population& before = lastFiniteSpheres_ ? lastFiniteSpheres_->population : population_;
+    const std::uint32_t handle = counters_.firstNonFinite;
+    const std::uint32_t now = handle < population_.handles() ? population_.rankOfHandle(handle) : Population::noRank;
+    if (now >= count()) return fmt::format("a sphere has no finite position any more at step {}", steps_);
+    const std::uint64_t id = population_.idAt(now);
+    const auto rank = before.rankOf(id);
+    if (!rank) return fmt::format("sphere {} has no finite position any more at step {}", id, steps_);
+    const State lastFinite = inIdOrder(lastFinite_, before);
+    const glm::dvec3 x = positionOf(lastFinite, *rank) + scene_.bounds.centre();
     return fmt::format(
         "sphere {} has no finite position any more at step {}; at step {} it was at {:.4g} {:.4g} {:.4g} m "
         "with {:.3g} m/s",
-        id, steps_, lastFiniteStep_, x.x, x.y, x.z, glm::length(velocityOf(lastFinite, id)));
+        id, steps_, lastFiniteStep_, x.x, x.y, x.z, glm::length(velocityOf(lastFinite, *rank)));
 }
 
 void Simulation::rollback() {
-    upload(inIdOrder(lastFinite_));
+    if (lastFiniteSpheres_) {
+        population_ = std::move(lastFiniteSpheres_->population);
+        scene_.spheres = std::move(lastFiniteSpheres_->spheres);
+        scene_.groups = std::move(lastFiniteSpheres_->groups);
+        lastFiniteSpheres_.reset();
+        ++generation_;
+    }
+    upload(inIdOrder(lastFinite_, population_));
     steps_ = lastFiniteStep_;
     remainderBegin_ = 0;
     substepsLeft_ = 0;
@@ -345,6 +477,7 @@ void Simulation::readCounters() {
                  .nonFinite = words[COUNTER_NON_FINITE] > 0,
                  .firstNonFinite = ~words[COUNTER_FIRST_ID],
                  .rebuilds = words[COUNTER_REBUILDS],
+                 .sunk = words[COUNTER_SUNK],
                  .largestMotion = static_cast<double>(std::bit_cast<float>(words[COUNTER_LARGEST_MOTION]))};
     if (counters_.largestMotion > 0) {
         const std::uint32_t none = 0;

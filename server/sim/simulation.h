@@ -13,6 +13,7 @@
 #include "sim/commands.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"
+#include "sim/population.h"
 #include "sim/preparation.h"
 #include "sim/state.h"
 #include "sim/statistics.h"
@@ -54,8 +55,10 @@ class Simulation {
     [[nodiscard]] const ContactSums& contactSums() const { return contactSums_; }
     // Turns observed steps on or off. Default: on. Observing never changes the state.
     void observe(bool on) { observing_ = on; }
-    [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download()); }
+    [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download(), population_); }
     void upload(const State& state);  // `state` has count() spheres
+    // Returns the number of spheres, walls and obstacles that each sphere touches, in the order of ids: see Pipeline.
+    [[nodiscard]] std::vector<std::uint32_t> contactCounts();
 
     // Describes the non-finite sphere with the smallest id: its last finite position and speed. Call it only if
     // counters().nonFinite.
@@ -74,6 +77,7 @@ class Simulation {
         bool nonFinite = false;                 // some sphere has become non-finite
         std::uint32_t firstNonFinite = 0;       // the smallest id of such a sphere
         std::uint32_t rebuilds = 0;             // of the lists, since the last change of the scene
+        std::uint32_t sunk = 0;                 // spheres in sinks
         double largestMotion = 0;               // largest motion in a substep of the step (radii); 0: below SAFE_MOTION
     };
     [[nodiscard]] const Counters& counters() const { return counters_; }  // as of the end of the last step
@@ -95,7 +99,11 @@ class Simulation {
     [[nodiscard]] const RadiusStats& radii() const { return radii_; }
     [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
-    [[nodiscard]] std::uint32_t count() const { return plan().spheres; }
+    [[nodiscard]] std::uint32_t count() const { return population_.count(); }
+    // Ids, ranks and handles of the spheres. scene().spheres is in the order of ids too.
+    [[nodiscard]] const Population& population() const { return population_; }
+    // Counts births from `id` on. Only before a sphere was added or removed.
+    void setFirstId(std::uint64_t id) { population_ = Population(count(), id); }
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
     [[nodiscard]] double time() const;                                      // s simulated
     [[nodiscard]] std::uint32_t generation() const { return generation_; }  // changes with the spheres or obstacles
@@ -108,8 +116,15 @@ class Simulation {
 
     void install(Preparation& preparation);
     // `copies`: the claim for copies made for the preparation, in addition to the preparation's own claim.
-    Outcome prepare(ResetScope scope, memory::Claim copies, Preparation::Build build);
+    Outcome prepareSpawn(memory::Claim copies, Preparation::Build build);
     Outcome prepare(ResetScope scope, memory::Claim copies, SceneAndState built);
+    friend class Preparation;
+    [[nodiscard]] bool canAppend(const scene::Scene& grown) const;
+    Result<void> makeRoomFor(std::uint32_t spheres);
+    void append(Preparation& preparation);
+    Result<void> remove(const std::vector<std::uint32_t>& ranks);
+    Result<void> emptySinks();
+    void keepLastFinite();
     Result<State> liveState();  // DeviceLost if the device is lost, because its data is invalid
     void useSubsteps(std::uint32_t substeps);
     Result<void> checkStep();
@@ -132,6 +147,7 @@ class Simulation {
     scene::Scene scene_;
     RadiusStats radii_;
     std::unique_ptr<Pipeline> pipeline_;
+    Population population_;
     Counters counters_;
     bool observing_ = true;
     Impacts impacts_;
@@ -151,6 +167,13 @@ class Simulation {
     std::vector<std::string> notices_;
     SlotState lastFinite_;  // the last state that was found finite
     std::uint64_t lastFiniteStep_ = 0;
+    // The spheres of that state, kept when spheres are added or removed after it.
+    struct Spheres {
+        Population population;
+        std::vector<scene::Sphere> spheres;
+        std::vector<scene::Group> groups;
+    };
+    std::optional<Spheres> lastFiniteSpheres_;
     std::uint64_t steps_ = 0;
     // The step under way, and its remainder since its substeps were last chosen. remainderBegin_: the share of the step
     // that was done then. remainderSubsteps_: the substeps of the remainder. substepsLeft_: those that remain.

@@ -92,11 +92,13 @@ double momentumScale(const State& state) {
 std::uint64_t hashOf(const State& state) {
     XXH3_state_t* hash = XXH3_createState();
     XXH3_64bits_reset(hash);
-    for (std::uint32_t id = 0; id < state.count(); ++id) {
-        XXH3_64bits_update(hash, &id, sizeof id);
-        XXH3_64bits_update(hash, &state.position[id], 3 * sizeof(float));
-        XXH3_64bits_update(hash, &state.velocity[id], 3 * sizeof(float));
-        XXH3_64bits_update(hash, &state.spin[id], 3 * sizeof(float));
+    for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
+        const std::uint64_t id = state.idAt(rank);
+        const bool isShort = id <= 0xffffffff;
+        XXH3_64bits_update(hash, &id, isShort ? sizeof(std::uint32_t) : sizeof id);
+        XXH3_64bits_update(hash, &state.position[rank], 3 * sizeof(float));
+        XXH3_64bits_update(hash, &state.velocity[rank], 3 * sizeof(float));
+        XXH3_64bits_update(hash, &state.spin[rank], 3 * sizeof(float));
     }
     const std::uint64_t digest = XXH3_64bits_digest(hash);
     XXH3_freeState(hash);

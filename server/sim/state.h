@@ -16,10 +16,12 @@ struct State {
     std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
     std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass: negative while asleep, 0 if fixed
     std::vector<glm::vec4> spin;      // angular velocity, rad/s; w = 0
+    std::vector<std::uint64_t> ids{};  // ascending; empty: 0, 1, ...
     // With periodic axes, else empty: the lengths of each axis by which positions were moved back into the bounds.
     std::vector<glm::ivec3> images;
 
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size()); }
+    [[nodiscard]] std::uint64_t idAt(std::uint32_t rank) const { return ids.empty() ? rank : ids[rank]; }
 };
 
 State stateOf(const scene::Scene& scene);
@@ -28,7 +30,8 @@ State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres)
 // Returns the materials by id of the sphere.
 std::vector<std::uint8_t> materialsOf(const scene::Scene& scene);
 
-// Values of a state as double, in SI units. Positions are relative to the bounds' centre.
+// Values of a state as double, in SI units. Positions are relative to the bounds' centre. `id`: the place in the order
+// of ids, which is the id itself as long as no sphere has been removed.
 glm::dvec3 positionOf(const State& state, std::uint32_t id);
 // Returns the position that the sphere would have without wrapping. `periods`: as Bounds::periods() returns them.
 glm::dvec3 unwrappedOf(const State& state, std::uint32_t id, const glm::dvec3& periods);

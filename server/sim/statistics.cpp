@@ -77,7 +77,8 @@ Statistics measure(Pipeline& pipeline, const scene::Scene& scene) {
     double fastest = 0;
     std::uint32_t fixedSpheres = 0;
     Tensor flow{};
-    for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(Array::SphereSums)) {
+    for (const layout::SphereStatistics& part : pipeline.read<layout::SphereStatistics>(
+             Array::SphereSums, blocksOf(pipeline.plan().spheres, STATISTIC_BLOCK))) {
         weighted += glm::dvec4(part.weighted);
         sum.momentum += glm::dvec3(part.momentum);
         sum.angularMomentum += glm::dvec3(part.angular);

@@ -32,6 +32,8 @@ struct Statistics {
     std::uint64_t step = 0;
     double time = 0;  // s simulated
     std::uint32_t spheres = 0;
+    std::uint64_t born = 0;     // since the world began, the scene's spheres included
+    std::uint64_t removed = 0;  // by commands and sinks
     double kineticEnergy = 0;
     double rotationalEnergy = 0;
     double elasticEnergy = 0;    // of the springs of `accurate`; 0 in the other models

@@ -7,8 +7,9 @@ uint levelOf(float radius) {
     return level;
 }
 
-// The cell of a sphere on its level.
+// The cell of a sphere on its level. Spheres that are removed come after all cells.
 uint cellOf(vec4 sphere) {
+    if (isRemoved(sphere)) return allCells();
     vec3 point = vec3(sphere);
     if (!finite3(point)) return 0u;
     uint level = levelOf(storedRadius(sphere));

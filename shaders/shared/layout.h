@@ -2,6 +2,7 @@
 
 #define MOST_LEVELS 8u
 #define MOST_FIELDS 8u
+#define MOST_SINKS 8u
 
 // The uniform block, std140: vectors first, then scalars in fours.
 struct Parameters {
@@ -12,6 +13,8 @@ struct Parameters {
     vec4 stiffness;      // ContactParams.stiffness of these
     vec4 fieldPlace[MOST_FIELDS];   // of each field: see shared/fields.h
     vec4 fieldNumbers[MOST_FIELDS];
+    vec4 sinkMin[MOST_SINKS];       // m: corners of each sink; w of the first: their number
+    vec4 sinkMax[MOST_SINKS];
     vec4 levelSize[MOST_LEVELS];    // 1 / cell size, largest radius, sample threshold, 0; from fine to coarse
     vec4 halfLength;     // m: half the length of each periodic axis; 0: not periodic
     vec4 perLength;      // 1/m: 1 / length of each periodic axis; 0: not periodic
@@ -133,7 +136,8 @@ struct SphereStatistics {
 #define COUNTER_DRIFT 29u       // three words, bits of floats (m/s)
 #define COUNTER_DRIFT_PATH 32u  // three words, bits of floats (m), since the lists were built
 #define COUNTER_NEAR_OBSTACLES 35u  // words of the lists of obstacles near spheres
-#define COUNTER_WORDS 36u
+#define COUNTER_SUNK 36u        // spheres in sinks at the end of a step
+#define COUNTER_WORDS 37u
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed

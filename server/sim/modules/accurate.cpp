@@ -15,7 +15,7 @@ void declareForces(PlanBuilder& plan) {
     plan.overPairs(Stage::Solve, Pass::Forces, "solve_forces.comp");
     if (plan.hasSurfaces()) plan.overSpheres(Stage::Solve, Pass::WallForces, "walls_forces.comp");
     plan.overSpheres(Stage::Solve, Pass::Forces, "apply_forces.comp");
-    if (contacts) plan.statistics("statistics_springs.comp", plan.plan().grid.bundles());
+    if (contacts) plan.statisticsOfBundles("statistics_springs.comp");
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ void declareLists(PlanBuilder& plan) {
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_build.comp", LAUNCH_GROUPS);
     plan.overPairsIf(Stage::Lists, Pass::Lists, "list_order.comp", LAUNCH_COLOUR);
     plan.onRebuild(Stage::Lists, Pass::Lists, "list_fit.comp", LAUNCH_BUNDLES);
-    plan.statistics("statistics_contacts.comp", plan.plan().grid.bundles(), {{"touching", touchingArray}});
+    plan.statisticsOfBundles("statistics_contacts.comp", {{"touching", touchingArray}});
 }
 
 void uploadGrid(const ParameterSource& from, layout::Parameters& p) {

@@ -19,7 +19,7 @@ void PlanBuilder::arrays(std::initializer_list<Array> needed) {
 }
 
 void PlanBuilder::overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = plan_.spheres, .aliases = std::move(aliases)}});
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .over = Varying::Spheres, .aliases = std::move(aliases)}});
 }
 
 void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
@@ -27,7 +27,7 @@ void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
 }
 
 void PlanBuilder::overStatisticBlocks(Stage stage, Pass pass, std::string_view kernel) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .count = blocksOf(plan_.spheres, STATISTIC_BLOCK)}});
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .over = Varying::StatisticBlocks}});
 }
 
 void PlanBuilder::overPairs(Stage stage, Pass pass, std::string_view kernel, std::uint32_t threads) {
@@ -56,7 +56,6 @@ void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std
     staged_.push_back({stage,
                        {.pass = pass,
                         .kernel = kernel,
-                        .count = plan_.dispatchSizes.at(row),
                         .launchRow = row,
                         .aliases = std::move(aliases)}});
 }
@@ -91,16 +90,25 @@ void PlanBuilder::observeBundles(Stage stage, std::string_view kernel, std::vect
 
 void PlanBuilder::onNewSubstepOverPairs(std::string_view kernel) {
     plan_.newSubstep.push_back(
-        {.pass = Pass::ContactMemory, .kernel = kernel, .count = 2 * plan_.pairCapacity, .forEachPair = true});
+        {.pass = Pass::ContactMemory, .kernel = kernel, .over = Varying::PairsTwice});
 }
 
 void PlanBuilder::onNewSubstepOverSpheres(std::string_view kernel) {
-    plan_.newSubstep.push_back({.pass = Pass::ContactMemory, .kernel = kernel, .count = plan_.spheres});
+    plan_.newSubstep.push_back({.pass = Pass::ContactMemory, .kernel = kernel, .over = Varying::Spheres});
 }
 
-void PlanBuilder::statistics(std::string_view kernel, std::uint32_t count, std::vector<Alias> aliases) {
-    staged_.push_back({Stage::Statistics,
-                       {.pass = Pass::Statistics, .kernel = kernel, .count = count, .aliases = std::move(aliases)}});
+void PlanBuilder::statisticsOfBundles(std::string_view kernel, std::vector<Alias> aliases) {
+    overBundles(Stage::Statistics, Pass::Statistics, kernel);
+    staged_.back().launch.aliases = std::move(aliases);
+}
+
+void PlanBuilder::statisticsOfSpheres(std::string_view kernel, std::vector<Alias> aliases) {
+    overStatisticBlocks(Stage::Statistics, Pass::Statistics, kernel);
+    staged_.back().launch.aliases = std::move(aliases);
+}
+
+void PlanBuilder::atStepEnd(Pass pass, std::string_view kernel) {
+    plan_.stepEnd.push_back({.pass = pass, .kernel = kernel, .over = Varying::Spheres});
 }
 
 void PlanBuilder::finish() {
@@ -116,9 +124,12 @@ void PlanBuilder::finish() {
                       column);
         }
     std::ranges::stable_sort(staged_, {}, &Staged::stage);
-    for (Staged& staged : staged_)
+    for (Staged& staged : staged_) {
+        staged.launch.waking = staged.stage == Stage::Activity;
         (staged.stage == Stage::Statistics ? plan_.statistics : plan_.substep).push_back(std::move(staged.launch));
+    }
     staged_.clear();
+    plan_.setSpheres(plan_.spheres);
 }
 
 }  // namespace spherule::sim

@@ -74,8 +74,11 @@ class PlanBuilder {
     // Runs when the length of the substep has changed: parameters.substepRatio is the new one over the old one.
     void onNewSubstepOverPairs(std::string_view kernel);
     void onNewSubstepOverSpheres(std::string_view kernel);
-    // Runs on demand.
-    void statistics(std::string_view kernel, std::uint32_t count, std::vector<Alias> aliases = {});
+    // Run on demand: over bundles, or over each STATISTIC_BLOCK spheres.
+    void statisticsOfBundles(std::string_view kernel, std::vector<Alias> aliases = {});
+    void statisticsOfSpheres(std::string_view kernel, std::vector<Alias> aliases = {});
+    // Runs at the end of a step.
+    void atStepEnd(Pass pass, std::string_view kernel);
 
     // Adds the launches that sort the columns, and puts arrays and launches in order.
     void finish();
