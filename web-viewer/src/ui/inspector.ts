@@ -19,8 +19,8 @@ export class Inspector {
   /** `remove` is given the id of the sphere to remove. */
   constructor(private readonly remove: (id: number) => Promise<Outcome>) {
     const deselect = { type: "button", title: "Deselect (Esc)", click: () => this.selection.clear() };
-    const removal = { type: "button", class: "remove", "data-testid": "remove", click: () => void this.removeSelected() };
-    this.removal = h("button", removal, "Remove");
+    const click = (): void => void this.removeSelected();
+    this.removal = h("button", { type: "button", class: "remove", "data-testid": "remove", click }, "Remove");
     this.element = h(
       "section",
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
@@ -39,7 +39,7 @@ export class Inspector {
     if (outcome.case === "applied" && this.selection.id === id) this.selection.clear();
   }
 
-  /** `playing`: the server plays a recording. `blockedReason`: why the user may not send commands; empty if they may. */
+  /** `playing`: the server plays a recording. `blockedReason`: why the user may not remove it; empty if they may. */
   update(facts: Facts | undefined, shown: Shown | undefined, playing: boolean, blockedReason: string): void {
     const { id, place } = this.selection;
     const known = facts && shown && id !== undefined && place !== undefined && place < shown.to.count;
