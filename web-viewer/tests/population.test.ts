@@ -121,10 +121,10 @@ test("runs are joined to few uploads, and two populations are compared by their 
   const runs = [{ first: 90, count: 2 }, { first: 0, count: 5 }, { first: 8, count: 1 }, { first: 3, count: 1 }];
   assert.deepEqual(joined(runs, 3), [{ first: 0, count: 9 }, { first: 90, count: 2 }]);
   assert.deepEqual(joined(runs, 2), [{ first: 0, count: 5 }, { first: 8, count: 1 }, { first: 90, count: 2 }]);
-  const places = [{ first: 1, count: 1, id: 10n, group: 0 }, { first: 4, count: 2, id: 3n, group: 1 }];
+  const places = [{ first: 1, count: 1, id: 10n, group: 0 }, { first: 4, count: 2, id: 30n, group: 1 }];
   assert.deepEqual(differences(populationOf(), populationOf({ places })), [
     { first: 2, count: 1 },
-    { first: 4, count: 1 },
+    { first: 4, count: 2 }, // place 5 has another sphere
   ]);
 });
 
