@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, settled, when } from "./support/browser.mjs";
+import { control, open, pause, says, settled, when } from "./support/browser.mjs";
 import { pictureOf } from "./support/picture.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
@@ -32,6 +32,7 @@ browserSuite(async (browser, folder) => {
   writeFileSync(file, JSON.stringify(scene));
   server = await serve(file);
   page = await open(browser, server.url, { colour: "group", size: [1280, 900] });
+  await pause(page); // the image settles, and changes are shown all the same
 });
 
 const epoch = () => page.evaluate(() => spherule.session.facts.epoch);
