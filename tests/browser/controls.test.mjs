@@ -123,20 +123,13 @@ test("a click without push mode selects the sphere", async () => {
 test("a scene from the list replaces the present one, and drops add spheres", async () => {
   await page.selectOption(control("scene"), "bounce");
   await when(page, () => spherule.session.facts?.name === "bounce" && spherule.session.frames > 0);
-  const before = await page.evaluate(() => {
-    const { count, epoch } = spherule.session.facts;
-    return { count, epoch };
-  });
+  const before = await page.evaluate(() => spherule.spheres);
   await type("drop-count", 25);
   await page.click(control("drop"));
   assert.equal(await outcomeOf("Drop 25"), "applied");
-  await when(
-    page,
-    ({ count, epoch }) => spherule.session.facts.count === count + 25 && spherule.session.facts.epoch > epoch,
-    before,
-  );
+  await when(page, (then) => spherule.spheres === then + 25, before);
   const { positions } = await queryServer(page);
-  assert.equal(positions.length, before.count + 25);
+  assert.equal(positions.length, before + 25);
   for (const [, , z] of positions) assert.ok(z > 0);
 });
 

@@ -17,8 +17,8 @@ for (const device of ["cpu", "software"]) {
     await when(two, () => document.querySelector('[data-testid="pause"]').dataset.paused === "true");
     const state = (page) =>
       page.evaluate(() => {
-        const { epoch, count } = spherule.session.facts;
-        return JSON.stringify([epoch, spherule.positions([...Array(count).keys()])]);
+        const { epoch } = spherule.session.facts;
+        return JSON.stringify([epoch, spherule.positions([...Array(spherule.spheres).keys()])]);
       });
     const step = await one.evaluate(() => spherule.session.newest.step);
     await when(two, (wanted) => spherule.session.newest?.step === wanted, step);
@@ -47,7 +47,7 @@ test("the page reconnects to a restarted server, and shows its scene", async () 
     },
     frames,
   );
-  assert.equal(await page.evaluate(() => spherule.session.facts.count), 1);
+  assert.equal(await page.evaluate(() => spherule.spheres), 1);
   await page.click(control("pause"));
   await when(page, () => spherule.session.paused);
   await page.close();

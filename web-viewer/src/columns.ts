@@ -4,7 +4,7 @@ import type { Frame } from "./gen/spherule/v1/frame_pb";
 
 /** The values of all spheres in one state. */
 export interface Column {
-  values: Float32Array; // `components` per sphere, in id order
+  values: Float32Array; // `components` per sphere, by place
   quantum: number; // a value is off by at most half of it
 }
 

@@ -22,9 +22,13 @@ export interface TestApi {
   readonly shown: { time: number; from: number; to: number } | undefined;
   /** Whether a seek in the recording is in progress. */
   readonly seeking: boolean;
-  /** Positions in the newest state (m), by id; each is off by at most half a quantum on each axis. */
-  positions(ids: number[]): { step: number; quantum: number; positions: Vec3[] } | undefined;
-  /** The sphere that is drawn at a point of the page (CSS pixels). */
+  /** Number of spheres in the scene. */
+  readonly spheres: number | undefined;
+  /** Id of the selected sphere. */
+  readonly selected: number | undefined;
+  /** Positions of spheres in the newest state (m); each is off by at most half a quantum on each axis. */
+  positions(ids: number[]): { step: number; quantum: number; positions: (Vec3 | undefined)[] } | undefined;
+  /** The id of the sphere that is drawn at a point of the page (CSS pixels). */
   at(x: number, y: number): number | undefined;
   /** Projects a point (m) to the page (CSS pixels); undefined if it lies behind the eye. */
   project(point: Vec3): [number, number] | undefined;
@@ -54,13 +58,24 @@ export function createTestApi(viewer: Viewer): TestApi {
     get seeking() {
       return page.playback.seeking;
     },
+    get spheres() {
+      return session.facts?.population.count;
+    },
+    get selected() {
+      return page.inspector.selection.id;
+    },
     positions(ids) {
       const { facts, newest: state } = session;
       if (!state || !facts) return undefined;
       const { quantum } = state.columns.position;
-      return { step: state.step, quantum, positions: ids.map((id) => positionOf(facts, state, id)) };
+      const places = ids.map((id) => facts.population.placeOf(id));
+      const positions = places.map((place) => (place === undefined ? undefined : positionOf(facts, state, place)));
+      return { step: state.step, quantum, positions };
     },
-    at: (x, y) => viewer.sphereAt(x, y),
+    at(x, y) {
+      const place = viewer.placeAt(x, y);
+      return place === undefined ? undefined : session.facts?.population.idOf(place);
+    },
     project: (point) => project(camera.last, point),
   };
 }

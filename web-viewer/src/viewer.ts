@@ -104,8 +104,8 @@ export class Viewer {
     requestAnimationFrame(tick);
   }
 
-  /** The sphere that is drawn at a point of the canvas (CSS pixels). */
-  sphereAt(x: number, y: number): number | undefined {
+  /** The place of the sphere that is drawn at a point of the canvas (CSS pixels). */
+  placeAt(x: number, y: number): number | undefined {
     const { facts, states } = this.session;
     const shown = states.shown(sharedNow());
     return facts && shown && pick(facts, shown, rayThrough(this.camera.last, x, y));
@@ -123,8 +123,14 @@ export class Viewer {
         this.camera.look(facts, same);
         this.canvas.setFacts(facts);
         if (!same) this.ranges.reset();
-        if (!same || facts.count < before.count) this.page.inspector.select(undefined);
+        if (same) this.page.inspector.selection.follow(facts.population);
+        else this.page.inspector.selection.clear();
         this.page.panel.setFacts(facts);
+        this.drawn = "";
+      },
+      populationChanged: ({ population }, changed) => {
+        this.canvas.updatePopulation(changed);
+        this.page.inspector.selection.follow(population);
         this.drawn = "";
       },
       settingsChanged: (settings) => this.page.panel.setSettings(settings),
@@ -154,7 +160,7 @@ export class Viewer {
       view: camera.view(),
       mode: choices.mode,
       range: this.ranges.of(choices.mode, session.facts),
-      selected: this.page.inspector.selected,
+      selected: this.page.inspector.selection.place,
       dim: session.staleness(wall),
     };
     const look = [state.mode, state.range, state.selected, state.dim, choices.theme, choices.quality];
@@ -190,9 +196,11 @@ export class Viewer {
       pan: (dx, dy) => camera.pan(dx, dy),
       zoom: (factor, x, y) => camera.zoom(factor, x, y),
       click: (x, y) => {
-        const sphere = this.sphereAt(x, y);
+        const place = this.placeAt(x, y);
+        const population = this.session.facts?.population;
+        const sphere = place === undefined ? undefined : population?.idOf(place);
         if (choices.push) void this.commands.push(rayThrough(camera.last, x, y), sphere, choices.impulse);
-        else this.page.inspector.select(sphere);
+        else this.page.inspector.selection.select(population, place);
       },
     });
   }

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
 import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { highOf } from "../src/model/colour_ranges";
-import { factsOf, radiusOf } from "../src/model/facts";
+import { factsOf } from "../src/model/facts";
 import { leastSpeed, positionOf, shownImages, shownPosition, speedOf } from "../src/model/positions";
 import type { State } from "../src/model/states";
 
@@ -29,8 +29,8 @@ test("a position is relative to the centre of the bounds", () => {
 });
 
 test("radii are read as float32", () => {
-  assert.deepEqual([radiusOf(facts, 0), radiusOf(facts, 1)], [0.5, 0.25]);
-  assert.deepEqual(facts.radiusRange, [0.25, 0.5]);
+  assert.deepEqual([0, 1].map((place) => facts.population.radiusOf(place)), [0.5, 0.25]);
+  assert.deepEqual(facts.population.radiusRange, [0.25, 0.5]);
 });
 
 test("speed is the distance between two states over their time", () => {

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decode, forPage } from "../src/connection/protocol";
 import {
+  PopulationSchema,
   RecordingSchema,
   ServerMessageSchema,
   SettingsSchema,
@@ -26,6 +27,10 @@ test("messages are passed to the page unchanged", () => {
   const played = create(TimelineSchema, { file: "a.sph", end: 2, frames: 61n });
   const timeline = forPage(decoded({ case: "timeline", value: played }));
   assert.ok(timeline?.kind === "timeline" && timeline.timeline.file === "a.sph" && timeline.timeline.frames === 61n);
+  const changed = create(PopulationSchema, { number: 7, added: [{ first: 1, count: 2, id: 1n << 40n }] });
+  const population = forPage(decoded({ case: "population", value: changed }));
+  assert.ok(population?.kind === "population" && population.population.number === 7);
+  assert.equal(population.population.added[0]?.id, 1n << 40n);
   const recorded = create(RecordingSchema, { active: true, bytes: 5n });
   const recording = forPage(decoded({ case: "recording", value: recorded }));
   assert.ok(recording?.kind === "recording" && recording.recording.active && recording.recording.bytes === 5n);

@@ -41,7 +41,7 @@ test("each decoded frame is passed on, and acknowledged with its decode time", (
   const { acks, states, stream, receive } = createStream();
   stream.drawRate = 48;
   receive(10, keyframe(1, [[2, 4, 6]]));
-  receive(12, still(2, 1));
+  receive(12, still(2, 1), { population: 3 });
   assert.deepEqual(acks.map(({ sequence, drawRate, lost }) => [sequence, drawRate, lost]), [
     [10n, 48, false],
     [12n, 48, false],
@@ -50,6 +50,7 @@ test("each decoded frame is passed on, and acknowledged with its decode time", (
   const [state] = states;
   assert.deepEqual([...(state?.columns.position.values ?? [])], [1, 2, 3]);
   assert.deepEqual([state?.sequence, state?.step, state?.simTime, state?.columns.position.quantum], [10, 120, 2, 0.5]);
+  assert.deepEqual(states.map(({ population }) => population), [0, 3]);
   assert.deepEqual([state?.arrival, state?.ready, state?.bytes], [1234, 5000, 99]);
 });
 

@@ -12,7 +12,7 @@ export async function expectPositionsOfServer(page) {
   const fine = await queryServer(page, { tier: "FINE" });
   await when(page, (step) => spherule.session.newest?.step === step, sent.step);
   const seen = await page.evaluate((count) => spherule.positions([...Array(count).keys()]), sent.positions.length);
-  assert.equal(await page.evaluate(() => spherule.session.facts.count), sent.positions.length);
+  assert.equal(await page.evaluate(() => spherule.spheres), sent.positions.length);
   assert.deepEqual([seen.step, seen.quantum, fine.step], [sent.step, sent.quantum, sent.step]);
   assert.ok(fine.quantum < sent.quantum / 9);
   const error = (sent.quantum + fine.quantum) / 2 + sent.quantum / 1000;

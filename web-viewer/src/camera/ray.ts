@@ -1,6 +1,5 @@
 import { vec3, vec4 } from "gl-matrix";
 import { shownImages } from "../model/positions";
-import { radiusOf } from "../model/facts";
 import type { Facts, Vec3 } from "../model/facts";
 import type { Shown } from "../model/states";
 import type { View } from "./view";
@@ -35,17 +34,18 @@ export function enter(ray: Ray, centre: Vec3, radius: number): number {
   return along - Math.sqrt(half);
 }
 
-/** The id of the first sphere that the ray meets, in the positions that are drawn. */
+/** The place of the first sphere that the ray meets, in the positions that are drawn. */
 export function pick(facts: Facts, shown: Shown, ray: Ray): number | undefined {
   let nearest = Infinity;
   let found: number | undefined;
   const count = Math.min(shown.from.count, shown.to.count);
-  for (let id = 0; id < count; id++) {
-    for (const centre of shownImages(facts, shown, id)) {
-      const distance = enter(ray, centre, radiusOf(facts, id));
+  for (let place = 0; place < count; place++) {
+    if (!facts.population.isUsed(place)) continue;
+    for (const centre of shownImages(facts, shown, place)) {
+      const distance = enter(ray, centre, facts.population.radiusOf(place));
       if (distance >= nearest) continue;
       nearest = distance;
-      found = id;
+      found = place;
     }
   }
   return found;

@@ -5,6 +5,7 @@ import {
   LoadSceneSchema,
   PauseSchema,
   PushSchema,
+  RemoveSchema,
   ResetSchema,
   ResumeSchema,
   SeekSchema,
@@ -99,11 +100,17 @@ export class Commands {
     return this.send(`Drop ${count}`, { case: "spawn", value: create(SpawnSchema, { group }) });
   }
 
-  /** Pushes a sphere along the ray. If `sphere` is undefined, the server picks the first sphere that the ray meets. */
+  /** `sphere`: id. */
+  remove(sphere: number): Promise<Outcome> {
+    const value = create(RemoveSchema, { spheres: [BigInt(sphere)] });
+    return this.send(`Remove sphere ${sphere}`, { case: "remove", value });
+  }
+
+  /** Pushes a sphere along the ray. If its id is undefined, the server picks the first sphere that the ray meets. */
   push(ray: PushRay, sphere: number | undefined, newtonSeconds: number): Promise<Outcome> {
     const impulse = ray.direction.map((part) => part * newtonSeconds);
     const target =
-      sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: sphere };
+      sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: BigInt(sphere) };
     const name = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
     return this.send(name, { case: "push", value: create(PushSchema, { target, impulse }) });
   }
@@ -130,7 +137,8 @@ export class ReportLog {
 function textFor({ case: kind, value }: Outcome): string {
   switch (kind) {
     case "applied":
-      return `applied at step ${value.step}`;
+      if (value.removed === undefined) return `applied at step ${value.step}`;
+      return `removed ${value.removed} ${value.removed === 1n ? "sphere" : "spheres"}, at step ${value.step}`;
     case "refused":
       return value.field ? `refused: ${value.field}: ${value.reason}` : `refused: ${value.reason}`;
     default:

@@ -15,7 +15,7 @@ import type { Periods } from "./periods";
 export type Decoded = { kind: "state"; columns: Columns } | { kind: "foreign" } | { kind: "behind" };
 
 /**
- * Decodes frames to columns in id order. Decodes one chain at a time; a keyframe starts a chain. A frame is a keyframe
+ * Decodes frames to columns, by place. Decodes one chain at a time; a keyframe starts a chain. A frame is a keyframe
  * if all its columns are.
  */
 export class Frames {

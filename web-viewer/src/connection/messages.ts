@@ -8,6 +8,7 @@ import type {
   Diagnostics,
   Dial,
   Event,
+  Population,
   Recording,
   SceneFacts,
   Settings,
@@ -37,17 +38,18 @@ export type ControlMessage = Extract<
   { case: "askControl" | "yieldControl" | "keepControl" }
 >;
 
-/** A state of all spheres. */
+/** A state of all places for spheres. */
 export interface State {
   sequence: number;
   epoch: number;
   step: number;
   simTime: number; // s
-  count: number;
+  count: number; // places
   columns: Columns;
 }
 
 export interface Received extends State {
+  population: number; // number of the last change of the population that the state includes
   arrival: number; // ms, as sharedNow() counts
   ready: number; // ms since 1970 on the server's clock; 0: unknown
   bytes: number; // size of the whole message
@@ -67,6 +69,7 @@ export type FromWorker =
   | { kind: "silent"; since: number | undefined } // time of the last message (ms); undefined: messages arrive again
   | { kind: "welcome"; welcome: Welcome }
   | { kind: "scene"; facts: SceneFacts }
+  | { kind: "population"; population: Population }
   | { kind: "settings"; settings: Settings }
   | { kind: "stream"; stream: Stream }
   | { kind: "frame"; frame: Received }

@@ -1,8 +1,8 @@
 const idBytes = 3;
 
 /**
- * Returns the id of each sphere in frame order. `bytes` holds three bytes per sphere, little endian. Throws an Error if
- * the ids are no permutation of 0 .. count - 1.
+ * Returns the place of each sphere in frame order, which messages call its id. `bytes` holds three bytes per sphere,
+ * little endian. Throws an Error if the ids are no permutation of 0 .. count - 1.
  */
 export function idsOf(bytes: Uint8Array, count: number): Uint32Array {
   if (bytes.length !== idBytes * count) {
@@ -25,7 +25,7 @@ export type Quanta = [number, number, number];
 
 /**
  * Multiplies the first `components` values of each sphere by their quanta. `units`: three values per sphere, in frame
- * order. `values`: `components` values per sphere, in id order. `ids`: see idsOf(). A loop over the components would
+ * order. `values`: `components` values per sphere, by place. `ids`: see idsOf(). A loop over the components would
  * take a third more time.
  */
 export function scatter(

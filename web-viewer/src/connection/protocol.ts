@@ -25,6 +25,8 @@ export function forPage(kind: Kind): FromWorker | undefined {
       return { kind: "welcome", welcome: kind.value };
     case "scene":
       return { kind: "scene", facts: kind.value };
+    case "population":
+      return { kind: "population", population: kind.value };
     case "settings":
       return { kind: "settings", settings: kind.value };
     case "result":

@@ -78,13 +78,14 @@ function received(
   bytes: number,
   decodeMs: number,
 ): Received {
-  const { sequence, epoch, step, simTime, count, status, stampUs } = frame;
+  const { sequence, epoch, step, simTime, count, population, status, stampUs } = frame;
   return {
     sequence: Number(sequence),
     epoch,
     step: Number(step),
     simTime,
     count,
+    population,
     columns,
     arrival,
     ready: Number(stampUs) / 1000,

@@ -60,7 +60,8 @@ function connect(url: string): void {
     opened: () => {
       const at = sharedNow();
       stream.reset();
-      send({ case: "hello", value: create(HelloSchema, { client: clientName, view, token, turns: true }) });
+      const hello = { client: clientName, view, token, turns: true, population: true };
+      send({ case: "hello", value: create(HelloSchema, hello) });
       page.postMessage({ kind: "link", state: "open", at });
     },
     received,

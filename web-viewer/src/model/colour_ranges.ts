@@ -6,7 +6,7 @@ import type { Shown } from "./states";
 
 interface Automatic {
   range: AutoRange;
-  value(facts: Facts, shown: Shown, id: number): number;
+  value(facts: Facts, shown: Shown, place: number): number;
 }
 
 /** The range of values that the scale of each mode covers. */
@@ -38,9 +38,10 @@ export class ColourRanges {
   update(facts: Facts | undefined, shown: Shown | undefined, now: number): void {
     if (!facts || !shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
     this.measured = shown.to.sequence;
-    const count = Math.min(shown.from.count, shown.to.count);
+    const places = Math.min(shown.from.count, shown.to.count);
+    const isUsed = (place: number): boolean => facts.population.isUsed(place);
     for (const { range, value } of this.automatic.values()) {
-      range.update(highOf((id) => value(facts, shown, id), count), now);
+      range.update(highOf((place) => value(facts, shown, place), places, isUsed), now);
     }
   }
 
@@ -60,10 +61,23 @@ export class ColourRanges {
   }
 }
 
-/** The 98th percentile of the values of `count` spheres, from at most `samples` of them, spread over the ids. */
-export function highOf(value: (id: number) => number, count: number, samples = 2048): number {
-  if (count === 0) return 0;
-  const values = new Float64Array(Math.min(samples, count));
-  for (let i = 0; i < values.length; i++) values[i] = value(Math.floor((i * count) / values.length));
-  return values.sort()[Math.floor(0.98 * (values.length - 1))] ?? 0;
+/**
+ * The 98th percentile of the values at those of `places` places that are in use, from at most `samples` of them, spread
+ * over all; 0 if none is in use.
+ */
+export function highOf(
+  value: (place: number) => number,
+  places: number,
+  isUsed: (place: number) => boolean = () => true,
+  samples = 2048,
+): number {
+  const parts = Math.min(samples, places);
+  const values: number[] = [];
+  for (let part = 0; part < parts; part++) {
+    const end = Math.floor(((part + 1) * places) / parts);
+    let place = Math.floor((part * places) / parts);
+    while (place < end && !isUsed(place)) place += 1;
+    if (place < end) values.push(value(place));
+  }
+  return Float64Array.from(values).sort()[Math.floor(0.98 * (values.length - 1))] ?? 0;
 }

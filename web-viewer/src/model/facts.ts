@@ -1,10 +1,10 @@
 import { periodsOf } from "../connection/periods";
-import type { GroupFacts, SceneFacts } from "../gen/spherule/v1/control_pb";
+import type { SceneFacts } from "../gen/spherule/v1/control_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
 import type { Obstacle as Message } from "../gen/spherule/v1/scene_pb";
-import { groupColour } from "../colour/groups";
 import { hexToRgb } from "../colour/rgb";
 import type { Rgb } from "../colour/rgb";
+import { Population } from "./population";
 
 export type Vec3 = [number, number, number];
 
@@ -13,15 +13,7 @@ export interface Obstacle {
   colour: Rgb | undefined;
 }
 
-export interface Group {
-  name: string;
-  first: number;
-  count: number;
-  colour: Rgb;
-  own: boolean; // the colour is given by the scene
-}
-
-/** The static facts of a scene: constant within an epoch. Lengths are in m. */
+/** The facts of a scene: constant within an epoch, except for the population. Lengths are in m. */
 export interface Facts {
   epoch: number;
   name: string;
@@ -31,11 +23,7 @@ export interface Facts {
   open: Set<Face>;
   periods: Vec3; // m: length of each periodic axis; 0: not periodic
   obstacles: Obstacle[];
-  count: number;
-  groups: Group[];
-  radius: number; // of every sphere; 0 if they differ: see radii
-  radii: Float32Array | undefined;
-  radiusRange: [number, number];
+  population: Population;
   origin: Vec3; // the centre of the bounds; positions in states are relative to it
   cellSize: number; // m; 0 if there is no grid
   cells: Vec3;
@@ -46,7 +34,6 @@ export interface Facts {
 }
 
 export function factsOf(scene: SceneFacts): Facts {
-  const radii = scene.radius > 0 ? undefined : floats(scene.radii, scene.count);
   const min = vec3(scene.boundsMin);
   const max = vec3(scene.boundsMax);
   const periods = periodsOf(scene);
@@ -60,11 +47,7 @@ export function factsOf(scene: SceneFacts): Facts {
     open: new Set(scene.open),
     periods,
     obstacles: scene.obstacles.map(({ shape, colour }) => ({ shape, colour: hexToRgb(colour) })),
-    count: scene.count,
-    groups: scene.groups.map(groupFrom),
-    radius: scene.radius,
-    radii,
-    radiusRange: radii ? rangeOf(radii) : [scene.radius, scene.radius],
+    population: new Population(scene),
     origin: between(min, max),
     cellSize: scene.cellSize,
     cells,
@@ -80,40 +63,10 @@ export function isWall({ open, periods }: Facts, face: Face): boolean {
   return !open.has(face) && !periods[(face - Face.X_MIN) >> 1];
 }
 
-export function radiusOf(facts: Facts, id: number): number {
-  return facts.radii?.[id] ?? facts.radius;
-}
-
-export function groupOf(facts: Facts, id: number): Group | undefined {
-  return facts.groups.find((group) => id >= group.first && id < group.first + group.count);
-}
-
-function groupFrom(group: GroupFacts, index: number): Group {
-  const { colour, own } = groupColour(group.colour, index);
-  return { name: group.name || `group ${index + 1}`, first: group.first, count: group.count, colour, own };
-}
-
 function between(a: Vec3, b: Vec3): Vec3 {
   return [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])];
 }
 
 function vec3(numbers: readonly number[]): Vec3 {
   return [numbers[0] ?? 0, numbers[1] ?? 0, numbers[2] ?? 0];
-}
-
-function floats(bytes: Uint8Array, count: number): Float32Array {
-  const values = new Float32Array(count);
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  for (let i = 0; i < count && 4 * i + 4 <= bytes.byteLength; i++) values[i] = view.getFloat32(4 * i, true);
-  return values;
-}
-
-function rangeOf(values: Float32Array): [number, number] {
-  let low = Infinity;
-  let high = 0;
-  for (const value of values) {
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
-  return values.length > 0 ? [low, high] : [0, 0];
 }

@@ -1,10 +1,9 @@
-import { radiusOf } from "./facts";
 import type { Facts, Vec3 } from "./facts";
 import type { Shown, State } from "./states";
 
-/** The position of a sphere in a state (m). It is off by at most half a quantum on each axis. */
-export function positionOf(facts: Facts, state: State, id: number): Vec3 {
-  const at = 3 * id;
+/** The position of the sphere at a place in a state (m). It is off by at most half a quantum on each axis. */
+export function positionOf(facts: Facts, state: State, place: number): Vec3 {
+  const at = 3 * place;
   const { origin } = facts;
   const { values } = state.columns.position;
   return [origin[0] + (values[at] ?? 0), origin[1] + (values[at + 1] ?? 0), origin[2] + (values[at + 2] ?? 0)];
@@ -16,8 +15,8 @@ function shortest(distance: number, period: number): number {
 }
 
 /** The position at which a sphere is drawn (m). Along a periodic axis, it moves by the shortest way. */
-export function shownPosition(facts: Facts, shown: Shown, id: number): Vec3 {
-  const at = 3 * id;
+export function shownPosition(facts: Facts, shown: Shown, place: number): Vec3 {
+  const at = 3 * place;
   const { values: from } = shown.from.columns.position;
   const { values: to } = shown.to.columns.position;
   return facts.origin.map((origin, axis) => {
@@ -31,12 +30,12 @@ export function shownPosition(facts: Facts, shown: Shown, id: number): Vec3 {
  * The positions at which a sphere is drawn (m): one that reaches across a face of a periodic axis is drawn at both
  * faces.
  */
-export function shownImages(facts: Facts, shown: Shown, id: number): Vec3[] {
-  const images = [shownPosition(facts, shown, id)];
+export function shownImages(facts: Facts, shown: Shown, place: number): Vec3[] {
+  const images = [shownPosition(facts, shown, place)];
   facts.periods.forEach((period, axis) => {
     if (period === 0) return;
     const from = (images[0]?.[axis] ?? 0) - (facts.origin[axis] ?? 0);
-    if (Math.abs(from) + radiusOf(facts, id) <= period / 2) return;
+    if (Math.abs(from) + facts.population.radiusOf(place) <= period / 2) return;
     for (const image of [...images]) {
       const other: Vec3 = [...image];
       other[axis] = (image[axis] ?? 0) - Math.sign(from) * period;
@@ -47,10 +46,10 @@ export function shownImages(facts: Facts, shown: Shown, id: number): Vec3[] {
 }
 
 /** The mean speed of a sphere between two states (m/s); 0 if no simulated time passed. */
-export function speedOf(facts: Facts, from: State, to: State, id: number): number {
+export function speedOf(facts: Facts, from: State, to: State, place: number): number {
   const time = to.simTime - from.simTime;
   if (!(time > 0)) return 0;
-  const at = 3 * id;
+  const at = 3 * place;
   const { values: a } = from.columns.position;
   const { values: b } = to.columns.position;
   const [x, y, z] = facts.periods;

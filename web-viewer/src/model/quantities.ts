@@ -2,7 +2,6 @@ import { idRamp, radiusRamp, speedRamp } from "../colour/ramp";
 import type { Ramp } from "../colour/ramp";
 import type { Rgb } from "../colour/rgb";
 import { count, figure, length } from "../format";
-import { groupOf, radiusOf } from "./facts";
 import type { Facts } from "./facts";
 import { leastSpeed, speedOf } from "./positions";
 import type { Shown } from "./states";
@@ -15,7 +14,7 @@ export type Range = [number, number];
  */
 export type Scale = { ramp: Ramp } & (
   | { range(facts: Facts): Range }
-  | { value(facts: Facts, shown: Shown, id: number): number; least: number }
+  | { value(facts: Facts, shown: Shown, place: number): number; least: number }
 );
 
 export interface Swatch {
@@ -35,7 +34,7 @@ export interface Quantity {
   scale?: Scale;
   legend(facts: Facts, range: Range): LegendContent;
   /** A line of the inspector. */
-  describe?(facts: Facts, shown: Shown, id: number): string;
+  describe?(facts: Facts, shown: Shown, place: number): string;
 }
 
 const groupsShown = 6; // in the legend
@@ -45,31 +44,31 @@ export const quantities = {
   speed: {
     label: "Speed",
     glsl: "length(shortest(a_positionTo - a_positionFrom)) * u_inverseTime",
-    scale: { ramp: speedRamp, value: (facts, { from, to }, id) => speedOf(facts, from, to, id), least: 0.1 },
+    scale: { ramp: speedRamp, value: (facts, { from, to }, place) => speedOf(facts, from, to, place), least: 0.1 },
     legend: (_, [, high]) => ({ bar: speedRamp, low: "0", high: `${figure(high)} m/s` }),
-    describe: (facts, { from, to }, id) => {
+    describe: (facts, { from, to }, place) => {
       const least = leastSpeed(from, to);
-      const speed = speedOf(facts, from, to, id);
+      const speed = speedOf(facts, from, to, place);
       return speed < least ? `under ${figure(least)} m/s` : `${figure(speed)} m/s`;
     },
   },
   radius: {
     label: "Radius",
     glsl: "a_radius",
-    scale: { ramp: radiusRamp, range: (facts) => facts.radiusRange },
+    scale: { ramp: radiusRamp, range: ({ population }) => population.radiusRange },
     legend: (_, [low, high]) => {
       if (low < high) return { bar: radiusRamp, low: length(low), high: length(high) };
       return { swatches: [{ colour: radiusRamp[0], name: `all ${length(low)}`, figure: "" }], notes: [] };
     },
-    describe: (facts, _, id) => {
-      const group = groupOf(facts, id);
-      return `radius ${length(radiusOf(facts, id))}${group ? `, ${group.name}` : ""}`;
+    describe: ({ population }, _, place) => {
+      const group = population.groupOf(place);
+      return `radius ${length(population.radiusOf(place))}${group ? `, ${group.name}` : ""}`;
     },
   },
   id: {
     label: "Id",
-    glsl: "float(gl_InstanceID)",
-    scale: { ramp: idRamp, range: (facts) => [0, Math.max(0, facts.count - 1)] },
+    glsl: "id()",
+    scale: { ramp: idRamp, range: ({ population }) => population.idRange },
     legend: (_, [low, high]) => ({ bar: idRamp, low: count(low), high: count(high) }),
   },
   cell: {
@@ -84,7 +83,7 @@ export const quantities = {
   group: {
     label: "Group",
     glsl: "a_group.rgb",
-    legend: ({ groups }) => {
+    legend: ({ population: { groups } }) => {
       const shown = groups.slice(0, groupsShown);
       const more = groups.length - shown.length;
       const swatches = shown.map((group) => ({ colour: group.colour, name: group.name, figure: count(group.count) }));

@@ -1,5 +1,5 @@
 import { sharedNow } from "../clock";
-import type { FromWorker, LinkChange, LinkState } from "../connection/messages";
+import type { FromWorker, LinkChange, LinkState, Received } from "../connection/messages";
 import { Event_Kind } from "../gen/spherule/v1/control_pb";
 import type {
   Change,
@@ -7,7 +7,9 @@ import type {
   Diagnostics,
   Dial,
   Event,
+  Population as PopulationChange,
   Recording,
+  SceneFacts,
   Settings,
   Stream,
   Timeline,
@@ -19,6 +21,8 @@ import { DelayMeter } from "./delay";
 import { factsOf } from "./facts";
 import type { Facts } from "./facts";
 import type { TimeAdvance } from "./playout";
+import { differences, PendingChanges, Population } from "./population";
+import type { Run } from "./population";
 import { States } from "./states";
 import type { State } from "./states";
 import { Traffic } from "./traffic";
@@ -30,6 +34,8 @@ export interface SessionEvents {
   linkChanged(change: LinkChange): void;
   welcomed(welcome: Welcome): void;
   sceneChanged(facts: Facts, before: Facts | undefined): void;
+  /** `changed`: the places whose sphere has changed. */
+  populationChanged(facts: Facts, changed: Run[]): void;
   settingsChanged(settings: Settings): void;
   dialChanged(dial: Dial): void;
   diagnosticsReceived(diagnostics: Diagnostics): void;
@@ -65,10 +71,11 @@ export class Session {
   private lastArrival = 0; // ms, of a frame of this epoch
   private epochStart = 0; // ms: when the facts of this epoch arrived
   private newConnection = true; // no scene has arrived since the connection opened
+  private pending = new PendingChanges(0); // of the population
 
   /** `drop` is given each state that will not be shown any more. */
   constructor(
-    drop: (state: State) => void,
+    private readonly drop: (state: State) => void,
     private readonly events: SessionEvents,
   ) {
     this.states = new States(drop);
@@ -90,33 +97,20 @@ export class Session {
         this.recording = undefined;
         this.events.welcomed(message.welcome);
         break;
-      case "scene": {
+      case "scene":
         markFirst("scene");
-        const before = this.facts;
-        this.facts = factsOf(message.facts);
-        if (this.newConnection) this.states.begin(-1); // another server may give the same number to another epoch
-        this.newConnection = false;
-        if (this.states.epoch !== this.facts.epoch) this.epochStart = sharedNow();
-        this.states.begin(this.facts.epoch);
-        this.events.sceneChanged(this.facts, before);
+        this.sceneReceived(message.facts);
         break;
-      }
+      case "population":
+        this.populationReceived(message.population);
+        break;
       case "settings":
         this.settings = message.settings;
         this.events.settingsChanged(message.settings);
         break;
-      case "frame": {
-        const { arrival, ready, status } = message.frame;
-        this.traffic.add(message.frame);
-        this.delay.add(arrival, ready);
-        if (!this.states.push(message.frame, this.timeAdvance)) break;
-        markFirst("arrived", arrival);
-        markFirst("decoded");
-        this.frames += 1;
-        this.lastArrival = arrival;
-        this.status = status;
+      case "frame":
+        this.frameReceived(message.frame);
         break;
-      }
       case "timeline":
         this.timeline = message.timeline;
         break;
@@ -165,7 +159,7 @@ export class Session {
 
   /** Whether the first state of the scene is about to arrive, so that drawing without it is not worth while. */
   awaitsState(now: number): boolean {
-    const spheres = this.facts?.count ?? 0;
+    const spheres = this.facts?.population.count ?? 0;
     return this.live && !this.newest && spheres > 0 && now - this.epochStart < firstStateTimeout;
   }
 
@@ -201,6 +195,63 @@ export class Session {
     const age = now - this.lastArrival;
     const grace = this.live ? (this.paused ? Infinity : 5000) : 400;
     return Math.min(1, Math.max(0, (age - grace) / 600));
+  }
+
+  private sceneReceived(scene: SceneFacts): void {
+    const before = this.facts;
+    const again = !this.newConnection && scene.epoch === before?.epoch;
+    if (again && this.newest && scene.population > before.population.number) {
+      return this.pending.replace(scene.population, () => this.replacePopulation(scene));
+    }
+    if (again) this.pending.replace(scene.population);
+    else this.pending = new PendingChanges(scene.population);
+    if (this.newConnection) this.states.begin(-1); // another server may give the same number to another epoch
+    this.newConnection = false;
+    this.facts = factsOf(scene);
+    if (this.states.epoch !== this.facts.epoch) this.epochStart = sharedNow();
+    this.states.begin(this.facts.epoch);
+    this.events.sceneChanged(this.facts, before);
+  }
+
+  private replacePopulation(scene: SceneFacts): Run[] {
+    const { facts } = this;
+    if (!facts) return [];
+    const before = facts.population;
+    facts.population = new Population(scene);
+    return differences(before, facts.population);
+  }
+
+  /** Frames of earlier populations may still arrive: the change waits for the first frame that includes it. */
+  private populationReceived(change: PopulationChange): void {
+    if (change.epoch !== this.facts?.epoch) return;
+    try {
+      this.pending.add(change.number, () => this.facts?.population.apply(change) ?? []);
+    } catch (error) {
+      this.events.messageUnreadable(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private frameReceived(frame: Received): void {
+    const { arrival, ready, status } = frame;
+    this.traffic.add(frame);
+    this.delay.add(arrival, ready);
+    if (!this.isDescribed(frame)) return this.drop(frame);
+    const changed = this.pending.applyTo(frame.population);
+    if (changed) this.states.carryBack(frame, changed);
+    if (changed && this.facts) this.events.populationChanged(this.facts, changed);
+    this.states.push(frame, this.timeAdvance);
+    markFirst("arrived", arrival);
+    markFirst("decoded");
+    this.frames += 1;
+    this.lastArrival = arrival;
+    this.status = status;
+  }
+
+  /** Whether the facts and the changes that have arrived tell which spheres are in the frame. */
+  private isDescribed({ epoch, population }: Received): boolean {
+    const { facts } = this;
+    if (!facts || epoch !== this.states.epoch) return false;
+    return population >= facts.population.number && population <= this.pending.newest;
   }
 
   private linkChanged(change: LinkChange): void {

@@ -1,6 +1,7 @@
 import type { Received, State } from "../connection/messages";
 import { PlayoutBuffer } from "./playout";
 import type { TimeAdvance } from "./playout";
+import type { Run } from "./population";
 
 export type { State };
 
@@ -46,6 +47,23 @@ export class States {
     this.newest = frame;
     this.remove(this.playout.push(key, frame.arrival, frame.simTime, advance));
     return true;
+  }
+
+  /**
+   * Copies the values at these places from a frame that is not pushed yet to all states before it. They hold other
+   * spheres there, or none, and a sphere of the frame would move from the position of another.
+   */
+  carryBack(frame: State, places: readonly Run[]): void {
+    for (const state of this.byKey.values()) {
+      for (const [name, { values }] of Object.entries(frame.columns)) {
+        const { values: earlier } = state.columns[name as keyof State["columns"]];
+        const components = values.length / frame.count;
+        for (const { first, count } of places) {
+          const begin = components * first;
+          earlier.set(values.subarray(begin, begin + components * count), begin);
+        }
+      }
+    }
   }
 
   /** Returns what to draw at `now`, on the clock of Received.arrival; undefined if there is no state. */

@@ -5,6 +5,7 @@ import type { RenderQualityChoice } from "./render_quality";
 import { themes } from "./theme";
 import type { ThemeName } from "./theme";
 import type { Facts } from "../model/facts";
+import type { Run } from "../model/population";
 import type { Shown } from "../model/states";
 
 /** The canvas and its WebGL context, which the browser may take away and give back. */
@@ -48,10 +49,15 @@ export class Canvas {
   }
 
   setFacts(facts: Facts): void {
-    if (facts.count !== this.facts?.count) this.quality.restart();
+    if (facts.population.places !== this.facts?.population.places) this.quality.restart();
     this.facts = facts;
     this.renderer?.setFacts(facts, themes[this.theme]);
     this.fit();
+  }
+
+  /** `changed`: the places whose sphere has changed. */
+  updatePopulation(changed: readonly Run[]): void {
+    this.renderer?.updatePopulation(changed);
   }
 
   setTheme(theme: ThemeName): void {

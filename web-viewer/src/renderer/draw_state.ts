@@ -6,6 +6,6 @@ export interface DrawState {
   view: View;
   mode: Mode;
   range: Range; // of values that the mode's scale covers
-  selected: number | undefined; // id
+  selected: number | undefined; // place of the selected sphere
   dim: number; // 0..1: how stale the image is
 }

@@ -1,4 +1,5 @@
 import type { Facts } from "../model/facts";
+import type { Run } from "../model/population";
 import type { Shown } from "../model/states";
 import type { DrawState } from "./draw_state";
 import { Environment } from "./environment";
@@ -48,6 +49,12 @@ export class FrameRenderer {
     this.shadowKey = "";
   }
 
+  /** `changed`: the places whose sphere has changed. */
+  updatePopulation(changed: readonly Run[]): void {
+    this.spheres.updatePopulation(changed);
+    this.shadowKey = "";
+  }
+
   /** Width and height in pixels of the canvas. */
   setQuality(quality: RenderQuality, width: number, height: number): void {
     const { gl } = this;
@@ -79,6 +86,7 @@ export class FrameRenderer {
     target.begin();
     scene.draw(facts, shown, state, this.environment, this.spheres, shadow);
     target.end();
-    post.draw(state.view, 2.2 * (facts.radiusRange[0] + facts.radiusRange[1]) * 0.5, state.dim);
+    const [smallest, largest] = facts.population.radiusRange;
+    post.draw(state.view, 2.2 * (smallest + largest) * 0.5, state.dim);
   }
 }

@@ -13,7 +13,7 @@ type ColumnInput = `a_${ColumnName}${"From" | "To"}`;
 const columnInputs = columnNames.flatMap((name): ColumnInput[] => [`a_${name}From`, `a_${name}To`]);
 
 /** Attribute slots are the same in all programs, so that programs can share vertex arrays. */
-const attributes = [...columnInputs, "a_radius", "a_group", "a_position", "a_normal", "a_colour"] as const;
+const attributes = [...columnInputs, "a_radius", "a_id", "a_group", "a_position", "a_normal", "a_colour"] as const;
 export type Attribute = (typeof attributes)[number];
 
 /** GLSL declarations of the inputs of all columns. */

@@ -1,38 +1,55 @@
+import type { Outcome } from "../connection/link";
 import { count, vector } from "../format";
 import type { Facts } from "../model/facts";
 import { shownPosition } from "../model/positions";
 import { modes, quantityOf } from "../model/quantities";
+import { Selection } from "../model/selection";
 import type { Shown } from "../model/states";
 import { h, setText } from "./dom";
 
 /** Shows the selected sphere: its position and its quantities. */
 export class Inspector {
-  selected: number | undefined;
+  readonly selection = new Selection();
   private readonly name = h("h2", { "data-testid": "inspected" });
   private readonly text = h("p");
+  private readonly removal: HTMLButtonElement;
+  private removing = false; // the command has no result yet
   readonly element: HTMLElement;
 
-  constructor() {
-    const deselect = { type: "button", title: "Deselect (Esc)", click: () => this.select(undefined) };
+  /** `remove` is given the id of the sphere to remove. */
+  constructor(private readonly remove: (id: number) => Promise<Outcome>) {
+    const deselect = { type: "button", title: "Deselect (Esc)", click: () => this.selection.clear() };
+    const click = (): void => void this.removeSelected();
+    this.removal = h("button", { type: "button", class: "remove", "data-testid": "remove", click }, "Remove");
     this.element = h(
       "section",
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
       h("div", { class: "row" }, this.name, h("button", deselect, "×")),
       this.text,
+      this.removal,
     );
   }
 
-  select(id: number | undefined): void {
-    this.selected = id;
+  async removeSelected(): Promise<void> {
+    const { id } = this.selection;
+    if (id === undefined || this.removing) return;
+    this.removing = true;
+    const outcome = await this.remove(id);
+    this.removing = false;
+    if (outcome.case === "applied" && this.selection.id === id) this.selection.clear();
   }
 
-  update(facts: Facts | undefined, shown: Shown | undefined): void {
-    const id = this.selected;
-    const known = facts && shown && id !== undefined && id < shown.to.count;
+  /** `playing`: the server plays a recording. `blockedReason`: why the user may not remove it; empty if they may. */
+  update(facts: Facts | undefined, shown: Shown | undefined, playing: boolean, blockedReason: string): void {
+    const { id, place } = this.selection;
+    const known = facts && shown && id !== undefined && place !== undefined && place < shown.to.count;
     this.element.hidden = !known;
     if (!known) return;
-    const lines = modes.flatMap((mode) => quantityOf(mode).describe?.(facts, shown, id) ?? []);
+    const lines = modes.flatMap((mode) => quantityOf(mode).describe?.(facts, shown, place) ?? []);
     setText(this.name, `Sphere ${count(id)}`);
-    setText(this.text, [`at ${vector(shownPosition(facts, shown, id), 3)} m`, ...lines].join("\n"));
+    setText(this.text, [`at ${vector(shownPosition(facts, shown, place), 3)} m`, ...lines].join("\n"));
+    this.removal.hidden = playing;
+    this.removal.disabled = blockedReason !== "";
+    this.removal.title = blockedReason || "Remove the sphere (Del)";
   }
 }

@@ -41,6 +41,7 @@ export interface KeyActions {
   push(): void;
   lock(): void;
   drop(): void;
+  remove(): void;
   help(): void;
   deselect(): void;
   camera: Camera;
@@ -72,11 +73,16 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
       description,
       act: () => action(value),
     }));
+  const simulated = [
+    one("d", "drop spheres", actions.drop),
+    one("p", "push mode", actions.push),
+    one("Delete", "remove the selected sphere", actions.remove, "Del"),
+  ];
   return [
     one(" ", "pause, resume", actions.toggle, "Space"),
     one(".", playing ? "one frame" : "one step", () => actions.step(1)),
     one("r", playing ? "go to the beginning" : "reset the scene", actions.reset),
-    ...(playing ? [] : [one("d", "drop spheres", actions.drop), one("p", "push mode", actions.push)]),
+    ...(playing ? [] : simulated),
     ...each(`1 – ${modes.length}`, `colour by ${colourNames}`, colours, actions.colour),
     one("l", "lock the colour range", actions.lock),
     one("f", "reset the view", () => camera.reset()),

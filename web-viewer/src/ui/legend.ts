@@ -15,7 +15,7 @@ export class Legend {
   private readonly lock: HTMLButtonElement;
   private readonly head: HTMLElement;
   readonly element: HTMLElement;
-  private shown = ""; // mode, epoch and range
+  private shown = ""; // mode, epoch, population and range
 
   constructor(
     private readonly ranges: ColourRanges,
@@ -41,7 +41,7 @@ export class Legend {
     if (!facts) return;
     const { ranges } = this;
     const range = ranges.of(mode, facts);
-    const key = [mode, facts.epoch, ...range].join(" ");
+    const key = [mode, facts.epoch, facts.population.number, ...range].join(" ");
     if (key !== this.shown) {
       this.shown = key;
       const { label, legend } = quantityOf(mode);

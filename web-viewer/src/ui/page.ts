@@ -39,7 +39,7 @@ const figurePeriod = 200; // ms; figures that change faster cannot be read
 /** All elements over the canvas. */
 export class Page {
   readonly toasts = new Toasts();
-  readonly inspector = new Inspector();
+  readonly inspector: Inspector;
   readonly panel: Panel;
   readonly playback: Playback;
   readonly prompt: Prompt;
@@ -70,6 +70,7 @@ export class Page {
       actions.themeChanged(theme);
     };
     this.panel = new Panel(commands, choices, { ...actions, themeChanged });
+    this.inspector = new Inspector((id) => commands.remove(id));
     this.header = new Header(session, actions.retry);
     this.legend = new Legend(ranges, () => {
       this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
@@ -93,8 +94,9 @@ export class Page {
       },
       lock: () => ranges.toggleLock(),
       drop: () => this.panel.dropNow(),
+      remove: () => void this.inspector.removeSelected(),
       deselect: () => {
-        this.inspector.select(undefined);
+        this.inspector.selection.clear();
         this.help.element.close();
       },
     };
@@ -105,7 +107,7 @@ export class Page {
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
-    const needsSpeeds = (): boolean => choices.mode === "speed" || this.inspector.selected !== undefined;
+    const needsSpeeds = (): boolean => choices.mode === "speed" || this.inspector.selection.id !== undefined;
     this.playback = new Playback(session, commands, needsSpeeds);
     const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
@@ -121,10 +123,10 @@ export class Page {
 
   /** Call at every tick. `now`: ms, as sharedNow() counts. */
   update(now: number, shown: Shown | undefined, imagesPerSecond: number, contextLost: boolean): void {
-    this.inspector.update(this.session.facts, shown);
     this.setPlaying(this.session.timeline !== undefined);
     this.steering.update();
     const { blockedReason } = this.steering;
+    this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
     this.change.update(this.session.change, blockedReason);
     this.transport.update(this.session.paused, blockedReason);
     this.playback.update(now, shown, blockedReason);

@@ -126,10 +126,10 @@ export class Panel {
     this.facts = facts;
     this.world.scene = facts.name;
     if (otherScene) {
-      const [low, high] = facts.radiusRange;
+      const [low, high] = facts.population.radiusRange;
       this.drop.radius = Number(((low + high) / 2 || 0.05).toPrecision(3));
       this.choices.impulse = impulseFor(this.drop.radius);
-      if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.groups);
+      if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.population.groups);
     }
     this.refresh();
   }

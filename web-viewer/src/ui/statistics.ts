@@ -1,9 +1,10 @@
-import type { Diagnostics, Settings } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Settings, Statistics } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure, seconds, vector } from "../format";
 import { impactLabels, mergeImpacts } from "./dial_labels";
 import type { Impacts } from "./dial_labels";
 import { fillTable, h } from "./dom";
+import type { Row } from "./dom";
 
 const impactTitle =
   "Measured over impacts of two spheres, in every 16th step. It is lower than specified if a sphere has several " +
@@ -58,8 +59,18 @@ export class StatisticsTables {
       ["sleeping", "Asleep", count(s.sleeping)],
       ["outside", "Outside", count(s.outside)],
       ["non-finite", "Non-finite", count(s.nonFinite)],
+      ...turnover(s),
       ["step", "Step", count(Number(s.step))],
       ["time", "Simulated time", seconds(s.simTime)],
     ]);
   }
+}
+
+/** The spheres that came and went; no rows if none went. */
+function turnover({ born, removed }: Statistics): Row[] {
+  if (removed === 0n) return [];
+  return [
+    ["born", "Born", count(Number(born)), undefined, "Spheres since the beginning, those of the scene included"],
+    ["removed", "Removed", count(Number(removed))],
+  ];
 }

@@ -28,14 +28,15 @@ export class StatusLine {
   update(now: number, fps: number): void {
     const { session } = this;
     const { facts, status, welcome, newest } = session;
-    this.set("spheres", facts ? count(facts.count) : "–");
+    const spheres = facts?.population.count;
+    this.set("spheres", spheres === undefined ? "–" : count(spheres));
     this.set("time", newest ? seconds(newest.simTime) : "–");
     const plays = session.timeline !== undefined; // a recording: nothing is simulated
     const factor = plays ? session.settings?.speed : status?.realTimeFactor;
     this.set("factor", session.paused ? "paused" : factor === undefined ? "–" : `${figure(factor)} ×`);
     this.fields.get("factor")?.parentElement?.toggleAttribute("data-alone", session.paused);
     this.set("steps", status ? figure(status.stepsPerSecond) : "–", plays);
-    const asleep = status && facts?.count ? `${Math.round((100 * status.sleeping) / facts.count)} %` : "–";
+    const asleep = status && spheres ? `${Math.round((100 * status.sleeping) / spheres)} %` : "–";
     this.set("asleep", asleep, plays);
     this.set("outside", status ? count(status.outside) : "0", !status?.outside);
     const rates = session.traffic.rates(now);

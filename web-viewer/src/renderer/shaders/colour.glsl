@@ -1,5 +1,6 @@
 // The expressions of model/quantities.ts may use these inputs, position.glsl, and `position`: the centre (m).
 in vec4 a_group;                // sRGB
+in float a_id;                  // negative: the id is the number of the place
 
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
@@ -23,6 +24,8 @@ uint scrambled(uint x) {
     x ^= x >> 15; x *= 0x846ca68bu;
     return x ^ (x >> 16);
 }
+
+float id() { return a_id < 0.0 ? float(gl_InstanceID) : a_id; }
 
 // The hue of a cell is random; its lightness alternates between neighbours.
 vec3 cellColour(vec3 position) {

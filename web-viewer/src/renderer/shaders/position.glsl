@@ -1,5 +1,5 @@
 // The position of a sphere (m): two states, interpolated. program.ts declares the inputs of the columns.
-in float a_radius;
+in float a_radius;         // m; 0: no sphere is at this place
 
 uniform vec3 u_origin;     // m
 uniform float u_mix;
@@ -18,5 +18,7 @@ vec3 centreNow() {
     return u_origin + place - u_image * u_period * sign(place);
 }
 
-// Whether the image reaches into the bounds. The sphere itself is always drawn.
-bool isDrawn() { return all(greaterThanEqual(abs(placeNow()) + a_radius, 0.5 * u_image * u_period)); }
+// Whether there is a sphere, and its image reaches into the bounds. The sphere itself is always drawn.
+bool isDrawn() {
+    return a_radius > 0.0 && all(greaterThanEqual(abs(placeNow()) + a_radius, 0.5 * u_image * u_period));
+}

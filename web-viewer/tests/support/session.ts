@@ -1,0 +1,52 @@
+// A session without a connection: the test plays the worker.
+import { create } from "@bufbuild/protobuf";
+import type { MessageInitShape } from "@bufbuild/protobuf";
+import { PopulationSchema, SceneFactsSchema } from "../../src/gen/spherule/v1/control_pb";
+import type { Run } from "../../src/model/population";
+import { Session } from "../../src/model/session";
+import type { State } from "../../src/model/states";
+
+const cube = { boundsMin: [-1, -1, -1], boundsMax: [1, 1, 1] };
+
+export function createSession() {
+  const changes: Run[][] = [];
+  const faults: string[] = [];
+  const dropped: State[] = [];
+  let scenes = 0;
+  const none = (): void => undefined;
+  const session = new Session((state) => void dropped.push(state), {
+    linkChanged: none,
+    welcomed: none,
+    sceneChanged: () => (scenes += 1),
+    populationChanged: (_, changed) => void changes.push(changed),
+    settingsChanged: none,
+    dialChanged: none,
+    diagnosticsReceived: none,
+    eventReceived: none,
+    recordingChanged: none,
+    messageUnreadable: (reason) => void faults.push(reason),
+  });
+  let sequence = 0;
+  return {
+    session,
+    changes, // of the population, as the session reported them
+    faults, // messages that the session reported as unreadable
+    dropped, // states that will not be shown any more
+    scenes: () => scenes, // number of reported scenes
+    /** Facts of a cube in epoch 3 with spheres of equal radius, unless `fields` say otherwise. */
+    scene(fields: MessageInitShape<typeof SceneFactsSchema> = {}): void {
+      session.handle({ kind: "scene", facts: create(SceneFactsSchema, { epoch: 3, radius: 0.5, ...cube, ...fields }) });
+    },
+    population(number: number, fields: MessageInitShape<typeof PopulationSchema> = {}): void {
+      session.handle({ kind: "population", population: create(PopulationSchema, { epoch: 3, number, ...fields }) });
+    },
+    /** A frame a tenth of a second after the last one, with a sphere at each of `xs` on the x axis. */
+    frame(population: number, xs: number[], epoch = 3): void {
+      sequence += 1;
+      const times = { sequence, step: sequence, simTime: sequence / 10, arrival: 100 * sequence, ready: 0 };
+      const position = { values: Float32Array.from(xs.flatMap((x) => [x, 0, 0])), quantum: 0.01 };
+      const rest = { count: xs.length, columns: { position }, bytes: 0, decodeMs: 0, status: undefined };
+      session.handle({ kind: "frame", frame: { ...times, ...rest, epoch, population } });
+    },
+  };
+}
