@@ -57,6 +57,7 @@ Result<void> RunRecorder::beginEpoch() {
     ++epoch_;
     generation_ = simulation_.generation();
     population_ = simulation_.population().version();
+    born_ = simulation_.population().born();
     if (auto done = add(recording::Kind::Scene, factsMessage(simulation_, epoch_)); !done) return done;
     const std::vector<std::uint32_t> ids = encode::mortonOrder(simulation_.snapshot().position);
     std::vector<std::uint32_t> handles;
@@ -76,7 +77,9 @@ Result<void> RunRecorder::stepped(bool last) {
     const bool due = frames >= due_ || last;
     const bool otherSpheres = simulation_.population().version() != population_;
     if (otherSpheres && simulation_.count() == 0) return {};
-    if (simulation_.generation() != generation_ || (otherSpheres && due)) {
+    // Sinks may remove spheres in each step: only the frames need their number.
+    const bool added = simulation_.population().born() != born_;
+    if (simulation_.generation() != generation_ || (otherSpheres && (due || added))) {
         encoding_.encoder.reset();
         encoding_.context.reset();
         auto encoding = makeEncoding(options_, device_, simulation_);

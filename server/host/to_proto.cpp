@@ -121,7 +121,8 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     v1::ServerMessage message = factsMessage(simulation, epoch);
     v1::SceneFacts& facts = *message.mutable_scene();
     const std::vector<scene::Sphere>& spheres = simulation.scene().spheres;
-    const bool radiiDiffer = !facts.radii().empty() || spheres.empty();
+    const bool radiiDiffer = simulation.plan().features.has(sim::Feature::Radii);
+    if (!radiiDiffer) facts.set_radius(static_cast<float>(simulation.radii().largest));
     facts.set_count(places.count());
     facts.set_population(population);
     std::string radii(radiiDiffer ? places.count() * sizeof(float) : 0, '\0');
@@ -130,6 +131,7 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
             std::memcpy(&radii[(run.first() + k) * sizeof(float)], &spheres[rank + k].radius, sizeof(float));
     });
     facts.set_radii(std::move(radii));
+    if (facts.places().empty()) facts.add_places();  // no run would say that all places are in use
     return message;
 }
 

@@ -10,8 +10,10 @@ namespace spherule {
 // A publisher without sessions. Tests override what they look at.
 class FakePublisher : public net::Publisher {
   public:
-    void retain(codec::SharedMessage) override {}
-    void setOrder(codec::SharedMessage) override {}
+    void retain(codec::SharedMessage, codec::Audience) override {}
+    void setOrder(codec::SharedMessage, codec::Audience) override {}
+    void follow(codec::SharedMessage) override {}
+    void refreshScene(codec::SharedMessage) override {}
     void publish(const codec::EncodedFrame&) override {}
     void broadcast(codec::SharedMessage) override {}
     void reply(net::SessionId, v1::CommandResult) override {}

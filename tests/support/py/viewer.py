@@ -20,8 +20,8 @@ def answers(port):
 class Viewer:
     """Reads the server's messages on its own thread, until the server closes the connection."""
 
-    def __init__(self, port, rate=30, patience=30):
-        """`patience`: time without a byte (s) after which the connection counts as closed."""
+    def __init__(self, port, rate=30, patience=30, **hello):
+        """`patience`: time without a byte (s) after which the connection counts as closed. `hello`: more fields of Hello."""
         self.messages = []
         self._stalled = False
         self.closed = None  # (code, reason); (None, "") if the connection ended without a close frame
@@ -37,7 +37,7 @@ class Viewer:
         if self.status != 101:
             self._socket.close()
             return
-        self._send(0x1, json.dumps({"hello": {"client": "test", "view": {"rate": rate}}}).encode())
+        self._send(0x1, json.dumps({"hello": {"client": "test", "view": {"rate": rate}, **hello}}).encode())
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
 

@@ -1,3 +1,4 @@
+#include "encode/morton.h"
 #include "encode/stream_encoder.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ class StreamEncoderTest : public testing::Test {
         : encoder_(
               *device_, [this](const codec::EncodedFrame& encoded) { encoded_.push_back(encoded); },
               [this](auto order) { orders_.push_back(std::move(order)); },
-              [this](const std::string& text) { warnings_.push_back(text); }) {
+              [this](const std::string& text) { warnings_.push_back(text); }, framesMade_) {
         position_ = std::move(*device_->createBuffer("positions", spheres * sizeof(glm::vec4), "r"));
         positions_.resize(spheres);
     }
@@ -35,7 +36,11 @@ class StreamEncoderTest : public testing::Test {
                 .smallestRadius = 0.05,
                 .epoch = epoch_,
                 .version = version_,
-                .positions = [this] { return positions_; },
+                .order =
+                    [this] {
+                        const std::vector<std::uint32_t> ids = mortonOrder(positions_);
+                        return CodecOrder{.ids = ids, .handles = ids};
+                    },
                 .head = [] { return v1::Frame(); }};
     }
 
@@ -58,6 +63,7 @@ class StreamEncoderTest : public testing::Test {
     std::vector<codec::EncodedFrame> encoded_;
     std::vector<codec::SharedMessage> orders_;
     std::vector<std::string> warnings_;
+    std::uint64_t framesMade_ = 0;
     StreamEncoder encoder_;
     std::uint32_t count_ = spheres;
     std::uint32_t epoch_ = 1;

@@ -61,7 +61,7 @@ class Playback : private FakePublisher {
     }
 
   private:
-    void retain(codec::SharedMessage message) override {
+    void retain(codec::SharedMessage message, codec::Audience) override {
         if (message->content().has_scene()) scenes.push_back(message->content().scene());
         if (scenes.size() > changes_) stop_.request_stop();
     }

@@ -67,7 +67,7 @@ class TestSessions : private FakePublisher {
     void look() {
         if (enough_ && enough_()) stop_.request_stop();
     }
-    void retain(codec::SharedMessage message) override {
+    void retain(codec::SharedMessage message, codec::Audience) override {
         if (message->content().has_change()) changes.push_back(message->content().change());
         look();
     }

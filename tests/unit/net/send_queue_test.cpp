@@ -182,5 +182,54 @@ TEST(SendQueue, HoldsAFrameUntilItsFactsAndOrderAreSent) {
     EXPECT_EQ(queue.next(true)->content().frame().epoch(), 2U);
 }
 
+codec::SharedMessage changeOf(std::uint32_t number) {
+    v1::ServerMessage message;
+    message.mutable_population()->set_epoch(1);
+    message.mutable_population()->set_number(number);
+    return codec::share(std::move(message));
+}
+
+codec::SharedMessage factsWith(std::uint32_t population) {
+    v1::ServerMessage message = factsOf(1, 64)->content();
+    message.mutable_scene()->set_population(population);
+    return codec::share(std::move(message));
+}
+
+codec::EncodedFrame frameOf(std::uint32_t number, std::uint32_t population) {
+    codec::EncodedFrame frame = encoded(Keyframe, number);
+    v1::ServerMessage message = frame.message->content();
+    message.mutable_frame()->set_population(population);
+    frame.message = codec::share(std::move(message));
+    return frame;
+}
+
+TEST(SendQueue, HoldsAFrameUntilItsChangeOfThePopulationIsSent) {
+    SendQueue queue = following();
+    queue.offer(frameOf(1, 1));
+    EXPECT_EQ(queue.next(true), nullptr);
+    ASSERT_TRUE(queue.push(changeOf(1)));
+    EXPECT_TRUE(queue.next(true)->content().has_population());
+    EXPECT_TRUE(queue.next(true)->content().has_frame());
+}
+
+TEST(SendQueue, AsksForFactsWhenTooManyChangesWait) {
+    SendQueue queue = following(100);
+    std::uint32_t number = 0;
+    while (!queue.takeMissedChanges()) {
+        ASSERT_TRUE(queue.push(changeOf(++number)));
+        ASSERT_LT(number, 100U);
+    }
+    ASSERT_TRUE(queue.push(changeOf(number + 1)));
+    EXPECT_EQ(queue.next(true), nullptr) << "no change is sent after a missing one";
+    queue.offer(frameOf(1, number + 1));
+    ASSERT_TRUE(queue.push(factsWith(number)));
+    EXPECT_TRUE(queue.next(true)->content().has_scene());
+    EXPECT_EQ(queue.next(true), nullptr) << "the frame needs one change more";
+    ASSERT_TRUE(queue.push(changeOf(number + 1)));
+    EXPECT_TRUE(queue.next(true)->content().has_population());
+    EXPECT_TRUE(queue.next(true)->content().has_frame()) << "the order is still known";
+    EXPECT_FALSE(queue.takeMissedChanges());
+}
+
 }  // namespace
 }  // namespace spherule::net
