@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "beds.h"
 #include "figures.h"
+#include "scene/quality.h"
 #include "scene/shapes.h"
 #include "support.h"
 
@@ -129,6 +131,83 @@ TEST(BedSleep, EndsForAllSpheresInReachOfAnImpact) {
         RecordProperty("woke", static_cast<int>(std::ranges::count(woke, true)));
         RecordProperty("overlapMax", figure(simulation->statistics().overlapMax));
     }
+}
+
+// The time of one call (s).
+template <class Call>
+double secondsOf(Call call) {
+    const auto begin = std::chrono::steady_clock::now();
+    call();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double medianOf(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+// 49,154 spheres in three layers. Ten new ones come to lie on them, five times: only their surroundings wake, no arrays or
+// kernels are made anew, and the spawn with its step takes less than three steps of the same bed awake.
+TEST(BedSleep, OutlastsASpawnBeyondItsReach) {
+    scene::Scene scene = sleepyBox(1);
+    constexpr int side = 129;
+    constexpr double pitch = 0.106;  // m
+    scene.bounds.min = {-0.5 * side * pitch, -0.5 * side * pitch, 0};
+    scene.bounds.max = {0.5 * side * pitch, 0.5 * side * pitch, 1};
+    measure::setFriction(scene, 0.4);
+    setRestitution(scene, 0);
+    for (int layer = 0; layer < 3; ++layer) {  // the upper spheres lie in the hollows of the lower ones
+        const int along = side - layer;
+        for (int k = 0; k < along * along; ++k)
+            measure::addSphere(scene,
+                               {pitch * (k % along - 0.5 * (along - 1)), pitch * (k / along - 0.5 * (along - 1)),
+                                0.0501 + 0.0663 * layer},
+                               bedRadius);
+    }
+    scene.quality.substepsFixed = false;
+    ASSERT_TRUE(scene::fitSubsteps(scene));
+    auto simulation = simulate(std::move(scene));
+    run(*simulation, 3);
+    const std::uint32_t before = simulation->count();
+    ASSERT_GT(simulation->statistics().sleeping, before * 99 / 100);
+    const std::uint32_t generation = simulation->generation();
+    std::vector<double> spawning;
+    int wokeFar = 0;
+    int wokeNear = 0;
+    constexpr double reach = 2;  // m: the blocks around one with a restless sphere
+    for (int round = 0; round < 5; ++round) {
+        const sim::State asleepBefore = simulation->snapshot();
+        const double x = 2 * (round - 2);
+        const sim::Spawn spawn{.name = "ten", .colour = "", .place = [x](const scene::Scene&, Progress&) {
+                                   std::vector<scene::Sphere> ten;
+                                   for (int k = 0; k < 10; ++k)
+                                       ten.push_back({.position = {x + 0.11 * (k % 5), 0.11 * (k / 5), 0.285},
+                                                      .radius = static_cast<float>(bedRadius)});
+                                   return Result<std::vector<scene::Sphere>>(std::move(ten));
+                               }};
+        spawning.push_back(secondsOf([&] {
+            ASSERT_TRUE(simulation->apply(spawn));
+            ASSERT_TRUE(simulation->step());
+        }));
+        run(*simulation, 0.2);
+        const sim::State now = simulation->snapshot();
+        for (std::uint32_t id = 0; id < before; ++id) {
+            if (asleep(now, id) || !asleep(asleepBefore, id)) continue;
+            const glm::dvec3 place = positionOf(now, id);
+            ++(std::hypot(place.x - x - 0.22, place.y - 0.055) < reach ? wokeNear : wokeFar);
+        }
+    }
+    EXPECT_GT(wokeNear, 50);
+    EXPECT_EQ(wokeFar, 0);
+    EXPECT_EQ(simulation->generation(), generation);
+    ASSERT_TRUE(simulation->apply(sim::Set{.gravity = simulation->scene().forces.gravity}));  // wakes all
+    std::vector<double> awake;
+    for (int k = 0; k < 5; ++k) awake.push_back(secondsOf([&] { ASSERT_TRUE(simulation->step()); }));
+    const double steps = medianOf(spawning) / medianOf(awake);
+    EXPECT_LT(steps, 3);
+    RecordProperty("stepsOfASpawn", figure(steps));
+    RecordProperty("firstSpawn", figure(spawning.front() / medianOf(awake)));
+    RecordProperty("wokeNear", wokeNear);
 }
 
 }  // namespace

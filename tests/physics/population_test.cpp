@@ -88,31 +88,38 @@ TEST_P(Population, KeepsTheOtherSpheresAndTheirNumbers) {
     EXPECT_EQ(simulation->statistics().born, 202U);
 }
 
-// Two heaps that do not touch: one does not notice what happens to the other.
-TEST_P(Population, DoesNotDisturbFarSpheres) {
-    const auto twoHeaps = [&](bool changes) {
-        scene::Scene scene = sleepyBox(3);
-        setFriction(scene, 0.3);
-        for (const double x : {-0.8, 0.8})
-            for (int k = 0; k < 64; ++k)
-                addSphere(scene, {x + 0.104 * (k % 4), 0.104 * (k / 4 % 4) + 0.002 * (k / 16), -1.45 + 0.104 * (k / 16)},
-                          radius);
-        choose(scene, GetParam());
-        auto simulation = simulate(scene);
-        run(*simulation, 0.2);
-        if (changes) {
-            EXPECT_TRUE(simulation->apply(sim::Remove{.spheres = {1, 9, 40}}));
-            EXPECT_TRUE(simulation->apply(spawnAt({{-0.6, 0.1, 0}})));
-        }
-        run(*simulation, 0.3);
-        return simulation->snapshot();
-    };
-    const sim::State expected = twoHeaps(false);
-    const sim::State changed = twoHeaps(true);
-    for (std::uint32_t id = 64; id < 128; ++id) {
-        const glm::dvec3 apart = positionOf(changed, id - 3) - positionOf(expected, id);
-        EXPECT_LT(glm::length(apart), 1e-6) << id;
+// Two pyramids of five spheres at rest, which friction holds together, and loose spheres far away: the pyramids do not
+// notice when these are removed and others are added. Without the memory of their contacts they would start anew.
+TEST_P(Population, KeepsTheMemoryOfContacts) {
+    scene::Scene scene = sleepyBox(3);
+    scene.sleep.enabled = false;
+    setFriction(scene, 0.5);
+    for (const double x : {-0.8, 0.8}) {
+        for (int k = 0; k < 4; ++k) addSphere(scene, {x + 0.1 * (k % 2), 0.1 * (k / 2), -1.45}, radius);
+        addSphere(scene, {x + 0.05, 0.05, -1.45 + 0.1 / std::sqrt(2.0)}, radius);
     }
+    for (int k = 0; k < 6; ++k) addSphere(scene, {0.3 * k - 0.8, 1.2, -1.45}, radius);
+    choose(scene, GetParam());
+    auto simulation = simulate(scene);
+    run(*simulation, 2);
+    const auto farthest = [](const sim::State& a, const sim::State& b) {
+        double moved = 0;
+        for (std::uint32_t id = 0; id < 10; ++id)
+            moved = std::max(moved, glm::length(positionOf(a, id) - positionOf(b, id)));
+        return moved;
+    };
+    const sim::State before = simulation->snapshot();
+    run(*simulation, 0.5);
+    const sim::State calm = simulation->snapshot();
+    ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = {11, 13}}));
+    ASSERT_TRUE(simulation->apply(spawnAt({{-0.5, 1.2, -1.45}, {0.1, 1.2, -1.45}})));
+    run(*simulation, 0.5);
+    const sim::State after = simulation->snapshot();
+    EXPECT_LT(farthest(calm, after), 2e-5 + 1.5 * farthest(before, calm));
+    if (GetParam() != scene::Model::Accurate) return;
+    simulation->upload(after);  // forgets what contacts hold
+    run(*simulation, 0.5);
+    EXPECT_GT(farthest(after, simulation->snapshot()), 10 * farthest(calm, after)) << "the case shows a loss";
 }
 
 TEST_P(Population, NeverUsesAnIdAgainAndKeepsItsMemory) {
@@ -122,7 +129,8 @@ TEST_P(Population, NeverUsesAnIdAgainAndKeepsItsMemory) {
     scene::Random random(7);
     std::optional<std::uint64_t> bytes;
     std::uint64_t newest = first + 63;
-    for (int round = 0; round < 40; ++round) {
+    const int rounds = GetParam() == scene::Model::Accurate ? 12 : 40;
+    for (int round = 0; round < rounds; ++round) {
         const sim::State state = simulation->snapshot();
         sim::Remove remove;
         for (std::uint32_t k = 0; k < 10; ++k)
@@ -144,8 +152,9 @@ TEST_P(Population, NeverUsesAnIdAgainAndKeepsItsMemory) {
     EXPECT_GT(newest, std::uint64_t{1} << 24U);
     EXPECT_EQ(simulation->plan().bytes(), *bytes) << "handles are used again";
     EXPECT_LT(simulation->population().handles(), 128U);
-    EXPECT_FALSE(simulation->apply(sim::Remove{.spheres = {first}}).has_value() &&
-                 simulation->apply(sim::Remove{.spheres = {first}}).has_value());
+    const std::uint64_t last = simulation->population().idAt(0);
+    EXPECT_TRUE(simulation->apply(sim::Remove{.spheres = {last}}));
+    EXPECT_FALSE(simulation->apply(sim::Remove{.spheres = {last}}));
 }
 
 std::uint64_t hashAfterChanges(scene::Model model, const std::string& choice) {
@@ -177,7 +186,7 @@ TEST_P(Population, SinksTakeSpheresAtTheEndOfTheStep) {
     scene.step = 1.0 / 60;
     scene.sphereContacts = GetParam() != scene::Model::Fast;  // also a plan without cells
     for (int k = 0; k < 20; ++k)
-        addSphere(scene, {-0.9, -0.95 + 0.1 * k, 0}, 0.04).velocity = {1.0F + 0.1F * static_cast<float>(k), 0, 0};
+        addSphere(scene, {-0.9031, -0.95 + 0.1 * k, 0}, 0.04).velocity = {1.0F + 0.1F * static_cast<float>(k), 0, 0};
     scene.sinks = {{{0, -1, -1}, {1, 1, 1}}};
     choose(scene, GetParam());
     auto simulation = simulate(scene);
@@ -186,12 +195,12 @@ TEST_P(Population, SinksTakeSpheresAtTheEndOfTheStep) {
         const sim::State state = simulation->snapshot();
         std::vector<std::uint64_t> left;
         for (std::uint32_t k = 0; k < 20; ++k)
-            if (-0.9 + (1 + 0.1 * k) * simulation->time() < 0) left.push_back(k);
+            if (-0.9031 + (1 + 0.1 * k) * simulation->time() < 0) left.push_back(k);
         ASSERT_EQ(state.count(), left.size()) << "in step " << step;
         for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
             EXPECT_EQ(state.idAt(rank), left[rank]);
-            EXPECT_NEAR(positionOf(state, rank).x, -0.9 + (1 + 0.1 * static_cast<double>(left[rank])) * simulation->time(),
-                        1e-4);
+            EXPECT_NEAR(positionOf(state, rank).x,
+                        -0.9031 + (1 + 0.1 * static_cast<double>(left[rank])) * simulation->time(), 1e-4);
         }
     }
     EXPECT_EQ(simulation->count(), 0U) << "an empty world goes on";
@@ -241,13 +250,16 @@ INSTANTIATE_TEST_SUITE_P(Of, Population,
 
 class SleepingPopulation : public testing::TestWithParam<scene::Model> {
   protected:
-    // A bed of 1,000 spheres, all asleep.
+    // A bed, all asleep: one layer of touching spheres in `fast`, which settles higher beds slowly, else three layers.
     static std::unique_ptr<sim::Simulation> sleepingBed() {
         scene::Scene scene = sleepyBox(1.2);
         setFriction(scene, 0.4);
         setRestitution(scene, 0);
-        for (int k = 0; k < 363; ++k)
-            addSphere(scene, {0.107 * (k % 11) - 0.535, 0.107 * (k / 11 % 11) - 0.535, -0.55 + 0.107 * (k / 121)},
+        const bool flat = GetParam() == scene::Model::Fast;
+        const double pitch = flat ? 0.1 : 0.107;
+        for (int k = 0; k < (flat ? 121 : 363); ++k)
+            addSphere(scene,
+                      {pitch * (k % 11 - 5), pitch * (k / 11 % 11 - 5), -0.55 + pitch * static_cast<double>(k / 121)},
                       radius);
         choose(scene, GetParam());
         auto simulation = simulate(scene);
@@ -266,7 +278,6 @@ class SleepingPopulation : public testing::TestWithParam<scene::Model> {
     }
 };
 
-// A corner sphere of the top layer: nothing rests on it.
 TEST_P(SleepingPopulation, WakesOnlyNeighboursOfARemovedSphere) {
     auto simulation = sleepingBed();
     const sim::State before = simulation->snapshot();
@@ -280,6 +291,7 @@ TEST_P(SleepingPopulation, WakesOnlyNeighboursOfARemovedSphere) {
     EXPECT_EQ(awakeBeyond(*simulation, place, 2.5 * 2 * 0.05), 0U);
     ASSERT_TRUE(simulation->step());
     EXPECT_EQ(awakeBeyond(*simulation, place, 5 * 2 * 0.05), 0U);
+    if (GetParam() == scene::Model::Fast) return;
     run(*simulation, 1);
     // What lay on it has come down.
     const sim::State after = simulation->snapshot();
@@ -300,7 +312,7 @@ TEST_P(SleepingPopulation, StaysAsleepBeyondTheReachOfNewSpheres) {
     ASSERT_TRUE(simulation->step());
     EXPECT_EQ(awakeBeyond(*simulation, place, 5 * 2 * 0.05), 0U);
     run(*simulation, 5);
-    EXPECT_GT(sleepers(simulation->snapshot()), simulation->count() - 20);
+    EXPECT_GT(sleepers(simulation->snapshot()), simulation->count() - simulation->count() / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SleepingPopulation, testing::Values(scene::Model::Fast, scene::Model::Balanced),

@@ -94,7 +94,7 @@ class Population(FolderTestCase):
 
     def test_refusals_name_the_field_and_change_nothing(self):
         with self.serve(BED) as server:
-            for words, text in ((["remove", "99999"], "spheres[0] is 99999, the scene has"),
+            for words, text in ((["remove", "99999"], "remove.spheres[0]: is 99999, the scene has"),
                                 (["remove", "region", "5", "5", "5", "6", "6", "6"], "has no sphere's centre in it"),
                                 (["remove"], "needs ids of spheres, or a region"),
                                 (['{"remove":{}}'], "are missing: give ids of spheres, or a region")):
@@ -156,9 +156,9 @@ class Population(FolderTestCase):
         self.assertEqual(sum(row.startswith(time + ",") for row in rows), left)
 
     def test_sinks_are_checked(self):
-        for sinks, text in (([{}], "sinks[0].region is missing"),
+        for sinks, text in (([{}], "sinks[0].region: is missing"),
                             ([{"region": {"min": [1, 0, 0], "max": [0, 1, 1]}}], "sinks[0].region"),
-                            ([{"region": {"min": [0, 0, 0], "max": [1, 1, 1]}}] * 9, "sinks has 9 entries")):
+                            ([{"region": {"min": [0, 0, 0], "max": [1, 1, 1]}}] * 9, "sinks: has 9 entries")):
             scene = self.write("scene.json", json.dumps(dict(BED, sinks=sinks)))
             done = call("run", scene, "--device", "cpu:1", "--for", "0.1s")
             self.assertNotEqual(done.returncode, 0)
