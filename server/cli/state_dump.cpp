@@ -35,8 +35,8 @@ Result<void> StateDump::write(sim::Simulation& simulation) {
         const glm::vec4& w = state.spin[rank];
         fmt::format_to(std::back_inserter(text),
                        "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{}\n",
-                       simulation.time(), state.idAt(rank), x.x, x.y, x.z, v.x, v.y, v.z, state.position[rank].w, w.x, w.y,
-                       w.z, scene.spheres[rank].material, group, std::signbit(v.w) ? 1 : 0, contacts[rank]);
+                       simulation.time(), state.idAt(rank), x.x, x.y, x.z, v.x, v.y, v.z, state.position[rank].w, w.x,
+                       w.y, w.z, scene.spheres[rank].material, group, std::signbit(v.w) ? 1 : 0, contacts[rank]);
         if (text.size() < part) continue;
         if (auto done = file_.write(text); !done) return done;
         text.clear();

@@ -253,9 +253,9 @@ using Parse = Result<void> (*)(Words, v1::Command&);
 
 // The parsers of the commands with forms of their own.
 const std::map<std::string_view, Parse>& parsers() {
-    static const std::map<std::string_view, Parse> table = {{"query", query},  {"step", step},   {"load", load},
-                                                            {"set", set},      {"spawn", spawn}, {"remove", remove}, {"push", push},
-                                                            {"record", record}};
+    static const std::map<std::string_view, Parse> table = {{"query", query}, {"step", step},    {"load", load},
+                                                            {"set", set},     {"spawn", spawn},  {"remove", remove},
+                                                            {"push", push},   {"record", record}};
     return table;
 }
 

@@ -16,8 +16,8 @@ struct PlaceRun {
     std::uint64_t id = 0;  // of the sphere at the first place
 };
 
-// The places of spheres in the frames of clients that follow Population messages. There are more places than spheres, so
-// that new spheres find one, and the order of the places never changes. Frames hold for a free place the values of
+// The places of spheres in the frames of clients that follow Population messages. There are more places than spheres,
+// so that new spheres find one, and the order of the places never changes. Frames hold for a free place the values of
 // another sphere, preferably a neighbour in the codec's order: so it costs few bytes.
 class Places {
   public:

@@ -28,14 +28,14 @@ struct CodecOrder {
 // The data that the streams need.
 struct EncoderInput {
     FrameSource source;
-    std::uint32_t spheres = 0;                          // in frames
-    double smallestRadius = 0;                          // m
-    glm::dvec3 periods{};                               // m: length of each periodic axis; 0: not periodic
-    std::uint32_t epoch = 0;                            // changes when the spheres are replaced
-    std::uint64_t version = 0;                          // changes when the spheres may have moved
-    std::uint32_t population = 0;                       // number of the last Population message
-    std::function<CodecOrder()> order;                  // for a new epoch; may wait for the device
-    std::function<v1::Frame()> head;                    // head of a frame of the present state: step, time, status
+    std::uint32_t spheres = 0;          // in frames
+    double smallestRadius = 0;          // m
+    glm::dvec3 periods{};               // m: length of each periodic axis; 0: not periodic
+    std::uint32_t epoch = 0;            // changes when the spheres are replaced
+    std::uint64_t version = 0;          // changes when the spheres may have moved
+    std::uint32_t population = 0;       // number of the last Population message
+    std::function<CodecOrder()> order;  // for a new epoch; may wait for the device
+    std::function<v1::Frame()> head;    // head of a frame of the present state: step, time, status
 };
 
 // Encodes the frames of each rendition that somebody requests, as a chain: a keyframe, then deltas. Each chain has its

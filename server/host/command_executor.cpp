@@ -220,10 +220,9 @@ Result<CommandExecutor::HashQueries> CommandExecutor::beginHash() {
     HashQueries begun{.queries = {}, .answer = host_.query(), .claim = std::move(*claim), .hash = {}};
     sim::SlotState slots = simulation.pipeline().download();
     if (auto alive = host_.device().status(); !alive) return tl::unexpected(alive.error());
-    begun.hash =
-        std::async(std::launch::async, [slots = std::move(slots), population = simulation.population()] {
-            return sim::hashOf(sim::inIdOrder(slots, population));
-        });
+    begun.hash = std::async(std::launch::async, [slots = std::move(slots), population = simulation.population()] {
+        return sim::hashOf(sim::inIdOrder(slots, population));
+    });
     return begun;
 }
 

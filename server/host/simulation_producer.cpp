@@ -9,7 +9,6 @@
 #include "core/heartbeat.h"
 #include "core/log.h"
 #include "core/text.h"
-#include "encode/morton.h"
 #include "host/to_proto.h"
 
 namespace spherule::host {
@@ -26,9 +25,6 @@ constexpr auto reportEvery = 1s;
 constexpr auto reportChangeAfter = 250ms;  // a shorter change is not reported
 constexpr auto reportChangeEvery = 200ms;
 constexpr double slowStepMs = 1000;
-// Sessions that do not follow the population get a new epoch at most so often.
-constexpr auto renewEvery = 100ms;
-constexpr auto renewWithoutViewers = 1s;
 constexpr auto measureAfterRead = 150s;  // figures are measured this long after a request for metrics
 
 }  // namespace
@@ -39,20 +35,10 @@ SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, con
       host_(*owned_),
       board_(io.board),
       publisher_(io.publisher),
-      encoder_(
-          host_.device(), [this](const codec::EncodedFrame& encoded) { publish(encoded); },
-          [this](codec::SharedMessage order) {
-              recorder_.setOrder(order);
-              publisher_.setOrder(std::move(order), codec::Audience::Others);
-          },
-          [this](const std::string& text) { notify(v1::Event::WARNING, text); }, framesMade_),
-      followersEncoder_(
-          host_.device(), [this](const codec::EncodedFrame& encoded) { publishFollowed(encoded); },
-          [this](codec::SharedMessage order) {
-              publisher_.setOrder(std::move(order), codec::Audience::Followers);
-          },
-          [this](const std::string& text) { notify(v1::Event::WARNING, text); }, framesMade_),
       recorder_(std::move(recordings), welcomeOf(host_.device().info())),
+      streams_(
+          host_, publisher_, recorder_, [this] { frameRate_.add(version_, Clock::now()); },
+          [this](const std::string& text) { notify(v1::Event::WARNING, text); }),
       sampler_(std::move(table)),
       commands_(host_, io.requests, publisher_, *this) {}
 
@@ -99,8 +85,7 @@ bool SimulationProducer::advance(Result<void>& done) {
 SimulationProducer::Clock::duration SimulationProducer::waitTime(Clock::time_point now) const {
     Clock::duration wait = longestWait;
     if (host_.running()) wait = std::min(wait, host_.scheduler().untilDue(now));
-    for (const auto due : {encoder_.due(), followersEncoder_.due()})
-        if (due) wait = std::min(wait, std::max(*due - now, Clock::duration{}));
+    if (const auto due = streams_.due()) wait = std::min(wait, std::max(*due - now, Clock::duration{}));
     return wait;
 }
 
@@ -119,10 +104,7 @@ void SimulationProducer::publishChanges() {
     if (world_ != host_.epoch()) {
         world_ = host_.epoch();
         diagnostics_.reset();
-        epoch_ = ++lastEpoch_;
-        renewOthers();
-        followers_.epoch = epoch_;
-        beginFollowers();
+        streams_.beginWorld();
     }
     v1::ServerMessage settings = host_.settings();
     if (std::string bytes = settings.SerializeAsString(); bytes != settings_) {
@@ -183,96 +165,11 @@ void SimulationProducer::reportWhenStopped() {
 }
 
 void SimulationProducer::produce(Clock::time_point now) {
-    followPopulation();
-    auto followed = publisher_.subscriptions();
-    const auto rest = std::ranges::partition(
-        followed, [](const codec::Subscription& subscription) { return subscription.rendition.population; });
-    std::vector<codec::Subscription> others(rest.begin(), rest.end());
-    followed.erase(rest.begin(), rest.end());
-    recorder_.subscribe(others, now);
-    if (shown_ != host_.simulation().population().version() && now >= nextRenewal_) {
-        nextRenewal_ = now + (others.empty() ? renewWithoutViewers : renewEvery);
-        epoch_ = ++lastEpoch_;
-        renewOthers();
-    }
-    if (shown_ == host_.simulation().population().version()) encoder_.update(encoderInput(now), others, now);
-    followersEncoder_.update(followersInput(now), followed, now);
+    if (streams_.produce(moment(now), publisher_.subscriptions(), now)) sampler_.invalidateBaseline();
 }
 
-// Sends the facts of a new epoch to the sessions that do not follow the population.
-void SimulationProducer::renewOthers() {
-    shown_ = host_.simulation().population().version();
-    const auto facts = codec::share(factsMessage(host_.simulation(), epoch_));
-    recorder_.retain(facts);
-    publisher_.retain(facts, codec::Audience::Others);
-}
-
-// Gives the followers new places, in a new epoch.
-void SimulationProducer::beginFollowers() {
-    const sim::Simulation& simulation = host_.simulation();
-    followers_ = {.epoch = followers_.epoch,
-                  .places = encode::Places(simulation.population()),
-                  .groups = simulation.scene().groups.size(),
-                  .version = simulation.population().version()};
-    publisher_.retain(codec::share(factsMessage(simulation, followers_.epoch, followers_.places, 0)),
-                      codec::Audience::Followers);
-}
-
-// Tells the followers which spheres were added and removed.
-void SimulationProducer::followPopulation() {
-    constexpr std::uint32_t mostChanges = 16;  // that a new session gets besides the facts
-    const sim::Simulation& simulation = host_.simulation();
-    const sim::Population& population = simulation.population();
-    if (population.version() == std::exchange(followers_.version, population.version())) return;
-    sampler_.invalidateBaseline();
-    std::optional<encode::Places::Change> change;
-    if (followersEncoder_.hasOrder(followers_.epoch)) change = followers_.places.follow(population);
-    if (!change) {
-        followers_.epoch = ++lastEpoch_;
-        return beginFollowers();
-    }
-    if (population.count() > 0) followersEncoder_.setHandles(followers_.places.handles(population));
-    v1::ServerMessage message = populationMessage(simulation, *change, followers_.groups);
-    message.mutable_population()->set_epoch(followers_.epoch);
-    message.mutable_population()->set_number(++followers_.number);
-    followers_.groups = simulation.scene().groups.size();
-    publisher_.follow(codec::share(std::move(message)));
-    if (followers_.number - followers_.inFacts < mostChanges) return;
-    followers_.inFacts = followers_.number;
-    publisher_.refreshScene(
-        codec::share(factsMessage(simulation, followers_.epoch, followers_.places, followers_.number)));
-}
-
-encode::EncoderInput SimulationProducer::encoderInput(Clock::time_point now) {
-    sim::Simulation& simulation = host_.simulation();
-    return {.source = encode::sourceOf(simulation),
-            .spheres = simulation.count(),
-            .smallestRadius = simulation.radii().smallest,
-            .periods = simulation.scene().bounds.periods(),
-            .epoch = epoch_,
-            .version = version_,
-            .order =
-                [&simulation] {
-                    encode::CodecOrder order{.ids = encode::mortonOrder(simulation.snapshot().position), .handles = {}};
-                    for (const std::uint32_t rank : order.ids)
-                        order.handles.push_back(simulation.population().handleAt(rank));
-                    return order;
-                },
-            .head = [this, now] { return head(now); }};
-}
-
-encode::EncoderInput SimulationProducer::followersInput(Clock::time_point now) {
-    sim::Simulation& simulation = host_.simulation();
-    encode::EncoderInput input = encoderInput(now);
-    input.spheres = simulation.count() > 0 ? followers_.places.count() : 0;
-    input.epoch = followers_.epoch;
-    input.population = followers_.number;
-    input.order = [this, &simulation] {
-        followers_.places.setOrder(encode::mortonOrder(simulation.snapshot().position));
-        return encode::CodecOrder{.ids = followers_.places.order(),
-                                  .handles = followers_.places.handles(simulation.population())};
-    };
-    return input;
+StateStreams::Moment SimulationProducer::moment(Clock::time_point now) {
+    return {.version = version_, .head = [this, now] { return head(now); }};
 }
 
 v1::Frame SimulationProducer::head(Clock::time_point now) {
@@ -281,17 +178,6 @@ v1::Frame SimulationProducer::head(Clock::time_point now) {
     head.set_sim_time(host_.simulation().time());
     *head.mutable_status() = status(now);
     return head;
-}
-
-void SimulationProducer::publish(const codec::EncodedFrame& encoded) {
-    frameRate_.add(version_, Clock::now());
-    recorder_.publish(encoded);
-    publisher_.publish(encoded);
-}
-
-void SimulationProducer::publishFollowed(const codec::EncodedFrame& encoded) {
-    frameRate_.add(version_, Clock::now());
-    publisher_.publish(encoded);
 }
 
 void SimulationProducer::notify(v1::Event::Kind kind, const std::string& text) {
@@ -324,7 +210,7 @@ void SimulationProducer::retain(v1::ServerMessage message) {
 }
 
 Result<void> SimulationProducer::reserveEncoder() {
-    return encoder_.open(recorder_.rendition(), encoderInput(Clock::now())).map_error([](Error error) {
+    return streams_.open(recorder_.rendition(), moment(Clock::now())).map_error([](Error error) {
         error.message = "nothing is recorded: " + error.message;
         return error;
     });
@@ -444,7 +330,7 @@ Result<void> SimulationProducer::report() {
         current.steps = host_.simulation().steps();
         current.simSeconds = host_.simulation().time();
         current.rebuilds = host_.simulation().counters().rebuilds;
-        current.framesProduced = framesMade_;
+        current.framesProduced = streams_.framesMade();
         current.born = host_.simulation().population().born();
         current.removed = host_.simulation().population().removed();
         current.recordingFramesLost = recorder_.framesLost();

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "diagnostics/substep_controller.h"
-#include "encode/places.h"
-#include "encode/stream_encoder.h"
 #include "host/command_executor.h"
 #include "host/diagnostics_sampler.h"
 #include "host/frame_producer.h"
 #include "host/rate_meter.h"
 #include "host/simulation_host.h"
+#include "host/state_streams.h"
 #include "recording/live_recorder.h"
 
 namespace spherule::host {
@@ -52,14 +51,8 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     Result<void> startRecording() override;
     Result<void> stopRecording() override { return recorder_.stop(); }
     void produce(Clock::time_point now);
-    encode::EncoderInput encoderInput(Clock::time_point now);
-    encode::EncoderInput followersInput(Clock::time_point now);
-    void publishFollowed(const codec::EncodedFrame& encoded);
-    void beginFollowers();
-    void followPopulation();
-    void renewOthers();
+    StateStreams::Moment moment(Clock::time_point now);
     v1::Frame head(Clock::time_point now);
-    void publish(const codec::EncodedFrame& encoded);
     Result<void> report();
     void reportRecording();
     Result<void> finishRecording();
@@ -72,10 +65,8 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     SimulationHost& host_;
     StatusBoard& board_;
     net::Publisher& publisher_;
-    std::uint64_t framesMade_ = 0;
-    encode::StreamEncoder encoder_;           // of the sessions that do not follow the population, and of the recorder
-    encode::StreamEncoder followersEncoder_;  // of those that follow it
     recording::LiveRecorder recorder_;
+    StateStreams streams_;
     RateMeter frameRate_;
     Clock::time_point nextReport_{};
     diagnostics::SubstepController substepController_;
@@ -83,21 +74,8 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     CommandExecutor commands_;
     std::optional<v1::Diagnostics> diagnostics_;  // diagnostics of the last report; nullopt if nobody watched
     std::uint64_t version_ = 0;                   // version of the world, as viewers see it
-    std::uint32_t world_ = 0;      // the host's epoch
-    std::uint32_t lastEpoch_ = 0;  // of all that clients have seen
-    std::uint32_t epoch_ = 0;      // of encoder_
-    std::uint64_t shown_ = 0;      // version of the population in this epoch
-    Clock::time_point nextRenewal_{};
-    // What the followers know.
-    struct Followers {
-        std::uint32_t epoch = 0;
-        encode::Places places{sim::Population()};
-        std::uint32_t number = 0;   // of the last Population message in the epoch
-        std::uint32_t inFacts = 0;  // number that the retained facts include
-        std::size_t groups = 0;     // groups that they know
-        std::uint64_t version = 0;  // of the population
-    } followers_;
-    std::string settings_;  // serialized, as sent last
+    std::uint32_t world_ = 0;                     // the host's epoch
+    std::string settings_;                        // serialized, as sent last
     bool watched_ = false;
     std::vector<double> passSeconds_;  // device time (s) since the last sampleDiagnostics(), by sim::Pass
     bool reportMissed_ = false;        // a report was due in the middle of a step

@@ -79,7 +79,7 @@ class Hub {
     std::unordered_map<SessionId, Entry> entries_;
     SessionId lastId_ = 0;
     bool draining_ = false;
-    // What an audience knows of the scene.
+    // The messages about the scene for an audience.
     struct SceneState {
         codec::SharedMessage facts;
         codec::SharedMessage order;

@@ -58,10 +58,10 @@ class SendQueue {
     std::optional<std::uint32_t> orderNumber_;  // of the latest order queued
     std::uint32_t population_ = 0;              // number of the latest change that was queued
     bool missedChanges_ = false;
-    bool awaitsScene_ = false;  // after that, until the facts come
-    std::optional<std::uint32_t> lastNumber_;   // of the newest frame accepted; nullopt: chain lost
-    std::uint32_t lastEpoch_ = 0;               // epoch of lastNumber_; numbers restart in each epoch
-    std::uint64_t keyframeSequence_ = 0;        // of the newest keyframe accepted
+    bool awaitsScene_ = false;                 // after that, until the facts come
+    std::optional<std::uint32_t> lastNumber_;  // of the newest frame accepted; nullopt: chain lost
+    std::uint32_t lastEpoch_ = 0;              // epoch of lastNumber_; numbers restart in each epoch
+    std::uint64_t keyframeSequence_ = 0;       // of the newest keyframe accepted
     std::deque<codec::SharedMessage> reliable_;
     codec::SharedMessage frame_;
 };

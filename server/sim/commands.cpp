@@ -209,8 +209,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& 
     auto live = simulation_.liveState();
     if (!live) return tl::unexpected(live.error());
     return simulation_.prepareSpawn(
-        std::move(*copies),
-        [spawn, scene = simulation_.scene_, state = std::move(*live)](Progress& progress) mutable {
+        std::move(*copies), [spawn, scene = simulation_.scene_, state = std::move(*live)](Progress& progress) mutable {
             return withGroup(spawn, std::move(scene), std::move(state), progress);
         });
 }
@@ -236,9 +235,8 @@ Result<std::uint32_t> Simulation::CommandHandler::rankOf(std::uint64_t id, std::
     const Population& population = simulation_.population_;
     if (const auto rank = population.rankOf(id)) return *rank;
     return fail(ErrorKind::Refused, std::string(field),
-                population.wasBorn(id)
-                    ? fmt::format("is {}, a sphere that was removed", id)
-                    : fmt::format("is {}, the scene has {} spheres", id, population.count()));
+                population.wasBorn(id) ? fmt::format("is {}, a sphere that was removed", id)
+                                       : fmt::format("is {}, the scene has {} spheres", id, population.count()));
 }
 
 Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Remove& remove) {
@@ -304,8 +302,8 @@ Result<void> Simulation::CommandHandler::checkPush(std::uint32_t rank, const glm
     return fail(ErrorKind::Refused, "impulse",
                 fmt::format("is {:g} N s, which gives sphere {} {:g} m/s; the scene can compute {:g} m/s at most: give "
                             "it at most {:g} N s",
-                            glm::length(impulse), simulation_.population_.idAt(rank), glm::length(velocity + change), most,
-                            std::max(share, 0.0) * glm::length(impulse)));
+                            glm::length(impulse), simulation_.population_.idAt(rank), glm::length(velocity + change),
+                            most, std::max(share, 0.0) * glm::length(impulse)));
 }
 
 }  // namespace spherule::sim

@@ -19,10 +19,8 @@ namespace {
 
 constexpr std::uint32_t workgroup = 64;
 constexpr std::uint32_t maxGroupsPerAxis = 32768;
-constexpr std::uint32_t idBits = 24;  // of a word of idAndMaterial
-constexpr std::uint32_t idMask = (1U << idBits) - 1;
-static_assert(scene::maxSpheres <= idMask);
-static_assert(scene::maxMaterials <= 1U << (32 - idBits));
+static_assert(scene::maxSpheres <= Pipeline::idMask);
+static_assert(scene::maxMaterials <= 1U << (32 - Pipeline::idBits));
 
 // Returns groups x, y, z for `invocations`, as the kernels index them, and `invocations`.
 glm::uvec4 groupsFor(std::uint32_t invocations) {
@@ -70,7 +68,7 @@ State inIdOrder(const SlotState& slots, const Population& population) {
     state.spin.resize(spheres);
     if (!slots.images.empty()) state.images.resize(spheres);
     for (std::size_t slot = 0; slot < spheres; ++slot) {
-        const std::uint32_t handle = slots.idAndMaterial[slot] & idMask;
+        const std::uint32_t handle = slots.idAndMaterial[slot] & Pipeline::idMask;
         const std::uint32_t rank = ranks.empty() ? handle : ranks[handle];
         state.position[rank] = slots.position[slot];
         state.velocity[rank] = slots.velocity[slot];
@@ -174,11 +172,10 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
 }
 
 Result<void> Pipeline::bindAll() {
-    for (const auto& [launches, bound] :
-         {std::pair(&plan_.substep, &substep_),
-          {&plan_.newSubstep, &newSubstep_},
-          {&plan_.statistics, &statistics_},
-          {&plan_.stepEnd, &stepEnd_}})
+    for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_),
+                                          {&plan_.newSubstep, &newSubstep_},
+                                          {&plan_.statistics, &statistics_},
+                                          {&plan_.stepEnd, &stepEnd_}})
         for (const LaunchSpec& spec : *launches) {
             const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
             const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
@@ -245,33 +242,6 @@ void Pipeline::download(SlotState& slots) {
     slots.periods = plan_.periods;
 }
 
-std::uint32_t Pipeline::slotOf(std::uint32_t handle) {
-    std::uint32_t slot = handle;
-    if (plan_.has(Array::SlotOf))
-        device_.download(buffer(Array::SlotOf), handle * sizeof slot, std::as_writable_bytes(std::span(&slot, 1)));
-    return slot;
-}
-
-glm::vec4 Pipeline::velocityOf(std::uint32_t handle) {
-    glm::vec4 velocity;
-    device_.download(buffer(Array::Velocity), slotOf(handle) * sizeof velocity,
-                     std::as_writable_bytes(std::span(&velocity, 1)));
-    return velocity;
-}
-
-void Pipeline::applyImpulse(std::uint32_t handle, glm::vec3 impulse) {
-    const std::uint32_t slot = slotOf(handle);
-    glm::vec4 velocity = velocityOf(handle);
-    velocity.w = std::abs(velocity.w);
-    velocity += glm::vec4(impulse * velocity.w, 0);
-    write<glm::vec4>(Array::Velocity, std::span<const glm::vec4>(&velocity, 1), slot);
-    if (!plan_.features.has(Feature::Sleep)) return;
-    // A slow push must also wake the sleepers that the sphere touches.
-    constexpr float movedAway = MOVED_AWAY;
-    device_.upload(buffer(Array::RestReference), handle * sizeof(glm::vec4) + 3 * sizeof movedAway,
-                   std::as_bytes(std::span(&movedAway, 1)));
-}
-
 void Pipeline::wakeAll() {
     if (!plan_.features.has(Feature::Sleep)) return;
     auto velocity = read<glm::vec4>(Array::Velocity);
@@ -321,29 +291,6 @@ Result<void> Pipeline::growPairs(std::uint32_t capacity) {
     return {};
 }
 
-Result<void> Pipeline::growSpheres(std::uint32_t room, const scene::Scene& scene) {
-    Plan larger = plan_;
-    larger.room = room;
-    std::uint64_t onHost = 0;
-    for (const ArraySpec& spec : plan_.arrays) {
-        const std::uint64_t bytes = larger.bytesFor(spec.array, scene);
-        if (bytes > spec.bytes) onHost += device_.hostBytes(bytes, typeOf(spec.array).words);
-    }
-    const auto claim = memory::Claim::make("", fmt::format("arrays of {} spheres", room), onHost);
-    if (!claim) return tl::unexpected(claim.error());
-    for (ArraySpec& spec : plan_.arrays) {
-        const std::uint64_t bytes = larger.bytesFor(spec.array, scene);
-        if (bytes <= spec.bytes) continue;
-        auto made = device_.createBuffer(nameOf(spec.array), bytes, typeOf(spec.array).words);
-        if (!made) return tl::unexpected(made.error());
-        copy(buffer(spec.array), 0, spec.bytes, **made, 0);
-        spec.bytes = bytes;
-        setBuffer(spec.array, std::move(*made));
-    }
-    plan_.room = room;
-    return {};
-}
-
 void Pipeline::setSpheres(std::uint32_t count) {
     plan_.setSpheres(count);
     if (plan_.has(Array::DispatchSizes)) writeDispatchSizes();
@@ -362,116 +309,6 @@ void Pipeline::rebuildLists() {
     for (const std::uint32_t word : {COUNTER_REBUILDS, COUNTER_SUBSTEPS})
         write<std::uint32_t>(Array::Counters, std::span<const std::uint32_t>(&before[word], 1), word);
     listsPending_ = false;
-}
-
-// Sets rows of an array with elements for each sphere to zero.
-void Pipeline::clearRows(const ArraySpec& spec, std::size_t first, std::size_t count) {
-    const std::vector<std::byte> zeros(count * rowBytes(spec));
-    device_.upload(buffer(spec.array), first * rowBytes(spec), zeros);
-}
-
-void Pipeline::append(const State& born, std::span<const std::uint8_t> materials,
-                      std::span<const std::uint32_t> handles) {
-    const std::uint32_t first = plan_.spheres;
-    for (const ArraySpec& spec : plan_.arrays) {
-        const ArrayType& type = typeOf(spec.array);
-        if (!type.cleared || (type.extent != Extent::Sphere && type.extent != Extent::RememberedWall)) continue;
-        if (type.byId)
-            for (const std::uint32_t handle : handles) clearRows(spec, handle, 1);
-        else
-            clearRows(spec, first, handles.size());
-    }
-    write<glm::vec4>(Array::Position, born.position, first);
-    write<glm::vec4>(Array::Velocity, born.velocity, first);
-    if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, born.spin, first);
-    std::vector<std::uint32_t> words(handles.begin(), handles.end());
-    for (std::uint32_t k = 0; k < words.size(); ++k) {
-        const std::uint32_t slot = first + k;
-        if (plan_.has(Array::SlotOf))
-            write<std::uint32_t>(Array::SlotOf, std::span<const std::uint32_t>(&slot, 1), handles[k]);
-        if (plan_.has(Array::RestReference)) {
-            const glm::vec4 rest(glm::vec3(born.position[k]), MOVED_AWAY);
-            write<glm::vec4>(Array::RestReference, std::span<const glm::vec4>(&rest, 1), handles[k]);
-        }
-        words[k] |= std::uint32_t{materials[k]} << idBits;
-    }
-    write<std::uint32_t>(Array::IdAndMaterial, words, first);
-    setSpheres(first + static_cast<std::uint32_t>(handles.size()));
-    requestRebuild();
-}
-
-Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
-    if (auto made = makeSlotOf(); !made) return made;
-    std::vector<bool> gone(plan_.room);
-    for (const std::uint32_t handle : handles) gone[handle] = true;
-    const auto words = read<std::uint32_t>(Array::IdAndMaterial, plan_.spheres);
-    if (plan_.features.has(Feature::Sleep)) wakeNeighbours(gone, words);
-    const std::uint32_t left = plan_.spheres - static_cast<std::uint32_t>(handles.size());
-    if (plan_.features.has(Feature::Contacts)) {
-        auto position = read<glm::vec4>(Array::Position, plan_.spheres);
-        for (std::size_t slot = 0; slot < words.size(); ++slot)
-            if (gone[words[slot] & idMask]) position[slot].w = -std::abs(position[slot].w);
-        write<glm::vec4>(Array::Position, position);
-        requestRebuild();
-        rebuildLists();
-    } else {
-        std::vector<std::uint32_t> slots;
-        for (std::uint32_t slot = 0; slot < words.size(); ++slot)
-            if (gone[words[slot] & idMask]) slots.push_back(slot);
-        moveLastInto(std::move(slots));
-    }
-    setSpheres(left);
-    return {};
-}
-
-// Makes the array SlotOf: in scenes without contacts, slots are handles until a sphere is removed.
-Result<void> Pipeline::makeSlotOf() {
-    if (plan_.has(Array::SlotOf)) return {};
-    const ArraySpec spec{Array::SlotOf, std::uint64_t{plan_.room} * typeOf(Array::SlotOf).elementBytes};
-    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
-    if (!made) return tl::unexpected(made.error());
-    setBuffer(spec.array, std::move(*made));
-    plan_.arrays.push_back(spec);
-    return {};
-}
-
-// Lets the spheres that go wake their neighbours, as if they moved away.
-void Pipeline::wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words) {
-    auto velocity = read<glm::vec4>(Array::Velocity, plan_.spheres);
-    auto rest = read<glm::vec4>(Array::RestReference);
-    for (std::size_t slot = 0; slot < words.size(); ++slot) {
-        if (!gone[words[slot] & idMask]) continue;
-        velocity[slot].w = std::abs(velocity[slot].w);
-        rest[words[slot] & idMask].w = MOVED_AWAY;
-    }
-    write<glm::vec4>(Array::Velocity, velocity);
-    write<glm::vec4>(Array::RestReference, rest);
-    run(substep_, LaunchSet::Waking);
-}
-
-// Without contacts, nothing sorts the columns: the last spheres move to the places of those that go.
-void Pipeline::moveLastInto(std::vector<std::uint32_t> slots) {
-    std::vector<std::uint32_t> from(plan_.spheres);
-    std::iota(from.begin(), from.end(), 0U);
-    for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot) {
-        from[*slot] = from.back();
-        from.pop_back();
-    }
-    for (const ArraySpec& spec : plan_.arrays) {
-        if (!typeOf(spec.array).sorted) continue;
-        const std::size_t row = rowBytes(spec);
-        std::vector<std::byte> before(plan_.spheres * row);
-        device_.download(buffer(spec.array), 0, before);
-        std::vector<std::byte> after(from.size() * row);
-        for (std::size_t slot = 0; slot < from.size(); ++slot)
-            std::copy_n(before.begin() + static_cast<std::ptrdiff_t>(from[slot] * row), row,
-                        after.begin() + static_cast<std::ptrdiff_t>(slot * row));
-        device_.upload(buffer(spec.array), 0, after);
-    }
-    const auto words = read<std::uint32_t>(Array::IdAndMaterial, from.size());
-    std::vector<std::uint32_t> slotOf(plan_.room);
-    for (std::uint32_t slot = 0; slot < words.size(); ++slot) slotOf[words[slot] & idMask] = slot;
-    write<std::uint32_t>(Array::SlotOf, slotOf);
 }
 
 void Pipeline::substep(bool observed) {

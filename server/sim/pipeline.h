@@ -36,8 +36,10 @@ Result<std::vector<Array>> arraysFor(const LaunchSpec& launch, const compute::Ke
 // A plan on a device: its arrays and its kernels. Used by the thread that owns the device.
 class Pipeline {
   public:
-    // Handles are below this number.
-    static constexpr std::uint32_t mostHandles = 1U << 24U;
+    // Handles are below this number. A word of the array IdAndMaterial has the handle in the low bits.
+    static constexpr std::uint32_t idBits = 24;
+    static constexpr std::uint32_t mostHandles = 1U << idBits;
+    static constexpr std::uint32_t idMask = mostHandles - 1;
 
     // Makes neither arrays nor kernels: makeNext() does.
     Pipeline(compute::Device& device, Plan plan);
@@ -55,8 +57,8 @@ class Pipeline {
     [[nodiscard]] SlotState download();  // waits for the device
     void download(SlotState& slots);     // the same, reusing the memory of `slots`
 
-    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. The lists
-    // are rebuilt in the next substep. Call setParameters() next.
+    // Adds spheres behind the present ones, for which there must be room. They wake the sleepers within reach. The
+    // lists are rebuilt in the next substep. Call setParameters() next.
     void append(const State& born, std::span<const std::uint8_t> materials, std::span<const std::uint32_t> handles);
     // Removes the spheres with these handles, wakes the sleepers within their reach, and rebuilds the lists. Call
     // setParameters() next. Waits for the device. Refused, with the state unchanged, if there is no memory for it.
@@ -71,8 +73,8 @@ class Pipeline {
     // adds them up. Empty if no step was observed. Waits for the device.
     std::vector<glm::vec4> takeImpacts();
     void runStatistics();  // of the current state; builds its lists first if they are out of date
-    // Returns the number of spheres, walls and obstacles that each sphere touches, by handle. Bodies touch up to a gap of
-    // 1e-4 of the sum of the radii, or of 2e-4 of the radius at walls and obstacles. Waits for the device.
+    // Returns the number of spheres, walls and obstacles that each sphere touches, by handle. Bodies touch up to a gap
+    // of 1e-4 of the sum of the radii, or of 2e-4 of the radius at walls and obstacles. Waits for the device.
     std::vector<std::uint32_t> contactCounts();
 
     // Returns an array as elements of T, at most the first `most`. Empty if the plan has no such array. Waits for the

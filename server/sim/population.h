@@ -64,11 +64,11 @@ class Population {
     std::uint64_t version_ = 0;
     std::uint32_t count_ = 0;
     std::uint32_t handles_ = 0;
-    bool hasTables_ = false;  // without tables, handles are ranks and ids are firstId_ + rank
-    std::vector<std::uint64_t> ids_;        // by rank, ascending
-    std::vector<std::uint32_t> ofRank_;     // handles by rank
-    std::vector<std::uint64_t> idsOf_;      // by handle
-    std::deque<Freed> resting_;             // in the order of the steps
+    bool hasTables_ = false;             // without tables, handles are ranks and ids are firstId_ + rank
+    std::vector<std::uint64_t> ids_;     // by rank, ascending
+    std::vector<std::uint32_t> ofRank_;  // handles by rank
+    std::vector<std::uint64_t> idsOf_;   // by handle
+    std::deque<Freed> resting_;          // in the order of the steps
     std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> free_;
 };
 

@@ -42,8 +42,7 @@ class Preparation {
     // `build` runs on a thread of its own and may not use the device. An exception in it, such as bad_alloc, becomes an
     // error.
     Preparation(compute::Device& device, Build build, memory::Claim copies = {});
-    // The same, to add spheres to those of a simulation: if its arrays and kernels suit the new ones, only the arrays
-    // grow, and everything else is kept.
+    // The same, to add spheres to a simulation. If its arrays and kernels suit them, only the arrays grow.
     Preparation(compute::Device& device, Build build, memory::Claim copies, Simulation& addsTo);
     // Cancels `build` and waits for its thread.
     ~Preparation();
@@ -97,7 +96,7 @@ class Preparation {
     RadiusStats radii_;
     std::unique_ptr<Pipeline> pipeline_;
     Simulation* addsTo_ = nullptr;
-    bool appends_ = false;    // the simulation takes the new spheres as they are
+    bool appends_ = false;   // the simulation takes the new spheres as they are
     double maxOverlap_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
     std::unique_ptr<InitialOverlapResolver> resolver_;
     std::optional<ResolvedOverlaps> resolvedOverlaps_;

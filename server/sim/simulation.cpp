@@ -111,7 +111,7 @@ void Simulation::install(Preparation& preparation) {
             steps_, resolved->before, scene::nameOf(scene_.quality.model), resolved->after, resolved->sweeps));
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
     useSubsteps(scene_.quality.substeps);
-    limitMotionPerSubstep(largestMotion(scene_, preparation.built_.state, scene_.step / substeps_));
+    limitMotionOf(preparation.built_.state);
     openContactSums();
     saveLastFinite();
 }
@@ -154,105 +154,6 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
         ++generation_;
     }
     return {.step = steps_};
-}
-
-void Simulation::upload(const State& state) {
-    std::vector<std::uint32_t> handles;
-    if (!population_.plain())
-        for (std::uint32_t rank = 0; rank < count(); ++rank) handles.push_back(population_.handleAt(rank));
-    pipeline_->upload(state, materialsOf(scene_), handles);
-    uploadParameters();
-}
-
-std::vector<std::uint32_t> Simulation::contactCounts() {
-    const std::vector<std::uint32_t> byHandle = pipeline_->contactCounts();
-    std::vector<std::uint32_t> counts(count());
-    for (std::uint32_t rank = 0; rank < count(); ++rank) counts[rank] = byHandle[population_.handleAt(rank)];
-    return counts;
-}
-
-// True if the spheres that `grown` has in addition need no other arrays or kernels, and no cells of another size.
-bool Simulation::canAppend(const scene::Scene& grown) const {
-    // With more spheres, the cells would be too few for them.
-    constexpr std::uint32_t mostGrowth = 2;
-    if (!plan().features.hasAll(featuresOf(grown))) return false;
-    if (!plan().features.has(Feature::Contacts)) return true;
-    std::uint64_t planned = 0;
-    for (const Level& level : plan().grid.levels) planned += level.spheres;
-    if (grown.spheres.size() > mostGrowth * planned) return false;
-    return std::ranges::all_of(grown.spheres.begin() + count(), grown.spheres.end(), [&](const scene::Sphere& sphere) {
-        const auto radius = static_cast<double>(sphere.radius);
-        return radius >= radii_.smallest && radius <= radii_.largest;
-    });
-}
-
-// Makes room for more spheres in the arrays. Refused, with the state unchanged, if there is no memory for it.
-Result<void> Simulation::makeRoomFor(std::uint32_t spheres) {
-    const std::uint64_t handles = std::uint64_t{population_.handles()} + spheres;
-    if (handles > Pipeline::mostHandles)
-        return fail(ErrorKind::Refused, "",
-                    fmt::format("the numbers of removed spheres are in use for {} more steps: try again after them",
-                                Population::restSteps));
-    if (handles <= plan().room) return {};
-    const std::uint64_t ahead = std::min<std::uint64_t>(plan().room + plan().room / 2, Pipeline::mostHandles);
-    spdlog::info("making room for {} spheres", std::max(handles, ahead));
-    auto grown = pipeline_->growSpheres(static_cast<std::uint32_t>(std::max(handles, ahead)), scene_);
-    if (grown) settleClaim(claim_, device_, plan());
-    return grown;
-}
-
-// Takes the spheres that a preparation has built, for which there is room. Cannot fail.
-void Simulation::append(Preparation& preparation) {
-    closeContactSums();
-    keepLastFinite();
-    scene::Scene& grown = preparation.built_.scene;
-    const auto first = static_cast<std::ptrdiff_t>(count());
-    scene_.spheres.insert(scene_.spheres.end(), grown.spheres.begin() + first, grown.spheres.end());
-    scene_.groups = std::move(grown.groups);
-    scene_.quality = grown.quality;
-    const std::span<const scene::Sphere> added = std::span(scene_.spheres).subspan(count());
-    const State born = stateOf(scene_, added);
-    std::vector<std::uint8_t> materials;
-    for (const scene::Sphere& sphere : added) materials.push_back(sphere.material);
-    pipeline_->append(born, materials, population_.add(born.count(), steps_));
-    writeConstants(*pipeline_, scene_);
-    maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
-    // Substeps that were raised for a fast sphere stay.
-    useSubsteps(std::max(substeps_, scene_.quality.substeps));
-    limitMotionPerSubstep(largestMotion(scene_, born, scene_.step / substeps_));
-    openContactSums();
-    settleClaim(claim_, device_, plan());
-}
-
-// Removes the spheres with these ranks, in ascending order. Refused, with the state unchanged, if there is no memory.
-Result<void> Simulation::remove(const std::vector<std::uint32_t>& ranks) {
-    const auto room = memory::Claim::make("", "the numbers of the spheres",
-                                          std::uint64_t{count()} * Population::bytesPerSphere);
-    if (!room) return tl::unexpected(room.error());
-    closeContactSums();
-    keepLastFinite();
-    std::vector<std::uint32_t> handles;
-    for (const std::uint32_t rank : ranks) handles.push_back(population_.handleAt(rank));
-    if (auto removed = pipeline_->remove(handles); !removed) return removed;
-    population_.remove(ranks, steps_);
-    scene::removeSpheres(scene_, ranks);
-    uploadParameters();
-    openContactSums();
-    settleClaim(claim_, device_, plan());
-    return {};
-}
-
-// Removes the spheres that are in sinks at the end of the step.
-Result<void> Simulation::emptySinks() {
-    const std::vector<scene::Box> sinks = sinksOnDevice(scene_);
-    const State state = snapshot();
-    std::vector<std::uint32_t> ranks;
-    for (std::uint32_t rank = 0; rank < state.count(); ++rank)
-        if (std::ranges::any_of(sinks, [&](const scene::Box& box) { return box.contains(positionOf(state, rank)); }))
-            ranks.push_back(rank);
-    const std::uint32_t none = 0;
-    pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_SUNK);
-    return remove(ranks);
 }
 
 // Uses the length of the substeps that are left in the step under way, or else of the next step's substeps.
@@ -366,11 +267,6 @@ void Simulation::saveLastFinite() {
     lastFiniteSums_ = contactSums_;
 }
 
-// Keeps the spheres of the last good state. Call before spheres are added or removed.
-void Simulation::keepLastFinite() {
-    if (!lastFiniteSpheres_) lastFiniteSpheres_ = Spheres{population_, scene_.spheres, scene_.groups};
-}
-
 std::string Simulation::divergence() const {
     const Population& before = lastFiniteSpheres_ ? lastFiniteSpheres_->population : population_;
     const std::uint32_t handle = counters_.firstNonFinite;
@@ -404,6 +300,11 @@ void Simulation::rollback() {
     const double elasticBefore = elasticBefore_;
     openContactSums();
     contactSums_.dissipated -= elasticBefore_ - elasticBefore;
+}
+
+// Raises the number of substeps if one of these spheres moves too far in a substep.
+void Simulation::limitMotionOf(const State& state) {
+    limitMotionPerSubstep(largestMotion(scene_, state, scene_.step / substeps_));
 }
 
 // Raises the number of substeps at once when the fastest sphere has moved too far in a substep. Lowers it gradually

@@ -132,6 +132,7 @@ class Simulation {
     void growPairs();
     void uploadParameters();
     void limitMotionPerSubstep(double radiiPerSubstep);
+    void limitMotionOf(const State& state);
     void saveLastFinite();
     void takeContactSums();
     void closeContactSums();

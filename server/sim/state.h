@@ -13,9 +13,9 @@ namespace spherule::sim {
 
 // The state of the spheres, in id order.
 struct State {
-    std::vector<glm::vec4> position;  // m, relative to the bounds' centre; w = radius
-    std::vector<glm::vec4> velocity;  // m/s; w = 1 / mass: negative while asleep, 0 if fixed
-    std::vector<glm::vec4> spin;      // angular velocity, rad/s; w = 0
+    std::vector<glm::vec4> position;   // m, relative to the bounds' centre; w = radius
+    std::vector<glm::vec4> velocity;   // m/s; w = 1 / mass: negative while asleep, 0 if fixed
+    std::vector<glm::vec4> spin;       // angular velocity, rad/s; w = 0
     std::vector<std::uint64_t> ids{};  // ascending; empty: 0, 1, ...
     // With periodic axes, else empty: the lengths of each axis by which positions were moved back into the bounds.
     std::vector<glm::ivec3> images;

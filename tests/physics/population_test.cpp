@@ -35,16 +35,16 @@ scene::Scene heap(scene::Model model, int count) {
     scene::Scene scene = sleepyBox(1);
     setFriction(scene, 0.3);
     for (int k = 0; k < count; ++k)
-        addSphere(scene, glm::dvec3(0.11 * (k % 8) - 0.39, 0.11 * (k / 8 % 8) - 0.39 + 0.003 * (k / 64 % 2),
-                                    -0.44 + 0.11 * (k / 64)), radius);
+        addSphere(scene,
+                  glm::dvec3(0.11 * (k % 8) - 0.39, 0.11 * (k / 8 % 8) - 0.39 + 0.003 * (k / 64 % 2),
+                             -0.44 + 0.11 * (k / 64)),
+                  radius);
     choose(scene, model);
     return scene;
 }
 
 sim::Spawn spawnAt(std::vector<glm::dvec3> places, float size = radius) {
-    return {.name = "new",
-            .colour = "",
-            .place = [places = std::move(places), size](const scene::Scene&, Progress&) {
+    return {.name = "new", .colour = "", .place = [places = std::move(places), size](const scene::Scene&, Progress&) {
                 std::vector<scene::Sphere> spheres;
                 for (const glm::dvec3& place : places) spheres.push_back({.position = place, .radius = size});
                 return Result<std::vector<scene::Sphere>>(std::move(spheres));
@@ -283,7 +283,8 @@ TEST_P(SleepingPopulation, WakesOnlyNeighboursOfARemovedSphere) {
     const sim::State before = simulation->snapshot();
     std::uint32_t below = 0;  // the sphere in the middle of the lowest layer
     for (std::uint32_t id = 1; id < before.count(); ++id)
-        if (glm::distance(positionOf(before, id), {0, 0, -0.55}) < glm::distance(positionOf(before, below), {0, 0, -0.55}))
+        if (glm::distance(positionOf(before, id), {0, 0, -0.55}) <
+            glm::distance(positionOf(before, below), {0, 0, -0.55}))
             below = id;
     const glm::dvec3 place = positionOf(before, below);
     ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = {below}}));
@@ -293,7 +294,7 @@ TEST_P(SleepingPopulation, WakesOnlyNeighboursOfARemovedSphere) {
     EXPECT_EQ(awakeBeyond(*simulation, place, 5 * 2 * 0.05), 0U);
     if (GetParam() == scene::Model::Fast) return;
     run(*simulation, 1);
-    // What lay on it has come down.
+    // The spheres above have come down.
     const sim::State after = simulation->snapshot();
     double lowest = 1;
     for (std::uint32_t rank = 0; rank < after.count(); ++rank) {

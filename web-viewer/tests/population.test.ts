@@ -3,7 +3,7 @@ import type { MessageInitShape } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { pick } from "../src/camera/ray";
-import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { ColourRanges, highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
 import { differences, joined, Population } from "../src/model/population";

@@ -1,7 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";

@@ -3,13 +3,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decode, forPage } from "../src/connection/protocol";
 import {
-  PopulationSchema,
   RecordingSchema,
   ServerMessageSchema,
   SettingsSchema,
   StreamSchema,
   TimelineSchema,
 } from "../src/gen/spherule/v1/control_pb";
+import { PopulationSchema } from "../src/gen/spherule/v1/facts_pb";
 import type { ServerMessage } from "../src/gen/spherule/v1/control_pb";
 import { frameOf, still } from "./support/chain";
 

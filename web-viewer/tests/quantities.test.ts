@@ -2,7 +2,7 @@ import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { radiusRamp, speedRamp } from "../src/colour/ramp";
-import { SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { ColourRanges } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
 import type { Facts } from "../src/model/facts";

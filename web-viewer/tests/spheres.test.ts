@@ -1,7 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/control_pb";
+import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { factsOf } from "../src/model/facts";
 import type { State } from "../src/model/states";
 import { SphereData } from "../src/renderer/spheres";

@@ -19,7 +19,8 @@ void PlanBuilder::arrays(std::initializer_list<Array> needed) {
 }
 
 void PlanBuilder::overSpheres(Stage stage, Pass pass, std::string_view kernel, std::vector<Alias> aliases) {
-    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .over = Varying::Spheres, .aliases = std::move(aliases)}});
+    staged_.push_back(
+        {stage, {.pass = pass, .kernel = kernel, .over = Varying::Spheres, .aliases = std::move(aliases)}});
 }
 
 void PlanBuilder::overBundles(Stage stage, Pass pass, std::string_view kernel) {
@@ -53,11 +54,7 @@ void PlanBuilder::once(Stage stage, Pass pass, std::string_view kernel) {
 
 void PlanBuilder::onRebuild(Stage stage, Pass pass, std::string_view kernel, std::uint32_t row,
                             std::vector<Alias> aliases) {
-    staged_.push_back({stage,
-                       {.pass = pass,
-                        .kernel = kernel,
-                        .launchRow = row,
-                        .aliases = std::move(aliases)}});
+    staged_.push_back({stage, {.pass = pass, .kernel = kernel, .launchRow = row, .aliases = std::move(aliases)}});
 }
 
 void PlanBuilder::prefixSumOnRebuild(Stage stage, Pass pass, Array values, std::array<std::uint32_t, 2> rows,
@@ -89,8 +86,7 @@ void PlanBuilder::observeBundles(Stage stage, std::string_view kernel, std::vect
 }
 
 void PlanBuilder::onNewSubstepOverPairs(std::string_view kernel) {
-    plan_.newSubstep.push_back(
-        {.pass = Pass::ContactMemory, .kernel = kernel, .over = Varying::PairsTwice});
+    plan_.newSubstep.push_back({.pass = Pass::ContactMemory, .kernel = kernel, .over = Varying::PairsTwice});
 }
 
 void PlanBuilder::onNewSubstepOverSpheres(std::string_view kernel) {

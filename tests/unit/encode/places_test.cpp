@@ -60,7 +60,8 @@ TEST(Places, RunOut) {
     EXPECT_FALSE(places.follow(population));
 }
 
-// Against a map from places to ids: each sphere's values come from its own handle, and free places show a present sphere.
+// Against a map from places to ids: each sphere's values come from its own handle, and free places show a present
+// sphere.
 TEST(Places, FollowRandomChanges) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         scene::Random random(seed);
@@ -70,7 +71,8 @@ TEST(Places, FollowRandomChanges) {
         for (std::uint32_t rank = 0; rank < 300; ++rank) known[rank] = rank;
         for (std::uint64_t step = 0; step < 100; ++step) {
             std::set<std::uint32_t> chosen;
-            for (int k = 0; k < 12; ++k) chosen.insert(static_cast<std::uint32_t>(random.uniform(0, population.count())));
+            for (int k = 0; k < 12; ++k)
+                chosen.insert(static_cast<std::uint32_t>(random.uniform(0, population.count())));
             population.remove(Numbers(chosen.begin(), chosen.end()), step);
             population.add(static_cast<std::uint32_t>(random.uniform(0, 24)), step);
             const auto change = places.follow(population);

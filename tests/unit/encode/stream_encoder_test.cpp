@@ -1,5 +1,5 @@
-#include "encode/morton.h"
 #include "encode/stream_encoder.h"
+#include "encode/morton.h"
 
 #include <gtest/gtest.h>
 

@@ -75,7 +75,8 @@ TEST(Population, HoldsItsRulesInRandomRuns) {
         std::uint64_t next = (1U << 24U) - 10;
         for (std::uint64_t step = 0; step < 300; ++step) {
             if (random.uniform(0, 1) < 0.5) {
-                for (const std::uint32_t handle : population.add(static_cast<std::uint32_t>(random.uniform(0, 5)), step))
+                for (const std::uint32_t handle :
+                     population.add(static_cast<std::uint32_t>(random.uniform(0, 5)), step))
                     expected[next++] = handle;
             } else if (population.count() > 0) {
                 std::set<std::uint32_t> chosen;

@@ -8,14 +8,13 @@ import type {
   Diagnostics,
   Dial,
   Event,
-  Population,
   Recording,
-  SceneFacts,
   Settings,
   Stream,
   Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
+import type { Population, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Status, Tier } from "../gen/spherule/v1/frame_pb";
 
 /** Messages between the page and the worker that holds its connection. */

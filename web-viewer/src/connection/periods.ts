@@ -1,4 +1,4 @@
-import type { SceneFacts } from "../gen/spherule/v1/control_pb";
+import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
 import { Axis } from "../gen/spherule/v1/scene_pb";
 
 /** The length of each periodic axis (m); 0: not periodic. */

@@ -62,8 +62,8 @@ export class ColourRanges {
 }
 
 /**
- * The 98th percentile of the values at those of `places` places that are in use, from at most `samples` of them, spread
- * over all; 0 if none is in use.
+ * The 98th percentile of the values at the places in use, from at most `samples` of them, spread over all; 0 if none is
+ * in use. `places`: their number, free ones included.
  */
 export function highOf(
   value: (place: number) => number,

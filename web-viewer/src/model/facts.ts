@@ -1,5 +1,5 @@
 import { periodsOf } from "../connection/periods";
-import type { SceneFacts } from "../gen/spherule/v1/control_pb";
+import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
 import type { Obstacle as Message } from "../gen/spherule/v1/scene_pb";
 import { hexToRgb } from "../colour/rgb";

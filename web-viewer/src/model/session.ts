@@ -9,12 +9,12 @@ import type {
   Event,
   Population as PopulationChange,
   Recording,
-  SceneFacts,
   Settings,
   Stream,
   Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
+import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import { markFirst } from "../perf_marks";
 import { DelayMeter } from "./delay";

@@ -70,7 +70,7 @@ export class StatisticsTables {
 function turnover({ born, removed }: Statistics): Row[] {
   if (removed === 0n) return [];
   return [
-    ["born", "Born", count(Number(born)), undefined, "Spheres since the beginning, those of the scene included"],
+    ["born", "Born", count(Number(born)), undefined, "All spheres since the beginning, the first ones included"],
     ["removed", "Removed", count(Number(removed))],
   ];
 }

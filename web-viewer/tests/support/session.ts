@@ -1,7 +1,7 @@
 // A session without a connection: the test plays the worker.
 import { create } from "@bufbuild/protobuf";
 import type { MessageInitShape } from "@bufbuild/protobuf";
-import { PopulationSchema, SceneFactsSchema } from "../../src/gen/spherule/v1/control_pb";
+import { PopulationSchema, SceneFactsSchema } from "../../src/gen/spherule/v1/facts_pb";
 import type { Run } from "../../src/model/population";
 import { Session } from "../../src/model/session";
 import type { State } from "../../src/model/states";
