@@ -57,6 +57,10 @@ EncoderBytes encoderBytes(std::uint32_t spheres) {
             .frames = n * frameBytes * frameCopies};
 }
 
+struct EncoderContext::Kernels {
+    std::array<std::unique_ptr<compute::Kernel>, KernelCount> all;
+};
+
 EncoderContext::EncoderContext(compute::Device& device, std::uint32_t spheres)
     : device_(device),
       spheres_(spheres),
@@ -65,7 +69,7 @@ EncoderContext::EncoderContext(compute::Device& device, std::uint32_t spheres)
       chunks_(Counts(spheres).chunks) {}
 
 Result<std::unique_ptr<EncoderContext>> EncoderContext::create(compute::Device& device, std::uint32_t spheres,
-                                                               bool slots) {
+                                                               bool slots, std::shared_ptr<Kernels> kernels) {
     const EncoderBytes sizes = encoderBytes(spheres);
     const std::uint64_t arrays = device.hostBytes(sizes.contextArrays);
     auto claim = memory::Claim::make("", fmt::format("the order of {} spheres", spheres), arrays + sizes.order);
@@ -73,10 +77,11 @@ Result<std::unique_ptr<EncoderContext>> EncoderContext::create(compute::Device& 
     std::unique_ptr<EncoderContext> context(new EncoderContext(device, spheres));
     context->claim_ = std::move(*claim);
     const std::array defines = {compute::Define{"CONTACTS", slots ? "true" : "false"}};
-    for (std::size_t k = 0; k < KernelCount; ++k) {
+    context->kernels_ = kernels ? std::move(kernels) : std::make_shared<Kernels>();
+    for (std::size_t k = 0; k < KernelCount && !context->kernels_->all[k]; ++k) {
         auto kernel = device.createKernel(sim::shaders(), kernelFiles[k], defines);
         if (!kernel) return fail(ErrorKind::NoDevice, kernel.error().where, kernel.error().message);
-        context->kernels_[k] = std::move(*kernel);
+        context->kernels_->all[k] = std::move(*kernel);
     }
     struct Wanted {
         std::unique_ptr<compute::Buffer>& buffer;
@@ -110,7 +115,7 @@ void EncoderContext::setOrder(std::span<const std::uint32_t> order) {
 
 void EncoderContext::run(Kernel kernel, std::initializer_list<Binding> bindings, std::uint32_t count,
                          std::uint32_t phase) {
-    const compute::Kernel& code = *kernels_[kernel];
+    const compute::Kernel& code = *kernels_->all[kernel];
     std::array<compute::Buffer*, compute::maxKernelBuffers> bound{};
     std::size_t slot = 0;
     for (const auto& declared : code.buffers()) {

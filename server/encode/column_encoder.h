@@ -34,7 +34,11 @@ class EncoderContext {
   public:
     // `spheres`: at least 1; the order is by id at first. `slots`: values are stored by slot, and slotOf maps id to
     // slot. Refused if there is no room.
-    static Result<std::unique_ptr<EncoderContext>> create(compute::Device& device, std::uint32_t spheres, bool slots);
+    // `kernels`: of an earlier context with the same `slots`, or null.
+    struct Kernels;
+    static Result<std::unique_ptr<EncoderContext>> create(compute::Device& device, std::uint32_t spheres, bool slots,
+                                                          std::shared_ptr<Kernels> kernels = nullptr);
+    [[nodiscard]] std::shared_ptr<Kernels> kernels() const { return kernels_; }
 
     // Sets the id of each sphere in codec order: its index in slotOf, or its slot.
     void setOrder(std::span<const std::uint32_t> order);
@@ -55,7 +59,7 @@ class EncoderContext {
     compute::Device& device_;
     memory::Claim claim_;
     std::uint32_t spheres_, blocks_, groups_, chunks_;
-    std::array<std::unique_ptr<compute::Kernel>, KernelCount> kernels_;
+    std::shared_ptr<Kernels> kernels_;
     std::unique_ptr<compute::Buffer> order_, blockWords_, scratch_, groupWords_, sums_, parameters_;
 };
 

@@ -81,8 +81,9 @@ Result<void> StreamEncoder::open(const codec::Rendition& rendition, const Encode
 Result<void> StreamEncoder::prepare(const EncoderInput& input) {
     const bool slots = input.source.slotOf != nullptr;
     if (!context_ || context_->spheres() != input.spheres || slots_ != slots) {
+        auto kernels = context_ && slots_ == slots ? context_->kernels() : nullptr;
         context_.reset();
-        auto made = EncoderContext::create(device_, input.spheres, slots);
+        auto made = EncoderContext::create(device_, input.spheres, slots, std::move(kernels));
         if (!made) return tl::unexpected(made.error());
         context_ = std::move(*made);
         slots_ = slots;

@@ -72,8 +72,10 @@ class StreamEncoder {
     // or removes it.
     Result<void> open(const codec::Rendition& rendition, const EncoderInput& input);
 
-    // True if the epoch has an order: frames of it were made, or may be.
-    [[nodiscard]] bool hasOrder(std::uint32_t epoch) const { return context_ && epoch == epoch_; }
+    // True if the epoch has an order, which suits the source: frames of it were made, or may be.
+    [[nodiscard]] bool hasOrder(std::uint32_t epoch, const FrameSource& source) const {
+        return context_ && epoch == epoch_ && slots_ == (source.slotOf != nullptr);
+    }
     // Sets the handles in the codec's order, for the next frames of the epoch.
     void setHandles(std::span<const std::uint32_t> handles) { context_->setOrder(handles); }
 

@@ -42,7 +42,8 @@ void DiagnosticsSampler::addStep(double wallMs) {
 }
 
 bool DiagnosticsSampler::updateDial(const sim::Simulation& simulation, std::uint32_t epoch) {
-    // dialFor() looks at every sphere. So it runs only when the epoch or a setting that affects the dial changes.
+    // dialFor() looks at every sphere. So it runs only when the epoch, the births or a setting that affects the dial
+    // change.
     v1::ServerMessage settings = settingsMessage(simulation.scene(), 1, false);
     settings.mutable_settings()->clear_model();
     settings.mutable_settings()->clear_substeps();
@@ -53,7 +54,8 @@ bool DiagnosticsSampler::updateDial(const sim::Simulation& simulation, std::uint
         sums_ = {};
     }
     epoch_ = epoch;
-    std::string basis = std::to_string(epoch) + settings.SerializeAsString();
+    std::string basis =
+        std::to_string(epoch) + ' ' + std::to_string(simulation.population().born()) + settings.SerializeAsString();
     if (basis == basis_) return false;
     basis_ = std::move(basis);
     dial_ = diagnostics::dialFor(table_, simulation.scene());

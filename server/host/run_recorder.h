@@ -23,8 +23,8 @@ class RunRecorder {
     static Result<std::unique_ptr<RunRecorder>> create(const recording::Options& options, compute::Device& device,
                                                        sim::Simulation& simulation);
 
-    // Call after each step. `last`: no step follows, so this one is always recorded. So is the first step after the
-    // number of spheres has changed, with new scene facts.
+    // Call after each step. `last`: no step follows, so this one is always recorded. So is the first step with
+    // new spheres. New scene facts come before a frame of other spheres; an empty world has no frames.
     Result<void> stepped(bool last);
     Result<void> addEvent(v1::Event::Kind kind, const std::string& text);
     // Call at the end, even if the run has failed.

@@ -128,6 +128,9 @@ Result<void> SimulationProducer::advanceStep(Clock::time_point now) {
     host_.scheduler().stepped(end);
     sampler_.addStep(wallMs);
     ++version_;
+    // Sinks have taken energy with the spheres.
+    const std::uint64_t population = host_.simulation().population().version();
+    if (population != std::exchange(population_, population)) sampler_.invalidateBaseline();
     if (host_.paused()) commands_.discardAnswer();
     reportNotices();
     stopAtNonFinite();
@@ -165,7 +168,7 @@ void SimulationProducer::reportWhenStopped() {
 }
 
 void SimulationProducer::produce(Clock::time_point now) {
-    if (streams_.produce(moment(now), publisher_.subscriptions(), now)) sampler_.invalidateBaseline();
+    streams_.produce(moment(now), publisher_.subscriptions(), now);
 }
 
 StateStreams::Moment SimulationProducer::moment(Clock::time_point now) {

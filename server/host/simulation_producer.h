@@ -75,6 +75,7 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     std::optional<v1::Diagnostics> diagnostics_;  // diagnostics of the last report; nullopt if nobody watched
     std::uint64_t version_ = 0;                   // version of the world, as viewers see it
     std::uint32_t world_ = 0;                     // the host's epoch
+    std::uint64_t population_ = 0;                // its version at the end of the last step
     std::string settings_;                        // serialized, as sent last
     bool watched_ = false;
     std::vector<double> passSeconds_;  // device time (s) since the last sampleDiagnostics(), by sim::Pass

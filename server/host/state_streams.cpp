@@ -52,14 +52,14 @@ void StateStreams::beginWorld() {
     beginFollowers();
 }
 
-bool StateStreams::produce(const Moment& moment, std::vector<codec::Subscription> subscriptions,
+void StateStreams::produce(const Moment& moment, std::vector<codec::Subscription> subscriptions,
                            Clock::time_point now) {
-    const bool changed = followPopulation();
     const auto rest = std::ranges::partition(
         subscriptions, [](const codec::Subscription& subscription) { return subscription.rendition.population; });
     std::vector<codec::Subscription> others(rest.begin(), rest.end());
     subscriptions.erase(rest.begin(), rest.end());
     recorder_.subscribe(others, now);
+    followPopulation(!subscriptions.empty(), now);
     const std::uint64_t version = host_.simulation().population().version();
     if (othersVersion_ != version && now >= nextRenewal_) {
         nextRenewal_ = now + (others.empty() ? Clock::duration(renewWithoutViewers) : Clock::duration(renewEvery));
@@ -67,8 +67,7 @@ bool StateStreams::produce(const Moment& moment, std::vector<codec::Subscription
         renewOthers();
     }
     if (othersVersion_ == version) others_.update(inputOfOthers(moment), others, now);
-    followers_.update(inputOfFollowers(moment), subscriptions, now);
-    return changed;
+    if (version_ == version) followers_.update(inputOfFollowers(moment), subscriptions, now);
 }
 
 Result<void> StateStreams::open(const codec::Rendition& rendition, const Moment& moment) {
@@ -130,28 +129,31 @@ void StateStreams::beginFollowers() {
     publisher_.retain(codec::share(factsMessage(simulation, epoch_, places_, 0)), codec::Audience::Followers);
 }
 
-// Tells the followers which spheres were added and removed. Returns true if there were any.
-bool StateStreams::followPopulation() {
-    const sim::Simulation& simulation = host_.simulation();
+// Tells the followers which spheres were added and removed. An empty world has no frames, with which changes take
+// effect, so it begins an epoch. `watched`: some followers want frames.
+void StateStreams::followPopulation(bool watched, Clock::time_point now) {
+    sim::Simulation& simulation = host_.simulation();
     const sim::Population& population = simulation.population();
-    if (population.version() == std::exchange(version_, population.version())) return false;
+    if (population.version() == version_) return;
     std::optional<encode::Places::Change> change;
-    if (followers_.hasOrder(epoch_)) change = places_.follow(population);
+    const bool hasOrder = followers_.hasOrder(epoch_, encode::sourceOf(simulation));
+    if (hasOrder && population.count() > 0) change = places_.follow(population);
     if (!change) {
+        if (!watched && now < nextBegin_) return;
+        nextBegin_ = now + renewWithoutViewers;
         epoch_ = ++lastEpoch_;
-        beginFollowers();
-        return true;
+        return beginFollowers();
     }
-    if (population.count() > 0) followers_.setHandles(places_.handles(population));
+    version_ = population.version();
+    followers_.setHandles(places_.handles(population));
     v1::ServerMessage message = populationMessage(simulation, *change, groups_);
     message.mutable_population()->set_epoch(epoch_);
     message.mutable_population()->set_number(++number_);
     groups_ = simulation.scene().groups.size();
     publisher_.follow(codec::share(std::move(message)));
-    if (number_ - inFacts_ < mostChanges) return true;
+    if (number_ - inFacts_ < mostChanges) return;
     inFacts_ = number_;
     publisher_.refreshScene(codec::share(factsMessage(simulation, epoch_, places_, number_)));
-    return true;
 }
 
 }  // namespace spherule::host

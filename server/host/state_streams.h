@@ -35,9 +35,9 @@ class StateStreams {
 
     // Sends the facts of another world, or of its replaced spheres.
     void beginWorld();
-    // Publishes frames that are ready, and begins those that are due. Returns true if spheres were added or removed
-    // since the last call.
-    bool produce(const Moment& moment, std::vector<codec::Subscription> subscriptions, Clock::time_point now);
+    // Publishes frames that are ready, and begins those that are due. Tells the sessions which spheres were added or
+    // removed.
+    void produce(const Moment& moment, std::vector<codec::Subscription> subscriptions, Clock::time_point now);
     // Reserves the device memory for frames of the recorder.
     Result<void> open(const codec::Rendition& rendition, const Moment& moment);
     // When to call produce() again, as StreamEncoder::due().
@@ -50,7 +50,7 @@ class StateStreams {
     encode::EncoderInput inputOfFollowers(const Moment& moment);
     void renewOthers();
     void beginFollowers();
-    bool followPopulation();
+    void followPopulation(bool watched, Clock::time_point now);
 
     SimulationHost& host_;
     net::Publisher& publisher_;
@@ -70,6 +70,7 @@ class StateStreams {
     std::uint32_t inFacts_ = 0;  // the number that the retained facts include
     std::size_t groups_ = 0;     // that the followers know
     std::uint64_t version_ = 0;  // of the population
+    Clock::time_point nextBegin_{};
 };
 
 }  // namespace spherule::host

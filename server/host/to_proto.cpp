@@ -99,11 +99,11 @@ template <class Each>
 void addRuns(google::protobuf::RepeatedPtrField<v1::Places>& to, const std::vector<encode::PlaceRun>& runs,
              const sim::Simulation& simulation, Each each) {
     const auto& groups = simulation.scene().groups;
+    std::size_t group = 0;
     for (const encode::PlaceRun& run : runs) {
         for (std::uint32_t done = 0; done < run.count;) {
             const std::uint32_t rank = simulation.population().rankOf(run.id + done).value_or(0);
             // The last group that begins at the sphere or before it, and has spheres.
-            std::size_t group = 0;
             while (group + 1 < groups.size() && rank >= groups[group].first + groups[group].count) ++group;
             const std::uint32_t end = groups.empty() ? rank + run.count : groups[group].first + groups[group].count;
             const std::uint32_t count = std::min(run.count - done, std::max(end, rank + 1) - rank);

@@ -37,7 +37,12 @@ void Hub::sendScene(Entry& entry) {
 
 void Hub::resendScene(SessionId id) {
     const std::lock_guard lock(mutex_);
-    if (Entry* const entry = find(id)) sendScene(*entry);
+    Entry* const entry = find(id);
+    if (entry == nullptr) return;
+    sendScene(*entry);
+    // A queued order now comes before the facts, and the client has ignored it.
+    const codec::SharedMessage& order = sceneFor(*entry).order;
+    if (entry->rendition.rate > 0 && order) entry->session->send(order);
 }
 
 void Hub::join(SessionId id, bool followsPopulation) {

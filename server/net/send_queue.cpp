@@ -37,7 +37,7 @@ void SendQueue::dropChanges() {
 }
 
 bool SendQueue::push(codec::SharedMessage message) {
-    constexpr auto mostChanges = 64;
+    constexpr auto mostChanges = 24;  // leaves room for other messages
     const auto kind = message->content().kind_case();
     if (message->content().has_scene()) dropChanges();
     if (message->content().has_population()) {
@@ -95,7 +95,8 @@ codec::SharedMessage SendQueue::next(bool frames) {
 
 bool SendQueue::frameIsReady() const {
     return frame_ && sceneEpoch_ == frame_->content().frame().epoch() &&
-           orderNumber_ == frame_->content().frame().order() && population_ >= frame_->content().frame().population();
+           orderNumber_ == frame_->content().frame().order() && !awaitsScene_ &&
+           population_ >= frame_->content().frame().population();
 }
 
 void SendQueue::clear() {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scene/load.h"
 #include "scene/materials.h"
 #include "scene/quality.h"
 #include "sim/commands.h"
@@ -95,6 +96,9 @@ Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State st
         // A sphere without a finite position, or very far away, keeps its initial position.
         if (glm::dot(now, now) < maxDistance * maxDistance) scene.spheres[id].position = now + centre;
     }
+    // Groups whose spheres are all gone make way for new ones.
+    if (scene.groups.size() >= scene::maxGroups)
+        std::erase_if(scene.groups, [](const auto& one) { return one.count == 0; });
     auto added = spawn.place(scene, progress);
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
@@ -242,12 +246,14 @@ Result<std::uint32_t> Simulation::CommandHandler::rankOf(std::uint64_t id, std::
 Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Remove& remove) {
     std::vector<std::uint32_t> ranks;
     for (std::size_t k = 0; k < remove.spheres.size(); ++k) {
-        const auto rank = rankOf(remove.spheres[k], fmt::format("spheres[{}]", k));
-        if (!rank) return tl::unexpected(rank.error());
+        const auto rank = rankOf(remove.spheres[k], "spheres");
+        if (!rank) return fail(ErrorKind::Refused, fmt::format("spheres[{}]", k), rank.error().message);
         ranks.push_back(*rank);
     }
     if (remove.region) {
-        const State state = simulation_.snapshot();
+        const auto live = simulation_.liveState();
+        if (!live) return tl::unexpected(live.error());
+        const State& state = *live;
         const glm::dvec3 centre = simulation_.scene_.bounds.centre();
         const std::size_t named = ranks.size();
         for (std::uint32_t rank = 0; rank < state.count(); ++rank)

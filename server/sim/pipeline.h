@@ -63,7 +63,7 @@ class Pipeline {
     // Removes the spheres with these handles, wakes the sleepers within their reach, and rebuilds the lists. Call
     // setParameters() next. Waits for the device. Refused, with the state unchanged, if there is no memory for it.
     Result<void> remove(std::span<const std::uint32_t> handles);
-    // Makes room for more spheres. Refused, with the state unchanged, if there is no memory for it.
+    // Makes room for more spheres. Refused, with the spheres unchanged, if there is no memory for it.
     Result<void> growSpheres(std::uint32_t room, const scene::Scene& scene);
 
     void substep(bool observed = false);
@@ -118,11 +118,11 @@ class Pipeline {
     void setSpheres(std::uint32_t count);
     void requestRebuild();
     void rebuildLists();
-    void clearRows(const ArraySpec& spec, std::size_t first, std::size_t count);
+    void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
     Result<void> makeSlotOf();
     void moveLastInto(std::vector<std::uint32_t> slots);
-    [[nodiscard]] std::uint64_t rowBytes(const ArraySpec& spec) const { return spec.bytes / plan_.room; }
+    [[nodiscard]] std::size_t rowBytes(Array array) const;
     void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
     // A launch of the plan, its kernel, and the arrays to bind by slot.
     struct BoundLaunch {

@@ -35,11 +35,30 @@ Result<void> Pipeline::growSpheres(std::uint32_t room, const scene::Scene& scene
     return {};
 }
 
-// Sets rows of an array with elements for each sphere to zero.
-void Pipeline::clearRows(const ArraySpec& spec, std::size_t first, std::size_t count) {
-    const std::vector<std::byte> zeros(count * rowBytes(spec));
-    device_.upload(buffer(spec.array), first * rowBytes(spec), zeros);
+// Returns the bytes of a sphere in an array with elements for each sphere.
+std::size_t Pipeline::rowBytes(Array array) const {
+    const ArrayType& type = typeOf(array);
+    return type.elementBytes * (type.extent == Extent::RememberedWall ? plan_.maxWallHistory : 1);
 }
+
+// Sets rows of such an array to zero.
+void Pipeline::clearRows(Array array, std::size_t first, std::size_t count) {
+    const std::vector<std::byte> zeros(count * rowBytes(array));
+    device_.upload(buffer(array), first * rowBytes(array), zeros);
+}
+
+namespace {
+
+// Calls `run` with the first handle, the number and the place in `handles` of each run of consecutive handles.
+template <class Run>
+void forRuns(std::span<const std::uint32_t> handles, Run run) {
+    for (std::size_t begin = 0, end = 0; begin < handles.size(); begin = end) {
+        for (end = begin + 1; end < handles.size() && handles[end] == handles[end - 1] + 1;) ++end;
+        run(handles[begin], end - begin, begin);
+    }
+}
+
+}  // namespace
 
 void Pipeline::append(const State& born, std::span<const std::uint8_t> materials,
                       std::span<const std::uint32_t> handles) {
@@ -48,24 +67,26 @@ void Pipeline::append(const State& born, std::span<const std::uint8_t> materials
         const ArrayType& type = typeOf(spec.array);
         if (!type.cleared || (type.extent != Extent::Sphere && type.extent != Extent::RememberedWall)) continue;
         if (type.byId)
-            for (const std::uint32_t handle : handles) clearRows(spec, handle, 1);
+            forRuns(handles, [&](std::uint32_t handle, std::size_t count, std::size_t) {
+                clearRows(spec.array, handle, count);
+            });
         else
-            clearRows(spec, first, handles.size());
+            clearRows(spec.array, first, handles.size());
     }
     write<glm::vec4>(Array::Position, born.position, first);
     write<glm::vec4>(Array::Velocity, born.velocity, first);
     if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, born.spin, first);
     std::vector<std::uint32_t> words(handles.begin(), handles.end());
-    for (std::uint32_t k = 0; k < words.size(); ++k) {
-        const std::uint32_t slot = first + k;
-        if (plan_.has(Array::SlotOf))
-            write<std::uint32_t>(Array::SlotOf, std::span<const std::uint32_t>(&slot, 1), handles[k]);
-        if (plan_.has(Array::RestReference)) {
-            const glm::vec4 rest(glm::vec3(born.position[k]), MOVED_AWAY);
-            write<glm::vec4>(Array::RestReference, std::span<const glm::vec4>(&rest, 1), handles[k]);
-        }
-        words[k] |= std::uint32_t{materials[k]} << idBits;
-    }
+    std::vector<std::uint32_t> slots(handles.size());
+    std::iota(slots.begin(), slots.end(), first);
+    std::vector<glm::vec4> rest;
+    for (const glm::vec4& place : born.position) rest.emplace_back(glm::vec3(place), MOVED_AWAY);
+    forRuns(handles, [&](std::uint32_t handle, std::size_t count, std::size_t at) {
+        if (plan_.has(Array::SlotOf)) write<std::uint32_t>(Array::SlotOf, std::span(slots).subspan(at, count), handle);
+        if (plan_.has(Array::RestReference))
+            write<glm::vec4>(Array::RestReference, std::span(rest).subspan(at, count), handle);
+    });
+    for (std::size_t k = 0; k < words.size(); ++k) words[k] |= std::uint32_t{materials[k]} << idBits;
     write<std::uint32_t>(Array::IdAndMaterial, words, first);
     setSpheres(first + static_cast<std::uint32_t>(handles.size()));
     requestRebuild();
@@ -73,6 +94,8 @@ void Pipeline::append(const State& born, std::span<const std::uint8_t> materials
 
 Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
     if (auto made = makeSlotOf(); !made) return made;
+    // The lists tell which sleepers rest on the spheres that go.
+    if (listsPending_ && plan_.features.has(Feature::Contacts)) rebuildLists();
     std::vector<bool> gone(plan_.room);
     for (const std::uint32_t handle : handles) gone[handle] = true;
     const auto words = read<std::uint32_t>(Array::IdAndMaterial, plan_.spheres);
@@ -130,7 +153,7 @@ void Pipeline::moveLastInto(std::vector<std::uint32_t> slots) {
     }
     for (const ArraySpec& spec : plan_.arrays) {
         if (!typeOf(spec.array).sorted) continue;
-        const std::size_t row = rowBytes(spec);
+        const std::size_t row = rowBytes(spec.array);
         std::vector<std::byte> before(plan_.spheres * row);
         device_.download(buffer(spec.array), 0, before);
         std::vector<std::byte> after(from.size() * row);

@@ -99,6 +99,13 @@ void Population::remove(std::span<const std::uint32_t> ranks, std::uint64_t step
     ++version_;
 }
 
+void Population::skipTo(std::uint64_t id) {
+    if (id <= nextId_) return;
+    makeTables();
+    nextId_ = id;
+    ++version_;
+}
+
 void Population::renumber() {
     handles_ = count_;
     std::iota(ofRank_.begin(), ofRank_.end(), 0U);

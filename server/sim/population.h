@@ -14,7 +14,8 @@ namespace spherule::sim {
 // - an id: births are counted, and an id is never used again;
 // - a rank: its place among the present spheres in the order of their ids. States on the host are in this order;
 // - a handle: the number by which arrays on the device know it ("by id" in sim/arrays.def). Handles are used again.
-// As long as no sphere has been removed, the three numbers are equal, and no tables are kept.
+// As long as no sphere has been removed, handle and rank are equal, ids count on from the first one, and no tables are
+// kept.
 class Population {
   public:
     // `spheres` are born, with the ids from `firstId` on.
@@ -25,6 +26,7 @@ class Population {
     [[nodiscard]] std::uint64_t removed() const { return born() - count_; }
     // One more than the largest handle that was ever used.
     [[nodiscard]] std::uint32_t handles() const { return handles_; }
+    [[nodiscard]] std::uint64_t nextId() const { return nextId_; }
     // Grows with each change.
     [[nodiscard]] std::uint64_t version() const { return version_; }
 
@@ -43,6 +45,8 @@ class Population {
     std::vector<std::uint32_t> add(std::uint32_t spheres, std::uint64_t step);
     // Removes the spheres with these ranks, in ascending order, and frees their handles.
     void remove(std::span<const std::uint32_t> ranks, std::uint64_t step);
+    // The next spheres get ids from `id` on. The ids left out count as born and removed.
+    void skipTo(std::uint64_t id);
     // Makes handles equal to ranks again: all arrays by handle are new. Ids stay.
     void renumber();
 

@@ -252,8 +252,7 @@ Result<void> Simulation::checkStep() {
     if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !pairsExhausted_)
         growPairs();
     limitMotionPerSubstep(counters_.largestMotion);
-    if (counters_.sunk > 0 && !counters_.nonFinite)
-        if (auto emptied = emptySinks(); !emptied) return emptied;
+    if (counters_.sunk > 0 && !counters_.nonFinite) emptySinks();
     const double since = static_cast<double>(steps_ - lastFiniteStep_) * scene_.step;
     if (!counters_.nonFinite && since > saveInterval - 0.5 * scene_.step) saveLastFinite();
     return {};
@@ -284,8 +283,12 @@ std::string Simulation::divergence() const {
 }
 
 void Simulation::rollback() {
+    remainderBegin_ = 0;
+    substepsLeft_ = 0;
     if (lastFiniteSpheres_) {
+        const std::uint64_t next = population_.nextId();
         population_ = std::move(lastFiniteSpheres_->population);
+        population_.skipTo(next);
         scene_.spheres = std::move(lastFiniteSpheres_->spheres);
         scene_.groups = std::move(lastFiniteSpheres_->groups);
         lastFiniteSpheres_.reset();
@@ -293,8 +296,6 @@ void Simulation::rollback() {
     }
     upload(inIdOrder(lastFinite_, population_));
     steps_ = lastFiniteStep_;
-    remainderBegin_ = 0;
-    substepsLeft_ = 0;
     counters_ = {};
     contactSums_ = lastFiniteSums_;
     const double elasticBefore = elasticBefore_;

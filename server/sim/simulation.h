@@ -60,7 +60,7 @@ class Simulation {
     // Returns the number of spheres, walls and obstacles that each sphere touches, in the order of ids: see Pipeline.
     [[nodiscard]] std::vector<std::uint32_t> contactCounts();
 
-    // Describes the non-finite sphere with the smallest id: its last finite position and speed. Call it only if
+    // Describes the non-finite sphere with the smallest handle: its last finite position and speed. Call it only if
     // counters().nonFinite.
     [[nodiscard]] std::string divergence() const;
     // Returns to the last state that was found finite. States are kept about once per simulated second.
@@ -75,7 +75,7 @@ class Simulation {
         std::uint32_t sampled = 0;              // cell groups of which only a sample of the pairs is listed
         std::uint32_t droppedWallContacts = 0;  // contacts with walls that found no room for their slip
         bool nonFinite = false;                 // some sphere has become non-finite
-        std::uint32_t firstNonFinite = 0;       // the smallest id of such a sphere
+        std::uint32_t firstNonFinite = 0;       // the smallest handle of such a sphere
         std::uint32_t rebuilds = 0;             // of the lists, since the last change of the scene
         std::uint32_t sunk = 0;                 // spheres in sinks
         double largestMotion = 0;               // largest motion in a substep of the step (radii); 0: below SAFE_MOTION
@@ -123,7 +123,7 @@ class Simulation {
     Result<void> makeRoomFor(std::uint32_t spheres);
     void append(Preparation& preparation);
     Result<void> remove(const std::vector<std::uint32_t>& ranks);
-    Result<void> emptySinks();
+    void emptySinks();
     void keepLastFinite();
     Result<State> liveState();  // DeviceLost if the device is lost, because its data is invalid
     void useSubsteps(std::uint32_t substeps);
@@ -155,11 +155,12 @@ class Simulation {
     // dissipated: without the change of the energy in springs since openContactSums().
     ContactSums contactSums_;
     ContactSums lastFiniteSums_;
-    double sumsBegin_ = 0;         // s simulated
-    double elasticBefore_ = 0;     // J, in springs at openContactSums()
-    bool noticedDropped_ = false;  // a notice about dropped wall contacts was given
-    bool pairsExhausted_ = false;  // no room for more pairs
-    bool noticedSampled_ = false;  // a notice about sampled pairs was given
+    double sumsBegin_ = 0;           // s simulated
+    double elasticBefore_ = 0;       // J, in springs at openContactSums()
+    bool noticedDropped_ = false;    // a notice about dropped wall contacts was given
+    bool pairsExhausted_ = false;    // no room for more pairs
+    bool noticedSampled_ = false;    // a notice about sampled pairs was given
+    bool noticedFullSinks_ = false;  // a notice about sinks without memory was given
     std::uint32_t substeps_ = 1;
     std::uint32_t maxSubsteps_ = 1;  // limit while a sphere is very fast
     std::uint32_t quietSteps_ = 0;   // steps since a sphere moved too far

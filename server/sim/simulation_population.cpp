@@ -25,11 +25,15 @@ void Simulation::keepLastFinite() {
 bool Simulation::canAppend(const scene::Scene& grown) const {
     // With more spheres, the cells would be too few for them.
     constexpr std::uint32_t mostGrowth = 2;
-    if (!plan().features.hasAll(featuresOf(grown))) return false;
-    if (!plan().features.has(Feature::Contacts)) return true;
+    // Handles that rest, as many as spheres and more, would take room: others are given to all spheres then.
+    constexpr std::uint64_t mostResting = 1024;
+    if (!plan().features.hasAll(featuresOf(grown)) || grown.groups.size() < scene_.groups.size()) return false;
+    const std::uint64_t handles = population_.handles() + grown.spheres.size() - count();
+    if (handles > Pipeline::mostHandles) return false;
+    if (handles > plan().room && handles > 2 * grown.spheres.size() + mostResting) return false;
     std::uint64_t planned = 0;
     for (const Level& level : plan().grid.levels) planned += level.spheres;
-    if (grown.spheres.size() > mostGrowth * planned) return false;
+    if (plan().features.has(Feature::Contacts) && grown.spheres.size() > mostGrowth * planned) return false;
     return std::ranges::all_of(grown.spheres.begin() + count(), grown.spheres.end(), [&](const scene::Sphere& sphere) {
         const auto radius = static_cast<double>(sphere.radius);
         return radius >= radii_.smallest && radius <= radii_.largest;
@@ -39,10 +43,6 @@ bool Simulation::canAppend(const scene::Scene& grown) const {
 // Makes room for more spheres in the arrays. Refused, with the state unchanged, if there is no memory for it.
 Result<void> Simulation::makeRoomFor(std::uint32_t spheres) {
     const std::uint64_t handles = std::uint64_t{population_.handles()} + spheres;
-    if (handles > Pipeline::mostHandles)
-        return fail(ErrorKind::Refused, "",
-                    fmt::format("the numbers of removed spheres are in use for {} more steps: try again after them",
-                                Population::restSteps));
     if (handles <= plan().room) return {};
     const std::uint64_t ahead = std::min<std::uint64_t>(plan().room + plan().room / 2, Pipeline::mostHandles);
     spdlog::info("making room for {} spheres", std::max(handles, ahead));
@@ -65,6 +65,7 @@ void Simulation::append(Preparation& preparation) {
     std::vector<std::uint8_t> materials;
     for (const scene::Sphere& sphere : added) materials.push_back(sphere.material);
     pipeline_->append(born, materials, population_.add(born.count(), steps_));
+    pairsExhausted_ = false;
     writeConstants(*pipeline_, scene_);
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
     // Substeps that were raised for a fast sphere stay.
@@ -83,7 +84,11 @@ Result<void> Simulation::remove(const std::vector<std::uint32_t>& ranks) {
     keepLastFinite();
     std::vector<std::uint32_t> handles;
     for (const std::uint32_t rank : ranks) handles.push_back(population_.handleAt(rank));
-    if (auto removed = pipeline_->remove(handles); !removed) return removed;
+    if (auto removed = pipeline_->remove(handles); !removed) {
+        openContactSums();
+        return removed;
+    }
+    pairsExhausted_ = false;
     population_.remove(ranks, steps_);
     scene::removeSpheres(scene_, ranks);
     uploadParameters();
@@ -92,8 +97,8 @@ Result<void> Simulation::remove(const std::vector<std::uint32_t>& ranks) {
     return {};
 }
 
-// Removes the spheres that are in sinks at the end of the step.
-Result<void> Simulation::emptySinks() {
+// Removes the spheres that are in sinks at the end of the step. Without memory for it they stay, until a later step.
+void Simulation::emptySinks() {
     const std::vector<scene::Box> sinks = sinksOnDevice(scene_);
     const State state = snapshot();
     std::vector<std::uint32_t> ranks;
@@ -102,7 +107,10 @@ Result<void> Simulation::emptySinks() {
             ranks.push_back(rank);
     const std::uint32_t none = 0;
     pipeline_->write<std::uint32_t>(Array::Counters, std::span(&none, 1), COUNTER_SUNK);
-    return remove(ranks);
+    const auto removed = remove(ranks);
+    if (!removed && !std::exchange(noticedFullSinks_, true))
+        notices_.push_back(
+            fmt::format("at step {}, sinks cannot take spheres, and try again: {}", steps_, removed.error().text()));
 }
 
 void Simulation::upload(const State& state) {

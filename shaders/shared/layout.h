@@ -117,7 +117,7 @@ struct SphereStatistics {
 #define COUNTER_PAIRS 1u        // listed, with the space between bundles
 #define COUNTER_UNLISTED 2u     // bundles without room for their pairs
 #define COUNTER_NON_FINITE 3u   // not zero: the state of a sphere became non-finite
-#define COUNTER_FIRST_ID 4u     // ~ the smallest id among them
+#define COUNTER_FIRST_ID 4u     // ~ the smallest handle among them
 #define COUNTER_REBUILDS 5u     // since the start
 #define COUNTER_SUBSTEPS 6u     // since the start
 #define COUNTER_DROPPED_WALLS 7u  // contacts with walls without room for their memory, since the start

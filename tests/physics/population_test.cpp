@@ -210,6 +210,20 @@ TEST_P(Population, SinksTakeSpheresAtTheEndOfTheStep) {
     EXPECT_EQ(simulation->snapshot().idAt(0), 20U);
 }
 
+// The scene has no spheres any more that the new one could differ from, but the plan has one radius for all.
+TEST_P(Population, ChangesThePlanForAnotherRadius) {
+    scene::Scene scene = sleepyBox(1);
+    scene.sphereContacts = false;
+    addSphere(scene, {0, 0, 0}, 0.1);
+    choose(scene, GetParam());
+    auto simulation = simulate(scene);
+    ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = {0}}));
+    ASSERT_TRUE(simulation->apply(spawnAt({{0, 0, -0.29}}, 0.2F)));
+    EXPECT_EQ(simulation->snapshot().idAt(0), 1U);
+    run(*simulation, 1);
+    EXPECT_NEAR(positionOf(simulation->snapshot(), 0).z, -0.3, 0.005);
+}
+
 TEST_P(Population, RemovesByRegion) {
     auto simulation = simulate(heap(GetParam(), 128));
     const sim::State before = simulation->snapshot();
@@ -238,7 +252,9 @@ TEST_P(Population, GoesBackToTheSpheresOfTheLastGoodState) {
     EXPECT_NE(simulation->divergence().find("sphere 11 "), std::string::npos) << simulation->divergence();
     simulation->rollback();
     EXPECT_EQ(simulation->count(), 64U);
-    EXPECT_EQ(simulation->statistics().removed, 0U);
+    EXPECT_EQ(simulation->statistics().removed, 1U) << "the birth that is undone";
+    ASSERT_TRUE(simulation->apply(spawnAt({{0, 0, 0.3}})));
+    EXPECT_EQ(simulation->snapshot().ids.back(), 65U) << "its id is not used again";
     run(*simulation, 0.1);
     expectCounts(*simulation);
     EXPECT_FALSE(simulation->counters().nonFinite);
@@ -302,6 +318,16 @@ TEST_P(SleepingPopulation, WakesOnlyNeighboursOfARemovedSphere) {
         if (std::hypot(x.x - place.x, x.y - place.y) < 0.04) lowest = std::min(lowest, x.z);
     }
     EXPECT_LT(lowest, -0.5);
+}
+
+// After a return to the last good state, the lists are rebuilt only in the next substep.
+TEST_P(SleepingPopulation, WakesNeighboursOfASphereThatIsRemovedAfterAReturn) {
+    auto simulation = sleepingBed();
+    run(*simulation, 1.5);
+    simulation->rollback();
+    ASSERT_EQ(sleepers(simulation->snapshot()), simulation->count());
+    ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = {60}}));
+    EXPECT_GT(simulation->count() - sleepers(simulation->snapshot()), 2U);
 }
 
 TEST_P(SleepingPopulation, StaysAsleepBeyondTheReachOfNewSpheres) {

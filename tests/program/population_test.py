@@ -118,6 +118,20 @@ class Population(FolderTestCase):
             late = Follower(server.port)
             late.wait(lambda one: one.of("scene") and len(one.table()) == int(self.query(server)["spheres"]))
 
+    def test_an_empty_world_and_one_without_contacts_begin_an_epoch(self):
+        for contacts, region, scenes in ((True, ["-1", "-1", "-1", "1", "1", "1"], 2),
+                                         (False, ["-1", "-1", "-1", "0", "0", "1"], 2)):
+            with self.serve(dict(BED, sphereContacts=contacts)) as server:
+                follower = Follower(server.port)
+                follower.wait(lambda one: one.of("frame"))
+                self.assertEqual(self.ctl(server, "remove", "region", *region).returncode, 0)
+                left = int(self.query(server)["spheres"])
+                follower.wait(lambda one: len(one.of("scene")) == scenes and len(one.table()) == left)
+                self.assertEqual(self.ctl(server, "spawn", json.dumps(TEN)).returncode, 0)
+                follower.wait(lambda one: len(one.table()) == left + 10)
+                epoch = follower.of("scene")[-1]["epoch"]
+                follower.wait(lambda one: one.of("frame")[-1]["epoch"] == epoch)
+
     def test_a_script_removes_and_a_dump_keeps_ids(self):
         scene = self.write("scene.json", json.dumps(BED))
         script = self.write("script.txt", "0.05s remove 0 1\n0.1s remove region -1 -1 -1 0 0 0\n")
