@@ -40,7 +40,7 @@ void addToDriftBox(vec3 v) {
 
 KERNEL(params.spheres) {
     vec4 sphere = position[invocation];
-    if (isRemoved(sphere)) return;
+    if (storedRadius(sphere) < 0.0f) return;  // it is removed: see cell_of.h
     vec4 v = velocity[invocation];
     float room = 0.0f;
     if (finite3(vec3(sphere)) && beyond(vec3(sphere)) > 0.0f) {

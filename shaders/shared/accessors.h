@@ -11,12 +11,6 @@ ANY_REAL storedRadius(ANY_REAL4 sphere) {
     return sphere.w;
 }
 
-// A sphere that is removed has a negative radius, until the lists are rebuilt: they leave it out, and it is behind the
-// other spheres then.
-bool isRemoved(vec4 sphere) {
-    return sphere.w < 0.0f;
-}
-
 ANY_REAL radiusOf(ANY_REAL4 sphere) {
     return HAS(RADII) ? sphere.w : params.radius;
 }

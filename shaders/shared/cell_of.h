@@ -7,9 +7,10 @@ uint levelOf(float radius) {
     return level;
 }
 
-// The cell of a sphere on its level. Spheres that are removed come after all cells.
+// The cell of a sphere on its level. A sphere that is removed has a negative radius until the lists are rebuilt. It comes
+// after all cells, so that it is behind the other spheres then, and the lists leave it out.
 uint cellOf(vec4 sphere) {
-    if (isRemoved(sphere)) return allCells();
+    if (storedRadius(sphere) < 0.0f) return allCells();
     vec3 point = vec3(sphere);
     if (!finite3(point)) return 0u;
     uint level = levelOf(storedRadius(sphere));
