@@ -1,7 +1,6 @@
 import { groupColour } from "../colour/groups";
 import type { Rgb } from "../colour/rgb";
-import type { Population as Change } from "../gen/spherule/v1/control_pb";
-import type { GroupFacts, Places, SceneFacts } from "../gen/spherule/v1/facts_pb";
+import type { GroupFacts, Places, Population as Change, SceneFacts } from "../gen/spherule/v1/facts_pb";
 
 /** Spheres come and go: which places of a frame hold a sphere, and which sphere that is. */
 

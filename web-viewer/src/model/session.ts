@@ -7,14 +7,13 @@ import type {
   Diagnostics,
   Dial,
   Event,
-  Population as PopulationChange,
   Recording,
   Settings,
   Stream,
   Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
-import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
+import type { Population as PopulationChange, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
 import { markFirst } from "../perf_marks";
 import { DelayMeter } from "./delay";
