@@ -31,7 +31,7 @@ class Hub {
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
     // Sends the retained messages. Call after the welcome.
-    void join(SessionId id, bool followsPopulation = false);
+    void join(SessionId id, bool followsPopulation);
     // Sends the scene facts again: the session has missed changes of the population.
     void resendScene(SessionId id);
     // Sends frames of this rendition from its next keyframe on. Rate 0: no frames.
@@ -42,7 +42,7 @@ class Hub {
     // Sends to the audience. New sessions get the newest message of each kind.
     void retain(codec::SharedMessage message, codec::Audience audience = codec::Audience::Everybody);
     // Sets the order of the spheres in the next frames and sends it to the sessions of the audience that want frames.
-    void setOrder(codec::SharedMessage order, codec::Audience audience = codec::Audience::Everybody);
+    void setOrder(codec::SharedMessage order, codec::Audience audience);
     // Sends a Population message to all followers. New ones get it after the scene facts.
     void follow(codec::SharedMessage population);
     // Replaces the followers' facts of the present epoch, for new sessions: they include all changes so far.

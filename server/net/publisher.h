@@ -25,7 +25,6 @@ class Publisher {
     void retain(codec::SharedMessage message) { retain(std::move(message), codec::Audience::Everybody); }
     // Sets the order of the spheres in the next frames. Call after retain() of their scene facts.
     virtual void setOrder(codec::SharedMessage order, codec::Audience audience) = 0;
-    void setOrder(codec::SharedMessage order) { setOrder(std::move(order), codec::Audience::Everybody); }
     // Sends a Population message to the followers. New ones get it after the scene facts.
     virtual void follow(codec::SharedMessage population) = 0;
     // Replaces the followers' facts of the present epoch, for new sessions: they include all changes so far.

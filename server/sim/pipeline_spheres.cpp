@@ -129,13 +129,13 @@ Result<void> Pipeline::makeSlotOf() {
     return {};
 }
 
-// Lets the spheres that go wake their neighbours, as if they moved away.
+// Lets the spheres that go wake their neighbours, as if they moved away. Fixed ones get a mass for it.
 void Pipeline::wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words) {
     auto velocity = read<glm::vec4>(Array::Velocity, plan_.spheres);
     auto rest = read<glm::vec4>(Array::RestReference);
     for (std::size_t slot = 0; slot < words.size(); ++slot) {
         if (!gone[words[slot] & idMask]) continue;
-        velocity[slot].w = std::abs(velocity[slot].w);
+        velocity[slot].w = velocity[slot].w == 0 ? 1 : std::abs(velocity[slot].w);
         rest[words[slot] & idMask].w = MOVED_AWAY;
     }
     write<glm::vec4>(Array::Velocity, velocity);

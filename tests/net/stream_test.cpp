@@ -249,7 +249,7 @@ TEST(Stream, HoldsAFrameUntilItsFactsAndOrderCome) {
     ASSERT_TRUE(eventually([&] { return app.server().viewers() == 1; }));
     app.server().publish(encodedFrame(codec::EncodedFrame::Kind::Keyframe, 1, 2, 64));
     app.server().retain(factsOf(2, 64));
-    app.server().setOrder(orderOf(2));
+    app.server().setOrder(orderOf(2), codec::Audience::Everybody);
     EXPECT_EQ(next(*client).scene().epoch(), 2U);
     EXPECT_EQ(next(*client).order().epoch(), 2U);
     EXPECT_EQ(next(*client).frame().epoch(), 2U);

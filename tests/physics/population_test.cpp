@@ -320,6 +320,22 @@ TEST_P(SleepingPopulation, WakesOnlyNeighboursOfARemovedSphere) {
     EXPECT_LT(lowest, -0.5);
 }
 
+TEST_P(SleepingPopulation, WakesASphereThatRestsOnARemovedFixedOne) {
+    scene::Scene scene = sleepyBox(1);
+    setFriction(scene, 0.4);
+    setRestitution(scene, 0);
+    addSphere(scene, {0, 0, -0.2}, radius).fixed = true;
+    addSphere(scene, {0, 0, -0.1}, radius);
+    choose(scene, GetParam());
+    auto simulation = simulate(scene);
+    for (int k = 0; k < 20 && sleepers(simulation->snapshot()) == 0; ++k) run(*simulation, 0.25);
+    ASSERT_EQ(sleepers(simulation->snapshot()), 1U);
+    ASSERT_TRUE(simulation->apply(sim::Remove{.spheres = {0}}));
+    EXPECT_EQ(sleepers(simulation->snapshot()), 0U);
+    run(*simulation, 1);
+    EXPECT_NEAR(positionOf(simulation->snapshot(), 0).z, -0.45, 1e-3);
+}
+
 // After a return to the last good state, the lists are rebuilt only in the next substep.
 TEST_P(SleepingPopulation, WakesNeighboursOfASphereThatIsRemovedAfterAReturn) {
     auto simulation = sleepingBed();

@@ -103,7 +103,7 @@ void FakeApp::stopPublishing() {
 
 void FakeApp::setEpoch(std::uint32_t epoch) {
     server_->retain(factsOf(epoch, 64));
-    server_->setOrder(orderOf(epoch));
+    server_->setOrder(orderOf(epoch), codec::Audience::Everybody);
     epoch_ = epoch;
 }
 
