@@ -24,6 +24,7 @@ BUFFER(restrict, vec4, wallImpulse)  // by id, params.maxWallHistory each: N s; 
 BUFFER(restrict, vec4, wallTorque)   // by id: torque of the friction per lever (N s)
 BUFFER(readonly, vec4, listReference)
 BUFFER(coherent, uint, counters)
+BUFFER(coherent, uint, surfaceSums)
 
 #include "shared/contact_law.h"
 #include "shared/drift.h"
@@ -34,6 +35,7 @@ BUFFER(coherent, uint, counters)
 #include "shared/outside.h"
 #include "shared/falling_frame.h"
 #include "shared/motion.h"
+#include "shared/surface_sums.h"
 
 // The sphere of each lane. Its contacts with walls change it one after the other.
 PRIVATE(uints, sphereId)
@@ -50,6 +52,7 @@ PRIVATE(real3, unheldSpin)
 PRIVATE(real, partsBefore)      // partOfSurface() of the surfaces at which the sphere held an impulse
 PRIVATE(real, partsNow)         // the same after the substep
 PRIVATE(mask, touchesWalls)
+PRIVATE(real3, momentOfRolling) // at one surface, about the centre of the sphere (N m s)
 
 // The row of `wallImpulse` for a surface. The first three rows are for the axes of the bounds, the others for obstacles
 // that the sphere touches.
@@ -76,6 +79,7 @@ void resistRollingAtWall(mask where, real3 n, real normalImpulse, real4 contact)
     real most = normalImpulse * sphereRadius;
     real3 moment = rollingMoment(sphereSpin - n * about, c, rollingResistanceOf(contact) * most) +
                    spinningMoment(n, about, c, spinningResistanceOf(contact) * most);
+    momentOfRolling = moment;
     real3 change = select(where, moment * c, real3(0.0f, 0.0f, 0.0f));
     sphereSpin = sphereSpin + change;
     unheldSpin = unheldSpin - change;
@@ -153,6 +157,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     real lever = inverseMass / sphereRadius * 2.5f;
     real3 velocityHeld = sphereVelocity + unheld;
     real3 spinHeld = sphereSpin + unheldSpin;
+    momentOfRolling = real3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) {
         // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
         if (HAS(ROLLING)) resistRollingAtWall(touching, n, normalImpulse, contact);
@@ -167,6 +172,10 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     spherePoint = select(involved, spherePoint + shift, spherePoint);
 
     real3 impulse = n * normalImpulse + friction;
+    if (HAS(CONTACT_SUMS)) {
+        precise real3 moment = cross3(spherePoint, impulse) + momentOfRolling - torque * sphereRadius;
+        EACH_LANE_VECTORS(touching, addToSurfaceSums, sphereId, surface, impulse, moment)
+    }
     mask forgets = touching && (impact || !remembers);
     if (anyLane(forgets)) {
         real keep = heldAfterImpact(max(before, real(0.0f)), normalImpulse, e, load);

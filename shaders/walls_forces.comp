@@ -23,6 +23,7 @@ BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
 BUFFER(restrict, vec4, wallSlip)  // by id, params.maxWallHistory each: displacement (m); w: surface + 1
 BUFFER(coherent, uint, counters)
+BUFFER(coherent, uint, surfaceSums)
 
 #define NO_ENTRY 0xffffffffu
 
@@ -34,6 +35,8 @@ PRIVATE(vec3, sphereVelocity)  // m/s
 PRIVATE(vec3, omega)      // rad/s
 PRIVATE(vec3, impulseSum) // of all walls together (N s)
 PRIVATE(vec3, torque)     // times the substep (N s m)
+PRIVATE(vec3, impulseHere)  // of one wall, in scenes with contact sums (N s)
+PRIVATE(vec3, momentHere)   // the same about the centre of the sphere (N m s)
 PRIVATE(vec3, displacement)
 PRIVATE(float, sphereInverseMass)
 PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere still touches
@@ -41,6 +44,7 @@ PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere
 #include "shared/contact_params.h"
 #include "shared/deltas.h"
 #include "shared/spring.h"
+#include "shared/surface_sums.h"
 
 // The index of the displacement at this surface in `wallSlip`: its present entry, or a free one. NO_ENTRY if there is
 // none.
@@ -69,12 +73,20 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
                                      frictionOf(contact));
     impulseSum = impulseSum + impulse;
     torque = torque - cross3(n, impulse) * arm;
+    if (HAS(CONTACT_SUMS)) {
+        impulseHere = impulseHere + impulse;
+        precise vec3 moment = cross3(n, impulse) * -arm;
+        momentHere = moment;
+    }
     if (HAS(ROLLING)) {
         float c = 2.5f * sphereInverseMass / (sphereRadius * sphereRadius);
         float about = dot3(omega, n);
         float maxMoment = sphereRadius * spring.impulse;
-        torque = torque + rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment) +
-                 spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
+        vec3 rolling = rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment);
+        vec3 spinning = spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
+        torque = torque + rolling + spinning;
+        precise vec3 moment = momentHere + rolling + spinning;
+        momentHere = moment;
     }
     if (entry == NO_ENTRY) {
         atomicAdd(counters[COUNTER_DROPPED_WALLS], 1u);
@@ -98,8 +110,15 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, sphereRadius, sphereInverseMass,
                              contactParams[index].stiffness);
     impulseSum = impulseSum + normal * spring.impulse;
+    if (HAS(CONTACT_SUMS)) {
+        impulseHere = normal * spring.impulse;
+        momentHere = vec3(0.0f, 0.0f, 0.0f);
+    }
     if (HAS(FRICTION))
         applySpringFriction(normal, surface, fall, sphereRadius - overlap, spring, contactParams[index].contact);
+    if (!HAS(CONTACT_SUMS)) return;
+    precise vec3 moment = cross3(spherePoint, impulseHere) + momentHere;
+    addToSurfaceSums(sphereSlot, surface, impulseHere, moment);
 }
 
 #include "shared/surfaces.h"

@@ -20,6 +20,7 @@ BUFFER(readonly, uvec2, nearObstacles)
 BUFFER(readonly, vec4, listReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
+BUFFER(coherent, uint, surfaceSums)
 BUFFER(restrict, float, wallWork)  // by id: work of pushes out of walls against gravity and fields (J)
 
 PRIVATE(uint, sphereSlot)
@@ -29,9 +30,11 @@ PRIVATE(vec3, solvedVelocity)  // m/s
 PRIVATE(vec3, omega)           // rad/s
 PRIVATE(vec3, pushedOut)       // m, the moves out of walls that are no flight
 PRIVATE(bool, touched)
+PRIVATE(float, sphereInverseMass)  // 1/kg
 
 #include "shared/contact_params.h"
 #include "shared/friction_wall.h"
+#include "shared/surface_sums.h"
 
 // The speed at the moment of impact (m/s, positive). `speed` is the normal speed at the end of the substep (m/s,
 // negative). `pull` is the acceleration along the normal (m/s^2). `depth` is the depth of the sphere in the wall (m).
@@ -45,6 +48,16 @@ float impactSpeed(float speed, float pull, float depth) {
 float speedAfter(float rebound, float pull, float since) {
     precise float after = rebound + pull * since;
     return after;
+}
+
+// Adds the changes of velocity (m/s) and spin (rad/s) by a surface to its sums.
+void addChanges(uint surface, vec3 velocityBefore, vec3 spinBefore) {
+    precise float mass = 1.0f / sphereInverseMass;
+    precise float inertia = 0.4f * mass * sphereRadius * sphereRadius;
+    precise vec3 impulse = (solvedVelocity - velocityBefore) * mass;
+    precise vec3 moment = cross3(spherePoint, impulse);
+    if (HAS(FRICTION)) moment = moment + (omega - spinBefore) * inertia;
+    addToSurfaceSums(sphereSlot, surface, impulse, moment);
 }
 
 vec3 velocityAlong() {
@@ -69,9 +82,12 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     float after = speedAfter(rebound, pull, since);
     bool flies = after > 0.0f;
     float speedChange = (flies ? after : rebound) - speed;
+    vec3 velocityBefore = solvedVelocity;
+    vec3 spinBefore = omega;
     solvedVelocity = solvedVelocity + normal * speedChange;
     vec3 bounced = solvedVelocity;
     if (HAS(FRICTION)) applyWallFriction(normal, sphereRadius, speedChange, contact);
+    if (HAS(CONTACT_SUMS)) addChanges(surface, velocityBefore, spinBefore);
     spherePoint = spherePoint + normal * push;
     if (flies)
         spherePoint = spherePoint + normal * (0.5f * (rebound + after) * since) + (solvedVelocity - bounced) * since;
@@ -91,9 +107,11 @@ KERNEL(params.spheres) {
     if (near == NO_OBSTACLES && clearOfFaces(reach)) return;
     vec4 v = velocity[invocation];
     if ((HAS(SLEEP) || HAS(FIXED)) && !isAwake(v)) return;
+    sphereInverseMass = inverseMassOf(v);
     solvedVelocity = vec3(v);
     pushedOut = vec3(0.0f, 0.0f, 0.0f);
     touched = false;
+    omega = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(FRICTION)) omega = vec3(angularVelocity[invocation]);
     visitSurfaces(near);
     if (!touched) return;
@@ -102,6 +120,6 @@ KERNEL(params.spheres) {
     if (HAS(FRICTION)) angularVelocity[invocation] = vec4(omega, 0.0f);
     if (HAS(GRAVITY) || HAS(FIELDS)) {
         uint id = idOf(idAndMaterial[invocation]);
-        wallWork[id] = wallWork[id] - dot3(accelerationAt(spherePoint), pushedOut) / inverseMassOf(v);
+        wallWork[id] = wallWork[id] - dot3(accelerationAt(spherePoint), pushedOut) / sphereInverseMass;
     }
 }

@@ -1,14 +1,18 @@
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/errors.h"
 #include "cli/exit_codes.h"
+#include "cli/force_table.h"
 #include "cli/interrupt.h"
 #include "cli/option_values.h"
 #include "cli/options.h"
@@ -35,6 +39,7 @@ struct RunOptions {
     std::string duration;
     std::string every;
     std::string dump;
+    std::string surfaceForces;
     std::string script;
     double watchdog = 0;
     bool json = false;
@@ -72,7 +77,7 @@ class IntervalTimer {
                           .before = impacts_};
         interval.end = simulation_.statistics();
         if (const auto& sums = interval.end.contactSums)
-            interval.end.contactStress = sim::meanContactStress(sums->since(sums_), simulation_.scene().bounds);
+            sim::setMeans(interval.end, sums->since(sums_), simulation_.scene());
         return interval;
     }
 
@@ -170,9 +175,10 @@ struct Times {
     double every = 0;  // 0: one report at the end
 };
 
-// Output files for states.
+// Output files.
 struct Outputs {
     std::optional<StateDump> dump;
+    std::optional<ForceTable> forces;
     std::unique_ptr<host::RunRecorder> recorder;
 };
 
@@ -185,6 +191,7 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, Sc
                                   : std::max<std::uint64_t>(1, steps);
     IntervalTimer timer(simulation, device);
     host::RunRecorder* const recorder = outputs.recorder.get();
+    const auto writeForces = [&] { return outputs.forces ? outputs.forces->write(simulation) : Result<void>(); };
     if (!outputs.dump) {
         if (every > 0 && !options.json) fmt::print("{}\n", runRowHeader);
         diagnostics::OverlapWatch overlap;
@@ -193,13 +200,17 @@ Result<void> simulate(const RunOptions& options, sim::Simulation& simulation, Sc
             if (const auto alarm = overlap.check(simulation.steps(), interval.end.deepest()))
                 spdlog::warn("{}", *alarm);
             print(options, device.info(), simulation, interval);
+            auto done = writeForces();
             timer.start();
-            return {};
+            return done;
         };
         return steps == 0 ? report() : runSteps(simulation, script, recorder, interrupt, steps, stride, report);
     }
     StateDump& dump = *outputs.dump;
-    const auto write = [&] { return dump.write(simulation); };
+    const auto write = [&] {
+        auto done = dump.write(simulation);
+        return done ? writeForces() : done;
+    };
     if (auto done = write(); !done) return done;
     if (steps > 0)
         if (auto done = runSteps(simulation, script, recorder, interrupt, steps, stride, write); !done) return done;
@@ -213,6 +224,11 @@ Result<Outputs> openOutputs(const RunOptions& options, sim::Simulation& simulati
         auto dump = StateDump::create(options.dump, options.record.replace);
         if (!dump) return tl::unexpected(dump.error());
         outputs.dump.emplace(std::move(*dump));
+    }
+    if (!options.surfaceForces.empty()) {
+        auto forces = ForceTable::create(options.surfaceForces, options.record.replace);
+        if (!forces) return tl::unexpected(forces.error());
+        outputs.forces.emplace(std::move(*forces));
     }
     if (!options.record.path.empty()) {
         auto recorder = host::RunRecorder::create(options.record, device, simulation);
@@ -234,6 +250,7 @@ Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation
         if (done) done = finished;
     }
     if (outputs->dump && done) done = outputs->dump->finish();
+    if (outputs->forces && done) done = outputs->forces->finish();
     if (done && outputs->recorder) {
         const recording::Writer& writer = outputs->recorder->writer();
         spdlog::info("recorded {} frames in {}, {:.1f} MB", writer.frames(), options.record.path,
@@ -243,15 +260,20 @@ Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation
 }
 
 Result<void> checkFiles(const RunOptions& options) {
-    const bool dumps = !options.dump.empty();
-    const bool records = !options.record.path.empty();
-    if (options.record.replace && !dumps && !records)
-        return fail(ErrorKind::Input, "--force", "has nothing to replace; give --record or --dump");
-    if (dumps && options.dump == options.record.path)
-        return fail(ErrorKind::Input, "--dump", "is the file of --record; give each its own");
-    constexpr const char* taken = "cannot be standard output, where the report goes; give it a file";
-    if (options.dump == "-") return fail(ErrorKind::Input, "--dump", taken);
-    if (options.record.path == "-") return fail(ErrorKind::Input, "--record", taken);
+    const std::array<std::pair<const char*, const std::string&>, 3> files{
+        {{"--record", options.record.path}, {"--dump", options.dump}, {"--surface-forces", options.surfaceForces}}};
+    if (options.record.replace &&
+        std::ranges::all_of(files, [](const auto& file) { return file.second.empty(); }))
+        return fail(ErrorKind::Input, "--force", "has nothing to replace; give --record, --dump or --surface-forces");
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        const auto& [option, path] = files[k];
+        if (path == "-")
+            return fail(ErrorKind::Input, option, "cannot be standard output, where the report goes; give it a file");
+        for (std::size_t other = 0; other < k; ++other)
+            if (!path.empty() && path == files[other].second)
+                return fail(ErrorKind::Input, option,
+                            fmt::format("is the file of {}; give each its own", files[other].first));
+    }
     return {};
 }
 
@@ -297,6 +319,8 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
     command->add_option("--every", options->every, "interval of reports, or with --dump of states [once, at the end]");
     command->add_option("--dump", options->dump, "write states to this CSV file");
+    command->add_option("--surface-forces", options->surfaceForces,
+                        "write forces and torques on walls and obstacles to this CSV file, at the times of the reports");
     command->add_option("--script", options->script,
                         "carry out timed commands: lines such as 1.5s set gravity 0 0 -1.6");
     addRunRecording(*command, options->record);
@@ -304,6 +328,7 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_flag("--json", options->json, "print JSON, one line per report");
     command->footer(exitCodesText);
     command->callback([options, &exitCode] {
+        if (!options->surfaceForces.empty()) options->scene.overrides.contactSums = true;
         const auto done = run(*options);
         exitCode = done ? exitDone : printError(done.error());
     });

@@ -25,6 +25,15 @@ nlohmann::ordered_json passesOf(const Interval& interval) {
     return passes;
 }
 
+nlohmann::json forcesOf(const sim::Statistics& statistics) {
+    auto forces = nlohmann::json::array();
+    for (const sim::SurfaceForce& on : statistics.surfaceForces)
+        forces.push_back({{"surface", on.surface},
+                          {"force", {on.force.x, on.force.y, on.force.z}},
+                          {"torque", {on.torque.x, on.torque.y, on.torque.z}}});
+    return forces;
+}
+
 nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulation& simulation,
                                 const Interval& interval) {
     const sim::Statistics& s = interval.end;
@@ -74,6 +83,7 @@ nlohmann::ordered_json reportOf(const compute::DeviceInfo& device, sim::Simulati
         {"dissipatedEnergy", ofSums(sums.dissipated)},
         {"kineticStress", ofSums(s.kineticStress)},
         {"contactStress", s.contactStress ? nlohmann::json(*s.contactStress) : nullptr},
+        {"surfaceForces", ofSums(forcesOf(s))},
         {"stateHash", fmt::format("{:016x}", sim::hashOf(state))},
     };
 }

@@ -71,8 +71,7 @@ DiagnosticsSampler::Sample DiagnosticsSampler::sample(sim::Simulation& simulatio
     sim::Statistics statistics = simulation.statistics();
     statistics.impacts = statistics.impacts.since(std::exchange(impacts_, statistics.impacts));
     if (const auto& sums = statistics.contactSums)
-        statistics.contactStress =
-            sim::meanContactStress(sums->since(std::exchange(sums_, *sums)), simulation.scene().bounds);
+        sim::setMeans(statistics, sums->since(std::exchange(sums_, *sums)), simulation.scene());
     *diagnostics.mutable_statistics() = statisticsMessage(statistics);
     diagnostics.set_substeps(simulation.substeps());
     addPasses(diagnostics, passSeconds, steps_);

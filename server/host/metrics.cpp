@@ -7,6 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/pass.h"
 
@@ -24,6 +28,29 @@ struct Metrics::Families {
         prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add(labels).Set(value);
     }
 };
+
+namespace {
+
+// The forces on the surfaces of the present scene. They have a registry of their own, because a registry never forgets
+// a label.
+std::vector<prometheus::MetricFamily> forcesOf(const v1::Statistics& now) {
+    prometheus::Registry registry;
+    const auto add = [&registry](const char* name, const char* help, const std::string& surface, const auto& values) {
+        constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+        auto& family = prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+        for (int axis = 0; axis < values.size(); ++axis)
+            family.Add({{"surface", surface}, {"axis", axes[axis]}}).Set(values[axis]);
+    };
+    for (const v1::SurfaceForce& on : now.surface_forces()) {
+        add("spherule_surface_force_newtons", "Force of the spheres on a wall or an obstacle, mean of a second",
+            on.surface(), on.force());
+        add("spherule_surface_torque_newton_metres", "Torque of that force about the centre of the bounds", on.surface(),
+            on.torque());
+    }
+    return registry.Collect();
+}
+
+}  // namespace
 
 Metrics::Metrics() : families_(std::make_unique<Families>()) {}
 Metrics::~Metrics() = default;
@@ -71,7 +98,9 @@ std::string Metrics::text(const ServerStatus& status, const net::Counters& net) 
     for (std::size_t cause = 0; cause < net.rejected.size(); ++cause)
         to.counter("spherule_rejected_total", "Connections, requests, handshakes and commands turned away, by cause",
                    count(net.rejected[cause]), {{"cause", std::string(net::rejectReasonNames[cause])}});
-    return prometheus::TextSerializer().Serialize(to.registry.Collect());
+    std::vector<prometheus::MetricFamily> families = to.registry.Collect();
+    if (status.diagnostics) std::ranges::move(forcesOf(status.diagnostics->statistics()), std::back_inserter(families));
+    return prometheus::TextSerializer().Serialize(families);
 }
 
 // Figures of the last second. They exist only while a viewer watches, and for 150 s after a request for metrics.

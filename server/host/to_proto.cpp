@@ -216,6 +216,12 @@ v1::Statistics statisticsMessage(const sim::Statistics& s) {
         message.set_dissipated_energy(s.contactSums->dissipated);
         message.mutable_kinetic_stress()->Add(s.kineticStress.begin(), s.kineticStress.end());
     }
+    for (const sim::SurfaceForce& on : s.surfaceForces) {
+        v1::SurfaceForce& force = *message.add_surface_forces();
+        force.set_surface(on.surface);
+        scene::setVector(*force.mutable_force(), on.force);
+        scene::setVector(*force.mutable_torque(), on.torque);
+    }
     if (s.contactStress) message.mutable_contact_stress()->Add(s.contactStress->begin(), s.contactStress->end());
     if (s.stateHash) message.set_state_hash(fmt::format("{:016x}", *s.stateHash));
     return message;

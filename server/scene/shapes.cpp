@@ -39,6 +39,12 @@ ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::str
     return nullptr;
 }
 
+std::uint32_t surfacesOf(const Scene& scene) {
+    std::uint32_t surfaces = faceCount;
+    for (const Obstacle& obstacle : scene.obstacles) surfaces += obstacle.shape->parts();
+    return surfaces;
+}
+
 ShapePointer exampleOf(ShapeKind kind, double top) {
     return types.at(static_cast<std::size_t>(kind))->example(top);
 }

@@ -60,6 +60,10 @@ ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::str
 // Returns a shape of this kind with a size of about 1 m, whose solid is below the plane z = `top`.
 ShapePointer exampleOf(ShapeKind kind, double top);
 
+// Surfaces are numbered through the faces of the bounds (by Face) and the parts of the obstacles, in their order.
+constexpr std::uint32_t faceCount = 6;
+std::uint32_t surfacesOf(const Scene& scene);
+
 // A half-space. `normal` is of unit length and points to the free side.
 ShapePointer planeShape(const glm::dvec3& point, const glm::dvec3& normal);
 ShapePointer boxShape(const Box& box);

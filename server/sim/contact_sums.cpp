@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
+
 
 namespace spherule::sim {
 
@@ -15,7 +19,50 @@ ContactSums ContactSums::since(const ContactSums& before) const {
                            .collisions = collisions - before.collisions,
                            .dissipated = dissipated - before.dissipated};
     for (std::size_t k = 0; k < virial.size(); ++k) difference.virial[k] = virial[k] - before.virial[k];
+    difference.loads = loads;
+    for (std::size_t k = 0; k < std::min(loads.size(), before.loads.size()); ++k) {
+        difference.loads[k].impulse -= before.loads[k].impulse;
+        difference.loads[k].moment -= before.loads[k].moment;
+    }
     return difference;
+}
+
+LoadUnits LoadUnits::of(const scene::Scene& scene) {
+    // Per unit of impulse, all spheres together change their velocity by this much (m/s).
+    constexpr int velocityExponent = -44;
+    constexpr int mostExponent = 100;  // the reciprocals must be floats
+    double mass = 0;
+    for (const scene::Sphere& sphere : scene.spheres)
+        if (!sphere.fixed)
+            mass += 4.0 / 3 * std::numbers::pi * std::pow(static_cast<double>(sphere.radius), 3) *
+                    scene.materials[sphere.material].density;
+    const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
+    const int massExponent = mass > 0 ? std::ilogb(mass) + 1 : 0;
+    const int lengthExponent = std::ilogb(glm::length(half)) + 1;
+    const int impulse = std::clamp(massExponent + velocityExponent, -mostExponent, mostExponent);
+    const int moment = std::clamp(impulse + lengthExponent, -mostExponent, mostExponent);
+    return {.impulse = std::ldexp(1, impulse), .moment = std::ldexp(1, moment)};
+}
+
+void addSurfaceLoads(ContactSums& sum, Pipeline& pipeline, const LoadUnits& units) {
+    if (!pipeline.plan().has(Array::SurfaceSums)) return;
+    std::vector<std::uint32_t> words = pipeline.read<std::uint32_t>(Array::SurfaceSums);
+    constexpr std::size_t surfaceWords = std::size_t{SURFACE_SUM_COPIES} * SURFACE_SUM_WORDS;
+    sum.loads.resize(words.size() / surfaceWords);
+    for (std::size_t surface = 0; surface < sum.loads.size(); ++surface) {
+        std::array<std::uint64_t, SURFACE_SUM_WORDS / 2> components{};
+        for (std::size_t copy = 0; copy < SURFACE_SUM_COPIES; ++copy)
+            for (std::size_t k = 0; k < components.size(); ++k) {
+                const std::size_t word = surface * surfaceWords + copy * SURFACE_SUM_WORDS + 2 * k;
+                components[k] += words[word] | std::uint64_t{words[word + 1]} << 32U;
+            }
+        // The device counts what the spheres get.
+        const auto value = [&](std::size_t k) { return -static_cast<double>(static_cast<std::int64_t>(components[k])); };
+        sum.loads[surface].impulse += glm::dvec3(value(0), value(1), value(2)) * units.impulse;
+        sum.loads[surface].moment += glm::dvec3(value(3), value(4), value(5)) * units.moment;
+    }
+    std::ranges::fill(words, 0U);
+    pipeline.write<std::uint32_t>(Array::SurfaceSums, words);
 }
 
 void addContactSums(ContactSums& sum, Pipeline& pipeline) {

@@ -28,12 +28,6 @@ std::uint64_t obstacleListWords(std::uint64_t obstacles, std::uint64_t spheres) 
     return obstacles + 2 + spheres * (std::min(obstacles, mostNear) + 1);
 }
 
-std::uint32_t surfacesOf(const std::vector<scene::Obstacle>& obstacles) {
-    std::uint32_t surfaces = 0;
-    for (const scene::Obstacle& obstacle : obstacles) surfaces += obstacle.shape->parts();
-    return surfaces;
-}
-
 std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& scene) {
     const std::uint64_t n = plan.room;
     const std::uint32_t cells = plan.grid.all();
@@ -80,6 +74,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
             return COUNTER_WORDS;
         case Extent::StatisticBlock:
             return blocksOf(plan.room, STATISTIC_BLOCK);
+        case Extent::SurfaceSumWord:
+            return std::uint64_t{scene::surfacesOf(scene)} * SURFACE_SUM_COPIES * SURFACE_SUM_WORDS;
     }
     return 0;
 }
@@ -179,8 +175,8 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     }
     if (features.hasSurfaceFeature()) {
         // `balanced` has one for each axis of the bounds, before the ones for obstacles.
-        const std::uint32_t faces = features.has(Feature::Balanced) ? 3 : 6;
-        plan.maxWallHistory = std::min<std::uint32_t>(wallHistoryLimit, faces + surfacesOf(scene.obstacles));
+        const std::uint32_t unused = features.has(Feature::Balanced) ? 3 : 0;
+        plan.maxWallHistory = std::min(wallHistoryLimit, scene::surfacesOf(scene) - unused);
     }
     PlanBuilder builder(plan, scene);
     builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});

@@ -74,6 +74,7 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
 // Adds the sums of the device.
 void Simulation::takeContactSums() {
     addContactSums(contactSums_, *pipeline_);
+    addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);
     contactSums_.seconds = time() - sumsBegin_;
 }
 
@@ -83,9 +84,11 @@ void Simulation::closeContactSums() {
     contactSums_ = *statistics().contactSums;
 }
 
-// Begins a stretch of contact sums.
+// Begins a stretch of contact sums, in units that suit the present spheres.
 void Simulation::openContactSums() {
     if (!hasContactSums()) return;
+    loadUnits_ = LoadUnits::of(scene_);
+    uploadParameters();
     elasticBefore_ = measure(*pipeline_, scene_).elasticEnergy;
 }
 
@@ -160,7 +163,10 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
 void Simulation::uploadParameters() {
     const double substep =
         substepsLeft_ > 0 ? (1 - remainderBegin_) * scene_.step / remainderSubsteps_ : scene_.step / substeps_;
-    pipeline_->setParameters(parametersFor(scene_, plan(), radii_, substep));
+    layout::Parameters parameters = parametersFor(scene_, plan(), radii_, substep);
+    parameters.perImpulseUnit = static_cast<float>(1 / loadUnits_.impulse);
+    parameters.perMomentUnit = static_cast<float>(1 / loadUnits_.moment);
+    pipeline_->setParameters(parameters);
 }
 
 // A step under way is completed with substeps of the new length, or a little shorter.
@@ -225,7 +231,7 @@ Statistics Simulation::statistics() {
     if (hasContactSums()) {
         takeContactSums();
         now.contactSums = contactSums_;
-        now.contactStress = meanContactStress(contactSums_, scene_.bounds);
+        setMeans(now, contactSums_, scene_);
         now.contactSums->dissipated -= now.elasticEnergy - elasticBefore_;  // the energy in springs is not lost
     }
     return now;
@@ -235,6 +241,7 @@ Statistics Simulation::statistics() {
 Result<void> Simulation::checkStep() {
     readCounters();  // waits for the step; if the device was lost in it, status() fails and the counters are invalid
     if (auto alive = device_.status(); !alive) return alive;
+    if (hasContactSums()) addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);  // keeps them far within 64 bits
     if (counters_.sampled > 0 && !noticedSampled_) {
         noticedSampled_ = true;
         notices_.push_back(fmt::format(

@@ -154,6 +154,7 @@ class Simulation {
     Impacts impacts_;
     // dissipated: without the change of the energy in springs since openContactSums().
     ContactSums contactSums_;
+    LoadUnits loadUnits_;
     ContactSums lastFiniteSums_;
     double sumsBegin_ = 0;           // s simulated
     double elasticBefore_ = 0;       // J, in springs at openContactSums()

@@ -1,9 +1,14 @@
 #include "sim/statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
+
+#include "scene/shapes.h"
 
 namespace spherule::sim {
 
@@ -42,13 +47,39 @@ double volumeOf(const scene::Bounds& bounds) {
     return size.x * size.y * size.z;
 }
 
+// Returns the mean forces on the closed faces and on the obstacles, in the order of the scene. An obstacle bears the
+// loads of all its surfaces.
+std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene& scene) {
+    constexpr std::array<const char*, scene::faceCount> faceNames = {"X_MIN", "X_MAX", "Y_MIN",
+                                                                     "Y_MAX", "Z_MIN", "Z_MAX"};
+    std::vector<SurfaceForce> forces;
+    if (sums.loads.empty()) return forces;
+    for (std::size_t face = 0; face < faceNames.size(); ++face)
+        if (scene.bounds.walled(face))
+            forces.push_back({faceNames[face], sums.loads[face].impulse / sums.seconds,
+                              sums.loads[face].moment / sums.seconds});
+    std::size_t surface = scene::faceCount;
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
+        SurfaceForce sum{.surface = fmt::format("obstacles[{}]", k)};
+        for (const std::size_t end = surface + scene.obstacles[k].shape->parts(); surface < end; ++surface) {
+            sum.force += sums.loads[surface].impulse / sums.seconds;
+            sum.torque += sums.loads[surface].moment / sums.seconds;
+        }
+        forces.push_back(std::move(sum));
+    }
+    return forces;
+}
+
 }  // namespace
 
-std::optional<Tensor> meanContactStress(const ContactSums& sums, const scene::Bounds& bounds) {
-    if (!(sums.seconds > 0)) return std::nullopt;
+void setMeans(Statistics& statistics, const ContactSums& sums, const scene::Scene& scene) {
+    statistics.contactStress.reset();
+    statistics.surfaceForces.clear();
+    if (!(sums.seconds > 0)) return;
     Tensor stress = sums.virial;
-    for (double& component : stress) component /= sums.seconds * volumeOf(bounds);
-    return stress;
+    for (double& component : stress) component /= sums.seconds * volumeOf(scene.bounds);
+    statistics.contactStress = stress;
+    statistics.surfaceForces = meanForces(sums, scene);
 }
 
 Impacts Impacts::since(const Impacts& before) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -25,6 +27,13 @@ struct Impacts {
     [[nodiscard]] double restitutionAsked() const { return asked / approach; }
     // Returns these impacts without the impacts in `before`.
     [[nodiscard]] Impacts since(const Impacts& before) const;
+};
+
+// The force that spheres exert on a wall or an obstacle (N), and its torque about the centre of the bounds (N m).
+struct SurfaceForce {
+    std::string surface;  // a face as scenes name it, such as Z_MIN, or an obstacle, such as obstacles[0]
+    glm::dvec3 force{};
+    glm::dvec3 torque{};
 };
 
 // Statistics in SI units. Overlaps are fractions of the (smaller) radius.
@@ -59,6 +68,7 @@ struct Statistics {
     // In scenes with contact sums:
     std::optional<ContactSums> contactSums{};  // since then
     std::optional<Tensor> contactStress{};     // Pa: mean since then; absent at the beginning
+    std::vector<SurfaceForce> surfaceForces{};  // means since then; empty at the beginning
     Tensor kineticStress{};                    // Pa: sum of m v v over the volume of the bounds
     std::optional<std::uint64_t> stateHash{};  // of a query that asked for it: hashOf() of the same state
 
@@ -66,9 +76,9 @@ struct Statistics {
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }
 };
 
-// Returns the mean stress by contacts (Pa): the virial over the time and over the volume of the bounds. Returns nullopt
-// if the time is 0.
-std::optional<Tensor> meanContactStress(const ContactSums& sums, const scene::Bounds& bounds);
+// Sets the means over the time of `sums`: the stress by contacts, which is the virial over the time and over the volume
+// of the bounds, and the forces. Without any time there are none.
+void setMeans(Statistics& statistics, const ContactSums& sums, const scene::Scene& scene);
 
 // Computes statistics. The device sums in blocks, the host adds the blocks in double. Waits for the device.
 Statistics measure(Pipeline& pipeline, const scene::Scene& scene);

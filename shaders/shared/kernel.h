@@ -36,6 +36,8 @@
 //   RARE                        Before a function: keeps it out of the code around its calls.
 //   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.
 //   EACH_LANE_WITH(where, flag, function, at)  The same for a uintRow, in order, with the bool of a second mask.
+//   EACH_LANE_VECTORS(where, function, number, more, a, b)  Calls the function with the number, `more` and the vec3 of
+//                               each lane in `where`. `number`: uints. `more`: any value. `a`, `b`: real3.
 //   SUM_OF_LANES(value)         The sum of a real over the lanes.
 //   THREAD                      The number of the thread in the work group that visits a bundle; 0 in C++.
 //   RAISE_TO(where, word, value)    Raises a word, the bits of a float, to the value of the lanes in `where`, >= 0.
@@ -82,6 +84,7 @@ layout(location = 0) uniform uint phase;
     if (where && word < floatBitsToUint(value)) atomicMax(word, floatBitsToUint(value));
 #define LANE_KERNEL(count) KERNEL(count)
 #define EACH_LANE_WITH(where, flag, function, at) if (where) function(at, flag);
+#define EACH_LANE_VECTORS(where, function, number, more, a, b) if (where) function(number, more, a, b);
 #define ROWS_UP_TO(first, end) (first)
 #define IN_ROWS(at) true
 #define LANES 1u

@@ -55,8 +55,8 @@ struct Parameters {
 
     uint openFaces;      // as closedFaces; a face of a periodic axis is neither
     uint unusedUint1;
-    uint unusedUint2;
-    uint unusedUint3;
+    float perImpulseUnit;  // 1/(N s): reciprocal of the unit of impulses on surfaces, a power of two
+    float perMomentUnit;   // 1/(N m s): reciprocal of the unit of their moments
 
     float gravityChange; // m/s: change of the velocity by gravity alone in a substep
     float substepRatio;  // present substep over the one before, while impulses are scaled to it
@@ -180,6 +180,9 @@ struct SphereStatistics {
 // Rows of contact sums behind these words (shared/contact_sums.h), for each thread of a work group.
 #define SUM_THREADS 64u
 #define SUM_WORDS 8u            // virial xx yy zz xy xz yz (J s), collisions, 0
+// Sums over the contacts with each surface (shared/surface_sums.h).
+#define SURFACE_SUM_COPIES 16u
+#define SURFACE_SUM_WORDS 12u   // impulse x y z, moment x y z: low and high words
 #define PAIR_PADDING 16u        // unused pairs behind each bundle: lanes beyond the last pair lie here
 
 // A sphere carries over at most this many contacts when the lists are rebuilt. A sphere touches at most 12 others that

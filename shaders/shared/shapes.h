@@ -4,10 +4,9 @@
 // surface.
 #define TOUCHES 2.0e-4f
 
-#include "shapes/plane.h"
-#include "shapes/box.h"
-#include "shapes/sphere.h"
-#include "shapes/cylinder.h"
+#define SHAPE_FILES
+#include "shapes.def"
+#undef SHAPE_FILES
 
 // All shapes but planes are curved, boxes at their edges.
 bool isCurved(Obstacle obstacle) {

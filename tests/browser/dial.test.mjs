@@ -8,7 +8,7 @@ import { browserSuite } from "./support/suite.mjs";
 let server;
 let page;
 browserSuite(async (browser) => {
-  server = await serve("box-4k");
+  server = await serve("box-4k", { options: ["--contact-sums"] });
   page = await open(browser, server.url, { size: [1280, 900] });
   await when(page, () => spherule.session.dial?.positions.length > 0 && spherule.session.diagnostics);
 });
@@ -138,6 +138,13 @@ test("diagnostics are updated regularly", async () => {
   assert.match(await text("statistics-impacts"), /^[\d\u202f]+$|^–$/);
   const shownSubsteps = Number(await text("statistics-substeps"));
   assert.equal(shownSubsteps, await page.evaluate(() => spherule.session.diagnostics.substeps));
+});
+
+test("forces on the walls are among the diagnostics, in a scene with contact sums", async () => {
+  assert.match(await text("statistics-collisions"), /^[\d\u202f]+$/);
+  assert.match(await text("statistics-dissipated"), / J$/);
+  assert.match(await text("statistics-force-Z_MIN"), /^\S+ {2}\S+ {2}−\S+$/);
+  assert.notEqual(await text("statistics-torque-X_MAX"), "");
 });
 
 test("a model that the scene does not support is missing on the dial, with a reason", async () => {

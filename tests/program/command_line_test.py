@@ -20,7 +20,7 @@ BINARY = sys.argv.pop()
 KEYS = """scene device renderer quality spheres born removed steps substepsPerStep simSeconds intervalSeconds wallSeconds realTimeFactor
 deviceSeconds passSeconds rebuilds kineticEnergy rotationalEnergy elasticEnergy potentialEnergy pushWork momentum angularMomentum contacts
 overlapMean overlapMax wallOverlapMax speedMax speedRms meanHeight sleeping outside nonFinite impacts restitution
-restitutionAsked collisions dissipatedEnergy kineticStress contactStress stateHash""".split()
+restitutionAsked collisions dissipatedEnergy kineticStress contactStress surfaceForces stateHash""".split()
 
 
 call = runner(BINARY)
@@ -55,8 +55,8 @@ class Run(unittest.TestCase):
 
     def test_contact_sums_are_there_if_asked_for(self):
         plain = run_json("box-4k", "--for", "0.6s", "--no-sleep")
-        names = "collisions", "dissipatedEnergy", "kineticStress", "contactStress"
-        self.assertEqual([plain[name] for name in names], [None] * 4)
+        names = "collisions", "dissipatedEnergy", "kineticStress", "contactStress", "surfaceForces"
+        self.assertEqual([plain[name] for name in names], [None] * 5)
         done = call("run", "box-4k", "--for", "0.6s", "--every", "0.3s", "--contact-sums", "--no-sleep", "--device", DEVICE,
                     "--json")
         first, second = (json.loads(line) for line in done.stdout.splitlines())
@@ -66,6 +66,29 @@ class Run(unittest.TestCase):
         self.assertAlmostEqual((second["dissipatedEnergy"] - first["dissipatedEnergy"]) / lost, 1, delta=0.1)
         self.assertEqual((len(second["kineticStress"]), len(second["contactStress"])), (6, 6))
         self.assertGreater(second["contactStress"][2], first["contactStress"][2])  # more spheres lie on others
+
+    def test_surface_forces_are_written_at_the_times_of_reports(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/forces.csv"
+            more = ("--every", "0.5s", "--surface-forces", path, "--device", DEVICE, "--json")
+            done = call("run", "bounce", "--for", "1.5s", *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            reports = [json.loads(line) for line in done.stdout.splitlines()]
+            with open(path, encoding="utf-8", newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(list(rows[0]), "time surface fx fy fz tx ty tz".split())
+            per_report = len(rows) // len(reports)
+            self.assertEqual(len(rows), per_report * len(reports))
+            for report, first in zip(reports, range(0, len(rows), per_report)):
+                for row, force in zip(rows[first:first + per_report], report["surfaceForces"], strict=True):
+                    self.assertAlmostEqual(float(row["time"]), report["simSeconds"], places=6)
+                    self.assertEqual(row["surface"], force["surface"])
+                    for name, value in zip("fx fy fz tx ty tz".split(), force["force"] + force["torque"], strict=True):
+                        self.assertAlmostEqual(float(row[name]), value, delta=1e-6 * (1 + abs(value)))
+            floor = next(row for row in rows[-per_report:] if row["surface"] == "Z_MIN")
+            self.assertLess(float(floor["fz"]), -1)
+            self.assertIn(path, call("run", "bounce", "--for", "0.1s", *more).stderr)
+            self.assertEqual(call("run", "bounce", "--for", "0.1s", *more, "--force").returncode, 0)
 
     def test_same_scene_and_seed_give_the_same_hash_and_another_seed_another(self):
         def hash_of(*more):
@@ -260,6 +283,19 @@ class ServeWithContactSums(unittest.TestCase):
         self.assertGreater(metrics["spherule_contact_stress_pascals", "xx"], 0)
         self.assertGreaterEqual(metrics["spherule_kinetic_stress_pascals", "xx"], 0)
         self.assertIn(("spherule_dissipated_joules", ""), metrics)
+
+    def test_queries_and_metrics_have_forces_on_walls(self):
+        with Server(BINARY, "serve", "bounce", "--contact-sums", "--device", DEVICE) as server:
+            answer = wait_for(lambda: (figures := json.loads(call("ctl", server.stream, "query").stdout))["simTime"] > 1
+                              and figures)
+            walls = {on["surface"]: on["force"] for on in answer["surfaceForces"]}
+            self.assertEqual(list(walls), "X_MIN X_MAX Y_MIN Y_MAX Z_MIN".split())
+            self.assertLess(walls["Z_MIN"][2], -1)
+            force = 'spherule_surface_force_newtons{axis="z",surface="Z_MIN"} -'
+            self.assertTrue(wait_for(lambda: force in server.get("/metrics")))
+            self.assertIn('spherule_surface_torque_newton_metres{axis="x",surface="Z_MIN"} ', server.get("/metrics"))
+            self.assertEqual(call("ctl", server.stream, "load", "cradle").returncode, 0)
+            self.assertTrue(wait_for(lambda: "Z_MIN" not in server.get("/metrics")), "of a scene that is gone")
 
 
 class Serve(unittest.TestCase):

@@ -76,11 +76,16 @@ class Usage(unittest.TestCase):
                 (*run, "--for", "1s", "--quality", "best"):
                     "--quality: best not in {fast,balanced,accurate}; see `spherule run --help`",
                 (*run, "--for", "1s", "--force"):
-                    "--force: has nothing to replace; give --record or --dump; see `spherule run --help`",
+                    "--force: has nothing to replace; give --record, --dump or --surface-forces; see `spherule run --help`",
                 (*run, "--for", "1s", "--dump", "-"):
                     "--dump: cannot be standard output, where the report goes; give it a file; see `spherule run --help`",
                 (*run, "--for", "1s", "--record", "-"):
                     "--record: cannot be standard output, where the report goes; give it a file; see `spherule run --help`",
+                (*run, "--for", "1s", "--surface-forces", "-"):
+                    "--surface-forces: cannot be standard output, where the report goes; give it a file; "
+                    "see `spherule run --help`",
+                (*run, "--for", "1s", "--surface-forces", "a.csv", "--dump", "a.csv"):
+                    "--surface-forces: is the file of --dump; give each its own; see `spherule run --help`",
                 ("measure", "--out", "-"): "--out: cannot be standard output: it is a folder; see `spherule measure --help`",
                 ("serve", "bounce", "--listen", "here"):
                     '--listen: is "here"; give host:port, such as 127.0.0.1:8080; see `spherule serve --help`',

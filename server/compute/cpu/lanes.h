@@ -357,6 +357,13 @@ SPHERULE_INLINE void callForLanes(mask where, const uints& at, Function function
         function(at.v[static_cast<unsigned>(__builtin_ctz(bits))]);
 }
 template <class Function>
+SPHERULE_INLINE void callForLanes(mask where, const uints& at, const real3& a, const real3& b, Function function) {
+    for (std::uint32_t bits = bitsOf(where); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<unsigned>(__builtin_ctz(bits));
+        function(at.v[lane], vec3(a.x.v[lane], a.y.v[lane], a.z.v[lane]), vec3(b.x.v[lane], b.y.v[lane], b.z.v[lane]));
+    }
+}
+template <class Function>
 SPHERULE_INLINE void callForLanes(mask where, uintRow at, Function function) {
     for (std::uint32_t bits = bitsOf(where); bits != 0; bits &= bits - 1)
         function(at.first + static_cast<std::uint32_t>(__builtin_ctz(bits)));

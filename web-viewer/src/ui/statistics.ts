@@ -60,10 +60,32 @@ export class StatisticsTables {
       ["outside", "Outside", count(s.outside)],
       ["non-finite", "Non-finite", count(s.nonFinite)],
       ...turnover(s),
+      ...sums(s),
       ["step", "Step", count(Number(s.step))],
       ["time", "Simulated time", seconds(s.simTime)],
     ]);
   }
+}
+
+const shownForces = 12;
+
+/** Sums over the contacts, in a scene with contact sums; no rows in others. */
+function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[] {
+  if (collisions === undefined) return [];
+  const rows: Row[] = [
+    ["collisions", "Collisions", count(Number(collisions)), undefined, "Between spheres, so far"],
+    ["dissipated", "Dissipated energy", `${figure(dissipatedEnergy ?? 0)} J`, undefined, "By contacts, so far"],
+  ];
+  const components = (values: readonly number[]): string => values.map(figure).join("  ");
+  for (const { surface, force, torque } of surfaceForces.slice(0, shownForces)) {
+    rows.push(
+      [`force-${surface}`, `Force on ${surface}, N`, components(force), undefined, "Mean of the last second"],
+      [`torque-${surface}`, `Torque on ${surface}, N m`, components(torque), undefined, "About the centre of the bounds"],
+    );
+  }
+  const more = surfaceForces.length - shownForces;
+  if (more > 0) rows.push(["more-forces", "Further surfaces", count(more), undefined, "See /metrics"]);
+  return rows;
 }
 
 /** The spheres that came and went; no rows if none went. */
