@@ -262,8 +262,7 @@ Result<void> simulateInto(const RunOptions& options, sim::Simulation& simulation
 Result<void> checkFiles(const RunOptions& options) {
     const std::array<std::pair<const char*, const std::string&>, 3> files{
         {{"--record", options.record.path}, {"--dump", options.dump}, {"--surface-forces", options.surfaceForces}}};
-    if (options.record.replace &&
-        std::ranges::all_of(files, [](const auto& file) { return file.second.empty(); }))
+    if (options.record.replace && std::ranges::all_of(files, [](const auto& file) { return file.second.empty(); }))
         return fail(ErrorKind::Input, "--force", "has nothing to replace; give --record, --dump or --surface-forces");
     for (std::size_t k = 0; k < files.size(); ++k) {
         const auto& [option, path] = files[k];
@@ -319,8 +318,9 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
     command->add_option("--every", options->every, "interval of reports, or with --dump of states [once, at the end]");
     command->add_option("--dump", options->dump, "write states to this CSV file");
-    command->add_option("--surface-forces", options->surfaceForces,
-                        "write forces and torques on walls and obstacles to this CSV file, at the times of the reports");
+    command->add_option(
+        "--surface-forces", options->surfaceForces,
+        "write forces and torques on walls and obstacles to this CSV file, at the times of the reports");
     command->add_option("--script", options->script,
                         "carry out timed commands: lines such as 1.5s set gravity 0 0 -1.6");
     addRunRecording(*command, options->record);

@@ -44,8 +44,8 @@ std::vector<prometheus::MetricFamily> forcesOf(const v1::Statistics& now) {
     for (const v1::SurfaceForce& on : now.surface_forces()) {
         add("spherule_surface_force_newtons", "Force of the spheres on a wall or an obstacle, mean of a second",
             on.surface(), on.force());
-        add("spherule_surface_torque_newton_metres", "Torque of that force about the centre of the bounds", on.surface(),
-            on.torque());
+        add("spherule_surface_torque_newton_metres", "Torque of that force about the centre of the bounds",
+            on.surface(), on.torque());
     }
     return registry.Collect();
 }

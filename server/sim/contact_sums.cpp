@@ -10,7 +10,6 @@
 
 #include <glm/geometric.hpp>
 
-
 namespace spherule::sim {
 
 ContactSums ContactSums::since(const ContactSums& before) const {
@@ -57,7 +56,9 @@ void addSurfaceLoads(ContactSums& sum, Pipeline& pipeline, const LoadUnits& unit
                 components[k] += words[word] | std::uint64_t{words[word + 1]} << 32U;
             }
         // The device counts what the spheres get.
-        const auto value = [&](std::size_t k) { return -static_cast<double>(static_cast<std::int64_t>(components[k])); };
+        const auto value = [&](std::size_t k) {
+            return -static_cast<double>(static_cast<std::int64_t>(components[k]));
+        };
         sum.loads[surface].impulse += glm::dvec3(value(0), value(1), value(2)) * units.impulse;
         sum.loads[surface].moment += glm::dvec3(value(3), value(4), value(5)) * units.moment;
     }

@@ -20,10 +20,10 @@ struct SurfaceLoad {
 
 // Sums over the contacts of all substeps, in scenes with contact sums.
 struct ContactSums {
-    double seconds = 0;     // simulated
-    double collisions = 0;  // between spheres
-    double dissipated = 0;  // J, by contacts with spheres, walls and obstacles
-    Tensor virial{};        // J s: sum of branch times impulse over the contacts between spheres
+    double seconds = 0;                // simulated
+    double collisions = 0;             // between spheres
+    double dissipated = 0;             // J, by contacts with spheres, walls and obstacles
+    Tensor virial{};                   // J s: sum of branch times impulse over the contacts between spheres
     std::vector<SurfaceLoad> loads{};  // by surface, see scene/shapes.h; empty without surfaces
 
     // Returns these sums without the sums in `before`.

@@ -56,8 +56,8 @@ std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene
     if (sums.loads.empty()) return forces;
     for (std::size_t face = 0; face < faceNames.size(); ++face)
         if (scene.bounds.walled(face))
-            forces.push_back({faceNames[face], sums.loads[face].impulse / sums.seconds,
-                              sums.loads[face].moment / sums.seconds});
+            forces.push_back(
+                {faceNames[face], sums.loads[face].impulse / sums.seconds, sums.loads[face].moment / sums.seconds});
     std::size_t surface = scene::faceCount;
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
         SurfaceForce sum{.surface = fmt::format("obstacles[{}]", k)};

@@ -66,11 +66,11 @@ struct Statistics {
     std::uint32_t nonFinite = 0;
     Impacts impacts;  // since the spheres were last placed or added to
     // In scenes with contact sums:
-    std::optional<ContactSums> contactSums{};  // since then
-    std::optional<Tensor> contactStress{};     // Pa: mean since then; absent at the beginning
+    std::optional<ContactSums> contactSums{};   // since then
+    std::optional<Tensor> contactStress{};      // Pa: mean since then; absent at the beginning
     std::vector<SurfaceForce> surfaceForces{};  // means since then; empty at the beginning
-    Tensor kineticStress{};                    // Pa: sum of m v v over the volume of the bounds
-    std::optional<std::uint64_t> stateHash{};  // of a query that asked for it: hashOf() of the same state
+    Tensor kineticStress{};                     // Pa: sum of m v v over the volume of the bounds
+    std::optional<std::uint64_t> stateHash{};   // of a query that asked for it: hashOf() of the same state
 
     // Returns the largest overlap with a sphere or a wall.
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }

@@ -101,19 +101,21 @@ scene::Scene rattle(Model model, std::uint64_t seed) {
     setRestitution(scene, 0.8);
     setFriction(scene, 0.4);
     scene.materials[0].rollingResistance = 0.05;
-    scene.obstacles = {obstacleFrom(R"({"sphere": {"centre": [3, -2, 1], "radius": 0.1}})"),
-                       obstacleFrom(R"({"box": {"min": [3.25, -2.6, 0.4], "max": [3.35, -1.4, 1]}})"),
-                       obstacleFrom(R"({"cylinder": {"from": [2.6, -2.3, 0.8], "to": [2.9, -1.8, 1.2], "radius": 0.05}})"),
-                       obstacleFrom(R"({"plane": {"point": [3, -2.5, 0.5], "normal": [0.1, 1, 0.8]}})"),
-                       obstacleFrom(R"({"cylinder": {"from": [3, -2, 0.3], "to": [3, -2, 1.55], "radius": 0.75,
+    scene.obstacles = {
+        obstacleFrom(R"({"sphere": {"centre": [3, -2, 1], "radius": 0.1}})"),
+        obstacleFrom(R"({"box": {"min": [3.25, -2.6, 0.4], "max": [3.35, -1.4, 1]}})"),
+        obstacleFrom(R"({"cylinder": {"from": [2.6, -2.3, 0.8], "to": [2.9, -1.8, 1.2], "radius": 0.05}})"),
+        obstacleFrom(R"({"plane": {"point": [3, -2.5, 0.5], "normal": [0.1, 1, 0.8]}})"),
+        obstacleFrom(R"({"cylinder": {"from": [3, -2, 0.3], "to": [3, -2, 1.55], "radius": 0.75,
                                                      "hollow": true}})")};
     // These touch a face and an obstacle from the beginning.
     addSphere(scene, {2.4 + 0.0298, -2, 1.2}, 0.03, {-1, 0.3, 0.2});
     addSphere(scene, {3, -2, 1.1 + 0.0298}, 0.03, {0.2, 0.5, -1});
     scene::Random random(seed);
     while (scene.spheres.size() < 60) {
-        const glm::dvec3 place = scene.bounds.centre() +
-                                 glm::dvec3(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.5), random.uniform(-0.3, 0.5));
+        const glm::dvec3 place =
+            scene.bounds.centre() +
+            glm::dvec3(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.5), random.uniform(-0.3, 0.5));
         const double radius = random.uniform(0.02, 0.05);
         bool free = true;
         for (const scene::Obstacle& obstacle : scene.obstacles) free = free && obstacle.shape->distance(place) > radius;
@@ -142,8 +144,8 @@ TEST_P(SurfaceForces, TakeTheMomentumThatTheSpheresLose) {
         for (const sim::SurfaceLoad& load : after.contactSums->loads) passed += glm::length(load.impulse);
         EXPECT_GT(passed, 1);
         linear = std::max(linear, glm::length(before.momentum - after.momentum - taken.impulse) / passed);
-        angular = std::max(angular,
-                           glm::length(before.angularMomentum - after.angularMomentum - taken.moment) / passed);
+        angular =
+            std::max(angular, glm::length(before.angularMomentum - after.angularMomentum - taken.moment) / passed);
     }
     EXPECT_LT(linear, 1e-6);
     EXPECT_LT(angular, GetParam() == Model::Accurate ? 1e-6 : 1e-3);
@@ -256,7 +258,8 @@ TEST(SleeperForces, AreTheWeightOfTheBed) {
     RecordProperty("asleep", found);
 }
 
-// Ten spheres are added high above a bed at rest: what it exerts stays the same, because its contacts keep their memory.
+// Ten spheres are added high above a bed at rest: what it exerts stays the same, because its contacts keep their
+// memory.
 TEST(FloorForceOfAccurate, OutlastsASpawn) {
     scene::Scene scene = bed({.count = 100, .depth = 4, .friction = 0.3});
     scene.materials[0].young = 1e6;  // else the height from which the new ones fall changes the stiffness

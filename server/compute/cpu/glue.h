@@ -276,7 +276,7 @@ SPHERULE_CLONES void run(const Binding& binding, uint begin, uint end) {
 #define EACH_LANE(where, function, at) callForLanes(where, at, [this](uint lane) { function(lane); });
 #define EACH_LANE_WITH(where, flag, function, at) \
     callForLanes(where, flag, at, [this](uint number, bool flagged) { function(number, flagged); });
-#define EACH_LANE_VECTORS(where, function, number, more, a, b)                     \
+#define EACH_LANE_VECTORS(where, function, number, more, a, b) \
     callForLanes(where, number, a, b, [&](uint ofLane, const vec3& x, const vec3& y) { function(ofLane, more, x, y); });
 #define ROWS_UP_TO(first, end)             \
     uintRow {                              \

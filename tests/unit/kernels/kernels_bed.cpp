@@ -90,6 +90,7 @@ void Bed::run(std::string_view kernel, uint phase) {
                           {"sortedZ", sortedZ_},
                           {"sortedRadius", sortedRadius_},
                           {"counters", counters},
+                          {"surfaceSums", surfaceSums},
                           {"pairs", pairs},
                           {"candidates", candidates},
                           {"groupRange", groupRange},

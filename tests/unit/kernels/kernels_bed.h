@@ -83,6 +83,7 @@ struct Bed {
     std::vector<uvec2> nearObstacles;
     std::vector<uint> cellStart;
     std::vector<uint> counters = std::vector<uint>(COUNTER_WORDS);
+    std::vector<uint> surfaceSums = std::vector<uint>(8 * SURFACE_SUM_COPIES * SURFACE_SUM_WORDS);
     std::vector<uvec2> pairs, candidates, groupRange;
     std::vector<uint> bundles;
     std::vector<float> contactX, contactY, contactZ, torqueX, torqueY, torqueZ;

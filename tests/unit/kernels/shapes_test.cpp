@@ -126,6 +126,7 @@ struct Spheres {
     layout::Parameters parameters{};
     std::vector<vec4> position, velocity, spin, listReference;
     std::vector<uint> ids, counters = std::vector<uint>(COUNTER_WORDS);
+    std::vector<uint> surfaceSums = std::vector<uint>(1);  // without contact sums nothing is added
     std::vector<uint> obstacleLists{END_OF_LIST, 0, END_OF_LIST, 0, 0};
     std::vector<uvec2> nearObstacles;
     std::vector<float> wallWork;
@@ -154,6 +155,7 @@ struct Spheres {
                 {"listReference", listReference},
                 {"idAndMaterial", ids},
                 {"counters", counters},
+                {"surfaceSums", surfaceSums},
                 {"obstacles", obstacles},
                 {"obstacleLists", obstacleLists},
                 {"nearObstacles", nearObstacles},

@@ -94,8 +94,8 @@ TEST(SimLayout, WordsAreReadFromTheSource) {
     const auto word = [](std::size_t offset) { return layout::wordsOf("Parameters").at(offset / 4); };
     EXPECT_EQ(word(offsetof(layout::Parameters, spheres) - 4), 'r');
     EXPECT_EQ(word(offsetof(layout::Parameters, spheres)), 'u');
-    EXPECT_EQ(word(offsetof(layout::Parameters, gravityChange) - 4), 'u');
-    EXPECT_EQ(word(offsetof(layout::Parameters, gravityChange)), 'r');
+    EXPECT_EQ(word(offsetof(layout::Parameters, perImpulseUnit) - 4), 'u');
+    EXPECT_EQ(word(offsetof(layout::Parameters, perImpulseUnit)), 'r');
 }
 
 // A plan without one feature has no arrays or launches that only this feature's module declares.

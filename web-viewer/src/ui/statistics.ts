@@ -80,7 +80,7 @@ function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[
   for (const { surface, force, torque } of surfaceForces.slice(0, shownForces)) {
     rows.push(
       [`force-${surface}`, `Force on ${surface}, N`, components(force), undefined, "Mean of the last second"],
-      [`torque-${surface}`, `Torque on ${surface}, N m`, components(torque), undefined, "About the centre of the bounds"],
+      [`torque-${surface}`, `Torque on ${surface}, N m`, components(torque), undefined, "About the centre of bounds"],
     );
   }
   const more = surfaceForces.length - shownForces;
