@@ -80,13 +80,18 @@ LANE_LOOP_KERNEL(allCells() / 8u) {
     }
     uint start = count == 0u ? 0u : atomicAdd(counters[COUNTER_CANDIDATES], count);
     bool fits = count <= params.pairCapacity && start <= params.pairCapacity - count;
-    groupRange[invocation] = uvec2(start, fits ? count : 0u);
-    if (!fits) return;  // list_order.comp makes no lists then
+    if (!fits) {  // list_order.comp makes no lists then
+        groupRange[invocation] = uvec2(start, 0u);
+        return;
+    }
+    found = 0u;
     if (count <= LOCAL_PAIRS) {
-        for (uint k = 0u; k < count; ++k) candidates[start + k] = local[k];
+        for (; found < count; ++found) candidates[start + found] = local[found];
     } else {
-        found = 0u;
         base = start;
         visitGroupNumber(invocation, sampleRound);
     }
+    // Mesa's software renderer ends the loops of an invocation after 65,535 iterations together.
+    if (found < count) atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
+    groupRange[invocation] = uvec2(start, found);
 }

@@ -85,8 +85,10 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
         vec3 rolling = rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment);
         vec3 spinning = spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
         torque = torque + rolling + spinning;
-        precise vec3 moment = momentHere + rolling + spinning;
-        momentHere = moment;
+        if (HAS(CONTACT_SUMS)) {
+            precise vec3 moment = momentHere + rolling + spinning;
+            momentHere = moment;
+        }
     }
     if (entry == NO_ENTRY) {
         atomicAdd(counters[COUNTER_DROPPED_WALLS], 1u);

@@ -18,12 +18,11 @@ Result<ForceTable> ForceTable::create(const std::string& path, bool replace) {
 }
 
 Result<void> ForceTable::write(sim::Simulation& simulation) {
-    sim::Statistics now = simulation.statistics();
-    sim::setMeans(now, simulation.contactSums().since(before_), simulation.scene());
-    before_ = simulation.contactSums();
+    const sim::ContactSums sums = simulation.contactSums();
+    const auto forces = sim::meanForces(sums.since(std::exchange(before_, sums)), simulation.scene());
     const heartbeat::Pause writing;
     std::string text;
-    for (const auto& [surface, force, torque] : now.surfaceForces)
+    for (const auto& [surface, force, torque] : forces)
         fmt::format_to(std::back_inserter(text), "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
                        simulation.time(), surface, force.x, force.y, force.z, torque.x, torque.y, torque.z);
     auto done = file_.write(text);

@@ -318,9 +318,8 @@ void addRun(CLI::App& app, int& exitCode) {
     command->add_option("--for", options->duration, "simulated time, such as 2s")->required();
     command->add_option("--every", options->every, "interval of reports, or with --dump of states [once, at the end]");
     command->add_option("--dump", options->dump, "write states to this CSV file");
-    command->add_option(
-        "--surface-forces", options->surfaceForces,
-        "write forces and torques on walls and obstacles to this CSV file, at the times of the reports");
+    command->add_option("--surface-forces", options->surfaceForces,
+                        "write forces and torques on walls and obstacles to this CSV file, once in each interval");
     command->add_option("--script", options->script,
                         "carry out timed commands: lines such as 1.5s set gravity 0 0 -1.6");
     addRunRecording(*command, options->record);

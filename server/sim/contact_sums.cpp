@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
+
+#include "sim/state.h"
 
 namespace spherule::sim {
 
@@ -32,9 +33,7 @@ LoadUnits LoadUnits::of(const scene::Scene& scene) {
     constexpr int mostExponent = 100;  // the reciprocals must be floats
     double mass = 0;
     for (const scene::Sphere& sphere : scene.spheres)
-        if (!sphere.fixed)
-            mass += 4.0 / 3 * std::numbers::pi * std::pow(static_cast<double>(sphere.radius), 3) *
-                    scene.materials[sphere.material].density;
+        if (!sphere.fixed) mass += massOf(scene, sphere);
     const glm::dvec3 half = 0.5 * (scene.bounds.max - scene.bounds.min);
     const int massExponent = mass > 0 ? std::ilogb(mass) + 1 : 0;
     const int lengthExponent = std::ilogb(glm::length(half)) + 1;
@@ -67,7 +66,6 @@ void addSurfaceLoads(ContactSums& sum, Pipeline& pipeline, const LoadUnits& unit
 }
 
 void addContactSums(ContactSums& sum, Pipeline& pipeline) {
-    if (!pipeline.plan().features.has(Feature::ContactSums)) return;
     std::vector<float> work = pipeline.read<float>(Array::WorkOfContacts);
     for (float& part : work) sum.dissipated -= static_cast<double>(std::exchange(part, 0.0F));
     pipeline.write<float>(Array::WorkOfContacts, work);

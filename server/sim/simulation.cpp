@@ -71,8 +71,9 @@ std::unique_ptr<Simulation> Simulation::from(std::unique_ptr<Preparation> prepar
     return simulation;
 }
 
-// Adds the sums of the device.
+// Adds the sums of the device, in scenes with contact sums.
 void Simulation::takeContactSums() {
+    if (!hasContactSums()) return;
     addContactSums(contactSums_, *pipeline_);
     addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);
     contactSums_.seconds = time() - sumsBegin_;
@@ -101,8 +102,7 @@ void Simulation::install(Preparation& preparation) {
     claim_ = std::move(preparation.claim_);
     settleClaim(claim_, device_, plan());
     counters_ = {};
-    noticedSampled_ = false;
-    noticedDropped_ = false;
+    noticedSampled_ = noticedCutShort_ = noticedDropped_ = false;
     quietSteps_ = 0;
     backoff_ = 0;
     lowered_ = false;
@@ -237,23 +237,23 @@ Statistics Simulation::statistics() {
     return now;
 }
 
+void Simulation::noticeOnce(bool& noticed, std::uint32_t count, std::string_view what) {
+    if (count > 0 && !std::exchange(noticed, true))
+        notices_.push_back(fmt::format("at step {}, {} {}", steps_, count, what));
+}
+
 // Runs once per step. Checks that the device is not lost, and that all cell groups found room for their pairs.
 Result<void> Simulation::checkStep() {
     readCounters();  // waits for the step; if the device was lost in it, status() fails and the counters are invalid
     if (auto alive = device_.status(); !alive) return alive;
     if (hasContactSums()) addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);  // keeps them far within 64 bits
-    if (counters_.sampled > 0 && !noticedSampled_) {
-        noticedSampled_ = true;
-        notices_.push_back(fmt::format(
-            "at step {}, {} cell groups are so crowded that in a substep each sphere meets only some of the others",
-            steps_, counters_.sampled));
-    }
-    if (counters_.droppedWallContacts > 0 && !noticedDropped_) {
-        noticedDropped_ = true;
-        notices_.push_back(fmt::format(
-            "at step {}, a sphere touches more than {} walls at once: further ones do not hold it by friction", steps_,
-            plan().maxWallHistory));
-    }
+    noticeOnce(noticedSampled_, counters_.sampled,
+               "cell groups are so crowded that in a substep each sphere meets only some of the others");
+    noticeOnce(noticedCutShort_, counters_.cutShort,
+               "cell groups are so crowded that the software renderer cut their lists short: spheres there may pass "
+               "through each other. Use --device cpu");
+    noticeOnce(noticedDropped_, counters_.droppedWallContacts,
+               "contacts with walls have no friction: their spheres touch more walls at once than can be remembered");
     // Makes room in time: without room, contacts lose their slip, and have no friction for a step.
     const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
     if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !pairsExhausted_)
@@ -269,7 +269,7 @@ void Simulation::saveLastFinite() {
     pipeline_->download(lastFinite_);
     lastFiniteStep_ = steps_;
     lastFiniteSpheres_.reset();
-    if (hasContactSums()) takeContactSums();  // also keeps the sums of the device short
+    takeContactSums();  // also keeps the sums of the device short
     lastFiniteSums_ = contactSums_;
 }
 
@@ -382,6 +382,7 @@ void Simulation::readCounters() {
     counters_ = {.pairs = words[COUNTER_PAIRS],
                  .unlisted = words[COUNTER_UNLISTED],
                  .sampled = words[COUNTER_SAMPLED],
+                 .cutShort = words[COUNTER_CUT_SHORT],
                  .droppedWallContacts = words[COUNTER_DROPPED_WALLS],
                  .nonFinite = words[COUNTER_NON_FINITE] > 0,
                  .firstNonFinite = ~words[COUNTER_FIRST_ID],

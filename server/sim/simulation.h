@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,9 +51,12 @@ class Simulation {
     [[nodiscard]] Statistics statistics();
     // Returns the impacts as of the last call of statistics().
     [[nodiscard]] const Impacts& impacts() const { return impacts_; }
-    // Returns the contact sums as of the last call of statistics(), with a dissipated energy that lacks the change of
-    // the energy in springs.
-    [[nodiscard]] const ContactSums& contactSums() const { return contactSums_; }
+    // Returns the contact sums so far, with a dissipated energy that lacks the change of the energy in springs. Waits
+    // for the device.
+    [[nodiscard]] const ContactSums& contactSums() {
+        takeContactSums();
+        return contactSums_;
+    }
     // Turns observed steps on or off. Default: on. Observing never changes the state.
     void observe(bool on) { observing_ = on; }
     [[nodiscard]] State snapshot() { return inIdOrder(pipeline_->download(), population_); }
@@ -73,6 +77,7 @@ class Simulation {
         std::uint32_t pairs = 0;                // listed
         std::uint32_t unlisted = 0;             // cell groups without room for their pairs; served, but slowly
         std::uint32_t sampled = 0;              // cell groups of which only a sample of the pairs is listed
+        std::uint32_t cutShort = 0;             // cell groups whose lists the renderer cut short
         std::uint32_t droppedWallContacts = 0;  // contacts with walls that found no room for their slip
         bool nonFinite = false;                 // some sphere has become non-finite
         std::uint32_t firstNonFinite = 0;       // the smallest handle of such a sphere
@@ -133,6 +138,8 @@ class Simulation {
     void uploadParameters();
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
+    // Adds a notice about `count` things, unless there are none or `noticed` says that it was given before.
+    void noticeOnce(bool& noticed, std::uint32_t count, std::string_view what);
     void saveLastFinite();
     void takeContactSums();
     void closeContactSums();
@@ -161,6 +168,7 @@ class Simulation {
     bool noticedDropped_ = false;    // a notice about dropped wall contacts was given
     bool pairsExhausted_ = false;    // no room for more pairs
     bool noticedSampled_ = false;    // a notice about sampled pairs was given
+    bool noticedCutShort_ = false;   // a notice about lists that were cut short was given
     bool noticedFullSinks_ = false;  // a notice about sinks without memory was given
     std::uint32_t substeps_ = 1;
     std::uint32_t maxSubsteps_ = 1;  // limit while a sphere is very fast

@@ -12,6 +12,11 @@ State stateOf(const scene::Scene& scene) {
     return stateOf(scene, scene.spheres);
 }
 
+double massOf(const scene::Scene& scene, const scene::Sphere& sphere) {
+    const auto r = static_cast<double>(sphere.radius);
+    return 4.0 / 3 * std::numbers::pi * r * r * r * scene.materials[sphere.material].density;
+}
+
 State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres) {
     State state;
     state.position.reserve(spheres.size());
@@ -19,8 +24,7 @@ State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres)
     state.spin.reserve(spheres.size());
     const glm::dvec3 centre = scene.bounds.centre();
     for (const scene::Sphere& sphere : spheres) {
-        const auto r = static_cast<double>(sphere.radius);
-        const double mass = 4.0 / 3 * std::numbers::pi * r * r * r * scene.materials[sphere.material].density;
+        const double mass = massOf(scene, sphere);
         state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
         state.velocity.emplace_back(sphere.velocity, sphere.fixed ? 0.0F : static_cast<float>(1 / mass));
         state.spin.emplace_back(sphere.spin, 0.0F);

@@ -38,6 +38,8 @@ glm::dvec3 unwrappedOf(const State& state, std::uint32_t id, const glm::dvec3& p
 glm::dvec3 velocityOf(const State& state, std::uint32_t id);
 glm::dvec3 spinOf(const State& state, std::uint32_t id);
 bool isFixed(const State& state, std::uint32_t id);
+// Returns the mass of a sphere by its volume and density (kg), whether it is fixed or not.
+double massOf(const scene::Scene& scene, const scene::Sphere& sphere);
 double massOf(const State& state, std::uint32_t id);  // infinite if fixed
 double radiusOf(const State& state, std::uint32_t id);
 // The sums are over the spheres that are not fixed.

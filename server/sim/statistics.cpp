@@ -47,13 +47,13 @@ double volumeOf(const scene::Bounds& bounds) {
     return size.x * size.y * size.z;
 }
 
-// Returns the mean forces on the closed faces and on the obstacles, in the order of the scene. An obstacle bears the
-// loads of all its surfaces.
+}  // namespace
+
 std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene& scene) {
     constexpr std::array<const char*, scene::faceCount> faceNames = {"X_MIN", "X_MAX", "Y_MIN",
                                                                      "Y_MAX", "Z_MIN", "Z_MAX"};
     std::vector<SurfaceForce> forces;
-    if (sums.loads.empty()) return forces;
+    if (sums.loads.empty() || !(sums.seconds > 0)) return forces;
     for (std::size_t face = 0; face < faceNames.size(); ++face)
         if (scene.bounds.walled(face))
             forces.push_back(
@@ -70,16 +70,13 @@ std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene
     return forces;
 }
 
-}  // namespace
-
 void setMeans(Statistics& statistics, const ContactSums& sums, const scene::Scene& scene) {
+    statistics.surfaceForces = meanForces(sums, scene);
     statistics.contactStress.reset();
-    statistics.surfaceForces.clear();
     if (!(sums.seconds > 0)) return;
     Tensor stress = sums.virial;
     for (double& component : stress) component /= sums.seconds * volumeOf(scene.bounds);
     statistics.contactStress = stress;
-    statistics.surfaceForces = meanForces(sums, scene);
 }
 
 Impacts Impacts::since(const Impacts& before) const {

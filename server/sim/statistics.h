@@ -76,8 +76,12 @@ struct Statistics {
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }
 };
 
+// Returns the mean forces on the closed faces and on the obstacles over the time of `sums`, in the order of the scene.
+// An obstacle bears the loads of all its surfaces. Without any time, or without surfaces, there are none.
+std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene& scene);
+
 // Sets the means over the time of `sums`: the stress by contacts, which is the virial over the time and over the volume
-// of the bounds, and the forces. Without any time there are none.
+// of the bounds, and the forces. Without any time there are none of them.
 void setMeans(Statistics& statistics, const ContactSums& sums, const scene::Scene& scene);
 
 // Computes statistics. The device sums in blocks, the host adds the blocks in double. Waits for the device.

@@ -137,7 +137,8 @@ struct SphereStatistics {
 #define COUNTER_DRIFT_PATH 32u  // three words, bits of floats (m), since the lists were built
 #define COUNTER_NEAR_OBSTACLES 35u  // words of the lists of obstacles near spheres
 #define COUNTER_SUNK 36u        // spheres in sinks at the end of a step
-#define COUNTER_WORDS 37u
+#define COUNTER_CUT_SHORT 37u   // cell groups whose lists the renderer cut short, since the start
+#define COUNTER_WORDS 38u
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mixed.h"
 #include "scene/quality.h"
@@ -151,6 +152,33 @@ TEST_P(Bits, OfSizesOneToTenAreTheSameOnAllDevices) {
 
 TEST_P(Bits, OfSizesOneToAHundredAreTheSameOnAllDevices) {
     expectTheSameBits(mixedBed(GetParam(), 100), GetParam() == scene::Model::Accurate ? 0.05 : 0.2);
+}
+
+// Twenty large spheres in one place reach 2,000 small ones around them: more pairs than Mesa's software renderer can
+// visit in one invocation.
+TEST(CrowdOnDevices, ThatTheSoftwareRendererCannotListIsReported) {
+    scene::Scene scene = fineStepBox(4);
+    scene.quality.model = scene::Model::Balanced;
+    scene::Random random(31);
+    constexpr double size = 0.5;
+    for (int k = 0; k < 20; ++k) measure::addSphere(scene, {0.01, 0.02, 0.03}, size);
+    for (int k = 0; k < 2'000; ++k) {
+        const glm::dvec3 n = glm::normalize(glm::dvec3(random.normal(), random.normal(), random.normal()));
+        measure::addSphere(scene, 1.05 * size * n, 0.02);
+    }
+    for (const std::string choice : {"software", "cpu:2x8"}) {
+        const auto device = compute::openDevice(choice).value();
+        const auto simulation = simulate(scene, *device);
+        simulation->upload(sim::stateOf(scene));  // with the overlaps that a new simulation removes
+        run(*simulation, 3 * scene.step);         // the lists grow in the first step
+        EXPECT_EQ(simulation->counters().cutShort > 0, choice == "software") << simulation->counters().cutShort;
+        const std::vector<std::string> notices = simulation->takeNotices();
+        EXPECT_EQ(std::ranges::count_if(notices,
+                                        [](const std::string& notice) {
+                                            return notice.find("cut their lists short") != std::string::npos;
+                                        }),
+                  choice == "software" ? 1 : 0);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Bits, testing::Values(scene::Model::Fast, scene::Model::Balanced, scene::Model::Accurate),

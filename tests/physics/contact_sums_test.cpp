@@ -19,13 +19,6 @@ using measure::addSphere;
 using measure::setFriction;
 using scene::Model;
 
-void choose(scene::Scene& scene, Model model) {
-    scene.contactSums = true;
-    scene.quality.model = model;
-    scene.quality.substepsFixed = false;
-    ASSERT_TRUE(scene::fitSubsteps(scene));
-}
-
 double volumeOf(const scene::Scene& scene) {
     const glm::dvec3 size = scene.bounds.max - scene.bounds.min;
     return size.x * size.y * size.z;
@@ -54,7 +47,7 @@ TEST_P(ContactSums, OfAnImpactAreThoseOfHardSpheres) {
         const double speed = 1.5;
         addSphere(scene, -0.1 * n, r, speed * n);
         addSphere(scene, 0.1 * n, r, -speed * n);
-        choose(scene, GetParam());
+        measureContacts(scene, GetParam());
         auto simulation = simulate(scene);
         EXPECT_FALSE(simulation->statistics().contactStress) << "no time has passed";
         run(*simulation, 0.1);
@@ -86,7 +79,7 @@ TEST_P(ContactSums, OfARestingSphereHaveItsWeight) {
     scene.quality.overlap = 0.01;
     addSphere(scene, {0, 0, 0}, 0.1).fixed = true;
     addSphere(scene, {0, 0, 0.15}, 0.05);
-    choose(scene, GetParam());
+    measureContacts(scene, GetParam());
     auto simulation = simulate(scene);
     run(*simulation, 0.1);
     const sim::ContactSums before = *simulation->statistics().contactSums;
@@ -109,7 +102,7 @@ TEST_P(ContactSums, OfRandomImpactsDissipateWhatTheSpheresLose) {
         for (int k = 0; k < 125; ++k)
             addSphere(scene, 0.18 * (glm::dvec3(k % 5, k / 5 % 5, k / 25) - 2.0), random.uniform(0.03, 0.07),
                       {random.normal(), random.normal(), random.normal()});
-        choose(scene, GetParam());
+        measureContacts(scene, GetParam());
         auto simulation = simulate(scene);
         const sim::Statistics before = simulation->statistics();
         run(*simulation, GetParam() == Model::Accurate ? 0.3 : 1);
@@ -134,7 +127,7 @@ TEST_P(ContactSums, OfASettlingBedDissipateWhatItLoses) {
                   0.11 * glm::dvec3(k % 5 - 2, k / 5 % 5 - 2, k / 25 - 2) +
                       glm::dvec3(random.uniform(-0.004, 0.004), random.uniform(-0.004, 0.004), 0),
                   0.05);
-    choose(scene, GetParam());
+    measureContacts(scene, GetParam());
     auto simulation = simulate(scene);
     const sim::Statistics before = simulation->statistics();
     run(*simulation, GetParam() == Model::Accurate ? 1 : 2);
@@ -151,7 +144,7 @@ TEST_P(ContactSums, GoOnThroughCommands) {
     scene::Random random(6);
     for (int k = 0; k < 64; ++k)
         addSphere(scene, 0.2 * (glm::dvec3(k % 4, k / 4 % 4, k / 16) - 1.5), 0.06, {random.normal(), 0, 0});
-    choose(scene, GetParam());
+    measureContacts(scene, GetParam());
     auto simulation = simulate(scene);
     run(*simulation, 0.3);
     const sim::ContactSums first = *simulation->statistics().contactSums;
@@ -178,7 +171,7 @@ TEST_P(ContactSums, ChangeNoState) {
         scene::Random random(7);
         for (int k = 0; k < 216; ++k)
             addSphere(scene, 0.12 * (glm::dvec3(k % 6, k / 6 % 6, k / 36) - 2.5), random.uniform(0.03, 0.06));
-        choose(scene, GetParam());
+        measureContacts(scene, GetParam());
         scene.contactSums = sums;
         auto simulation = simulate(scene);
         run(*simulation, GetParam() == Model::Accurate ? 0.1 : 1);
@@ -212,7 +205,7 @@ Gas gas(std::uint32_t perSide, double share, Model model, std::uint64_t seed) {
         addSphere(scene,
                   radius - side / 2 + pitch * glm::dvec3(k % perSide, k / perSide % perSide, k / (perSide * perSide)),
                   radius, {random.normal(), random.normal(), random.normal()});
-    choose(scene, model);
+    measureContacts(scene, model);
     return {.scene = std::move(scene), .side = side, .radius = radius};
 }
 

@@ -9,6 +9,7 @@
 
 #include "scene/check.h"
 #include "scene/json.h"
+#include "scene/quality.h"
 #include "scene/shapes.h"
 
 namespace spherule::physics {
@@ -55,6 +56,13 @@ scene::Scene sleepyBox(double side) {
 
 std::unique_ptr<sim::Simulation> simulate(scene::Scene scene, compute::Device& on) {
     return support::valueOf(sim::Simulation::create(on, std::move(scene)));
+}
+
+void measureContacts(scene::Scene& scene, scene::Model model) {
+    scene.contactSums = true;
+    scene.quality.model = model;
+    scene.quality.substepsFixed = false;
+    if (auto fits = scene::fitSubsteps(scene); !fits) throw std::runtime_error(fits.error().text());
 }
 
 void run(sim::Simulation& simulation, double seconds) {

@@ -36,6 +36,10 @@ scene::Scene fineStepBox(double side);
 // Same as fineStepBox(), with steps of 1/60 s, eight substeps per step, sleep, and a restitution of 0.3.
 scene::Scene sleepyBox(double side);
 
+// Chooses a model with its own number of substeps, and asks for contact sums. Throws std::runtime_error if it is
+// refused.
+void measureContacts(scene::Scene& scene, scene::Model model);
+
 using measure::addMaterial;
 using measure::earth;
 using measure::setRestitution;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,13 +22,6 @@ namespace {
 using measure::addSphere;
 using measure::setFriction;
 using scene::Model;
-
-void choose(scene::Scene& scene, Model model) {
-    scene.contactSums = true;
-    scene.quality.model = model;
-    scene.quality.substepsFixed = false;
-    ASSERT_TRUE(scene::fitSubsteps(scene));
-}
 
 double weightOf(const sim::State& state) {
     double weight = 0;
@@ -78,7 +72,7 @@ TEST_P(SurfaceForces, OfARestingSphereAreItsWeight) {
         scene.obstacles.push_back({.shape = scene::planeShape(foot, up), .colour = ""});
         const double radius = random.uniform(0.1, 0.2);
         addSphere(scene, foot + radius * up, radius);
-        choose(scene, GetParam());
+        measureContacts(scene, GetParam());
         auto simulation = simulate(scene);
         run(*simulation, 0.3);
         const sim::Statistics now = meansOver(*simulation, 0.2);
@@ -125,7 +119,7 @@ scene::Scene rattle(Model model, std::uint64_t seed) {
         addSphere(scene, place, radius, {random.normal(), random.normal(), random.normal()});
         scene.spheres.back().spin = glm::vec3(random.normal(), random.normal(), random.normal()) * 10.0F;
     }
-    choose(scene, model);
+    measureContacts(scene, model);
     return scene;
 }
 
@@ -160,7 +154,7 @@ TEST_P(SurfaceForces, BearTheWeightOfAHeap) {
         scene::Scene scene = rattle(GetParam(), seed);
         scene.forces.gravity = {1, -2, -9};
         setRestitution(scene, 0.3);
-        choose(scene, GetParam());
+        measureContacts(scene, GetParam());
         auto simulation = simulate(scene);
         const sim::Statistics before = simulation->statistics();
         run(*simulation, GetParam() == Model::Accurate ? 0.3 : 2);
@@ -195,7 +189,7 @@ TEST_P(SurfaceForces, HaveTheSameBitsOnAllDevices) {
     }
 }
 
-// A sphere of a milligram and one of a ton rest on the same floor.
+// A sphere of a milligram and one of a ton: the units suit the sum of their masses, and both weights are exact.
 TEST_P(SurfaceForces, HaveRoomForSpheresOfAnySize) {
     scene::Scene scene = fineStepBox(8);
     setRestitution(scene, 0);
@@ -203,12 +197,15 @@ TEST_P(SurfaceForces, HaveRoomForSpheresOfAnySize) {
     scene.sphereContacts = false;
     addSphere(scene, {0, 0, -4 + 0.6}, 0.6);
     const double small = GetParam() == Model::Accurate ? 0.03 : 6e-4;  // `accurate` would need many substeps
-    addSphere(scene, {2, 0, -4 + small}, small);
-    choose(scene, GetParam());
+    addSphere(scene, {2, 0, -3 + small}, small);
+    scene.obstacles.push_back({.shape = scene::boxShape({{1, -1, -4}, {3, 1, -3}}), .colour = ""});
+    measureContacts(scene, GetParam());
     auto simulation = simulate(scene);
     run(*simulation, 0.1);
-    const double weight = weightOf(simulation->snapshot());
-    EXPECT_NEAR(forceOn(meansOver(*simulation, 0.1), "Z_MIN").force.z, -weight, 1e-4 * weight);
+    const sim::Statistics now = meansOver(*simulation, 0.1);
+    const sim::State state = simulation->snapshot();
+    EXPECT_NEAR(forceOn(now, "Z_MIN").force.z / (massOf(state, 0) * earth), -1, 1e-4);
+    EXPECT_NEAR(forceOn(now, "obstacles[0]").force.z / (massOf(state, 1) * earth), -1, 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SurfaceForces, testing::Values(Model::Fast, Model::Balanced, Model::Accurate),
@@ -261,27 +258,31 @@ TEST(SleeperForces, AreTheWeightOfTheBed) {
 // Ten spheres are added high above a bed at rest: what it exerts stays the same, because its contacts keep their
 // memory.
 TEST(FloorForceOfAccurate, OutlastsASpawn) {
-    scene::Scene scene = bed({.count = 100, .depth = 4, .friction = 0.3});
-    scene.materials[0].young = 1e6;  // else the height from which the new ones fall changes the stiffness
-    scene = asAccurate(std::move(scene), 0.05);
-    scene.contactSums = true;
-    auto simulation = simulate(scene);
-    run(*simulation, 2);
-    const double before = forceOn(meansOver(*simulation, 0.05), "Z_MIN").force.z;
-    const double top = scene.bounds.max.z - 2 * bedRadius;
-    const sim::Spawn ten{.name = "ten", .colour = "", .place = [top](const scene::Scene&, Progress&) {
-                             std::vector<scene::Sphere> spheres;
-                             for (int k = 0; k < 10; ++k)
-                                 spheres.push_back({.position = {0.11 * (k % 3 - 1), 0.11 * (k / 3 - 1.5), top},
-                                                    .radius = static_cast<float>(bedRadius)});
-                             return Result<std::vector<scene::Sphere>>(std::move(spheres));
-                         }};
-    const std::uint32_t generation = simulation->generation();
-    ASSERT_TRUE(simulation->apply(ten));
-    EXPECT_EQ(simulation->generation(), generation);
-    const double after = forceOn(meansOver(*simulation, 0.05), "Z_MIN").force.z;
-    EXPECT_NEAR(after / before, 1, 1e-3);
-    RecordProperty("afterSpawn", figure(after / before - 1));
+    double worst = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        scene::Scene scene = bed({.count = 100, .depth = 4, .friction = 0.3, .seed = seed});
+        scene.materials[0].young = 1e6;  // else the height from which the new ones fall changes the stiffness
+        scene = asAccurate(std::move(scene), 0.05);
+        scene.contactSums = true;
+        auto simulation = simulate(scene);
+        run(*simulation, 2);
+        const double before = forceOn(meansOver(*simulation, 0.05), "Z_MIN").force.z;
+        const double top = scene.bounds.max.z - 2 * bedRadius;
+        const sim::Spawn ten{.name = "ten", .colour = "", .place = [top](const scene::Scene&, Progress&) {
+                                 std::vector<scene::Sphere> spheres;
+                                 for (int k = 0; k < 10; ++k)
+                                     spheres.push_back({.position = {0.11 * (k % 3 - 1), 0.11 * (k / 3 - 1.5), top},
+                                                        .radius = static_cast<float>(bedRadius)});
+                                 return Result<std::vector<scene::Sphere>>(std::move(spheres));
+                             }};
+        const std::uint32_t generation = simulation->generation();
+        ASSERT_TRUE(simulation->apply(ten));
+        EXPECT_EQ(simulation->generation(), generation);
+        const double after = forceOn(meansOver(*simulation, 0.05), "Z_MIN").force.z;
+        worst = std::max(worst, std::abs(after / before - 1));
+    }
+    EXPECT_LT(worst, 1e-3);
+    RecordProperty("afterSpawn", figure(worst));
 }
 
 }  // namespace

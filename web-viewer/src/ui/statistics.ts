@@ -68,6 +68,7 @@ export class StatisticsTables {
 }
 
 const shownForces = 12;
+const torqueTitle = "About the centre of the bounds, mean of the last second";
 
 /** Sums over the contacts, in a scene with contact sums; no rows in others. */
 function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[] {
@@ -80,7 +81,7 @@ function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[
   for (const { surface, force, torque } of surfaceForces.slice(0, shownForces)) {
     rows.push(
       [`force-${surface}`, `Force on ${surface}, N`, components(force), undefined, "Mean of the last second"],
-      [`torque-${surface}`, `Torque on ${surface}, N m`, components(torque), undefined, "About the centre of bounds"],
+      [`torque-${surface}`, `Torque on ${surface}, N m`, components(torque), undefined, torqueTitle],
     );
   }
   const more = surfaceForces.length - shownForces;
