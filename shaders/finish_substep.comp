@@ -49,6 +49,8 @@ PRIVATE(real3, sphereSpin)      // rad/s
 PRIVATE(real4, startVelocity)   // its row of `velocityBefore`, continued by impacts
 PRIVATE(real3, unheld)          // minus the velocity without held contacts (m/s)
 PRIVATE(real3, unheldSpin)
+PRIVATE(real3, heldByWalls)     // the change of velocity by the impulses that contacts with walls hold (m/s)
+PRIVATE(real3, spinByWalls)     // the change of spin by them (rad/s)
 PRIVATE(real, partsBefore)      // partOfSurface() of the surfaces at which the sphere held an impulse
 PRIVATE(real, partsNow)         // the same after the substep
 PRIVATE(mask, touchesWalls)
@@ -190,6 +192,10 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
         unheld = select(forgets, heldNow - sphereVelocity, unheld);
         unheldSpin = select(forgets, heldTurn - sphereSpin, unheldSpin);
     }
+    precise real3 heldHere = heldByWalls + impulse * inverseMass;
+    heldByWalls = select(touching, heldHere, heldByWalls);
+    precise real3 spinHere = spinByWalls - torque * lever;
+    spinByWalls = select(touching, spinHere, spinByWalls);
     EACH_LANE(touching && !remembers, reportDroppedWall, sphereId)
     mask stored = touching && remembers;
     mask holds = stored && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f);
@@ -215,6 +221,8 @@ void visitSurface(mask where, real3 n, real separation, real recession, uint wal
 void solveWalls(uintRow at) {
     partsNow = real(0.0f);
     touchesWalls = noLane();
+    heldByWalls = real3(0.0f, 0.0f, 0.0f);
+    spinByWalls = real3(0.0f, 0.0f, 0.0f);
     if (!HAS(WALLS) && !HAS(OBSTACLES)) return;
     real reach = sqrt(dot3(sphereVelocity, sphereVelocity)) * params.substep + sphereRadius * SLOP;
     mask visits = !clearOfFaces(reach) || partsBefore != 0.0f;
@@ -272,11 +280,12 @@ LANE_KERNEL(params.spheres) {
     solveWalls(invocation);
 
     precise real3 holds = sphereVelocity + unheld;
-    // Rounding must not stay as a thrust. A sphere that holds nothing moves along its arc, which is exact under gravity
-    // alone.
+    // The difference has the rounding of the velocity, which must not stay as a thrust.
+    mask byWallsAlone = pairsHeld == 0.0f;
+    holds = select(byWallsAlone, heldByWalls, holds);
+    // A sphere that holds nothing moves along its arc, which is exact under gravity alone.
     real heldNow = pairsHeld + partsNow;
     mask isFree = heldNow == 0.0f;
-    holds = select(isFree, real3(0.0f, 0.0f, 0.0f), holds);
     SET_ROW(sphereAwake, heldVelocity, invocation, real4(holds, heldNow), held)
     if (anyLane(touchesWalls)) {
         SET_ROW(touchesWalls, velocity, invocation, real4(sphereVelocity, v.w), v)
@@ -284,7 +293,7 @@ LANE_KERNEL(params.spheres) {
     }
     if (HAS(FRICTION)) {
         real3 spins = sphereSpin + unheldSpin;
-        spins = select(isFree, real3(0.0f, 0.0f, 0.0f), spins);
+        spins = select(byWallsAlone, spinByWalls, spins);
         SET_ROW(sphereAwake, heldSpin, invocation, real4(spins, heldS.w), heldS)
     }
     real3 arc = sphereVelocity;

@@ -187,6 +187,7 @@ TEST(KernelsAsCpp, DistancesFromShapesAreExactToRounding) {
         }
     }
     EXPECT_LT(worst, 1e-6);
+    RecordProperty("worst", std::to_string(worst * 1e9) + "e-9");
 }
 
 // A push moves a sphere along the normal by its depth, so it shows both.
@@ -214,6 +215,7 @@ TEST(KernelsAsCpp, PushesLeaveSpheresOnTheSurfacesOfShapes) {
         }
     }
     EXPECT_LT(worst, 1e-6);
+    RecordProperty("worst", std::to_string(worst * 1e9) + "e-9");
     EXPECT_GT(pushed, 40000U);
 }
 
