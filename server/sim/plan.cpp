@@ -16,9 +16,10 @@ constexpr std::uint32_t fewestPairs = 1024;
 constexpr std::uint32_t wallHistoryLimit = 8;
 
 // The gap up to which pairs are listed, in radii. A wider gap lists more pairs, a narrower gap causes more rebuilds.
-// `balanced` tests a pair at little cost.
+// `balanced` tests a pair at little cost. Where radii differ, a rebuild costs more.
 double marginInRadii(const Features& features) {
-    return features.has(Feature::Balanced) ? 0.8 : 0.3;
+    if (!features.has(Feature::Balanced)) return 0.3;
+    return features.has(Feature::Radii) ? 1.0 : 0.8;
 }
 
 // Returns the size of the lists of obstacles (words): the two at their beginning, and lists of `mostNear` obstacles for

@@ -79,8 +79,8 @@ scene::Scene periodicMixture(scene::Model model, double ratio) {
     scene::Scene scene = mixture(model);
     scene.obstacles.clear();
     scene.obstacles.push_back({scene::planeShape({0, 0, -0.55}, {0, 0, 1}), 0, ""});
-    scene.bounds.min = {-0.52, -0.48, -0.6};
-    scene.bounds.max = {0.52, 0.48, 0.6};
+    scene.bounds.min = {-0.53, -0.49, -0.6};
+    scene.bounds.max = {0.53, 0.49, 0.6};
     scene.bounds.periodic = {true, true, false};
     scene.forces.gravity = {3, -2, -9};
     scene.sleep.enabled = true;

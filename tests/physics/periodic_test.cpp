@@ -35,7 +35,7 @@ glm::dvec3 exact(glm::dvec3 place) {
     return place;
 }
 
-constexpr double largeRadius = 0.044;  // m
+constexpr double largeRadius = 0.042;  // m
 constexpr double side = 1;             // m; float32 resolves 7e-7 radii near its faces
 
 // Two spheres that meet in the middle of periodic bounds, at a random angle, in a frame that drifts.

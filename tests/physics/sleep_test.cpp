@@ -136,7 +136,7 @@ TEST(Sleep, EndsWhenTheSupportMovesSlowlyDuringFrequentRebuilds) {
     scene.spheres[2].radius = 0.025F;
     scene.bounds.material = addMaterial(scene, {.restitution = 1});
     scene.spheres[2].material = scene.bounds.material;
-    scene.spheres[2].velocity = {0, 0, -12};
+    scene.spheres[2].velocity = {0, 0, -15};
     const auto simulation = simulate(scene);
     run(*simulation, 3);
     ASSERT_TRUE(asleep(simulation->snapshot(), 0) && asleep(simulation->snapshot(), 1));
