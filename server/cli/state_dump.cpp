@@ -4,18 +4,25 @@
 
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
 #include "core/heartbeat.h"
 
 namespace spherule::cli {
 
+namespace {
+
+// write() prints the values of a row in this order.
+constexpr std::string_view header = "time,id,x,y,z,vx,vy,vz,radius,wx,wy,wz,material,group,asleep,contacts\n";
+
+}  // namespace
+
 Result<StateDump> StateDump::create(const std::string& path, bool replace) {
     auto file = recording::OutputFile::create(path, replace);
     if (!file) return tl::unexpected(file.error());
     StateDump dump(std::move(*file));
-    if (auto done = dump.file_.write("time,id,x,y,z,vx,vy,vz,radius,wx,wy,wz,material,group,asleep,contacts\n"); !done)
-        return tl::unexpected(done.error());
+    if (auto done = dump.file_.write(header); !done) return tl::unexpected(done.error());
     return dump;
 }
 

@@ -8,10 +8,8 @@
 
 namespace spherule::cli {
 
-// Writes states as text: time,id,x,y,z,vx,vy,vz,radius,wx,wy,wz,material,group,asleep,contacts in SI units and world
-// coordinates. Materials and groups are numbers in the order of the scene, from 0. Spin is 0 in scenes without
-// friction. `contacts`: see Simulation::contactCounts(). After write() the state
-// is in the file. Without a state there is no file.
+// Writes states as CSV in SI units and world coordinates. docs/cli.md describes the columns. After write() the state is
+// in the file. Without a state there is no file.
 class StateDump {
   public:
     // See OutputFile::create().

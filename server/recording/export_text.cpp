@@ -1,5 +1,9 @@
 // Text formats: all snapshots in one file.
+#include <concepts>
 #include <iterator>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,19 +34,39 @@ class TextExporter : public Exporter {
     std::string text_;
 };
 
+void printValue(std::string& text, char separator, float value) {
+    fmt::format_to(std::back_inserter(text), "{}{:.9g}", separator, value);
+}
+
+void printValue(std::string& text, char separator, std::integral auto value) {
+    fmt::format_to(std::back_inserter(text), "{}{}", separator, value);
+}
+
+// Prints the values of a sphere, each behind a separator.
+void printValues(std::string& text, char separator, const std::vector<ExportedColumn>& columns, std::size_t id) {
+    for (const ExportedColumn& column : columns)
+        std::visit([&](const auto values) { printValue(text, separator, values[id]); }, column.values);
+}
+
 class Csv : public TextExporter {
   public:
     explicit Csv(OutputFile file) : TextExporter(std::move(file)) {}
 
   private:
     void print(const Snapshot& snapshot, std::string& text) override {
-        if (!begun_) text += "time,id,x,y,z,radius,group,material\n";
-        begun_ = true;
+        const auto columns = snapshot.spheres->exportedColumns();
+        if (!std::exchange(begun_, true)) {
+            text += "time,id,x,y,z,radius";
+            for (const ExportedColumn& column : columns) fmt::format_to(std::back_inserter(text), ",{}", column.name);
+            text += '\n';
+        }
         const std::string time = fmt::format("{:.9g}", snapshot.time);
         for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
             const glm::dvec3& p = snapshot.positions[id];
-            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", time, id, p.x, p.y,
-                           p.z, snapshot.radii[id], snapshot.groups[id], snapshot.materials[id]);
+            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g}", time, id, p.x, p.y, p.z);
+            printValue(text, ',', snapshot.spheres->radii[id]);
+            printValues(text, ',', columns, id);
+            text += '\n';
         }
     }
     bool begun_ = false;
@@ -55,18 +79,27 @@ class Xyz : public TextExporter {
 
   private:
     void print(const Snapshot& snapshot, std::string& text) override {
-        const glm::dvec3 size = snapshot.high - snapshot.low;
-        const auto periodic = [&](int axis) { return snapshot.periods[axis] > 0 ? 'T' : 'F'; };
-        fmt::format_to(
-            std::back_inserter(text),
-            "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
-            "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1:group:I:1:material:I:1 Time={:.9g} pbc=\"{} {} {}\"\n",
-            snapshot.positions.size(), size.x, size.y, size.z, snapshot.low.x, snapshot.low.y, snapshot.low.z,
-            snapshot.time, periodic(0), periodic(1), periodic(2));
+        const SphereTable& spheres = *snapshot.spheres;
+        const auto columns = spheres.exportedColumns();
+        const glm::dvec3 size = spheres.high - spheres.low;
+        const auto periodic = [&](int axis) { return spheres.periods[axis] > 0 ? 'T' : 'F'; };
+        fmt::format_to(std::back_inserter(text),
+                       "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
+                       "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1",
+                       snapshot.positions.size(), size.x, size.y, size.z, spheres.low.x, spheres.low.y, spheres.low.z);
+        for (const ExportedColumn& column : columns) {
+            const bool real = std::holds_alternative<std::span<const float>>(column.values);
+            fmt::format_to(std::back_inserter(text), ":{}:{}:1", column.name, real ? 'R' : 'I');
+        }
+        fmt::format_to(std::back_inserter(text), " Time={:.9g} pbc=\"{} {} {}\"\n", snapshot.time, periodic(0),
+                       periodic(1), periodic(2));
         for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
             const glm::dvec3& p = snapshot.positions[id];
-            fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g} {:.9g} {} {} {}\n", p.x, p.y, p.z,
-                           snapshot.radii[id], id, snapshot.groups[id], snapshot.materials[id]);
+            fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g}", p.x, p.y, p.z);
+            printValue(text, ' ', spheres.radii[id]);
+            printValue(text, ' ', id);
+            printValues(text, ' ', columns, id);
+            text += '\n';
         }
     }
 };

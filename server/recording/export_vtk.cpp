@@ -1,9 +1,12 @@
 // VTK's XML formats: one .vtp per snapshot with raw appended arrays, and a .pvd that lists their times.
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +18,13 @@
 namespace spherule::recording {
 
 namespace {
+
+// Returns VTK's name of the type of an exported column.
+template <class T>
+constexpr std::string_view typeName() {
+    if (std::same_as<T, float>) return "Float32";
+    return std::same_as<T, std::int32_t> ? "Int32" : "UInt32";
+}
 
 // Appends an array: its size in bytes, then its bytes.
 template <class T>
@@ -45,20 +55,23 @@ std::string polyData(const Snapshot& snapshot) {
         "</DataArray>{}</FieldData>\n"
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
         "NumberOfPolys=\"0\">\n",
-        snapshot.time, periodsData(snapshot.periods), count, count);
+        snapshot.time, periodsData(snapshot.spheres->periods), count, count);
     std::string data;
-    const auto array = [&](const char* type, const char* name, int components, const auto values) {
+    const auto array = [&](std::string_view type, std::string_view name, int components, const auto values) {
         fmt::format_to(std::back_inserter(head),
                        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
                        "offset=\"{}\"/>\n",
                        type, name, components, data.size());
         appendArray(data, values);
     };
+    const auto column = [&]<class T>(std::string_view name, std::span<const T> values) {
+        array(typeName<T>(), name, 1, values);
+    };
     head += "<PointData Scalars=\"radius\">\n";
-    array("Float32", "radius", 1, snapshot.radii);
-    array("Int32", "id", 1, all.first(count));
-    array("Int32", "group", 1, snapshot.groups);
-    array("Int32", "material", 1, snapshot.materials);
+    column("radius", std::span(snapshot.spheres->radii));
+    column("id", all.first(count));
+    for (const ExportedColumn& exported : snapshot.spheres->exportedColumns())
+        std::visit([&](const auto values) { column(exported.name, values); }, exported.values);
     head += "</PointData>\n<Points>\n";
     array("Float64", "Points", 3, snapshot.positions);
     head += "</Points>\n<Verts>\n";

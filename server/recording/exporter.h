@@ -8,9 +8,9 @@
 
 namespace spherule::recording {
 
-// Writes snapshots of a recording in a format of other tools: positions, radii, ids, groups and materials. The files
-// appear under their names with finish(). An exporter that is destroyed before leaves no files. Used by one thread.
-// Errors: see OutputFile.
+// Writes snapshots of a recording in a format of other tools: id, position and radius of each sphere, and the columns
+// of SphereTable::exportedColumns(). The files appear under their names with finish(). An exporter that is destroyed
+// before leaves no files. Used by one thread. Errors: see OutputFile.
 class Exporter {
   public:
     virtual ~Exporter() = default;
@@ -26,8 +26,7 @@ using MadeExporter = Result<std::unique_ptr<Exporter>>;
 // Extended XYZ for OVITO and ASE, with the periodic axes in `pbc`, all snapshots in one file. `path` "-": standard
 // output.
 MadeExporter xyzExporter(const std::string& path, bool replace);
-// CSV with the columns time,id,x,y,z,radius,group,material in SI units, all snapshots in one file. `path` "-": standard
-// output.
+// CSV in SI units, all snapshots in one file. `path` "-": standard output.
 MadeExporter csvExporter(const std::string& path, bool replace);
 // VTK. `path` (.pvd is appended if it is missing) lists the files of the snapshots, PolyData (.vtp) in a folder next to
 // it. With periodic axes, the field data `Periods` has their lengths (m), 0 for the others.

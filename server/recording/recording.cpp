@@ -212,6 +212,7 @@ glm::dvec3 Recording::quanta(std::size_t column) const {
 }
 
 Snapshot Recording::now() {
+    static const SphereTable none;  // before the first frame
     if (table_ && hasDecoders()) {
         const glm::dvec3 centre = 0.5 * (table_->low + table_->high);
         const auto cells = decoders_[0]->newest();
@@ -224,12 +225,7 @@ Snapshot Recording::now() {
             .step = step_,
             .error = quanta_[0] / 2,
             .positions = positions_,
-            .radii = table_ ? std::span<const float>(table_->radii) : std::span<const float>(),
-            .groups = table_ ? std::span<const std::int32_t>(table_->groups) : std::span<const std::int32_t>(),
-            .materials = table_ ? std::span<const std::int32_t>(table_->materials) : std::span<const std::int32_t>(),
-            .low = table_ ? table_->low : glm::dvec3(),
-            .high = table_ ? table_->high : glm::dvec3(),
-            .periods = table_ ? table_->periods : glm::dvec3(),
+            .spheres = table_ ? &*table_ : &none,
             .scene = sceneOffset_};
 }
 

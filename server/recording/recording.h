@@ -23,14 +23,10 @@ namespace spherule::recording {
 struct Snapshot {
     double time = 0;  // s simulated
     std::uint64_t step = 0;
-    double error = 0;                         // largest error of a coordinate, m
-    std::span<const glm::dvec3> positions;    // by id, m
-    std::span<const float> radii;             // by id, m
-    std::span<const std::int32_t> groups;     // by id: number of the group in the scene, from 0; -1: not known
-    std::span<const std::int32_t> materials;  // by id: number of the material, likewise
-    glm::dvec3 low{}, high{};                 // bounds of the scene, m
-    glm::dvec3 periods{};                     // m: length of each periodic axis; 0: not periodic
-    std::uint64_t scene = 0;                  // differs between scenes of a recording
+    double error = 0;                       // largest error of a coordinate, m
+    std::span<const glm::dvec3> positions;  // by id, m
+    const SphereTable* spheres = nullptr;   // not null after Recording::now()
+    std::uint64_t scene = 0;                // differs between scenes of a recording
 };
 
 // Plays a recording. The file may be cut off or hostile. Used by one thread. Allocates memory for the index, the

@@ -40,6 +40,13 @@ void setGroups(SphereTable& table, const v1::SceneFacts& facts) {
 
 }  // namespace
 
+std::vector<ExportedColumn> SphereTable::exportedColumns() const {
+    return {
+        {"group", std::span(groups)},
+        {"material", std::span(materials)},
+    };
+}
+
 Result<SphereTable> SphereTable::from(const v1::SceneFacts& facts, const v1::Order& order) {
     SphereTable table{
         .epoch = facts.epoch(), .radii = {}, .groups = {}, .materials = {}, .order = order.number(), .ids = {}};

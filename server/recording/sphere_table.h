@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -9,6 +12,14 @@
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::recording {
+
+// A column of a SphereTable that exports have, with its values by id.
+struct ExportedColumn {
+    using Values = std::variant<std::span<const float>, std::span<const std::int32_t>, std::span<const std::uint32_t>>;
+
+    std::string_view name;
+    Values values;
+};
 
 // Data of the spheres that frames do not repeat, from scene facts and order. Any thread.
 struct SphereTable {
@@ -21,6 +32,8 @@ struct SphereTable {
     std::vector<std::uint32_t> ids;               // in codec order
 
     [[nodiscard]] std::uint32_t spheres() const { return static_cast<std::uint32_t>(ids.size()); }
+    // Returns the columns that all exports write behind id, position and radius. Valid as long as the table.
+    [[nodiscard]] std::vector<ExportedColumn> exportedColumns() const;
 
     // Builds the table from messages that may be hostile. Allocates no more memory than they have. Input if they do not
     // fit each other.

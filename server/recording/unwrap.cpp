@@ -11,7 +11,7 @@ std::span<const glm::dvec3> Unwrapper::follow(const Snapshot& snapshot) {
         return positions_;
     }
     for (std::size_t id = 0; id < positions_.size(); ++id)
-        positions_[id] += scene::separation(snapshot.positions[id], positions_[id], snapshot.periods);
+        positions_[id] += scene::separation(snapshot.positions[id], positions_[id], snapshot.spheres->periods);
     return positions_;
 }
 

@@ -103,11 +103,7 @@ Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State st
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
     scene.groups.push_back({spawn.name, state.count(), static_cast<std::uint32_t>(added->size()), spawn.colour});
-    const State fresh = stateOf(scene, *added);
-    state.position.insert(state.position.end(), fresh.position.begin(), fresh.position.end());
-    state.velocity.insert(state.velocity.end(), fresh.velocity.begin(), fresh.velocity.end());
-    state.spin.insert(state.spin.end(), fresh.spin.begin(), fresh.spin.end());
-    state.images.insert(state.images.end(), fresh.images.begin(), fresh.images.end());
+    state.append(stateOf(scene, *added));
     scene.spheres.insert(scene.spheres.end(), added->begin(), added->end());
     if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());
     if (auto fits = scene::checkSpeeds(scene, scene.spheres.size() - added->size()); !fits)

@@ -8,16 +8,18 @@
 #include "scene/occupancy.h"
 #include "scene/scene.h"
 #include "sim/layout.h"
+#include "sim/sphere_columns.h"
 
 namespace spherule::sim {
 
 namespace {
 
-// Per sphere: a State and a SlotState. With friction, a SlotState has angular velocities.
-constexpr std::uint64_t stateBytes = 3 * sizeof(glm::vec4);
-constexpr std::uint64_t slotBytes(bool friction) {
-    return (friction ? 3 : 2) * sizeof(glm::vec4) + sizeof(std::uint32_t);
-}
+// Per sphere: the columns of a State.
+constexpr std::uint64_t stateBytes = [] {
+    std::uint64_t bytes = 0;
+    forEachColumn([&]<class T>(std::vector<T> SphereColumns::*, Array) { bytes += sizeof(T); });
+    return bytes;
+}();
 // Ids and materials during an upload.
 constexpr std::uint64_t uploadBytes = sizeof(std::uint32_t) + sizeof(std::uint8_t);
 // The radii that are sent to viewers: in a message, and in its encoded copy.
@@ -27,9 +29,13 @@ constexpr std::uint64_t radiiBytes = 2 * sizeof(float);
 constexpr std::uint64_t imageBytes = sizeof(glm::ivec3);
 constexpr std::uint64_t slotImageBytes = sizeof(glm::uvec4);
 
+// Returns the bytes of a SlotState per sphere. It has the columns that the plan has, and the ids with the materials.
 std::uint64_t slotBytes(const Plan& plan) {
-    return slotBytes(plan.features.has(Feature::Friction)) +
-           (plan.features.has(Feature::Periodic) ? slotImageBytes : 0);
+    std::uint64_t bytes = sizeof(std::uint32_t);
+    forEachColumn([&]<class T>(std::vector<T> SphereColumns::*, Array array) {
+        if (plan.has(array)) bytes += sizeof(T);
+    });
+    return bytes + (plan.features.has(Feature::Periodic) ? slotImageBytes : 0);
 }
 
 std::uint64_t snapshotBytes(const Plan& plan) {

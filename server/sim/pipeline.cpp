@@ -63,20 +63,19 @@ State inIdOrder(const SlotState& slots, const Population& population) {
         state.ids.resize(spheres);
         for (std::uint32_t rank = 0; rank < spheres; ++rank) state.ids[rank] = population.idAt(rank);
     }
-    state.position.resize(spheres);
-    state.velocity.resize(spheres);
-    state.spin.resize(spheres);
+    forEachColumn([&](auto column, Array /*array*/) { (state.*column).resize(spheres); });
     if (!slots.images.empty()) state.images.resize(spheres);
     for (std::size_t slot = 0; slot < spheres; ++slot) {
         const std::uint32_t handle = slots.idAndMaterial[slot] & Pipeline::idMask;
         const std::uint32_t rank = ranks.empty() ? handle : ranks[handle];
-        state.position[rank] = slots.position[slot];
-        state.velocity[rank] = slots.velocity[slot];
+        forEachColumn([&](auto column, Array /*array*/) {
+            if (!(slots.*column).empty()) (state.*column)[rank] = (slots.*column)[slot];
+        });
+        state.spin[rank].w = 0;
         if (!slots.images.empty()) {
             state.images[rank] = glm::ivec3(slots.images[handle]);
             wrap(state.position[rank], state.images[rank], slots.periods);
         }
-        if (!slots.angularVelocity.empty()) state.spin[rank] = glm::vec4(glm::vec3(slots.angularVelocity[slot]), 0);
     }
     return state;
 }
@@ -193,15 +192,20 @@ void Pipeline::setParameters(layout::Parameters parameters) {
     if (parameters.substepRatio != 1) run(newSubstep_, LaunchSet::Substep);
 }
 
+// Writes the columns to the slots from `first` on.
+void Pipeline::writeColumns(const State& state, std::size_t first) {
+    forEachColumn([&]<class T>(std::vector<T> SphereColumns::*column, Array array) {
+        if (plan_.has(array)) write<T>(array, state.*column, first);
+    });
+}
+
 void Pipeline::upload(const State& state, std::span<const std::uint8_t> materials,
                       std::span<const std::uint32_t> handles) {
     setSpheres(state.count());
     // Clears all other data of the spheres that were in these slots.
     for (const ArraySpec& spec : plan_.arrays)
         if (typeOf(spec.array).cleared) device_.fill(buffer(spec.array), 0);
-    write<glm::vec4>(Array::Position, state.position);
-    write<glm::vec4>(Array::Velocity, state.velocity);
-    if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, state.spin);
+    writeColumns(state);
     if (plan_.has(Array::Images) && !state.images.empty()) {
         std::vector<glm::uvec4> images(plan_.room);
         for (std::uint32_t rank = 0; rank < state.count(); ++rank)
@@ -234,9 +238,7 @@ SlotState Pipeline::download() {
 }
 
 void Pipeline::download(SlotState& slots) {
-    readInto(slots.position, Array::Position, plan_.spheres);
-    readInto(slots.velocity, Array::Velocity, plan_.spheres);
-    readInto(slots.angularVelocity, Array::AngularVelocity, plan_.spheres);
+    forEachColumn([&](auto column, Array array) { readInto(slots.*column, array, plan_.spheres); });
     readInto(slots.idAndMaterial, Array::IdAndMaterial, plan_.spheres);
     readInto(slots.images, Array::Images);
     slots.periods = plan_.periods;

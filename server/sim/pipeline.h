@@ -15,12 +15,9 @@
 
 namespace spherule::sim {
 
-// The state of the spheres in slot order, as the device stores it. Positions may be outside the bounds along periodic
-// axes.
-struct SlotState {
-    std::vector<glm::vec4> position;
-    std::vector<glm::vec4> velocity;
-    std::vector<glm::vec4> angularVelocity;  // with friction, else empty
+// The state of the spheres in slot order, as the device stores it. Columns without an array on the device are empty.
+// Positions may be outside the bounds along periodic axes.
+struct SlotState : SphereColumns {
     std::vector<std::uint32_t> idAndMaterial;
     std::vector<glm::uvec4> images;  // with periodic axes, by id: signed
     glm::dvec3 periods{};            // m, as Bounds::periods() returns them
@@ -113,6 +110,7 @@ class Pipeline {
     Result<void> makeArray(const ArraySpec& spec);
     Result<void> makeKernel(std::string_view file);
     void writeDispatchSizes();
+    void writeColumns(const State& state, std::size_t first = 0);
     void copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to, std::size_t toBegin);
     std::uint32_t slotOf(std::uint32_t handle);
     void setSpheres(std::uint32_t count);

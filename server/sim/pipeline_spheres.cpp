@@ -73,9 +73,7 @@ void Pipeline::append(const State& born, std::span<const std::uint8_t> materials
         else
             clearRows(spec.array, first, handles.size());
     }
-    write<glm::vec4>(Array::Position, born.position, first);
-    write<glm::vec4>(Array::Velocity, born.velocity, first);
-    if (plan_.has(Array::AngularVelocity)) write<glm::vec4>(Array::AngularVelocity, born.spin, first);
+    writeColumns(born, first);
     std::vector<std::uint32_t> words(handles.begin(), handles.end());
     std::vector<std::uint32_t> slots(handles.size());
     std::iota(slots.begin(), slots.end(), first);

@@ -8,6 +8,26 @@
 
 namespace spherule::sim {
 
+namespace {
+
+glm::vec4 positionIn(const scene::Scene& scene, const scene::Sphere& sphere) {
+    return {glm::vec3(sphere.position - scene.bounds.centre()), sphere.radius};
+}
+
+float inverseMassOf(const scene::Scene& scene, const scene::Sphere& sphere) {
+    return sphere.fixed ? 0.0F : static_cast<float>(1 / massOf(scene, sphere));
+}
+
+}  // namespace
+
+void State::append(const State& more) {
+    const auto join = [](auto& values, const auto& others) {
+        values.insert(values.end(), others.begin(), others.end());
+    };
+    forEachColumn([&](auto column, Array /*array*/) { join(this->*column, more.*column); });
+    join(images, more.images);
+}
+
 State stateOf(const scene::Scene& scene) {
     return stateOf(scene, scene.spheres);
 }
@@ -19,15 +39,11 @@ double massOf(const scene::Scene& scene, const scene::Sphere& sphere) {
 
 State stateOf(const scene::Scene& scene, std::span<const scene::Sphere> spheres) {
     State state;
-    state.position.reserve(spheres.size());
-    state.velocity.reserve(spheres.size());
-    state.spin.reserve(spheres.size());
-    const glm::dvec3 centre = scene.bounds.centre();
+    forEachColumn([&](auto column, Array /*array*/) { (state.*column).reserve(spheres.size()); });
     for (const scene::Sphere& sphere : spheres) {
-        const double mass = massOf(scene, sphere);
-        state.position.emplace_back(glm::vec3(sphere.position - centre), sphere.radius);
-        state.velocity.emplace_back(sphere.velocity, sphere.fixed ? 0.0F : static_cast<float>(1 / mass));
-        state.spin.emplace_back(sphere.spin, 0.0F);
+#define SPHERE_COLUMN(member, Type, ArrayName, value) state.member.emplace_back(value);
+#include "sim/sphere_columns.def"
+#undef SPHERE_COLUMN
     }
     if (scene.bounds.anyPeriodic()) state.images.resize(spheres.size());
     return state;

@@ -8,20 +8,20 @@
 #include <glm/vec4.hpp>
 
 #include "scene/scene.h"
+#include "sim/sphere_columns.h"
 
 namespace spherule::sim {
 
 // The state of the spheres, in id order.
-struct State {
-    std::vector<glm::vec4> position;   // m, relative to the bounds' centre; w = radius
-    std::vector<glm::vec4> velocity;   // m/s; w = 1 / mass: negative while asleep, 0 if fixed
-    std::vector<glm::vec4> spin;       // angular velocity, rad/s; w = 0
+struct State : SphereColumns {
     std::vector<std::uint64_t> ids{};  // ascending; empty: 0, 1, ...
     // With periodic axes, else empty: the lengths of each axis by which positions were moved back into the bounds.
     std::vector<glm::ivec3> images;
 
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size()); }
     [[nodiscard]] std::uint64_t idAt(std::uint32_t rank) const { return ids.empty() ? rank : ids[rank]; }
+    // Adds the spheres of `more` behind the present ones. Does not change `ids`.
+    void append(const State& more);
 };
 
 State stateOf(const scene::Scene& scene);

@@ -58,7 +58,7 @@ void require(bool holds) {
 
 void look(recording::Recording& recording) {
     const recording::Snapshot now = recording.now();
-    require(now.positions.size() == recording.cells(0).size() && now.radii.size() == now.positions.size());
+    require(now.positions.size() == recording.cells(0).size() && now.spheres->radii.size() == now.positions.size());
     require(recording.order().size() == now.positions.size() && std::isfinite(now.time) && now.error > 0);
     (void)recording.nextTime();
     (void)recording.takeSkippedEvents();

@@ -147,16 +147,8 @@ TEST_F(Output, RecordingWithoutFramesIsRemoved) {
 // A snapshot of one sphere.
 struct Small {
     std::vector<glm::dvec3> positions{{1, 2, 3}};
-    std::vector<float> radii{0.5F};
-    std::vector<std::int32_t> numbers{0};
-    [[nodiscard]] Snapshot snapshot() const {
-        return {.positions = positions,
-                .radii = radii,
-                .groups = numbers,
-                .materials = numbers,
-                .low = {0, 0, 0},
-                .high = {4, 4, 4}};
-    }
+    SphereTable table{.high = {4, 4, 4}, .radii = {0.5F}, .groups = {0}, .materials = {2}, .ids = {0}};
+    [[nodiscard]] Snapshot snapshot() const { return {.positions = positions, .spheres = &table}; }
 };
 
 TEST_F(Output, UnfinishedExportIsRemoved) {
@@ -168,6 +160,24 @@ TEST_F(Output, UnfinishedExportIsRemoved) {
             for (const std::string& name : names()) EXPECT_NE(name.find(".part"), std::string::npos) << name;
         }
         EXPECT_EQ(names(), Names());
+    }
+}
+
+TEST_F(Output, ExportsHaveIdPositionRadiusAndTheColumnsOfTheTable) {
+    for (const auto make : {csvExporter, xyzExporter, vtkExporter}) {
+        auto exporter = make(path_ + (make == csvExporter ? ".csv" : make == xyzExporter ? ".xyz" : ""), false);
+        ASSERT_TRUE(exporter && (*exporter)->add(Small().snapshot()) && (*exporter)->finish());
+    }
+    EXPECT_EQ(contentOf(path_ + ".csv"), "time,id,x,y,z,radius,group,material\n0,0,1,2,3,0.5,0,2\n");
+    EXPECT_EQ(contentOf(path_ + ".xyz"),
+              "1\nLattice=\"4 0 0 0 4 0 0 0 4\" Origin=\"0 0 0\" Properties=species:S:1:pos:R:3:radius:R:1:"
+              "id:I:1:group:I:1:material:I:1 Time=0 pbc=\"F F F\"\nX 1 2 3 0.5 0 0 2\n");
+    const std::string frame = contentOf(path_ + "/000000.vtp");
+    std::size_t at = 0;
+    for (const std::string array : {"Float32\" Name=\"radius", "Int32\" Name=\"id", "Int32\" Name=\"group",
+                                    "Int32\" Name=\"material", "Float64\" Name=\"Points"}) {
+        at = frame.find("<DataArray type=\"" + array + "\" NumberOfComponents", at);
+        ASSERT_NE(at, std::string::npos) << array;
     }
 }
 

@@ -35,10 +35,10 @@ TEST_F(RoundTrip, EveryFrameIsReadInIdOrderInMetres) {
         EXPECT_EQ(now.step, 6 * n);
         EXPECT_DOUBLE_EQ(now.time, 0.1 * n);
         EXPECT_EQ(now.error, Film::quantum / 2);
-        EXPECT_EQ(now.radii[0], 1.5F);
-        EXPECT_EQ(now.radii[69], 0.5F);
-        EXPECT_EQ(std::ranges::count(now.groups, -1), 70) << "the film has no groups";
-        EXPECT_EQ(std::ranges::count(now.materials, -1), 70);
+        EXPECT_EQ(now.spheres->radii[0], 1.5F);
+        EXPECT_EQ(now.spheres->radii[69], 0.5F);
+        EXPECT_EQ(std::ranges::count(now.spheres->groups, -1), 70) << "the film has no groups";
+        EXPECT_EQ(std::ranges::count(now.spheres->materials, -1), 70);
     }
     EXPECT_FALSE(*recording->next());
 }

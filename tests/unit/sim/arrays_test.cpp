@@ -46,6 +46,34 @@ TEST(SimArrays, EveryArrayIsABufferOfSomeKernel) {
         EXPECT_TRUE(used.contains(nameOf(static_cast<Array>(k)))) << nameOf(static_cast<Array>(k));
 }
 
+TEST(SimArrays, EveryColumnOfTheStateHasAnArrayOfItsType) {
+    forEachColumn([]<class T>(std::vector<T> SphereColumns::*, Array array) {
+        const ArrayType& type = typeOf(array);
+        EXPECT_EQ(type.elementBytes, sizeof(T)) << type.name;
+        EXPECT_EQ(type.extent, Extent::Sphere) << type.name;
+        EXPECT_TRUE(type.sorted && type.cleared && !type.byId) << type.name;
+    });
+}
+
+TEST(SphereColumns, AppendedStatesHaveAllColumns) {
+    State state;
+    State more;
+    std::size_t columns = 0;
+    forEachColumn([&]<class T>(std::vector<T> SphereColumns::*column, Array) {
+        (state.*column).assign(2, T(1));
+        (more.*column).assign(3, T(2));
+        ++columns;
+    });
+    EXPECT_GE(columns, 3U);
+    more.images.resize(3);
+    state.append(more);
+    EXPECT_EQ(state.count(), 5U);
+    EXPECT_EQ(state.images.size(), 3U);
+    forEachColumn([&]<class T>(std::vector<T> SphereColumns::*column, Array) {
+        EXPECT_EQ(state.*column, (std::vector<T>{T(1), T(1), T(2), T(2), T(2)}));
+    });
+}
+
 class FakeKernel final : public compute::Kernel {
   public:
     explicit FakeKernel(std::vector<BufferDeclaration> buffers) : buffers_(std::move(buffers)) {}
