@@ -34,9 +34,11 @@ KERNEL(params.spheres) {
     if (roomOf(reference) > 0.0f && beyondStrip(vec3(reference))) return;
     uint substep = counters[COUNTER_SUBSTEPS];
     uint own = levelOf(storedRadius(position[invocation]));
+    uint block = blockAt(vec3(reference), own);
     if (HAS(BALANCED) && heldPairs(heldVelocity[invocation]) >= RESTLESS_PAIRS &&
         quietTimeOf(restReference[idOf(idAndMaterial[invocation])]) < params.sleepTime)
-        atomicExchange(restlessBlock[blockAt(vec3(reference), own)], substep);
-    for (uint level = own; level < levels; ++level)
+        atomicExchange(restlessBlock[block], substep);
+    atomicExchange(activeBlock[block], substep);
+    for (uint level = own + 1u; level < levels; ++level)
         atomicExchange(activeBlock[blockAt(vec3(reference), level)], substep);
 }

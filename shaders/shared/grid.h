@@ -38,6 +38,8 @@ uint wrapCell(float coordinate, uint cells) {
     // Distant coordinates are clamped, because their conversion would be undefined. The shift is a multiple of the
     // cells. It keeps the operands of the remainder from being negative, which GLSL leaves undefined too.
     float bounded = min(max(floor(coordinate), -1.0e9f), 1.0e9f);
+    // Most coordinates are less than one length away: a remainder takes longer.
+    if (abs(bounded) < float(cells)) return uint(bounded < 0.0f ? int(bounded) + int(cells) : int(bounded));
     uint shift = (1000000000u / cells + 1u) * cells;
     return uint(int(bounded) + int(shift)) % cells;
 }
