@@ -152,3 +152,48 @@ test("the help opens, and arrow keys orbit", async () => {
   await when(page, (then) => Math.abs(spherule.camera.azimuth - then) > 0.1, azimuth);
   assert.deepEqual(page.faults, []);
 });
+
+test("space and enter press the focused control", async () => {
+  await pause(page);
+  const { step } = await queryServer(page);
+  await page.focus(control("step"));
+  await page.keyboard.press("Space");
+  await when(page, (wanted) => spherule.session.newest?.step === wanted, step + 1);
+  await page.keyboard.press("Enter");
+  await when(page, (wanted) => spherule.session.newest?.step === wanted, step + 2);
+  assert.equal((await queryServer(page)).step, step + 2);
+  assert.equal(await page.evaluate(() => spherule.session.paused), true);
+});
+
+test("keys of one character can be switched off, and stay off in the next page", async () => {
+  const commands = () => page.evaluate(() => spherule.reports.length);
+  await page.focus(control("picture"));
+  await page.keyboard.press("?");
+  await page.uncheck(control("character-keys"));
+  await page.keyboard.press("Escape");
+  await page.reload();
+  await when(page, () => spherule.session.frames > 0);
+  const before = await commands();
+  await page.focus(control("picture"));
+  for (const key of ["d", ".", "?", "r"]) await page.keyboard.press(key);
+  await page.waitForTimeout(500);
+  assert.equal(await commands(), before);
+  assert.equal(await page.isVisible(control("help-overlay")), false);
+  await page.keyboard.press("Space");
+  await when(page, () => spherule.reports.length > 0);
+  await page.click(control("help"));
+  await page.check(control("character-keys"));
+  await page.keyboard.press("Escape");
+  await page.keyboard.press(".");
+  await when(page, () => spherule.reports.some(({ name }) => name.startsWith("Step")));
+});
+
+test("the focused canvas shows that it has the focus", async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  for (let presses = 0; presses < 3; presses++) {
+    await page.keyboard.press("Tab");
+    if (await page.evaluate(() => document.activeElement?.id === "picture")) break;
+  }
+  const style = await page.evaluate(() => [document.activeElement?.id, getComputedStyle(document.activeElement).outlineStyle]);
+  assert.deepEqual(style, ["picture", "solid"]);
+});

@@ -147,6 +147,21 @@ test("forces on the walls are among the diagnostics, in a scene with contact sum
   assert.notEqual(await text("statistics-torque-X_MAX"), "");
 });
 
+test("a long name of a surface beside three long numbers fits into the panel", async () => {
+  const sticksOut = await page.evaluate(() => {
+    const value = document.querySelector('[data-testid="statistics-torque-X_MAX"]');
+    const name = value.parentElement.querySelector("th");
+    const [nameBefore, valueBefore] = [name.textContent, value.textContent];
+    name.textContent = "Torque on obstacles[1023], N m";
+    value.textContent = "−0.000123  −0.000123  −0.000123";
+    const panel = document.querySelector('[data-testid="panel"]').getBoundingClientRect();
+    const right = value.getBoundingClientRect().right - panel.right;
+    [name.textContent, value.textContent] = [nameBefore, valueBefore];
+    return right;
+  });
+  assert.ok(sticksOut < 0, `${sticksOut} px`);
+});
+
 test("a model that the scene does not support is missing on the dial, with a reason", async () => {
   const half = {
     name: "half",

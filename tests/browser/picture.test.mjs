@@ -1,8 +1,10 @@
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import path from "node:path";
 import { test } from "node:test";
 import { expectPositionsOfServer } from "./support/agreement.mjs";
 import { control, open, pause, settled, when } from "./support/browser.mjs";
-import { pictureOf, vividness } from "./support/picture.mjs";
+import { pictureOf, shareOfDifferent, vividness } from "./support/picture.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -62,6 +64,87 @@ test("a sphere is drawn with its position, size and colour", async () => {
       for (const place of outside) assert.ok(vividness(picture.at(...place)) < 0.1, `beside sphere ${id}`);
     });
   });
+});
+
+/** A file with a still scene whose origin lies at `at` on each axis (m): spheres among obstacles of all shapes. */
+function sceneAt(at) {
+  const point = (...from) => from.map((value) => value + at);
+  const spheres = Array.from({ length: 60 }, (_, k) => ({
+    position: point(0.3 + 0.35 * (k % 5), 0.3 + 0.35 * (Math.floor(k / 5) % 4), 0.3 + 0.4 * Math.floor(k / 20)),
+  }));
+  const scene = {
+    gravity: [0, 0, 0],
+    bounds: { min: point(0, 0, 0), max: point(2, 2, 2) },
+    obstacles: [
+      { plane: { point: point(1.8, 0, 0), normal: [-1, 0, 1] } },
+      { box: { min: point(0.1, 1.5, 0), max: point(0.5, 1.9, 0.6) } },
+      { sphere: { centre: point(1, 1.7, 0.2), radius: 0.2 } },
+      { cylinder: { from: point(1.3, 1.65, 0.2), to: point(1.3, 1.9, 0.7), radius: 0.1 } },
+    ],
+    camera: { eye: point(4, -3, 3), target: point(1, 1, 0.7) },
+    groups: [{ name: "still", colour: "#e06020", list: { spheres }, radius: { constant: 0.12 } }],
+  };
+  const file = path.join(suite.folder, `at-${at}.json`);
+  writeFileSync(file, JSON.stringify(scene));
+  return file;
+}
+
+test("pictures 10 km and 1,000 km from the origin equal the one at the origin", async () => {
+  const pictures = [];
+  for (const at of [0, 1e4, 1e6]) {
+    await withPage(sceneAt(at), { colour: "group", picture: "full" }, async (page) => {
+      await pause(page);
+      await settled(page);
+      pictures.push(await pictureOf(page));
+    });
+  }
+  const [origin, ...far] = pictures;
+  for (const picture of far) {
+    const share = shareOfDifferent(origin, picture, 8);
+    assert.ok(share < 1e-4, `${share} of the pixels differ`);
+  }
+});
+
+/** The picture of one orange sphere of 1 m around the origin, from an eye that looks along x or against it. */
+async function pictureFrom(eye, ahead) {
+  const scene = {
+    gravity: [0, 0, 0],
+    bounds: { min: [-4, -4, -4], max: [4, 4, 4], open: ["X_MIN", "X_MAX", "Y_MIN", "Y_MAX", "Z_MIN", "Z_MAX"] },
+    camera: { eye: [eye, 0, 0], target: [eye + ahead, 0, 0] },
+    groups: [{ name: "large", colour: "#f06010", list: { spheres: [{ position: [0, 0, 0] }] }, radius: { constant: 1 } }],
+  };
+  const file = path.join(suite.folder, "large.json");
+  writeFileSync(file, JSON.stringify(scene));
+  let picture;
+  await withPage(file, { colour: "group", picture: "full" }, async (page) => {
+    await pause(page);
+    await settled(page);
+    picture = await pictureOf(page);
+  });
+  return picture;
+}
+
+const places = [
+  [480, 270],
+  [60, 60],
+  [900, 60],
+  [60, 480],
+  [900, 480],
+];
+
+test("a camera inside a large sphere or beside it draws it", async () => {
+  for (const [eye, ahead, drawn] of [
+    [0.4, 0.1, true], // inside
+    [-0.9, 0.1, true],
+    [-1.02, 0.01, true], // beside it, towards it
+    [-1.02, -0.01, false], // away from it
+  ]) {
+    const picture = await pictureFrom(eye, ahead);
+    for (const place of places) {
+      const vivid = vividness(picture.at(...place)) > 0.15;
+      assert.equal(vivid, drawn, `from ${eye} m towards ${eye + ahead} m, at ${place}: ${picture.at(...place)}`);
+    }
+  }
 });
 
 test("near spheres hide those behind them", async () => {

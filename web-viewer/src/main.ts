@@ -25,11 +25,12 @@ function start(): void {
   const clean = withoutToken(location.href);
   if (clean !== undefined) history.replaceState(history.state, "", clean);
   const mode = chosen("colour", modes);
+  const prefersDark = matchMedia("(prefers-color-scheme: dark)").matches;
   const choices: Choices = {
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
-    theme: chosen("theme", ["light", "dark"]) ?? "light",
+    theme: chosen("theme", ["light", "dark"]) ?? (prefersDark ? "dark" : "light"),
     push: false,
     impulse: 1,
     view: loadViewRequest(new URLSearchParams(location.search), () => localStorage),

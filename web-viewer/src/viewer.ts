@@ -18,6 +18,7 @@ import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
 import { longStay } from "./ui/toasts";
 
+const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
 /**
@@ -155,7 +156,7 @@ export class Viewer {
     const shown = session.states.shown(wall);
     this.ranges.update(this.session.facts, shown, now);
     camera.insets = this.page.insets();
-    camera.advance(this.clock.elapsed);
+    camera.advance(this.clock.elapsed, reducedMotion.matches);
     const state = {
       view: camera.view(),
       mode: choices.mode,
@@ -165,7 +166,7 @@ export class Viewer {
     };
     const look = [state.mode, state.range, state.selected, state.dim, choices.theme, choices.quality];
     const content = [shown?.from.sequence, shown?.to.sequence, shown?.mix];
-    const image = [...content, ...state.view.viewProjection, ...look].join(" ");
+    const image = [...content, ...state.view.eye, ...state.view.toClip, ...look].join(" ");
     const draws = image !== this.drawn && !session.awaitsState(wall);
     if (draws && this.canvas.draw(shown, state, this.clock.sinceDrawn)) {
       this.drawn = image;

@@ -22,7 +22,7 @@ test("a pose made from an eye has that eye", () => {
 test("a view straight down has a defined up direction", () => {
   const pose = poseFrom([0, 0, 5], [0, 0, 0]);
   const view = viewOf(pose, 45, 100, 100, none, 20);
-  for (const value of view.viewProjection) assert.ok(Number.isFinite(value));
+  for (const value of view.toClip) assert.ok(Number.isFinite(value));
 });
 
 test("orbiting keeps the distance and stops at the poles", () => {

@@ -2,7 +2,7 @@
 
 /**
  * Takes a screenshot of the canvas without the elements over it. `at(x, y)` returns the sRGB colour (0..255) at a CSS
- * pixel.
+ * pixel. `data`: all pixels, four bytes each, row after row.
  */
 export async function pictureOf(page) {
   // The page's security policy forbids style sheets and requests, but allows images in data addresses.
@@ -21,11 +21,21 @@ export async function pictureOf(page) {
   }, shot.toString("base64"));
   await setVisibility("");
   return {
+    data,
     at(x, y) {
       const start = 4 * (Math.round(y) * width + Math.round(x));
       return data.slice(start, start + 3);
     },
   };
+}
+
+/** The share of pixels whose colours in two pictures differ by more than `levels` (0..255). */
+export function shareOfDifferent(one, other, levels) {
+  let different = 0;
+  for (let k = 0; k < one.data.length; k += 4) {
+    if ([0, 1, 2].some((part) => Math.abs(one.data[k + part] - other.data[k + part]) > levels)) different += 1;
+  }
+  return different / (one.data.length / 4);
 }
 
 /** The distance of a colour from grey, 0..1. */

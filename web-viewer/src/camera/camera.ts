@@ -58,10 +58,10 @@ export class Camera {
     this.goal = zoomed(this.goal, factor, dx * metres, -dy * metres, [0.01 * this.extent, 8 * this.extent]);
   }
 
-  /** Moves the pose by `elapsed` ms. Returns false if it has reached its goal. */
-  advance(elapsed: number): boolean {
+  /** Moves the pose by `elapsed` ms. `still`: to the goal at once. Returns false if it has reached its goal. */
+  advance(elapsed: number, still = false): boolean {
     if (this.pose === this.goal) return false;
-    const share = 1 - Math.exp(-elapsed / ease);
+    const share = still ? 1 : 1 - Math.exp(-elapsed / ease);
     this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, share);
     return true;
   }

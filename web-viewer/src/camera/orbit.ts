@@ -92,8 +92,10 @@ export function near(a: Pose, b: Pose): boolean {
   );
 }
 
-export function viewMatrix(pose: Pose): mat4 {
-  return mat4.lookAt(mat4.create(), eyeOf(pose), pose.target, [0, 0, 1]);
+/** The rotation from the axes of the scene to the ones of the view. */
+export function rotationOf(pose: Pose): mat4 {
+  const towards = eyeOf({ ...pose, target: [0, 0, 0], distance: -1 });
+  return mat4.lookAt(mat4.create(), [0, 0, 0], towards, [0, 0, 1]);
 }
 
 function clampElevation(elevation: number): number {

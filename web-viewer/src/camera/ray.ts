@@ -12,24 +12,25 @@ export interface Ray {
 /** The ray from the eye through a point of the canvas, in CSS pixels from its upper left corner. */
 export function rayThrough(view: View, x: number, y: number): Ray {
   const clip = vec4.fromValues((2 * x) / view.width - 1, 1 - (2 * y) / view.height, 1, 1);
-  vec4.transformMat4(clip, clip, view.inverse);
-  const far = [clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]] as Vec3;
-  const direction = vec3.normalize([0, 0, 0], vec3.subtract([0, 0, 0], far, view.eye)) as Vec3;
+  vec4.transformMat4(clip, clip, view.fromClip);
+  const direction = vec3.normalize([0, 0, 0], [clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]]) as Vec3;
   return { origin: view.eye, direction };
 }
 
 /** Projects a point (m) to the canvas (CSS pixels); undefined if it lies behind the eye. */
 export function project(view: View, point: Vec3): [number, number] | undefined {
-  const clip = vec4.transformMat4(vec4.create(), [...point, 1], view.viewProjection);
+  const [x, y, z] = vec3.subtract([0, 0, 0], point, view.eye) as Vec3;
+  const clip = vec4.transformMat4(vec4.create(), [x, y, z, 1], view.toClip);
   if (clip[3] <= 0) return undefined;
   return [(0.5 + (0.5 * clip[0]) / clip[3]) * view.width, (0.5 - (0.5 * clip[1]) / clip[3]) * view.height];
 }
 
-/** The distance along the ray at which it enters the sphere; Infinity if it misses the sphere. */
+/** The distance along the ray at which it meets the surface of the sphere, from inside too; Infinity if it misses. */
 export function enter(ray: Ray, centre: Vec3, radius: number): number {
   const to = vec3.subtract([0, 0, 0], centre, ray.origin);
   const along = vec3.dot(to, ray.direction);
   const half = radius * radius - (vec3.squaredLength(to) - along * along);
+  if (vec3.squaredLength(to) < radius * radius) return along + Math.sqrt(half);
   if (half < 0 || along < 0) return Infinity;
   return along - Math.sqrt(half);
 }

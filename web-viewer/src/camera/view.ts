@@ -1,5 +1,5 @@
 import { mat4 } from "gl-matrix";
-import { eyeOf, viewMatrix } from "./orbit";
+import { eyeOf, rotationOf } from "./orbit";
 import type { Pose } from "./orbit";
 import type { Vec3 } from "../model/facts";
 
@@ -12,11 +12,10 @@ export interface Insets {
 }
 
 export interface View {
-  eye: Vec3;
-  view: mat4;
+  eye: Vec3; // m
   projection: mat4;
-  viewProjection: mat4;
-  inverse: mat4; // of viewProjection
+  toClip: mat4; // from positions relative to the eye to clip space; it does not translate
+  fromClip: mat4; // its inverse
   width: number; // CSS pixels
   height: number;
   halfTangent: number; // tangent of half the vertical angle of view
@@ -48,8 +47,7 @@ export function viewOf(
   const projection = mat4.perspective(mat4.create(), 2 * Math.atan(halfTangent), width / height, near, far);
   projection[8] -= (insets.left - insets.right) / width;
   projection[9] -= (insets.bottom - insets.top) / height;
-  const view = viewMatrix(pose);
-  const viewProjection = mat4.multiply(mat4.create(), projection, view);
-  const inverse = mat4.invert(mat4.create(), viewProjection) ?? mat4.create();
-  return { eye: eyeOf(pose), view, projection, viewProjection, inverse, width, height, halfTangent, near, far };
+  const toClip = mat4.multiply(mat4.create(), projection, rotationOf(pose));
+  const fromClip = mat4.invert(mat4.create(), toClip) ?? mat4.create();
+  return { eye: eyeOf(pose), projection, toClip, fromClip, width, height, halfTangent, near, far };
 }

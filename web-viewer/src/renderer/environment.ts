@@ -46,10 +46,10 @@ export class Environment {
       [max[0] + reach, max[1] + reach, min[2]],
       [min[0] - reach, max[1] + reach, min[2]],
     ];
-    this.floor.set(isWall(facts, Face.Z_MIN) ? polygon(corners, [0, 0, 1], [1, 1, 1, 1]) : []);
+    this.floor.set(isWall(facts, Face.Z_MIN) ? polygon(corners, [0, 0, 1], [1, 1, 1, 1]) : [], facts.origin);
     const plain = hexToRgb(theme.solid) ?? [0.6, 0.6, 0.6];
     const surfaces = facts.obstacles.map((obstacle) => surfaceOf(obstacle, [...(obstacle.colour ?? plain), 1], facts));
-    this.solids.set(surfaces.flatMap(({ vertices, oneSided }) => (oneSided ? [] : vertices)));
+    this.solids.set(surfaces.flatMap(({ vertices, oneSided }) => (oneSided ? [] : vertices)), facts.origin);
     this.oneSided = surfaces.filter(({ oneSided }) => oneSided);
     this.build(undefined);
   }
@@ -92,9 +92,9 @@ export class Environment {
         lines.push(...point, ...normal, ...ink, strength, ...next, ...normal, ...ink, strength);
       });
     });
-    this.facing.set(facing);
-    this.veils.set(veils);
-    this.edges.set(lines);
+    this.facing.set(facing, facts.origin);
+    this.veils.set(veils, facts.origin);
+    this.edges.set(lines, facts.origin);
   }
 }
 

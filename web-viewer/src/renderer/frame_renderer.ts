@@ -1,3 +1,4 @@
+import { relativeTo } from "../model/facts";
 import type { Facts } from "../model/facts";
 import type { Run } from "../model/population";
 import type { Shown } from "../model/states";
@@ -81,10 +82,11 @@ export class FrameRenderer {
     const shadowKey = shown ? `${shown.from.sequence} ${shown.to.sequence} ${shown.mix}` : "none";
     if (shadowKey !== this.shadowKey) shadow.draw(light, this.spheres, shown?.mix ?? 0, this.environment);
     this.shadowKey = shadowKey;
-    this.uniforms.fill(state.view, light, theme, target.height);
+    const eye = relativeTo(facts.origin, state.view.eye);
+    this.uniforms.fill(state.view, eye, light, theme, target.height);
     this.environment.face(state.view.eye);
     target.begin();
-    scene.draw(facts, shown, state, this.environment, this.spheres, shadow);
+    scene.draw(facts, shown, state, eye, this.environment, this.spheres, shadow);
     target.end();
     const [smallest, largest] = facts.population.radiusRange;
     post.draw(state.view, 2.2 * (smallest + largest) * 0.5, state.dim);

@@ -1,4 +1,5 @@
 import type { View } from "../camera/view";
+import type { Vec3 } from "../model/facts";
 import type { Light } from "./light";
 import { frameBinding } from "./program";
 import { linear } from "./theme";
@@ -7,7 +8,7 @@ import type { Theme } from "./theme";
 /** The uniform block that all passes of an image share (shaders/frame.glsl). */
 export class FrameUniforms {
   private readonly buffer: WebGLBuffer;
-  private readonly data = new Float32Array(4 * 16 + 10 * 4);
+  private readonly data = new Float32Array(3 * 16 + 10 * 4);
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.buffer = gl.createBuffer();
@@ -15,12 +16,12 @@ export class FrameUniforms {
     gl.bufferData(gl.UNIFORM_BUFFER, this.data.byteLength, gl.DYNAMIC_DRAW);
   }
 
-  /** `pixels`: height of the image. */
-  fill(view: View, light: Light, theme: Theme, pixels: number): void {
+  /** `eye`: relative to the centre of the bounds (m). `pixels`: height of the image. */
+  fill(view: View, eye: Vec3, light: Light, theme: Theme, pixels: number): void {
     const pixel = (2 * view.halfTangent) / pixels;
     const values = [
-      ...[...view.viewProjection, ...view.view, ...view.projection, ...light.map],
-      ...[...view.eye, pixel],
+      ...[...view.toClip, ...view.fromClip, ...light.map],
+      ...[...eye, pixel],
       ...[...light.direction, theme.shadow],
       ...[...theme.key, 1],
       ...[...theme.sky, 1],

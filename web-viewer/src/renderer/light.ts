@@ -5,8 +5,9 @@ export interface Light {
   direction: Vec3; // to the light, unit length
   right: Vec3; // across the shadow map
   up: Vec3;
-  clip: mat4; // world to the shadow map's clip space
-  map: mat4; // world to the shadow map, 0..1
+  // Positions are relative to the centre of the bounds.
+  clip: mat4; // position to the shadow map's clip space
+  map: mat4; // position to the shadow map, 0..1
 }
 
 const height = 0.95; // radians above the horizon
@@ -19,16 +20,15 @@ export function lightFor(facts: Facts): Light {
   const direction: Vec3 = [Math.cos(azimuth) * across, Math.sin(azimuth) * across, Math.sin(height)];
   const right = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], [0, 0, 1], direction)) as Vec3;
   const up = vec3.cross([0, 0, 0], direction, right) as Vec3;
-  const centre = facts.origin;
   const half = [0, 0, 0];
   for (const corner of corners(facts)) {
-    const from = vec3.subtract([0, 0, 0], corner, centre);
+    const from = vec3.subtract([0, 0, 0], corner, facts.origin);
     [right, up, direction].forEach((axis, i) => {
       half[i] = Math.max(half[i] ?? 0, Math.abs(vec3.dot(from, axis)));
     });
   }
   const [x = 1, y = 1, z = 1] = half.map((value) => value * 1.03 + 1e-3);
-  const view = mat4.lookAt(mat4.create(), vec3.add([0, 0, 0], centre, direction), centre, up);
+  const view = mat4.lookAt(mat4.create(), direction, [0, 0, 0], up);
   const clip = mat4.multiply(mat4.create(), mat4.ortho(mat4.create(), -x, x, -y, y, 1 - z, 1 + z), view);
   const map = mat4.fromTranslation(mat4.create(), [0.5, 0.5, 0.5]);
   mat4.scale(map, map, [0.5, 0.5, 0.5]);

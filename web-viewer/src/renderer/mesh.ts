@@ -1,3 +1,4 @@
+import type { Vec3 } from "../model/facts";
 import { slot } from "./program";
 import { vertexFloats } from "./shapes";
 import type { Vertices } from "./shapes";
@@ -25,10 +26,12 @@ export class Mesh {
     gl.bindVertexArray(null);
   }
 
-  set(vertices: Vertices): void {
+  /** `origin`: positions on the device are relative to it (m). */
+  set(vertices: Vertices, origin: Vec3): void {
     this.count = vertices.length / vertexFloats;
+    const near = Float32Array.from(vertices, (value, i) => value - (origin[i % vertexFloats] ?? 0));
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffer);
-    this.gl.bufferData(this.gl.ARRAY_BUFFER, new Float32Array(vertices), this.gl.STATIC_DRAW);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, near, this.gl.STATIC_DRAW);
   }
 
   draw(mode: number = this.gl.TRIANGLES): void {

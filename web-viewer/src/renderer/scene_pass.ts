@@ -1,4 +1,4 @@
-import type { Facts } from "../model/facts";
+import type { Facts, Vec3 } from "../model/facts";
 import { modes, quantityOf } from "../model/quantities";
 import type { Shown } from "../model/states";
 import type { DrawState } from "./draw_state";
@@ -60,6 +60,7 @@ export class ScenePass {
     facts: Facts,
     shown: Shown | undefined,
     state: DrawState,
+    eye: Vec3, // m, relative to the centre of the bounds
     environment: Environment,
     data: SphereData,
     shadow: ShadowMap,
@@ -74,24 +75,25 @@ export class ScenePass {
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.enable(gl.CULL_FACE);
-    this.prepare(this.floor, state, shadow);
-    gl.uniform4f(this.floor.at("u_bounds"), facts.min[0], facts.min[1], facts.max[0], facts.max[1]);
+    this.prepare(this.floor, state, eye, shadow);
+    const [x, y] = facts.max.map((high, axis) => high - (facts.origin[axis] ?? 0));
+    gl.uniform2f(this.floor.at("u_half"), x ?? 0, y ?? 0);
     gl.uniform1f(this.floor.at("u_ruler"), environment.ruler);
     gl.uniform1f(this.floor.at("u_fade"), environment.fade);
     environment.floor.draw();
     gl.disable(gl.CULL_FACE);
     gl.disable(gl.BLEND);
 
-    this.prepare(this.solids, state, shadow);
+    this.prepare(this.solids, state, eye, shadow);
     environment.solids.draw();
     environment.facing.draw();
     if (shown) this.drawSpheres(facts, shown, state, data, shadow);
 
     gl.enable(gl.BLEND);
     gl.depthMask(false);
-    this.prepare(this.solids, state, shadow);
+    this.prepare(this.solids, state, eye, shadow);
     environment.veils.draw();
-    this.prepare(this.lines, state, shadow);
+    this.prepare(this.lines, state, eye, shadow);
     environment.edges.draw(gl.LINES);
     gl.depthMask(true);
     gl.disable(gl.BLEND);
@@ -107,7 +109,6 @@ export class ScenePass {
     if (scale) gl.uniform3fv(spheres.at("u_ramp"), scale.ramp.flat());
     gl.uniform2fv(spheres.at("u_range"), state.range);
     gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
-    gl.uniform3fv(spheres.at("u_cellCentre"), facts.origin);
     gl.uniform3fv(spheres.at("u_cellSize"), facts.cellWidths);
     gl.uniform3iv(spheres.at("u_cells"), facts.cells.map((n) => Math.max(1, n)));
     gl.uniform1i(spheres.at("u_selected"), state.selected ?? -1);
@@ -117,9 +118,10 @@ export class ScenePass {
     if (smooth) gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
   }
 
-  private prepare(used: Program, state: DrawState, shadow: ShadowMap): void {
+  private prepare(used: Program, state: DrawState, eye: Vec3, shadow: ShadowMap): void {
     used.use();
     shadow.bind(used, 0);
-    this.gl.uniformMatrix4fv(used.at("u_matrix"), false, state.view.viewProjection);
+    this.gl.uniformMatrix4fv(used.at("u_matrix"), false, state.view.toClip);
+    this.gl.uniform3fv(used.at("u_from"), eye);
   }
 }

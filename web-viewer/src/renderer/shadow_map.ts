@@ -45,6 +45,7 @@ export class ShadowMap {
     data.draw(this.spheres, mix);
     this.solids.use();
     gl.uniformMatrix4fv(this.solids.at("u_matrix"), false, light.clip);
+    gl.uniform3f(this.solids.at("u_from"), 0, 0, 0);
     environment.solids.draw();
     environment.facing.draw();
     gl.disable(gl.POLYGON_OFFSET_FILL);

@@ -94,7 +94,6 @@ export class SphereData {
   draw(program: Program, mix: number): void {
     const { gl, facts } = this;
     if (!facts || this.count === 0) return;
-    gl.uniform3fv(program.at("u_origin"), facts.origin);
     gl.uniform1f(program.at("u_mix"), mix);
     gl.vertexAttrib1f(slot("a_radius"), facts.population.radius);
     gl.vertexAttrib1f(slot("a_id"), -1);

@@ -1,5 +1,5 @@
 import { h } from "./dom";
-import type { Key } from "./keys";
+import type { CharacterKeys, Key } from "./keys";
 
 const gestures = (playing: boolean): [string, string][] => [
   ["drag · one finger", "orbit"],
@@ -10,14 +10,27 @@ const gestures = (playing: boolean): [string, string][] => [
 
 const onTimeline: [string, string] = ["Timeline", "← → one frame, ↑ ↓ one second, Home, End"];
 
-/** A dialog that lists keys and gestures. */
+/** A dialog that lists keys and gestures. A click closes it. */
 export class Help {
   readonly element: HTMLDialogElement = h("dialog", {
     class: "help",
     "data-testid": "help-overlay",
     "aria-label": "Keys and gestures",
-    click: () => this.element.close(),
+    click: (event: Event) => {
+      if (!(event.target instanceof Element && event.target.closest("label"))) this.element.close();
+    },
   });
+  private readonly choice: HTMLElement;
+
+  constructor(characters: CharacterKeys) {
+    const box = h("input", {
+      type: "checkbox",
+      "data-testid": "character-keys",
+      change: () => (characters.enabled = box.checked),
+    });
+    box.checked = characters.enabled;
+    this.choice = h("label", {}, box, "Keys of one character act, such as R and +");
+  }
 
   describe(keys: Key[], playing: boolean): void {
     const list = (rows: [string, string][]): HTMLElement =>
@@ -28,6 +41,7 @@ export class Help {
       list(gestures(playing)),
       h("h2", {}, "Keys"),
       list(playing ? [...keyRows, onTimeline] : keyRows),
+      this.choice,
     );
   }
 

@@ -12,15 +12,52 @@ export interface Key {
 /** Keys that move a focused slider. */
 const sliderKeys = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
 
-/** Listens for keys, except while the user types in a field. */
-export function listenForKeys(keys: () => Key[]): void {
+type Store = Pick<Storage, "getItem" | "setItem">;
+
+/**
+ * Whether keys of one character act, such as "r" or "+". The user can switch them off, because software for speech
+ * input types them by mistake (WCAG 2.2, 2.1.4). The browser remembers it.
+ */
+export class CharacterKeys {
+  private static readonly key = "spherule.characterKeys";
+  private on: boolean;
+
+  constructor(private readonly store: () => Store) {
+    this.on = this.saved() !== "off";
+  }
+
+  get enabled(): boolean {
+    return this.on;
+  }
+
+  set enabled(on: boolean) {
+    this.on = on;
+    try {
+      this.store().setItem(CharacterKeys.key, on ? "on" : "off");
+    } catch {
+      // The browser forbids storage: the next page starts with the default.
+    }
+  }
+
+  private saved(): string | null {
+    try {
+      return this.store().getItem(CharacterKeys.key);
+    } catch {
+      return null;
+    }
+  }
+}
+
+/** Listens for keys, except while the focused element handles them. */
+export function listenForKeys(keys: () => Key[], characters: CharacterKeys): void {
   const pressedDown = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target instanceof HTMLElement && handlesKey(event.target, event.key)) return;
+    if (event.key.length === 1 && event.key !== " " && !characters.enabled) return;
     const pressed = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const key = keys().find((candidate) => candidate.keys.includes(pressed));
     if (!key) return;
-    event.preventDefault(); // space would press the focused button
+    event.preventDefault(); // arrows and space would scroll
     key.act();
   };
   window.addEventListener("keydown", pressedDown, true); // captures: the panel stops the propagation of keys
@@ -28,6 +65,7 @@ export function listenForKeys(keys: () => Key[]): void {
 
 /** Whether the focused element handles the key itself. */
 function handlesKey(target: HTMLElement, key: string): boolean {
+  if (target.matches("button, a, summary, input[type=checkbox], [role=button]")) return key === " " || key === "Enter";
   if (target.matches("input[type=range]")) return sliderKeys.includes(key);
   return target.matches("input, select, textarea") && key !== "Escape";
 }

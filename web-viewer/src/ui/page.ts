@@ -13,7 +13,7 @@ import { h } from "./dom";
 import { Header } from "./header";
 import { Help } from "./help";
 import { Inspector } from "./inspector";
-import { keysFor, listenForKeys } from "./keys";
+import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
 import { Panel } from "./panel";
@@ -50,7 +50,8 @@ export class Page {
   private readonly transport: Transport;
   private readonly legend: Legend;
   private readonly status: StatusLine;
-  private readonly help = new Help();
+  private readonly characters = new CharacterKeys(() => localStorage);
+  private readonly help = new Help(this.characters);
   private readonly keys: () => Key[];
   private readonly deck: HTMLElement;
   private deckHeight = 56; // px
@@ -103,7 +104,7 @@ export class Page {
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
     this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
     this.keys = () => (this.prompt.open ? [] : keysFor(keyActions, this.playing));
-    listenForKeys(() => this.keys());
+    listenForKeys(() => this.keys(), this.characters);
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });

@@ -1,4 +1,5 @@
-// The expressions of model/quantities.ts may use these inputs, position.glsl, and `position`: the centre (m).
+// The expressions of model/quantities.ts may use these inputs, position.glsl, and `position`: the centre
+// of the sphere (m, relative to the centre of the bounds).
 in vec4 a_group;                // sRGB
 in float a_id;                  // negative: the id is the number of the place
 
@@ -6,7 +7,6 @@ uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
-uniform vec3 u_cellCentre;      // m
 uniform vec3 u_cellSize;        // m, per axis; 0: no grid
 uniform ivec3 u_cells;
 
@@ -30,7 +30,7 @@ float id() { return a_id < 0.0 ? float(gl_InstanceID) : a_id; }
 // The hue of a cell is random; its lightness alternates between neighbours.
 vec3 cellColour(vec3 position) {
     if (u_cellSize.x <= 0.0) return vec3(0.62, 0.66, 0.70);
-    ivec3 cell = ivec3(floor((position - u_cellCentre) / u_cellSize));
+    ivec3 cell = ivec3(floor(position / u_cellSize));
     cell = ((cell % u_cells) + u_cells) % u_cells;
     uint hash = scrambled(uint(cell.x + u_cells.x * (cell.y + u_cells.y * cell.z)));
     float hue = float(hash & 1023u) * (6.2831853 / 1024.0);

@@ -4,7 +4,7 @@ in vec3 v_normal;
 in vec4 v_colour;
 out vec4 o_colour;
 
-uniform vec4 u_bounds;    // x min, y min, x max, y max
+uniform vec2 u_half;      // m: half the bounds along x and y
 uniform float u_ruler;    // m between lines
 uniform float u_fade;     // m over which the surrounding floor fades
 
@@ -16,7 +16,7 @@ float ruled(vec2 at, float every) {
 }
 
 void main() {
-    vec2 outward = max(max(u_bounds.xy - v_position.xy, v_position.xy - u_bounds.zw), 0.0);
+    vec2 outward = max(abs(v_position.xy) - u_half, 0.0);
     float away = length(outward);
     float inside = away > 0.0 ? 0.0 : 1.0;
     float fade = 1.0 - smoothstep(0.0, u_fade, away);
@@ -24,7 +24,7 @@ void main() {
     float share = lit(v_position, vec3(0.0, 0.0, 1.0), 0.0);
     vec3 ambient = sky.rgb;
     vec3 colour = albedo * (key.rgb * light.z * share + ambient);
-    float line = inside * 0.10 * ruled(v_position.xy - 0.5 * (u_bounds.xy + u_bounds.zw), u_ruler);
+    float line = inside * 0.10 * ruled(v_position.xy, u_ruler);
     colour = mix(colour, ink.rgb, line);
     o_colour = vec4(encode(colour), fade * fade);
 }

@@ -1,7 +1,6 @@
-// The position of a sphere (m): two states, interpolated. program.ts declares the inputs of the columns.
+// The position of a sphere (m, relative to the centre of the bounds): two states, interpolated. program.ts declares the inputs of the columns.
 in float a_radius;         // m; 0: no sphere is at this place
 
-uniform vec3 u_origin;     // m
 uniform float u_mix;
 uniform vec3 u_period;     // m: length of each periodic axis; 0: not periodic
 uniform vec3 u_perLength;  // 1/m: 1 over these lengths, or 0
@@ -10,12 +9,11 @@ uniform vec3 u_image;      // 1 for the axes across whose faces images are drawn
 // A distance (m) by the shortest way along periodic axes.
 vec3 shortest(vec3 distance) { return distance - u_period * floor(distance * u_perLength + 0.5); }
 
-// Relative to u_origin.
 vec3 placeNow() { return shortest(a_positionFrom + u_mix * shortest(a_positionTo - a_positionFrom)); }
 
 vec3 centreNow() {
     vec3 place = placeNow();
-    return u_origin + place - u_image * u_period * sign(place);
+    return place - u_image * u_period * sign(place);
 }
 
 // Whether there is a sphere, and its image reaches into the bounds. The sphere itself is always drawn.

@@ -19,13 +19,16 @@ void main() {
     const float coverage = 1.0;
     if (inside < 0.0) discard;
 #endif
-    float t = c / (b + sqrt(max(square, 0.0)));
+    bool within = c < 0.0;    // the eye is in the sphere, and sees its inner side
+    if (!within && b <= 0.0) discard;    // the sphere is behind the eye
+    float root = sqrt(max(square, 0.0));
+    float t = within ? (b + root) / a : c / (b + root);
     vec3 position = t * v_ray;
-    vec3 normal = normalize(position - to);
-    position += eye.xyz;
+    vec3 normal = normalize(within ? to - position : position - to);
 
-    vec4 clip = viewProjection * vec4(position, 1.0);
+    vec4 clip = toClip * vec4(position, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
+    position += eye.xyz;
 
     vec3 toEye = -normalize(v_ray);
     vec3 albedo = mix(v_colour.rgb, vec3(1.0), 0.35 * v_colour.w);
