@@ -18,7 +18,7 @@ Result<ForceTable> ForceTable::create(const std::string& path, bool replace) {
 }
 
 Result<void> ForceTable::write(sim::Simulation& simulation) {
-    const sim::ContactSums sums = simulation.contactSums();
+    const sim::ContactSums sums = simulation.readContactSums();
     const auto forces = sim::meanForces(sums.since(std::exchange(before_, sums)), simulation.scene());
     const heartbeat::Pause writing;
     std::string text;

@@ -64,7 +64,7 @@ class IntervalTimer {
         simTime_ = simulation_.time();
         rebuilds_ = simulation_.counters().rebuilds;
         impacts_ = simulation_.impacts();
-        sums_ = simulation_.contactSums();
+        sums_ = simulation_.readContactSums();
         began_ = Clock::now();
     }
     // Waits for the device.

@@ -1,8 +1,6 @@
 // Text formats: all snapshots in one file.
-#include <concepts>
 #include <iterator>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -34,18 +32,10 @@ class TextExporter : public Exporter {
     std::string text_;
 };
 
-void printValue(std::string& text, char separator, float value) {
-    fmt::format_to(std::back_inserter(text), "{}{:.9g}", separator, value);
-}
-
-void printValue(std::string& text, char separator, std::integral auto value) {
-    fmt::format_to(std::back_inserter(text), "{}{}", separator, value);
-}
-
 // Prints the values of a sphere, each behind a separator.
 void printValues(std::string& text, char separator, const std::vector<ExportedColumn>& columns, std::size_t id) {
     for (const ExportedColumn& column : columns)
-        std::visit([&](const auto values) { printValue(text, separator, values[id]); }, column.values);
+        fmt::format_to(std::back_inserter(text), "{}{}", separator, column.values[id]);
 }
 
 class Csv : public TextExporter {
@@ -63,8 +53,8 @@ class Csv : public TextExporter {
         const std::string time = fmt::format("{:.9g}", snapshot.time);
         for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
             const glm::dvec3& p = snapshot.positions[id];
-            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g}", time, id, p.x, p.y, p.z);
-            printValue(text, ',', snapshot.spheres->radii[id]);
+            fmt::format_to(std::back_inserter(text), "{},{},{:.9g},{:.9g},{:.9g},{:.9g}", time, id, p.x, p.y, p.z,
+                           snapshot.spheres->radii[id]);
             printValues(text, ',', columns, id);
             text += '\n';
         }
@@ -87,17 +77,13 @@ class Xyz : public TextExporter {
                        "{}\nLattice=\"{:.9g} 0 0 0 {:.9g} 0 0 0 {:.9g}\" Origin=\"{:.9g} {:.9g} {:.9g}\" "
                        "Properties=species:S:1:pos:R:3:radius:R:1:id:I:1",
                        snapshot.positions.size(), size.x, size.y, size.z, spheres.low.x, spheres.low.y, spheres.low.z);
-        for (const ExportedColumn& column : columns) {
-            const bool real = std::holds_alternative<std::span<const float>>(column.values);
-            fmt::format_to(std::back_inserter(text), ":{}:{}:1", column.name, real ? 'R' : 'I');
-        }
+        for (const ExportedColumn& column : columns) fmt::format_to(std::back_inserter(text), ":{}:I:1", column.name);
         fmt::format_to(std::back_inserter(text), " Time={:.9g} pbc=\"{} {} {}\"\n", snapshot.time, periodic(0),
                        periodic(1), periodic(2));
         for (std::size_t id = 0; id < snapshot.positions.size(); ++id) {
             const glm::dvec3& p = snapshot.positions[id];
-            fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g}", p.x, p.y, p.z);
-            printValue(text, ' ', spheres.radii[id]);
-            printValue(text, ' ', id);
+            fmt::format_to(std::back_inserter(text), "X {:.9g} {:.9g} {:.9g} {:.9g} {}", p.x, p.y, p.z,
+                           spheres.radii[id], id);
             printValues(text, ' ', columns, id);
             text += '\n';
         }

@@ -1,12 +1,10 @@
 // VTK's XML formats: one .vtp per snapshot with raw appended arrays, and a .pvd that lists their times.
-#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,13 +16,6 @@
 namespace spherule::recording {
 
 namespace {
-
-// Returns VTK's name of the type of an exported column.
-template <class T>
-constexpr std::string_view typeName() {
-    if (std::same_as<T, float>) return "Float32";
-    return std::same_as<T, std::int32_t> ? "Int32" : "UInt32";
-}
 
 // Appends an array: its size in bytes, then its bytes.
 template <class T>
@@ -64,14 +55,10 @@ std::string polyData(const Snapshot& snapshot) {
                        type, name, components, data.size());
         appendArray(data, values);
     };
-    const auto column = [&]<class T>(std::string_view name, std::span<const T> values) {
-        array(typeName<T>(), name, 1, values);
-    };
     head += "<PointData Scalars=\"radius\">\n";
-    column("radius", std::span(snapshot.spheres->radii));
-    column("id", all.first(count));
-    for (const ExportedColumn& exported : snapshot.spheres->exportedColumns())
-        std::visit([&](const auto values) { column(exported.name, values); }, exported.values);
+    array("Float32", "radius", 1, std::span<const float>(snapshot.spheres->radii));
+    array("Int32", "id", 1, all.first(count));
+    for (const auto& [name, values] : snapshot.spheres->exportedColumns()) array("Int32", name, 1, values);
     head += "</PointData>\n<Points>\n";
     array("Float64", "Points", 3, snapshot.positions);
     head += "</Points>\n<Verts>\n";

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -15,10 +14,8 @@ namespace spherule::recording {
 
 // A column of a SphereTable that exports have, with its values by id.
 struct ExportedColumn {
-    using Values = std::variant<std::span<const float>, std::span<const std::int32_t>, std::span<const std::uint32_t>>;
-
     std::string_view name;
-    Values values;
+    std::span<const std::int32_t> values;
 };
 
 // Data of the spheres that frames do not repeat, from scene facts and order. Any thread.

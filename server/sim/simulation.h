@@ -53,7 +53,7 @@ class Simulation {
     [[nodiscard]] const Impacts& impacts() const { return impacts_; }
     // Returns the contact sums so far, with a dissipated energy that lacks the change of the energy in springs. Waits
     // for the device.
-    [[nodiscard]] const ContactSums& contactSums() {
+    [[nodiscard]] const ContactSums& readContactSums() {
         takeContactSums();
         return contactSums_;
     }
@@ -77,7 +77,7 @@ class Simulation {
         std::uint32_t pairs = 0;                // listed
         std::uint32_t unlisted = 0;             // cell groups without room for their pairs; served, but slowly
         std::uint32_t sampled = 0;              // cell groups of which only a sample of the pairs is listed
-        std::uint32_t cutShort = 0;             // cell groups whose lists the renderer cut short
+        std::uint32_t cutShort = 0;             // lists of cell groups that the renderer cut short, since the start
         std::uint32_t droppedWallContacts = 0;  // contacts with walls that found no room for their slip
         bool nonFinite = false;                 // some sphere has become non-finite
         std::uint32_t firstNonFinite = 0;       // the smallest handle of such a sphere
@@ -138,8 +138,8 @@ class Simulation {
     void uploadParameters();
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
-    // Adds a notice about `count` things, unless there are none or `noticed` says that it was given before.
-    void noticeOnce(bool& noticed, std::uint32_t count, std::string_view what);
+    // Adds a notice of what happened, unless `noticed` says that it was given before.
+    void noticeOnce(bool& noticed, bool happened, std::string_view what);
     void saveLastFinite();
     void takeContactSums();
     void closeContactSums();

@@ -189,7 +189,7 @@ TEST_P(SurfaceForces, HaveTheSameBitsOnAllDevices) {
     }
 }
 
-// A sphere of a milligram and one of a ton: the units suit the sum of their masses, and both weights are exact.
+// A small sphere and one of a ton: the units suit the sum of their masses, and both weights are right.
 TEST_P(SurfaceForces, HaveRoomForSpheresOfAnySize) {
     scene::Scene scene = fineStepBox(8);
     setRestitution(scene, 0);

@@ -99,3 +99,10 @@ test("approaching turns the shorter way", () => {
   const [from, to] = [poseFrom([-5, 1, 0], [0, 0, 0]), poseFrom([-5, -1, 0], [0, 0, 0])];
   assert.ok(eyeOf(approached(from, to, 0.5))[0] < -5);
 });
+
+test("a ray from inside a sphere meets it where it leaves", () => {
+  const ray = { origin: [0.5, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
+  assert.equal(enter(ray, [0, 0, 0], 2), 1.5);
+  assert.equal(enter(ray, [-1, 0, 0], 2), 0.5);
+  assert.equal(enter(ray, [-5, 0, 0], 2), Infinity);
+});

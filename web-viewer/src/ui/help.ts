@@ -16,6 +16,7 @@ export class Help {
     class: "help",
     "data-testid": "help-overlay",
     "aria-label": "Keys and gestures",
+    autofocus: true, // else the check box would have the focus
     click: (event: Event) => {
       if (!(event.target instanceof Element && event.target.closest("label"))) this.element.close();
     },

@@ -1,5 +1,5 @@
-// The uniforms that all passes share. frame_uniforms.ts fills them in this order. Positions on the device are relative to
-// the centre of the bounds, so that float32 suffices far from the origin.
+// The uniforms that all passes share. frame_uniforms.ts fills them in this order. Positions on the device are relative
+// to the centre of the bounds, so that float32 suffices far from the origin.
 layout(std140) uniform Frame {
     mat4 toClip;        // from positions relative to the eye to clip space; it does not translate
     mat4 fromClip;      // its inverse

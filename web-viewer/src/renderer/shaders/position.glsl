@@ -1,4 +1,5 @@
-// The position of a sphere (m, relative to the centre of the bounds): two states, interpolated. program.ts declares the inputs of the columns.
+// The position of a sphere (m, relative to the centre of the bounds): two states, interpolated. program.ts declares the
+// inputs of the columns.
 in float a_radius;         // m; 0: no sphere is at this place
 
 uniform float u_mix;

@@ -27,6 +27,7 @@ void main() {
     vec3 normal = normalize(within ? to - position : position - to);
 
     vec4 clip = toClip * vec4(position, 1.0);
+    if (within && clip.z < -clip.w) discard;    // nearer than all that is drawn
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
     position += eye.xyz;
 
