@@ -138,7 +138,7 @@ class Simulation {
     void uploadParameters();
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
-    // Adds a notice of what happened, unless `noticed` says that it was given before.
+    // Adds a notice if `happened`, unless `noticed` says that it was given before.
     void noticeOnce(bool& noticed, bool happened, std::string_view what);
     void saveLastFinite();
     void takeContactSums();

@@ -111,7 +111,9 @@ async function pictureFrom(eye, ahead) {
     gravity: [0, 0, 0],
     bounds: { min: [-4, -4, -4], max: [4, 4, 4], open: ["X_MIN", "X_MAX", "Y_MIN", "Y_MAX", "Z_MIN", "Z_MAX"] },
     camera: { eye: [eye, 0, 0], target: [eye + ahead, 0, 0] },
-    groups: [{ name: "large", colour: "#f06010", list: { spheres: [{ position: [0, 0, 0] }] }, radius: { constant: 1 } }],
+    groups: [
+      { name: "large", colour: "#f06010", list: { spheres: [{ position: [0, 0, 0] }] }, radius: { constant: 1 } },
+    ],
   };
   const file = path.join(suite.folder, "large.json");
   writeFileSync(file, JSON.stringify(scene));

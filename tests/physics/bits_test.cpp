@@ -175,7 +175,7 @@ TEST(CrowdOnDevices, ThatTheSoftwareRendererCannotListIsReported) {
         const std::vector<std::string> notices = simulation->takeNotices();
         EXPECT_EQ(std::ranges::count_if(notices,
                                         [](const std::string& notice) {
-                                            return notice.find("cut their lists short") != std::string::npos;
+                                            return notice.find("cuts its list of pairs short") != std::string::npos;
                                         }),
                   choice == "software" ? 1 : 0);
     }
