@@ -169,6 +169,7 @@ test("keys of one character can be switched off, and stay off in the next page",
   const commands = () => page.evaluate(() => spherule.reports.length);
   await page.focus(control("picture"));
   await page.keyboard.press("?");
+  assert.equal(await page.evaluate(() => document.activeElement.dataset.testid), "help-overlay");
   await page.uncheck(control("character-keys"));
   await page.keyboard.press("Escape");
   await page.reload();

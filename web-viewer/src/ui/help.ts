@@ -16,7 +16,7 @@ export class Help {
     class: "help",
     "data-testid": "help-overlay",
     "aria-label": "Keys and gestures",
-    autofocus: true, // else the check box would have the focus
+    tabindex: "-1",
     click: (event: Event) => {
       if (!(event.target instanceof Element && event.target.closest("label"))) this.element.close();
     },
@@ -48,6 +48,9 @@ export class Help {
 
   toggle(): void {
     if (this.element.open) this.element.close();
-    else this.element.showModal();
+    else {
+      this.element.showModal();
+      this.element.focus(); // else the check box has the focus, and space would change it
+    }
   }
 }

@@ -80,8 +80,8 @@ function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[
   const components = (values: readonly number[]): string => values.map(figure).join("  ");
   for (const { surface, force, torque } of surfaceForces.slice(0, shownForces)) {
     rows.push(
-      [`force-${surface}`, `Force on ${surface}, N`, components(force), undefined, "Mean of the last second"],
-      [`torque-${surface}`, `Torque on ${surface}, N m`, components(torque), undefined, torqueTitle],
+      [`force-${surface}`, `Force on ${surface},\u00a0N`, components(force), undefined, "Mean of the last second"],
+      [`torque-${surface}`, `Torque on ${surface},\u00a0N\u00a0m`, components(torque), undefined, torqueTitle],
     );
   }
   const more = surfaceForces.length - shownForces;
