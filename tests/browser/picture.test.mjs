@@ -66,6 +66,8 @@ test("a sphere is drawn with its position, size and colour", async () => {
   });
 });
 
+const small = [480, 270]; // px; software draws it fast
+
 /** A file with a still scene whose origin lies at `at` on each axis (m): spheres among obstacles of all shapes. */
 function sceneAt(at) {
   const point = (...from) => from.map((value) => value + at);
@@ -92,7 +94,7 @@ function sceneAt(at) {
 test("pictures 10 km and 1,000 km from the origin equal the one at the origin", async () => {
   const pictures = [];
   for (const at of [0, 1e4, 1e6]) {
-    await withPage(sceneAt(at), { colour: "group", picture: "full" }, async (page) => {
+    await withPage(sceneAt(at), { colour: "group", picture: "full", size: small }, async (page) => {
       await pause(page);
       await settled(page);
       pictures.push(await pictureOf(page));
@@ -118,7 +120,7 @@ async function pictureFrom(eye, ahead) {
   const file = path.join(suite.folder, "large.json");
   writeFileSync(file, JSON.stringify(scene));
   let picture;
-  await withPage(file, { colour: "group", picture: "full" }, async (page) => {
+  await withPage(file, { colour: "group", picture: "full", size: small }, async (page) => {
     await pause(page);
     await settled(page);
     picture = await pictureOf(page);
@@ -127,11 +129,11 @@ async function pictureFrom(eye, ahead) {
 }
 
 const places = [
-  [480, 270],
-  [60, 60],
-  [900, 60],
-  [60, 480],
-  [900, 480],
+  [240, 135],
+  [30, 30],
+  [450, 30],
+  [30, 240],
+  [450, 240],
 ];
 
 test("a camera inside a large sphere or beside it draws it", async () => {
