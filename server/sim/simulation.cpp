@@ -237,24 +237,24 @@ Statistics Simulation::statistics() {
     return now;
 }
 
-void Simulation::noticeOnce(bool& noticed, bool happened, std::string_view what) {
-    if (happened && !std::exchange(noticed, true)) notices_.push_back(fmt::format("at step {}, {}", steps_, what));
-}
-
 // Runs once per step. Checks that the device is not lost, and that all cell groups found room for their pairs.
 Result<void> Simulation::checkStep() {
     readCounters();  // waits for the step; if the device was lost in it, status() fails and the counters are invalid
     if (auto alive = device_.status(); !alive) return alive;
     if (hasContactSums()) addSurfaceLoads(contactSums_, *pipeline_, loadUnits_);  // keeps them far within 64 bits
-    noticeOnce(noticedSampled_, counters_.sampled > 0,
-               fmt::format("{} cell groups are so crowded that in a substep each sphere meets only some of the others",
-                           counters_.sampled));
-    noticeOnce(noticedCutShort_, counters_.cutShort > 0,
-               "a cell group is so crowded that the software renderer cuts its list of pairs short: spheres there may "
-               "pass through each other. Use --device cpu");
-    noticeOnce(noticedDropped_, counters_.droppedWallContacts > 0,
-               fmt::format("a sphere touches more than {} walls at once: further ones do not hold it by friction",
-                           plan().maxWallHistory));
+    if (counters_.sampled > 0 && !std::exchange(noticedSampled_, true))
+        notices_.push_back(fmt::format(
+            "at step {}, {} cell groups are so crowded that in a substep each sphere meets only some of the others",
+            steps_, counters_.sampled));
+    if (counters_.cutShort > 0 && !std::exchange(noticedCutShort_, true))
+        notices_.push_back(fmt::format(
+            "at step {}, a cell group is so crowded that the software renderer cuts its list of pairs short: spheres "
+            "there may pass through each other. Use --device cpu",
+            steps_));
+    if (counters_.droppedWallContacts > 0 && !std::exchange(noticedDropped_, true))
+        notices_.push_back(fmt::format(
+            "at step {}, a sphere touches more than {} walls at once: further ones do not hold it by friction", steps_,
+            plan().maxWallHistory));
     // Makes room in time: without room, contacts lose their slip, and have no friction for a step.
     const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
     if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !pairsExhausted_)

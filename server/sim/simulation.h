@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -138,8 +137,6 @@ class Simulation {
     void uploadParameters();
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
-    // Adds a notice if `happened`, unless `noticed` says that it was given before.
-    void noticeOnce(bool& noticed, bool happened, std::string_view what);
     void saveLastFinite();
     void takeContactSums();
     void closeContactSums();

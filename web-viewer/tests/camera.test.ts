@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { Camera } from "../src/camera/camera";
 import { approached, eyeOf, framing, orbited, panned, poseFrom, zoomed } from "../src/camera/orbit";
-import { enter, project, rayThrough } from "../src/camera/ray";
+import { hit, project, rayThrough } from "../src/camera/ray";
 import { viewOf } from "../src/camera/view";
 import type { Vec3 } from "../src/model/facts";
 
@@ -90,9 +91,9 @@ test("framing shows every corner of the bounds", () => {
 
 test("a ray enters a sphere at its near side, and misses spheres beside and behind it", () => {
   const ray = { origin: [0, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
-  assert.equal(enter(ray, [5, 0, 0], 1), 4);
-  assert.equal(enter(ray, [5, 1.01, 0], 1), Infinity);
-  assert.equal(enter(ray, [-5, 0, 0], 1), Infinity);
+  assert.equal(hit(ray, [5, 0, 0], 1), 4);
+  assert.equal(hit(ray, [5, 1.01, 0], 1), Infinity);
+  assert.equal(hit(ray, [-5, 0, 0], 1), Infinity);
 });
 
 test("approaching turns the shorter way", () => {
@@ -102,7 +103,17 @@ test("approaching turns the shorter way", () => {
 
 test("a ray from inside a sphere meets it where it leaves", () => {
   const ray = { origin: [0.5, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
-  assert.equal(enter(ray, [0, 0, 0], 2), 1.5);
-  assert.equal(enter(ray, [-1, 0, 0], 2), 0.5);
-  assert.equal(enter(ray, [-5, 0, 0], 2), Infinity);
+  assert.equal(hit(ray, [0, 0, 0], 2), 1.5);
+  assert.equal(hit(ray, [-1, 0, 0], 2), 0.5);
+  assert.equal(hit(ray, [-5, 0, 0], 2), Infinity);
+});
+
+test("with reduced motion, the camera is at its goal at once", () => {
+  const [moving, still] = [new Camera(), new Camera()];
+  for (const camera of [moving, still]) camera.orbit(100, 50);
+  moving.advance(1);
+  still.advance(1, true);
+  const turned = (camera: Camera): number => camera.pose.azimuth - new Camera().pose.azimuth;
+  close([turned(still)], [-0.6]);
+  assert.ok(Math.abs(turned(moving)) < 0.1);
 });

@@ -26,7 +26,7 @@ export function project(view: View, point: Vec3): [number, number] | undefined {
 }
 
 /** The distance along the ray at which it meets the surface of the sphere, from inside too; Infinity if it misses. */
-export function enter(ray: Ray, centre: Vec3, radius: number): number {
+export function hit(ray: Ray, centre: Vec3, radius: number): number {
   const to = vec3.subtract([0, 0, 0], centre, ray.origin);
   const along = vec3.dot(to, ray.direction);
   const half = radius * radius - (vec3.squaredLength(to) - along * along);
@@ -43,7 +43,7 @@ export function pick(facts: Facts, shown: Shown, ray: Ray): number | undefined {
   for (let place = 0; place < count; place++) {
     if (!facts.population.isUsed(place)) continue;
     for (const centre of shownImages(facts, shown, place)) {
-      const distance = enter(ray, centre, facts.population.radiusOf(place));
+      const distance = hit(ray, centre, facts.population.radiusOf(place));
       if (distance >= nearest) continue;
       nearest = distance;
       found = place;

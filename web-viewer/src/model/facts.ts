@@ -63,11 +63,6 @@ export function isWall({ open, periods }: Facts, face: Face): boolean {
   return !open.has(face) && !periods[(face - Face.X_MIN) >> 1];
 }
 
-/** A position relative to another (m). */
-export function relativeTo(origin: Vec3, [x, y, z]: Vec3): Vec3 {
-  return [x - origin[0], y - origin[1], z - origin[2]];
-}
-
 function between(a: Vec3, b: Vec3): Vec3 {
   return [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])];
 }

@@ -1,5 +1,5 @@
-import { relativeTo } from "../model/facts";
-import type { Facts } from "../model/facts";
+import { vec3 } from "gl-matrix";
+import type { Facts, Vec3 } from "../model/facts";
 import type { Run } from "../model/population";
 import type { Shown } from "../model/states";
 import type { DrawState } from "./draw_state";
@@ -82,7 +82,7 @@ export class FrameRenderer {
     const shadowKey = shown ? `${shown.from.sequence} ${shown.to.sequence} ${shown.mix}` : "none";
     if (shadowKey !== this.shadowKey) shadow.draw(light, this.spheres, shown?.mix ?? 0, this.environment);
     this.shadowKey = shadowKey;
-    const eye = relativeTo(facts.origin, state.view.eye);
+    const eye = vec3.subtract([0, 0, 0], state.view.eye, facts.origin) as Vec3;
     this.uniforms.fill(state.view, eye, light, theme, target.height);
     this.environment.face(state.view.eye);
     target.begin();
