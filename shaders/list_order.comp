@@ -22,6 +22,7 @@ BUFFER(writeonly, uint, bundles)
 #define ALONE BATCHES             // the batch of a pair for which none is free
 
 PRIVATE(uint, total)
+PRIVATE(uint, copied)
 PRIVATE(uint, places[2u * (BATCHES + 1u)])  // by batch, close pairs and far pairs: first how many, then the next place
 
 uint hashOf(uint a, uint b) {
@@ -68,6 +69,7 @@ void copyToPlace(uint k) {
     uint place = pair.y >> 24u;
     pairs[places[place]] = uvec2(pair.x & SLOT_BITS, pair.y & SLOT_BITS);
     places[place] = places[place] + 1u;
+    copied = copied + 1u;
 }
 
 void visitCandidates(uint bundle, bool copying) {
@@ -94,6 +96,7 @@ KERNEL(bundlesOfPhase()) {
     bundles[words + 1u] = 0u;
     bundles[words + 2u] = 1u;
     total = 0u;
+    copied = 0u;
     if (counters[COUNTER_CANDIDATES] > params.pairCapacity) return;  // list_fit.comp
     for (uint k = 0u; k < 2u * (BATCHES + 1u); ++k) places[k] = 0u;
     visitCandidates(bundle, false);
@@ -111,4 +114,8 @@ KERNEL(bundlesOfPhase()) {
         bundles[words + 4u + batch] = start;
     }
     visitCandidates(bundle, true);
+    if (copied == total) return;
+    // As in list_build.comp: the loops have ended early, so that places of the list are not written.
+    bundles[words + 1u] = 0u;
+    atomicAdd(counters[COUNTER_CUT_SHORT], 1u);
 }

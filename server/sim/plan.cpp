@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scene/load.h"
 #include "scene/shapes.h"
 #include "sim/layout.h"
 #include "sim/modules/module.h"
+#include "sim/pipeline.h"
 
 namespace spherule::sim {
 
@@ -21,6 +23,14 @@ double marginInRadii(const Features& features) {
     if (!features.has(Feature::Balanced)) return 0.3;
     return features.has(Feature::Radii) ? 1.0 : 0.8;
 }
+
+// Returns for how many spheres a new simulation of `spheres` has room, so that the first ones to be added need no
+// larger arrays.
+constexpr std::uint32_t roomFor(std::uint32_t spheres) {
+    constexpr std::uint32_t fewestSpare = 64;
+    return spheres + std::max(fewestSpare, spheres / 64);
+}
+static_assert(roomFor(scene::maxSpheres) <= Pipeline::mostHandles);
 
 // Returns the size of the lists of obstacles (words): the two at their beginning, and lists of `mostNear` obstacles for
 // each sphere on average. A sphere for whose list there is no space visits all obstacles.
@@ -163,7 +173,8 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     Plan plan;
     plan.features = features;
     plan.model = scene.quality.model;
-    plan.spheres = plan.room = spheres;
+    plan.spheres = spheres;
+    plan.room = roomFor(spheres);
     plan.periods = scene.bounds.periods();
     if (features.has(Feature::Contacts)) {
         plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
