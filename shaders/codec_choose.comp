@@ -1,11 +1,11 @@
-// First pass of the codec, one invocation per block: quantises positions and chooses predictor and mode. Leaves the new
-// state in `before`, which the host then uses as `newest`. Leaves the packed block to the later passes.
+// First pass of the codec, one invocation per block: quantises the values of a column, positions or speeds, and chooses
+// predictor and mode. Leaves the new state in `before`, which the host then uses as `newest`. Leaves the packed block to the later passes.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 #include "shared/codec.h"
 PARAMETERS
 
-BUFFER(readonly, vec4, position)
+BUFFER(readonly, vec4, source)  // positions; for speeds: velocities
 BUFFER(readonly, uint, slotOf)
 BUFFER(readonly, uint, order)
 BUFFER(readonly, uint, newest)
@@ -91,9 +91,23 @@ void takeSlots(int first) {
 void prefetchAhead(int first) {
     if (first + 192 > int(params.spheres)) return;
     for (int k = first + 64; k < first + 128; ++k) {
-        PREFETCH(position[HAS(CONTACTS) ? slotOf[order[k]] : order[k]])
+        PREFETCH(source[HAS(CONTACTS) ? slotOf[order[k]] : order[k]])
         PREFETCH(slotOf[order[k + 64]])
     }
+}
+
+// The code of a speed (docs/codec.md): the exponent and the first bits of the mantissa of 1 + speed / unit.
+uint codeOfSpeed(vec4 v) {
+    precise float square = v.x * v.x + v.y * v.y + v.z * v.z;
+    precise float scaled = 1.0f + sqrt(square) * params.perQuantum.x;
+    return (floatBitsToUint(scaled) - floatBitsToUint(1.0f)) >> CODEC_SPEED_SHIFT;
+}
+
+void takeSpeeds(int first) {
+    takeSlots(first);
+    for (int k = 64; k < 192; ++k) change[k] = 0u;
+    for (int run = 0; run < 8; ++run)
+        for (int k = 0; k < 8; ++k) change[8 * k + run] = codeOfSpeed(source[step[8 * run + k]]);
 }
 
 void takePositions(int first) {
@@ -101,7 +115,7 @@ void takePositions(int first) {
     prefetchAhead(first);
     for (int run = 0; run < 8; ++run)
         for (int k = 0; k < 8; ++k) {
-            vec4 p = position[step[8 * run + k]];
+            vec4 p = source[step[8 * run + k]];
             int lane = 8 * k + run;
             change[lane] = floatBitsToUint(p.x);
             change[lane + 64] = floatBitsToUint(p.y);
@@ -265,7 +279,10 @@ KERNEL(params.blocks) {
         for (int k = 0; k < 192; ++k) change[k] = newest[first + k];
         for (int k = 0; k < 192; ++k) step[k] = 0u;
     } else {
-        takePositions(int(invocation * CODEC_BLOCK));
+        if (params.speeds != 0u)
+            takeSpeeds(int(invocation * CODEC_BLOCK));
+        else
+            takePositions(int(invocation * CODEC_BLOCK));
         takeState(first, alone ? 0u : 0xffffffffu);
         takeShortest(0, params.turns.x, !alone);
         takeShortest(64, params.turns.y, !alone);

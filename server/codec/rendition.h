@@ -10,13 +10,14 @@
 // Renditions of the frame stream. Any thread.
 namespace spherule::codec {
 
-// A precision and a frame rate. All sessions with the same rendition get the same chain: a keyframe and the delta
-// frames after it.
+// A precision, a frame rate and the content of frames. All sessions with the same rendition get the same chain: a
+// keyframe and the delta frames after it.
 struct Rendition {
     v1::Tier tier = v1::NORMAL;
     std::uint32_t rate = 0;   // frames/s, one of `rates`; 0: no frames
     bool turns = false;       // frames count modulo the lengths of periodic axes, if the scene has any (docs/codec.md)
     bool population = false;  // the sessions follow Population messages
+    v1::Quantity quantity = v1::QUANTITY_UNSPECIFIED;  // that frames have besides positions
 
     auto operator<=>(const Rendition&) const = default;
 };
@@ -32,6 +33,12 @@ std::uint32_t rateFor(std::uint32_t asked);
 
 // Returns the grid spacing of encoded positions (m) for a smallest radius (m). The largest error is half of it.
 double quantumOf(v1::Tier tier, double smallestRadius);
+
+// Returns the unit of the codes of a speed (m/s) for a smallest radius (m), see docs/codec.md.
+double unitOfSpeed(double smallestRadius);
+
+// Returns the speed (m/s) of a code: in the middle of the speeds that have it; 0 for code 0.
+double speedOf(std::uint32_t code, double unit);
 
 // A frame of a chain.
 struct EncodedFrame {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "codec/format.h"
 #include "compute/check.h"
 #include "sim/layout.h"
 #include "sim/shaders.h"
@@ -17,6 +18,8 @@ namespace spherule::encode {
 namespace {
 
 constexpr std::size_t word = 4;
+
+static_assert(CODEC_SPEED_SHIFT == codec::speedShift);
 
 constexpr std::array kernelFiles =
     std::to_array<std::string_view>({"codec_choose.comp", "codec_sum.comp", "scan_reduce.comp", "scan_top.comp",
@@ -180,6 +183,7 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
         parameters.perQuantum[axis] = static_cast<float>(turns > 0 ? turns / grid_.periods[axis] : 1 / grid_.quantum);
     }
     parameters.head = headWords();
+    parameters.speeds = grid_.speeds ? 1 : 0;
     parameters.spheres = context_.spheres_;
     parameters.blocks = context_.blocks_;
     parameters.groups = context_.groups_;
@@ -199,7 +203,7 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
     compute::Buffer* const slotOf = source.slotOf == nullptr ? context_.order_.get() : source.slotOf;
     const std::uint32_t sums = over(context_.groups_, SCAN_BLOCK);
     context_.run(Choose,
-                 {{"position", source.values},
+                 {{"source", source.values},
                   {"slotOf", slotOf},
                   {"order", context_.order_.get()},
                   {"newest", newest_.get()},

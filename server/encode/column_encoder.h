@@ -63,8 +63,8 @@ class EncoderContext {
     std::unique_ptr<compute::Buffer> order_, blockWords_, scratch_, groupWords_, sums_, parameters_;
 };
 
-// A buffer with the values of a column: vec4, of which the codec takes x, y and z. slotOf: slot by id; null, or
-// ignored, if the context was created without slots.
+// A buffer with the values of a column: vec4, of which the codec takes x, y and z, or the length of x y z. slotOf: slot
+// by id; null, or ignored, if the context was created without slots.
 struct ColumnSource {
     compute::Buffer* values = nullptr;
     compute::Buffer* slotOf = nullptr;
@@ -81,6 +81,8 @@ class ColumnEncoder {
         // lengths; 0 along the other axes. They are moved to their images inside the bounds.
         glm::dvec3 periods{};
         bool turns = false;  // the frames count modulo these lengths
+        // The values are velocities (m/s), and the frames have their speeds. The quantum is the unit of docs/codec.md.
+        bool speeds = false;
     };
 
     // `context` must outlive the encoder. Refused if there is no room.

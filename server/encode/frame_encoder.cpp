@@ -29,12 +29,13 @@ FrameSource sourceOf(sim::Simulation& simulation) {
         if (source.columns[column] == nullptr)
             compute::programError(fmt::format("there is no array {} to encode", name));
     }
+    source.velocity = simulation.buffer(sim::Array::Velocity);
     return source;
 }
 
 Result<std::unique_ptr<FrameEncoder>> FrameEncoder::create(EncoderContext& context, v1::Tier tier,
-                                                           double smallestRadius, const glm::dvec3& periods,
-                                                           bool turns) {
+                                                           double smallestRadius, const glm::dvec3& periods, bool turns,
+                                                           bool speeds) {
     std::unique_ptr<FrameEncoder> encoder(new FrameEncoder);
     for (std::size_t column = 0; column < codec::columnCount; ++column) {
         encoder->quanta_[column] = codec::columns[column].quantumFor(tier, smallestRadius);
@@ -45,24 +46,38 @@ Result<std::unique_ptr<FrameEncoder>> FrameEncoder::create(EncoderContext& conte
         if (!made) return tl::unexpected(made.error());
         encoder->encoders_[column] = std::move(*made);
     }
+    if (speeds) {
+        encoder->unitOfSpeed_ = codec::unitOfSpeed(smallestRadius);
+        auto made = ColumnEncoder::create(context, {.quantum = encoder->unitOfSpeed_, .speeds = true});
+        if (!made) return tl::unexpected(made.error());
+        encoder->speeds_ = std::move(*made);
+    }
     return encoder;
 }
 
 void FrameEncoder::encodeKeyframe(const FrameSource& source, bool hash) {
-    arrived_ = {};
+    forget();
     for (std::size_t column = 0; column < codec::columnCount; ++column)
         encoders_[column]->encodeKeyframe({source.columns[column], source.slotOf}, hash);
+    if (speeds_) speeds_->encodeKeyframe({source.velocity, source.slotOf}, hash);
 }
 
 void FrameEncoder::encodeDelta(const FrameSource& source, bool hash) {
-    arrived_ = {};
+    forget();
     for (std::size_t column = 0; column < codec::columnCount; ++column)
         encoders_[column]->encodeDelta({source.columns[column], source.slotOf}, hash);
+    if (speeds_) speeds_->encodeDelta({source.velocity, source.slotOf}, hash);
 }
 
 void FrameEncoder::encodeResync(bool hash) {
-    arrived_ = {};
+    forget();
     for (const auto& encoder : encoders_) encoder->encodeResync(hash);
+    if (speeds_) speeds_->encodeResync(hash);
+}
+
+void FrameEncoder::forget() {
+    arrived_ = {};
+    arrivedSpeeds_.reset();
 }
 
 bool FrameEncoder::poll(v1::Frame& frame) {
@@ -70,7 +85,10 @@ bool FrameEncoder::poll(v1::Frame& frame) {
         if (arrived_[column]) continue;
         if (const auto bytes = encoders_[column]->poll()) arrived_[column] = textOf(*bytes);
     }
+    if (speeds_ && !arrivedSpeeds_)
+        if (const auto bytes = speeds_->poll()) arrivedSpeeds_ = textOf(*bytes);
     if (!std::ranges::all_of(arrived_, [](const auto& bytes) { return bytes.has_value(); })) return false;
+    if (speeds_ && !arrivedSpeeds_) return false;
     write(frame);
     return true;
 }
@@ -78,12 +96,17 @@ bool FrameEncoder::poll(v1::Frame& frame) {
 void FrameEncoder::download(v1::Frame& frame) {
     for (std::size_t column = 0; column < codec::columnCount; ++column)
         arrived_[column] = textOf(encoders_[column]->download());
+    if (speeds_) arrivedSpeeds_ = textOf(speeds_->download());
     write(frame);
 }
 
 void FrameEncoder::write(v1::Frame& frame) {
     for (std::size_t column = 0; column < codec::columnCount; ++column)
         codec::columns[column].write(frame, quanta_[column], *std::exchange(arrived_[column], std::nullopt));
+    if (!speeds_) return;
+    frame.set_quantity(v1::SPEED);
+    frame.set_unit(unitOfSpeed_);
+    frame.set_values(*std::exchange(arrivedSpeeds_, std::nullopt));
 }
 
 }  // namespace spherule::encode

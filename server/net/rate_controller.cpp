@@ -29,12 +29,15 @@ std::optional<std::uint32_t> below(std::uint32_t rate) {
 
 // nullopt if there is no lower rendition.
 std::optional<codec::Rendition> nextLower(const codec::Rendition& rendition) {
+    codec::Rendition lower = rendition;
     const auto rate = below(rendition.rate);
-    if (rate && *rate >= minSmoothRate) return codec::Rendition{rendition.tier, *rate, rendition.turns};
-    if (rendition.tier != v1::ECO)
-        return codec::Rendition{rendition.tier == v1::FINE ? v1::NORMAL : v1::ECO, rendition.rate, rendition.turns};
-    if (rate) return codec::Rendition{rendition.tier, *rate, rendition.turns};
-    return std::nullopt;
+    if (rate && (*rate >= minSmoothRate || rendition.tier == v1::ECO))
+        lower.rate = *rate;
+    else if (rendition.tier != v1::ECO)
+        lower.tier = rendition.tier == v1::FINE ? v1::NORMAL : v1::ECO;
+    else
+        return std::nullopt;
+    return lower;
 }
 
 }  // namespace

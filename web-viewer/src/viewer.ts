@@ -153,6 +153,7 @@ export class Viewer {
     const { session, camera, choices } = this;
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
+    if (session.facts) this.subscription.setSpeeds(this.page.needsSpeeds);
     const shown = session.states.shown(wall);
     this.ranges.update(this.session.facts, shown, now);
     camera.insets = this.page.insets();

@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { BufferPool } from "../src/connection/buffer_pool";
 import { Frames } from "../src/connection/frames";
 import { idsOf, scatter } from "../src/connection/order";
-import { Tier } from "../src/gen/spherule/v1/frame_pb";
+import { Quantity, Tier } from "../src/gen/spherule/v1/frame_pb";
 import type { Frame } from "../src/gen/spherule/v1/frame_pb";
 import { frameOf, keyframe, orderOf, still } from "./support/chain";
 
@@ -35,6 +35,29 @@ test("a frame is decoded to metres in id order", () => {
   const metres = [-2, 2.5, 300, 3.5, 4, -4.5, 0.5, 1, 1.5];
   assert.deepEqual([...positionsOf(frames, first())], metres);
   assert.deepEqual([...positionsOf(frames, next(2))], metres);
+});
+
+test("speeds are decoded from their codes, in id order, and end with the chain that has them", () => {
+  const codes: [number, number, number][] = [
+    [0, 0, 0],
+    [1, 0, 0], // 1 + speed / unit is from 1 + 1/64 to 1 + 2/64
+    [64 * 10, 0, 0], // from 2^10 to 2^10 (1 + 1/64)
+  ];
+  const speeds = { quantity: Quantity.SPEED, unit: 0.01 };
+  const frames = begun();
+  const decoded = frames.decode(first({ ...speeds, values: keyframe(1, codes) }));
+  assert.ok(decoded.kind === "state");
+  const found = [...(decoded.columns.speed?.values ?? [])];
+  const expected = [0.01 * (1.5 / 64), 0.01 * (1024 * (1 + 0.5 / 64) - 1), 0];
+  assert.deepEqual(found, expected.map(Math.fround));
+  const after = frames.decode(next(2, { ...speeds, values: still(2, 3) }));
+  assert.ok(after.kind === "state");
+  assert.deepEqual([...(after.columns.speed?.values ?? [])], found);
+  assert.equal(frames.decode(next(3)).kind, "behind", "another chain begins with a keyframe");
+  const without = frames.decode(first());
+  assert.ok(without.kind === "state");
+  assert.equal(without.columns.speed, undefined);
+  assert.equal(frames.decode(next(2, { ...speeds, values: still(2, 3) })).kind, "behind");
 });
 
 test("the golden frames are decoded in the given order", () => {

@@ -5,8 +5,8 @@ import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
-import { leastSpeed, positionOf, shownImages, shownPosition, speedOf } from "../src/model/positions";
-import type { State } from "../src/model/states";
+import { positionOf, shownImages, shownPosition, shownSpeed } from "../src/model/positions";
+import type { Shown, State } from "../src/model/states";
 
 const facts = factsOf(
   create(SceneFactsSchema, {
@@ -33,25 +33,36 @@ test("radii are read as float32", () => {
   assert.deepEqual(facts.population.radiusRange, [0.25, 0.5]);
 });
 
-test("speed is the distance between two states over their time", () => {
+function between(from: State, to: State, mix = 1): Shown {
+  return { from, to, mix, moving: false };
+}
+
+test("without speeds of the server, a speed is the distance between two states over their time", () => {
   const from = state(2, [0, 0, 0, 0, 0, 0]);
   const to = state(4, [0, 0, 0, 3, 4, 0]);
-  assert.equal(speedOf(facts, from, to, 1), 2.5);
-  assert.equal(speedOf(facts, from, to, 0), 0);
-  assert.equal(speedOf(facts, from, from, 1), 0);
+  const error = (Math.sqrt(3) / 2) * 0.25; // both positions are off by half a quantum on each axis
+  assert.deepEqual(shownSpeed(facts, between(from, to), 1), { speed: 2.5, error });
+  assert.deepEqual(shownSpeed(facts, between(from, to), 0), { speed: 0, error });
+  assert.equal(shownSpeed(facts, between(from, from), 1), undefined, "no time has passed");
 });
 
-test("the least speed is one quantum in the time between two states", () => {
-  const from = state(2, [0, 0, 0]);
-  assert.equal(leastSpeed(from, state(2.5, [0, 0, 0])), 0.5);
-  assert.equal(leastSpeed(from, from), 0);
+test("speeds of the server are shown, also of a single state", () => {
+  const withSpeeds = (simTime: number, speeds: number[]): State => {
+    const one = state(simTime, [0, 0, 0, 0, 0, 0]);
+    return { ...one, columns: { ...one.columns, speed: { values: Float32Array.from(speeds), quantum: 0.001 } } };
+  };
+  const from = withSpeeds(2, [0, 1]);
+  assert.deepEqual(shownSpeed(facts, between(from, withSpeeds(4, [0, 3]), 0.25), 1), { speed: 1.5, error: 0 });
+  assert.deepEqual(shownSpeed(facts, between(from, from), 1), { speed: 1, error: 0 });
+  assert.equal(shownSpeed(facts, between(from, state(4, [0, 0, 0, 3, 4, 0])), 1)?.speed, 2.5, "one state has none");
 });
 
 test("the high speed ignores the fastest spheres", () => {
   const many = Array.from({ length: 64 }, (_, id) => [0, 0, id === 63 ? 1000 : id]).flat();
   const from = state(2, many.map(() => 0));
   const to = state(2.5, many);
-  assert.equal(highOf((id) => speedOf(facts, from, to, id), 64), 122);
+  assert.equal(highOf((id) => shownSpeed(facts, between(from, to), id)?.speed, 64), 122);
+  assert.equal(highOf((id) => shownSpeed(facts, between(from, from), id)?.speed, 64), undefined);
 });
 
 const torus = factsOf(
@@ -74,7 +85,7 @@ test("a sphere crosses a seam by the shortest way", () => {
   assert.deepEqual(at(0.25), [3.875, 1.5625, 1]);
   assert.deepEqual(at(0.75), [0.125, 1.6875, 1]);
   assert.deepEqual(at(1), [0.25, 1.75, 1]);
-  assert.equal(speedOf(torus, from, to, 0), Math.hypot(0.5, 0.25));
+  assert.equal(shownSpeed(torus, between(from, to), 0)?.speed, Math.hypot(0.5, 0.25));
 });
 
 test("a sphere that reaches across periodic faces is drawn at each of them", () => {

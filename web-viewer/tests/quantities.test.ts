@@ -45,6 +45,15 @@ test("automatic ranges follow the values shown, unless they are locked", () => {
   assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
 });
 
+test("a speed is shown with what is known of it", () => {
+  const text = (from: State, to: State): string | undefined =>
+    quantityOf("speed").describe?.(facts(), { from, to, mix: 1, moving: false }, 0);
+  assert.equal(text(state(1, 0, 0), state(2, 1, 4)), "4 m/s");
+  assert.equal(text(state(1, 0, 0), state(2, 1, 0.1)), "0.0827 to 0.117 m/s");
+  assert.equal(text(state(1, 0, 0), state(2, 1, 0.01)), "under 0.0273 m/s");
+  assert.equal(text(state(1, 0, 0), state(2, 0, 0)), "speed unknown");
+});
+
 test("a legend has a bar with its ends, or swatches and notes", () => {
   assert.deepEqual(legendOf("speed", facts()), { bar: speedRamp, low: "0", high: "0.1 m/s" });
   const one = { colour: radiusRamp[0], name: "all 25 cm", figure: "" };

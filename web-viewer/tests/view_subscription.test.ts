@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ViewSubscription } from "../src/connection/view_subscription";
-import { Tier } from "../src/gen/spherule/v1/frame_pb";
+import { Quantity, Tier } from "../src/gen/spherule/v1/frame_pb";
 import { timers } from "./support/timers";
 
 const defaults = { tier: Tier.NORMAL, rate: 30, fixed: false };
@@ -22,5 +22,23 @@ test("a hidden page requests no frames after a while, and its own rate again whe
   subscription.request({ ...defaults, rate: 60 });
   subscription.setVisible(true);
   assert.deepEqual(requested, [0, 0, 60]);
+  timers.reset();
+});
+
+test("speeds are requested at once, and given up after a while", () => {
+  timers.enable();
+  const requested: Quantity[] = [];
+  const subscription = new ViewSubscription(defaults, (view) => void requested.push(view.quantity));
+  assert.equal(subscription.view.quantity, Quantity.QUANTITY_UNSPECIFIED);
+  for (let tick = 0; tick < 3; tick++) subscription.setSpeeds(true);
+  assert.deepEqual(requested, [Quantity.SPEED]);
+  subscription.setSpeeds(false);
+  timers.tick(1000);
+  subscription.setSpeeds(true);
+  timers.tick(10_000);
+  assert.deepEqual(requested, [Quantity.SPEED], "the need has returned");
+  subscription.setSpeeds(false);
+  timers.tick(10_000);
+  assert.deepEqual(requested, [Quantity.SPEED, Quantity.QUANTITY_UNSPECIFIED]);
   timers.reset();
 });

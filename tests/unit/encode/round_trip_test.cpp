@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -10,6 +11,7 @@
 
 #include "codec/block.h"
 #include "codec/decoder.h"
+#include "codec/rendition.h"
 #include "codec_support.h"
 
 namespace spherule::codec {
@@ -104,6 +106,45 @@ TEST(Codec, AppliesOriginAndQuantum) {
             EXPECT_NEAR(x, static_cast<double>(positions[k][axis]), quantum * 0.501);
         }
     }
+}
+
+// Speeds from far below the unit to far above it, in all directions.
+TEST(Codec, SpeedsAreWithinOnePercent) {
+    constexpr double unit = 0.0005;  // m/s
+    constexpr std::uint32_t spheres = 4000;
+    Encoder encoder("cpu:1", spheres, {.quantum = unit, .speeds = true});
+    Decoder decoder(spheres);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> exponent(-6, 12);
+    std::normal_distribution<double> part;
+    Positions velocities(spheres);
+    std::vector<double> speeds(spheres);
+    const auto draw = [&] {
+        for (std::uint32_t k = 0; k < spheres; ++k) {
+            const glm::dvec3 way(part(random), part(random), part(random));
+            const glm::vec3 v(way / glm::length(way) * std::pow(10.0, exponent(random)));
+            velocities[k] = glm::vec4(v, k % 2 == 0 ? -1 : 1);
+            speeds[k] = glm::length(glm::dvec3(v));
+        }
+        velocities[7] = glm::vec4(0, 0, 0, 1);
+        speeds[7] = 0;
+    };
+    for (int frame = 0; frame < 5; ++frame) {
+        draw();
+        const auto codes = decoded(decoder, frame == 0 ? encoder.begin(velocities) : encoder.next(velocities));
+        ASSERT_EQ(codes.size(), spheres);
+        for (std::uint32_t k = 0; k < spheres; ++k) {
+            EXPECT_EQ(codes[k].y, 0);
+            EXPECT_EQ(codes[k].z, 0);
+            const double found = speedOf(static_cast<std::uint32_t>(codes[k].x), unit);
+            EXPECT_NEAR(found, speeds[k], 0.008 * speeds[k] + unit / 64) << k;
+        }
+        EXPECT_EQ(codes[7].x, 0);
+    }
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    for (auto& v : velocities) v = glm::vec4(nan, 0, 0, 1);
+    EXPECT_FALSE(
+        std::isfinite(speedOf(static_cast<std::uint32_t>(decoded(decoder, encoder.next(velocities))[0].x), unit)));
 }
 
 TEST(Codec, KeepsTheOrderOfSpheres) {

@@ -105,6 +105,20 @@ TEST(RateController, StepsUpWithoutAcks) {
     EXPECT_FALSE(controller.reduced());
 }
 
+TEST(RateController, KeepsTheContentOfFrames) {
+    const codec::Rendition target{v1::FINE, 60, true, true, v1::SPEED};
+    RateController controller = wanting(target);
+    auto now = start;
+    while (stepsDown(controller, now)) {
+        codec::Rendition expected = target;
+        expected.tier = controller.rendition().tier;
+        expected.rate = controller.rendition().rate;
+        EXPECT_EQ(controller.rendition(), expected);
+    }
+    EXPECT_EQ(controller.rendition().tier, v1::ECO);
+    EXPECT_EQ(controller.rendition().rate, 5U);
+}
+
 TEST(RateController, KeepsAFixedRendition) {
     RateController controller = wanting({v1::FINE, 60}, true);
     auto now = start;

@@ -1,7 +1,8 @@
 import { Decoder } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
-import { columnFormats, columnNames, valuesPerSphere } from "../columns";
-import type { Columns } from "../columns";
+import { speedsOf } from "../codec/speeds";
+import { columnFormats, columnNames } from "../columns";
+import type { ColumnName, Columns, EncodedColumn } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
 import type { BufferPool } from "./buffer_pool";
 import { idsOf, scatter } from "./order";
@@ -24,7 +25,7 @@ export class Frames {
   private periods: Periods = [0, 0, 0];
   private order: number | undefined;
   private ids: Uint32Array = new Uint32Array(0);
-  private decoders: Decoder[] = []; // one per column
+  private readonly decoders = new Map<ColumnName, Decoder>();
   private chain: string | undefined; // undefined: lost, or not yet started
 
   constructor(private readonly buffers: BufferPool) {}
@@ -56,9 +57,9 @@ export class Frames {
   /** Throws an Error that says what is wrong with a malformed frame; the chain is then lost. */
   decode(frame: Frame): Decoded {
     if (frame.epoch !== this.epoch || frame.order !== this.order) return { kind: "foreign" };
-    const encoded = columnNames.map((name) => columnFormats[name].encoded(frame));
-    const quanta = encoded.map(({ quantum }) => quantum);
-    const chain = [frame.epoch, frame.order, frame.tier, ...quanta].join(" ");
+    const encoded = encodedColumns(frame);
+    const grids = encoded.map(({ name, quantum }) => `${name} ${quantum}`);
+    const chain = [frame.epoch, frame.order, frame.tier, ...grids].join(" ");
     if (chain !== this.chain && !encoded.every(({ spb }) => isKeyframe(spb))) {
       this.chain = undefined;
       return { kind: "behind" };
@@ -67,13 +68,21 @@ export class Frames {
     if (frame.count !== this.count) {
       throw new Error(`frame ${frame.sequence}: has ${frame.count} spheres, expected ${this.count}`);
     }
-    if (!quanta.every((quantum) => quantum > 0 && quantum < Infinity)) {
+    if (!encoded.every(({ quantum }) => quantum > 0 && quantum < Infinity)) {
       throw new Error(`frame ${frame.sequence}: has no quantum`);
     }
-    if (this.decoders[0]?.spheres !== this.count) this.decoders = columnNames.map(() => new Decoder(this.count));
-    encoded.forEach(({ spb }, k) => this.decoders[k]?.apply(spb));
+    for (const { name, spb } of encoded) this.decoderOf(name).apply(spb);
     this.chain = chain;
-    return { kind: "state", columns: this.columnsOf(quanta) };
+    return { kind: "state", columns: this.columnsOf(encoded) };
+  }
+
+  private decoderOf(name: ColumnName): Decoder {
+    let decoder = this.decoders.get(name);
+    if (decoder?.spheres !== this.count) {
+      decoder = new Decoder(this.count);
+      this.decoders.set(name, decoder);
+    }
+    return decoder;
   }
 
   /** The quantum of each axis: a periodic one has its own, of which a whole number fits its length. */
@@ -82,18 +91,29 @@ export class Frames {
   }
 
   /** The columns of the frame that has just been decoded. */
-  private columnsOf(quanta: number[]): Columns {
+  private columnsOf(encoded: NamedColumn[]): Columns {
+    const valuesPerSphere = encoded.reduce((sum, { name }) => sum + columnFormats[name].components, 0);
     const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * valuesPerSphere * this.count);
     let at = 0;
-    const filled = columnNames.map((name, k) => {
+    const filled = encoded.map(({ name, quantum }) => {
       const { components } = columnFormats[name];
       const values = new Float32Array(buffer, at, components * this.count);
-      const quantum = quanta[k] as number;
-      const decoder = this.decoders[k] as Decoder;
-      scatter(decoder.newest, this.ids, components, this.quantaOf(decoder, quantum), values);
+      const decoder = this.decoderOf(name);
+      if (name === "speed") speedsOf(decoder.newest, this.ids, quantum, values);
+      else scatter(decoder.newest, this.ids, components, this.quantaOf(decoder, quantum), values);
       at += values.byteLength;
       return [name, { values, quantum }];
     });
     return Object.fromEntries(filled) as Columns;
   }
+}
+
+type NamedColumn = EncodedColumn & { name: ColumnName };
+
+/** The columns that a frame has. */
+function encodedColumns(frame: Frame): NamedColumn[] {
+  return columnNames.flatMap((name) => {
+    const encoded = columnFormats[name].encoded(frame);
+    return encoded ? [{ name, quantum: encoded.quantum, spb: encoded.spb }] : [];
+  });
 }

@@ -2,7 +2,7 @@ import { create } from "@bufbuild/protobuf";
 import { bufferOf } from "../columns";
 import { CommandSchema } from "../gen/spherule/v1/control_pb";
 import type { Command, CommandResult } from "../gen/spherule/v1/control_pb";
-import type { ControlMessage, FromWorker, LinkState, State, ToWorker, ViewRequest } from "./messages";
+import type { ControlMessage, FromWorker, LinkState, State, StreamRequest, ToWorker } from "./messages";
 
 export type CommandKind = Command["kind"];
 
@@ -28,7 +28,7 @@ export class Link {
   }
 
   /** `token`: empty if there is none. */
-  connect(url: string, view: ViewRequest, token: string): void {
+  connect(url: string, view: StreamRequest, token: string): void {
     this.post({ kind: "connect", url, view, token });
   }
 
@@ -42,7 +42,7 @@ export class Link {
     this.post({ kind: "retry" });
   }
 
-  requestView(view: ViewRequest): void {
+  requestView(view: StreamRequest): void {
     this.post({ kind: "view", view });
   }
 

@@ -15,7 +15,7 @@ import type {
   Welcome,
 } from "../gen/spherule/v1/control_pb";
 import type { Population, SceneFacts } from "../gen/spherule/v1/facts_pb";
-import type { Status, Tier } from "../gen/spherule/v1/frame_pb";
+import type { Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
 
 /** Messages between the page and the worker that holds its connection. */
 
@@ -56,11 +56,16 @@ export interface Received extends State {
   status: Status | undefined;
 }
 
-/** The stream that the page requests. */
+/** The stream that the user requests. */
 export interface ViewRequest {
   tier: Tier;
   rate: number; // frames per second; 0: none
   fixed: boolean; // the server may not lower tier or rate
+}
+
+/** The stream that the page requests. */
+export interface StreamRequest extends ViewRequest {
+  quantity: Quantity; // of each sphere, besides its position
 }
 
 export type FromWorker =
@@ -84,10 +89,10 @@ export type FromWorker =
   | { kind: "unreadable"; reason: string }; // a message or frame is malformed
 
 export type ToWorker =
-  | { kind: "connect"; url: string; view: ViewRequest; token: string }
+  | { kind: "connect"; url: string; view: StreamRequest; token: string }
   | { kind: "token"; token: string } // reconnect with this token
   | { kind: "retry" }
-  | { kind: "view"; view: ViewRequest }
+  | { kind: "view"; view: StreamRequest }
   | { kind: "drawing"; rate: number } // images per second; 0: unknown
   | { kind: "command"; command: Command }
   | { kind: "control"; message: ControlMessage }

@@ -5,7 +5,7 @@ import { sharedNow } from "../clock";
 import { bufferOf } from "../columns";
 import { BufferPool } from "./buffer_pool";
 import { Frames } from "./frames";
-import type { FromWorker, ToWorker, ViewRequest } from "./messages";
+import type { FromWorker, StreamRequest, ToWorker } from "./messages";
 import { periodsOf } from "./periods";
 import { clientName, decode, forPage } from "./protocol";
 import { Socket } from "./socket";
@@ -48,7 +48,7 @@ function received(data: ArrayBuffer): void {
   }
 }
 
-let view: ViewRequest | undefined;
+let view: StreamRequest | undefined;
 let token = "";
 
 function sendView(): void {

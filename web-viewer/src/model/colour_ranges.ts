@@ -6,7 +6,7 @@ import type { Shown } from "./states";
 
 interface Automatic {
   range: AutoRange;
-  value(facts: Facts, shown: Shown, place: number): number;
+  value(facts: Facts, shown: Shown, place: number): number | undefined;
 }
 
 /** The range of values that the scale of each mode covers. */
@@ -36,12 +36,13 @@ export class ColourRanges {
 
   /** Adapts the automatic ranges to the values that are shown. `now`: ms. */
   update(facts: Facts | undefined, shown: Shown | undefined, now: number): void {
-    if (!facts || !shown || shown.from === shown.to || shown.to.sequence === this.measured) return;
+    if (!facts || !shown || shown.to.sequence === this.measured) return;
     this.measured = shown.to.sequence;
     const places = Math.min(shown.from.count, shown.to.count);
     const isUsed = (place: number): boolean => facts.population.isUsed(place);
     for (const { range, value } of this.automatic.values()) {
-      range.update(highOf((place) => value(facts, shown, place), places, isUsed), now);
+      const high = highOf((place) => value(facts, shown, place), places, isUsed);
+      if (high !== undefined) range.update(high, now);
     }
   }
 
@@ -62,22 +63,23 @@ export class ColourRanges {
 }
 
 /**
- * The 98th percentile of the values at the places in use, from at most `samples` of them, spread over all; 0 if none is
- * in use. `places`: their number, free ones included.
+ * The 98th percentile of the values at the places in use, from at most `samples` of them, spread over all; undefined if
+ * none is known. `places`: their number, free ones included.
  */
 export function highOf(
-  value: (place: number) => number,
+  value: (place: number) => number | undefined,
   places: number,
   isUsed: (place: number) => boolean = () => true,
   samples = 2048,
-): number {
+): number | undefined {
   const parts = Math.min(samples, places);
   const values: number[] = [];
   for (let part = 0; part < parts; part++) {
     const end = Math.floor(((part + 1) * places) / parts);
     let place = Math.floor((part * places) / parts);
     while (place < end && !isUsed(place)) place += 1;
-    if (place < end) values.push(value(place));
+    const known = place < end ? value(place) : undefined;
+    if (known !== undefined) values.push(known);
   }
-  return Float64Array.from(values).sort()[Math.floor(0.98 * (values.length - 1))] ?? 0;
+  return Float64Array.from(values).sort()[Math.floor(0.98 * (values.length - 1))];
 }

@@ -45,10 +45,9 @@ export function shownImages(facts: Facts, shown: Shown, place: number): Vec3[] {
   return images;
 }
 
-/** The mean speed of a sphere between two states (m/s); 0 if no simulated time passed. */
-export function speedOf(facts: Facts, from: State, to: State, place: number): number {
+/** The mean speed of a sphere between two states of different times (m/s). */
+function speedOf(facts: Facts, from: State, to: State, place: number): number {
   const time = to.simTime - from.simTime;
-  if (!(time > 0)) return 0;
   const at = 3 * place;
   const { values: a } = from.columns.position;
   const { values: b } = to.columns.position;
@@ -59,8 +58,20 @@ export function speedOf(facts: Facts, from: State, to: State, place: number): nu
   return Math.hypot(dx, dy, dz) / time;
 }
 
-/** The smallest speed that quantised states can show (m/s). */
-export function leastSpeed(from: State, to: State): number {
+/**
+ * The speed of a sphere (m/s): the one that the server sent, or the mean between the two states, which is off by at
+ * most `error` because positions are quantised. Undefined: unknown.
+ */
+export function shownSpeed(
+  facts: Facts,
+  { from, to, mix }: Shown,
+  place: number,
+): { speed: number; error: number } | undefined {
+  const before = from.columns.speed?.values[place];
+  const after = to.columns.speed?.values[place];
+  if (before !== undefined && after !== undefined) return { speed: before + mix * (after - before), error: 0 };
   const time = to.simTime - from.simTime;
-  return time > 0 ? Math.max(from.columns.position.quantum, to.columns.position.quantum) / time : 0;
+  if (!(time > 0)) return undefined;
+  const quanta = from.columns.position.quantum + to.columns.position.quantum;
+  return { speed: speedOf(facts, from, to, place), error: (Math.sqrt(3) / 2) * (quanta / time) };
 }

@@ -3,18 +3,18 @@ import type { Ramp } from "../colour/ramp";
 import type { Rgb } from "../colour/rgb";
 import { count, figure, length } from "../format";
 import type { Facts } from "./facts";
-import { leastSpeed, speedOf } from "./positions";
+import { shownSpeed } from "./positions";
 import type { Shown } from "./states";
 
 export type Range = [number, number];
 
 /**
  * A colour scale. Its range is constant in a scene, or automatic: then it begins at 0, and its end follows the values
- * that are shown, but is at least `least`.
+ * that are shown, but is at least `least`. An undefined value is unknown.
  */
 export type Scale = { ramp: Ramp } & (
   | { range(facts: Facts): Range }
-  | { value(facts: Facts, shown: Shown, place: number): number; least: number }
+  | { value(facts: Facts, shown: Shown, place: number): number | undefined; least: number }
 );
 
 export interface Swatch {
@@ -38,18 +38,22 @@ export interface Quantity {
 }
 
 const groupsShown = 6; // in the legend
+const negligible = 0.01; // error of a speed, as a share of it
 
 /** All quantities, in the order of the colour modes and of the inspector's lines. */
 export const quantities = {
   speed: {
     label: "Speed",
-    glsl: "length(shortest(a_positionTo - a_positionFrom)) * u_inverseTime",
-    scale: { ramp: speedRamp, value: (facts, { from, to }, place) => speedOf(facts, from, to, place), least: 0.1 },
+    glsl: "speedNow()",
+    scale: { ramp: speedRamp, value: (facts, shown, place) => shownSpeed(facts, shown, place)?.speed, least: 0.1 },
     legend: (_, [, high]) => ({ bar: speedRamp, low: "0", high: `${figure(high)} m/s` }),
-    describe: (facts, { from, to }, place) => {
-      const least = leastSpeed(from, to);
-      const speed = speedOf(facts, from, to, place);
-      return speed < least ? `under ${figure(least)} m/s` : `${figure(speed)} m/s`;
+    describe: (facts, shown, place) => {
+      const known = shownSpeed(facts, shown, place);
+      if (!known) return "speed unknown";
+      const { speed, error } = known;
+      if (error <= negligible * speed) return `${figure(speed)} m/s`;
+      if (error >= speed) return `under ${figure(speed + error)} m/s`;
+      return `${figure(speed - error)} to ${figure(speed + error)} m/s`;
     },
   },
   radius: {

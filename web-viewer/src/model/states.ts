@@ -56,7 +56,8 @@ export class States {
   carryBack(frame: State, places: readonly Run[]): void {
     for (const state of this.byKey.values()) {
       for (const [name, { values }] of Object.entries(frame.columns)) {
-        const { values: earlier } = state.columns[name as keyof State["columns"]];
+        const earlier = state.columns[name as keyof State["columns"]]?.values;
+        if (!earlier) continue;
         const components = values.length / frame.count;
         for (const { first, count } of places) {
           const begin = components * first;

@@ -109,6 +109,8 @@ export class ScenePass {
     if (scale) gl.uniform3fv(spheres.at("u_ramp"), scale.ramp.flat());
     gl.uniform2fv(spheres.at("u_range"), state.range);
     gl.uniform1f(spheres.at("u_inverseTime"), time > 0 ? 1 / time : 0);
+    const speedsSent = shown?.from.columns.speed && shown.to.columns.speed;
+    gl.uniform1i(spheres.at("u_speedsSent"), speedsSent ? 1 : 0);
     gl.uniform3fv(spheres.at("u_cellSize"), facts.cellWidths);
     gl.uniform3iv(spheres.at("u_cells"), facts.cells.map((n) => Math.max(1, n)));
     gl.uniform1i(spheres.at("u_selected"), state.selected ?? -1);

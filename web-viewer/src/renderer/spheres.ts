@@ -1,4 +1,4 @@
-import { bufferOf, columnFormats, columnNames, valuesPerSphere } from "../columns";
+import { bufferOf, columnFormats, columnNames, valuesOf } from "../columns";
 import type { Facts } from "../model/facts";
 import { capacity } from "../model/playout";
 import { joined } from "../model/population";
@@ -79,8 +79,13 @@ export class SphereData {
       for (const name of columnNames) {
         const { components } = columnFormats[name];
         const input = `a_${name}${end}` as const;
+        const column = state.columns[name];
+        if (!column) {
+          gl.disableVertexAttribArray(slot(input));
+          continue;
+        }
         this.perInstance(input);
-        const { BYTES_PER_ELEMENT: bytes, byteOffset } = state.columns[name].values;
+        const { BYTES_PER_ELEMENT: bytes, byteOffset } = column.values;
         gl.vertexAttribPointer(slot(input), components, gl.FLOAT, false, bytes * components, byteOffset);
       }
     }
@@ -113,8 +118,7 @@ export class SphereData {
     if (!found) {
       found = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
       this.gl.bindBuffer(this.gl.ARRAY_BUFFER, found.buffer);
-      const values = new Float32Array(bufferOf(state.columns), 0, valuesPerSphere * state.count);
-      this.gl.bufferData(this.gl.ARRAY_BUFFER, values, this.gl.STREAM_DRAW);
+      this.gl.bufferData(this.gl.ARRAY_BUFFER, valuesOf(state.columns), this.gl.STREAM_DRAW);
       found.state = state;
     }
     found.used = this.turn;
@@ -142,7 +146,8 @@ export class SphereData {
   private uploadValues(buffer: WebGLBuffer, state: State, spans: readonly Run[]): void {
     for (const name of columnNames) {
       const { components } = columnFormats[name];
-      const { values } = state.columns[name];
+      const values = state.columns[name]?.values;
+      if (!values) continue;
       for (const { first, count } of spans) {
         const part = values.subarray(components * first, components * (first + count));
         this.upload(buffer, part.byteOffset, part);

@@ -108,8 +108,7 @@ export class Page {
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
-    const needsSpeeds = (): boolean => choices.mode === "speed" || this.inspector.selection.id !== undefined;
-    this.playback = new Playback(session, commands, needsSpeeds);
+    this.playback = new Playback(session, commands, () => this.needsSpeeds);
     const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
     const controls = [this.change, steering, this.playback, this.transport].map(({ element }) => element);
@@ -120,6 +119,11 @@ export class Page {
     document.documentElement.dataset.theme = choices.theme;
     this.showPanel(!narrow.matches);
     this.help.describe(this.keys(), this.playing);
+  }
+
+  /** Whether the page shows speeds. */
+  get needsSpeeds(): boolean {
+    return this.choices.mode === "speed" || this.inspector.selection.id !== undefined;
   }
 
   /** Call at every tick. `now`: ms, as sharedNow() counts. */

@@ -6,6 +6,7 @@ in float a_id;                  // negative: the id is the number of the place
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
+uniform bool u_speedsSent;      // the two states have speeds
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
 uniform vec3 u_cellSize;        // m, per axis; 0: no grid
 uniform ivec3 u_cells;
@@ -26,6 +27,12 @@ uint scrambled(uint x) {
 }
 
 float id() { return a_id < 0.0 ? float(gl_InstanceID) : a_id; }
+
+// m/s; 0 if it is unknown. See shownSpeed() of model/positions.ts.
+float speedNow() {
+    if (u_speedsSent) return mix(a_speedFrom, a_speedTo, u_mix);
+    return length(shortest(a_positionTo - a_positionFrom)) * u_inverseTime;
+}
 
 // The hue of a cell is random; its lightness alternates between neighbours.
 vec3 cellColour(vec3 position) {
