@@ -1,6 +1,8 @@
 // The decoder restores the positions that the encoder has encoded on the CPU device.
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
