@@ -4,35 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <utility>
-
-#include "embedded/page.h"
-
 namespace spherule::host {
 
 namespace {
-
-std::string_view typeOf(std::string_view path) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> types = {{
-        {".html", "text/html; charset=utf-8"},
-        {".js", "text/javascript; charset=utf-8"},
-        {".css", "text/css; charset=utf-8"},
-        {".svg", "image/svg+xml"},
-        {".png", "image/png"},
-        {".ico", "image/x-icon"},
-    }};
-    for (const auto& [suffix, type] : types)
-        if (path.ends_with(suffix)) return type;
-    return "application/octet-stream";
-}
-
-net::HttpAnswer file(std::string_view path) {
-    const std::string_view name = path == "/" ? "index.html" : path.substr(1);
-    for (const embedded::File& file : embedded::page())
-        if (file.path == name) return {200, std::string(typeOf(name)), std::string(file.bytes)};
-    return {404, "text/plain; charset=utf-8", "There is nothing here. The page is at /.\n"};
-}
 
 // Answers 503 when half of the watchdog's limit has passed without progress, so that users see it before the watchdog
 // ends the program. A slow server makes progress, so the answer is 200.
@@ -68,7 +42,7 @@ net::HttpAnswer HttpRoutes::get(const std::string& path, const net::Counters& co
         board_.noteRead();
         return {200, "text/plain; version=0.0.4", metrics_.text(board_.read(), counters)};
     }
-    return file(path);
+    return {404, "text/plain; charset=utf-8", "There is nothing here. The page is at /.\n"};
 }
 
 }  // namespace spherule::host

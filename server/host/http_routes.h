@@ -3,6 +3,7 @@
 #include <string>
 
 #include "host/metrics.h"
+#include "host/page.h"
 #include "host/status_board.h"
 #include "host/watchdog.h"
 #include "net/server.h"
@@ -13,6 +14,8 @@ namespace spherule::host {
 class HttpRoutes {
   public:
     HttpRoutes(StatusBoard& board, const Watchdog& watchdog) : board_(board), watchdog_(watchdog) {}
+    // Null if the page has no file at `path`.
+    [[nodiscard]] const net::StaticFile* file(const std::string& path) const { return page_.find(path); }
     // `counters`: of the server that calls.
     net::HttpAnswer get(const std::string& path, const net::Counters& counters);
 
@@ -20,6 +23,7 @@ class HttpRoutes {
     StatusBoard& board_;
     const Watchdog& watchdog_;
     Metrics metrics_;
+    Page page_;
 };
 
 }  // namespace spherule::host

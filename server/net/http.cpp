@@ -43,6 +43,17 @@ std::string_view fieldOf(const http::request<http::string_body>& request, http::
     return {value.data(), value.size()};
 }
 
+// The values of all fields of this name. Clients may spread a list over several.
+std::string listOf(const http::request<http::string_body>& request, http::field field) {
+    std::string list;
+    const auto [begin, end] = request.equal_range(field);
+    for (auto entry = begin; entry != end; ++entry) {
+        if (entry != begin) list += ", ";
+        list.append(entry->value().data(), entry->value().size());
+    }
+    return list;
+}
+
 // Token of "Authorization: Bearer TOKEN"; empty if there is none.
 std::string_view bearerOf(const http::request<http::string_body>& request) {
     constexpr std::string_view scheme = "Bearer ";
@@ -130,6 +141,7 @@ void HttpConnection::onRead(ErrorCode error) {
         return refuse(request, RejectReason::BadRequest, 400, "the target must be a path");
     }
     if (!mayRead(request, path)) return;
+    if (const StaticFile* const file = state_.handlers.file(path)) return answerFile(request, *file);
     answer(request, state_.handlers.get(path, state_.counters));
 }
 
@@ -173,7 +185,20 @@ void HttpConnection::onUpgrade(const Request& request) {
     std::make_shared<Session>(std::move(stream_), std::move(permit_), peer_, state_)->run(request);
 }
 
-void HttpConnection::answer(const Request& request, HttpAnswer answer) {
+void HttpConnection::answerFile(const Request& request, const StaticFile& file) {
+    const bool compressed = acceptsGzip(listOf(request, http::field::accept_encoding));
+    const StaticFile::Form& form = compressed ? file.gzip : file.plain;
+    Fields more;
+    more.set(http::field::etag, form.tag);
+    more.set(http::field::vary, "Accept-Encoding");
+    if (isKnown(listOf(request, http::field::if_none_match), form.tag))
+        return answer(request, {.status = 304, .contentType = "", .body = ""}, more);
+    if (compressed) more.set(http::field::content_encoding, "gzip");
+    answer(request, {.status = 200, .contentType = file.contentType, .body = std::string(form.bytes)}, more);
+}
+
+// `more`: further headers.
+void HttpConnection::answer(const Request& request, HttpAnswer answer, const Fields& more) {
     const auto send = [this](auto response) {
         const auto shared = std::make_shared<decltype(response)>(std::move(response));
         tcp().expires_after(answerLimit);
@@ -188,15 +213,16 @@ void HttpConnection::answer(const Request& request, HttpAnswer answer) {
         response.keep_alive(request.keep_alive());
         response.result(static_cast<unsigned>(answer.status));
         describe(response);
-        response.set(http::field::content_type, answer.contentType);
+        if (!answer.contentType.empty()) response.set(http::field::content_type, answer.contentType);
+        for (const auto& field : more) response.set(field.name(), field.value());
         if (answer.status == 405) response.set(http::field::allow, "GET, HEAD");
         if (answer.status == 401) response.set(http::field::www_authenticate, "Bearer");
         if (answer.status == 503) response.set(http::field::retry_after, "5");
     };
-    if (request.method() == http::verb::head) {
+    if (request.method() == http::verb::head || answer.status == 304) {
         http::response<http::empty_body> response;
         begin(response);
-        response.content_length(answer.body.size());
+        if (answer.status != 304) response.content_length(answer.body.size());
         return send(std::move(response));
     }
     http::response<http::string_body> response;

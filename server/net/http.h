@@ -15,7 +15,7 @@
 
 namespace spherule::net {
 
-// One HTTP/1.1 connection. Answers GET and HEAD through Handlers.get, and hands the connection over to a Session when
+// One HTTP/1.1 connection. Answers GET and HEAD through the Handlers, and hands the connection over to a Session when
 // the client upgrades at /ws. Refuses requests with a foreign Host header or origin. Used on the strand of its stream.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
@@ -26,6 +26,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   private:
     using ErrorCode = boost::beast::error_code;
+    using Fields = boost::beast::http::fields;
     using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
     using Request = Parser::value_type;
 
@@ -34,7 +35,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     void onRead(ErrorCode error);
     void onUpgrade(const Request& request);
     [[nodiscard]] bool mayRead(const Request& request, const std::string& path);
-    void answer(const Request& request, HttpAnswer answer);
+    void answerFile(const Request& request, const StaticFile& file);
+    void answer(const Request& request, HttpAnswer answer, const Fields& more = {});
     void refuse(const Request& request, RejectReason cause, int status, const std::string& text);
     void refuseLater(const Request& request);
     void refuseUnread(ErrorCode error);

@@ -13,6 +13,7 @@
 #include "net/counters.h"
 #include "net/publisher.h"
 #include "net/session_id.h"
+#include "net/static_file.h"
 #include "spherule/v1/control.pb.h"
 
 // Serves the page, health, metrics and the WebSocket stream on one port. Independent of the simulation.
@@ -56,6 +57,8 @@ struct Handlers {
     // Tells whether a command of this cost would be refused now. Called before a long command is parsed.
     std::function<Refusal(SessionId, std::size_t cost)> refuses = [](SessionId, std::size_t) { return Refusal(); };
     std::function<bool()> ready = [] { return true; };  // false: the stream is refused with 503
+    // The file at `path`, which lives as long as the server. Null if there is none; `get` then answers.
+    std::function<const StaticFile*(const std::string& path)> file = [](const std::string&) { return nullptr; };
     // Answers GET. Status 404 if there is nothing at `path`. `counters`: of the server.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;
 };

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { control, open, when } from "./support/browser.mjs";
 import { collisions, collisionsByWidth } from "./support/layout.mjs";
+import { proxyTo } from "./support/proxy.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -26,6 +27,25 @@ test("nothing is fetched from anywhere else", async () => {
   const elsewhere = page.requested.filter((url) => new URL(url).origin !== new URL(server.url).origin);
   assert.deepEqual(elsewhere, []);
   await page.close();
+});
+
+test("the first load takes at most 120 kB, and the next transfers no file", async () => {
+  const proxy = await proxyTo(server.port);
+  const context = await suite.browser.newContext(); // with a cache of its own
+  const load = async () => {
+    await (await open(context, proxy.url)).close();
+    const { answers, bytes } = proxy.files();
+    return { answers: answers.filter((answer) => !answer.startsWith("/favicon.svg ")).sort(), bytes };
+  };
+  const files = ["/", "/style.css", "/viewer.js", "/worker.js"];
+  const first = await load();
+  assert.deepEqual(first.answers, files.map((path) => `${path} 200`));
+  assert.ok(first.bytes <= 120_000, `${first.bytes} bytes`);
+  const both = await load();
+  assert.deepEqual(both.answers, files.flatMap((path) => [`${path} 200`, `${path} 304`]));
+  assert.ok(both.bytes - first.bytes < 5_000, `${both.bytes - first.bytes} bytes`);
+  await context.close();
+  proxy.close();
 });
 
 test("states arrive, and simulated time advances", async () => {

@@ -92,6 +92,14 @@ test("plain http leads to https, and figures stay inside", async () => {
   assert.deepEqual([inside.statusCode, inside.headers["strict-transport-security"]], [200, "max-age=31536000"]);
 });
 
+test("the page's files stay compressed, and a client that has one gets 304", async () => {
+  const headers = { "accept-encoding": "gzip" };
+  const { statusCode, headers: sent } = await ask("/viewer.js", { headers });
+  assert.deepEqual([statusCode, sent["content-encoding"], sent.vary], [200, "gzip", "Accept-Encoding"]);
+  const again = await ask("/viewer.js", { headers: { ...headers, "if-none-match": sent.etag } });
+  assert.deepEqual([again.statusCode, again.headers.etag], [304, sent.etag]);
+});
+
 test("the server sees the client's Host, Origin and wish to upgrade", async () => {
   await server.stop();
   const heard = [];

@@ -42,6 +42,8 @@ constexpr std::string_view upgrade =
     "GET /ws HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
     "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Protocol: spherule.v1\r\n\r\n";
 
+const net::StaticFile file = {"text/css", {"plain", "\"p\""}, {"compressed", "\"c\""}};
+
 void require(bool holds) {
     if (!holds) std::abort();
 }
@@ -118,6 +120,7 @@ class Served {
                         sendFrames();
                         return command.has_reset() ? std::optional<std::string>("the queue is full") : std::nullopt;
                     },
+                .file = [](const std::string& path) { return path == "/file" ? &file : nullptr; },
                 .get = [](const std::string& path, const net::Counters&) -> net::HttpAnswer {
                     if (path != "/") return {.status = 404, .contentType = "text/plain", .body = "nothing\n"};
                     return {.contentType = "text/html", .body = std::string(10'000, ' ')};

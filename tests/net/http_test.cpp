@@ -35,6 +35,68 @@ TEST_F(Http, HeadHasNoBody) {
     EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << answer;
 }
 
+TEST_F(Http, FileIsSentCompressedToWhoAcceptsIt) {
+    const auto compressed = ask("GET /file?x", "Accept-Encoding: br;q=0.1\r\nAccept-Encoding: gzip, deflate\r\n\r\n");
+    EXPECT_EQ(compressed.substr(0, 15), "HTTP/1.1 200 OK") << compressed;
+    for (const std::string header :
+         {"Content-Encoding: gzip", "Content-Type: text/css", "Content-Length: 10", "ETag: \"gzip\"",
+          "Vary: Accept-Encoding", "Cache-Control: no-cache", "X-Content-Type-Options: nosniff"})
+        EXPECT_TRUE(has(compressed, "\r\n" + header + "\r\n")) << header << "\n" << compressed;
+    EXPECT_TRUE(compressed.ends_with("\r\n\r\ncompressed")) << compressed;
+
+    for (const std::string rest : {"\r\n", "Accept-Encoding: gzip;q=0, br\r\n\r\n"}) {
+        const auto plain = ask("GET /file", rest);
+        for (const std::string header :
+             {"Content-Type: text/css", "Content-Length: 8", "ETag: \"plain\"", "Vary: Accept-Encoding"})
+            EXPECT_TRUE(has(plain, "\r\n" + header + "\r\n")) << header << "\n" << plain;
+        EXPECT_FALSE(has(plain, "Content-Encoding")) << plain;
+        EXPECT_TRUE(plain.ends_with("\r\n\r\nas it is")) << plain;
+    }
+}
+
+TEST_F(Http, FileThatTheClientHasIs304WithoutBody) {
+    for (const std::string method : {"GET", "HEAD"}) {
+        for (const std::string tags :
+             {"\"gzip\"", "W/\"gzip\"", "\"old\", \"gzip\"", "\"old\"\r\nIf-None-Match: \"gzip\"", "*"}) {
+            const auto answer = ask(method + " /file", "Accept-Encoding: gzip\r\nIf-None-Match: " + tags + "\r\n\r\n");
+            EXPECT_EQ(answer.substr(0, 25), "HTTP/1.1 304 Not Modified") << answer;
+            for (const std::string header : {"ETag: \"gzip\"", "Vary: Accept-Encoding", "Cache-Control: no-cache",
+                                             "X-Content-Type-Options: nosniff"})
+                EXPECT_TRUE(has(answer, "\r\n" + header + "\r\n")) << header << "\n" << answer;
+            EXPECT_TRUE(has(answer, "\r\nContent-Security-Policy: ")) << answer;
+            for (const std::string header : {"Content-Length", "Content-Type", "Content-Encoding", "Transfer-Encoding"})
+                EXPECT_FALSE(has(answer, "\r\n" + header + ": ")) << answer;
+            EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << answer;
+        }
+    }
+    // The client has another version, or the other form.
+    for (const std::string tag : {"\"old\"", "\"plain\""}) {
+        const auto answer = ask("GET /file", "Accept-Encoding: gzip\r\nIf-None-Match: " + tag + "\r\n\r\n");
+        EXPECT_EQ(answer.substr(0, 12), "HTTP/1.1 200") << answer;
+        EXPECT_TRUE(answer.ends_with("\r\n\r\ncompressed")) << answer;
+    }
+}
+
+TEST_F(Http, HeadOfAFileHasTheHeadersOfGet) {
+    const auto answer = ask("HEAD /file", "Accept-Encoding: gzip\r\n\r\n");
+    const auto whole = ask("GET /file", "Accept-Encoding: gzip\r\n\r\n");
+    EXPECT_EQ(answer + "compressed", whole);
+}
+
+TEST_F(Http, ConnectionStaysOpenAfter304) {
+    const RawSocket socket(app_.server().port());
+    for (int i = 0; i < 3; ++i) {
+        socket.send("GET /file HTTP/1.1\r\nHost: localhost\r\nIf-None-Match: \"plain\"\r\n\r\n");
+        EXPECT_TRUE(has(socket.readUntil("\r\n\r\n"), "304 Not Modified"));
+    }
+}
+
+TEST_F(Http, AnswersOfTheAppHaveNoTags) {
+    const auto answer = ask("GET /healthz", "Accept-Encoding: gzip\r\nIf-None-Match: *\r\n\r\n");
+    EXPECT_TRUE(answer.ends_with("\r\n\r\nwell\n")) << answer;
+    for (const std::string header : {"ETag", "Vary", "Content-Encoding"}) EXPECT_FALSE(has(answer, header)) << answer;
+}
+
 TEST_F(Http, UnknownPathIs404) {
     EXPECT_EQ(ask("GET /nowhere").substr(0, 12), "HTTP/1.1 404");
 }

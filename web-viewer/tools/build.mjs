@@ -1,9 +1,14 @@
 // Bundles the page: index.html, viewer.js, worker.js, style.css, favicon.svg. The page fetches nothing from elsewhere.
+// Each file is also compressed, as NAME.gz. Fails if the compressed files together are larger than `limit`, or if the
+// protobuf library is in viewer.js, too.
 import * as esbuild from "esbuild";
-import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
+import { gzipSync } from "node:zlib";
 import { generate } from "./generate.mjs";
 import { options, root } from "./options.mjs";
+
+const limit = 120_000; // bytes
 
 /** Removes the font from lil-gui's style sheet: the security policy forbids it, and the page draws its own arrows. */
 const withoutFont = {
@@ -20,8 +25,7 @@ const withoutFont = {
 
 const { out, protoc, debug } = options();
 generate(protoc);
-mkdirSync(out, { recursive: true });
-await esbuild.build({
+const { outputFiles, metafile } = await esbuild.build({
   absWorkingDir: root,
   entryPoints: {
     viewer: "src/main.ts",
@@ -29,6 +33,8 @@ await esbuild.build({
     style: "src/ui/style/style.css",
   },
   outdir: out,
+  write: false,
+  metafile: true,
   bundle: true,
   format: "iife",
   target: "es2022",
@@ -39,6 +45,23 @@ await esbuild.build({
   plugins: [withoutFont],
   logLevel: "warning",
 });
-for (const file of ["index.html", "favicon.svg"]) {
-  copyFileSync(path.join(root, "src/page", file), path.join(out, file));
+const viewer = Object.values(metafile.outputs).find(({ entryPoint }) => entryPoint === "src/main.ts");
+const library = Object.entries(viewer.inputs).find(([file, used]) => used.bytesInOutput && file.includes("@bufbuild/"));
+if (library) throw new Error(`viewer.js contains ${library[0]}: only the worker may encode and decode messages`);
+
+const files = [
+  ...outputFiles.map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
+  ...["index.html", "favicon.svg"].map((name) => ({ name, bytes: readFileSync(path.join(root, "src/page", name)) })),
+].map((file) => ({ ...file, compressed: gzipSync(file.bytes, { level: 9 }) }));
+
+const sum = files.reduce((total, { compressed }) => total + compressed.length, 0);
+for (const { name, compressed } of files) console.log(`${String(compressed.length).padStart(7)} ${name}.gz`);
+console.log(`${String(sum).padStart(7)} bytes together`);
+// A page for debugging has its source maps inside.
+if (sum > limit && !debug) throw new Error(`the compressed page has ${sum} bytes; at most ${limit} are allowed`);
+
+mkdirSync(out, { recursive: true });
+for (const { name, bytes, compressed } of files) {
+  writeFileSync(path.join(out, name), bytes);
+  writeFileSync(path.join(out, `${name}.gz`), compressed);
 }

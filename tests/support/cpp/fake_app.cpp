@@ -5,6 +5,12 @@
 
 namespace spherule::net {
 
+namespace {
+
+const StaticFile file = {"text/css", {"as it is", "\"plain\""}, {"compressed", "\"gzip\""}};
+
+}  // namespace
+
 Options quickOptions() {
     Options options;
     options.port = 0;
@@ -138,6 +144,7 @@ Handlers FakeApp::handlers() {
             [this](SessionId, std::size_t) {
                 return takesLong ? Handlers::Refusal() : Handlers::Refusal("the command queue is full");
             },
+        .file = [](const std::string& path) { return path == "/file" ? &file : nullptr; },
         .get =
             [this](const std::string& path, const Counters&) {
                 if (throws) throw std::bad_alloc();

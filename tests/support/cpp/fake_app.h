@@ -36,7 +36,7 @@ codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1:
 // Waits until `condition` holds; returns false when `patience` has passed.
 bool eventually(const std::function<bool()>& condition);
 
-// A server on a free port, with an application that simulates nothing.
+// A server on a free port, with an application that simulates nothing. It has one file, at /file.
 class FakeApp {
   public:
     explicit FakeApp(const Options& options = quickOptions());

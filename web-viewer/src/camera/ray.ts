@@ -1,4 +1,5 @@
-import { vec3, vec4 } from "gl-matrix";
+import * as vec3 from "gl-matrix/esm/vec3.js";
+import * as vec4 from "gl-matrix/esm/vec4.js";
 import { shownImages } from "../model/positions";
 import type { Facts, Vec3 } from "../model/facts";
 import type { Shown } from "../model/states";

@@ -1,4 +1,4 @@
-import { mat4 } from "gl-matrix";
+import * as mat4 from "gl-matrix/esm/mat4.js";
 import { eyeOf, rotationOf } from "./orbit";
 import type { Pose } from "./orbit";
 import type { Vec3 } from "../model/facts";

@@ -1,20 +1,5 @@
-import { create } from "@bufbuild/protobuf";
 import type { MessageInitShape } from "@bufbuild/protobuf";
-import {
-  CancelSchema,
-  LoadSceneSchema,
-  PauseSchema,
-  PushSchema,
-  RemoveSchema,
-  ResetSchema,
-  ResumeSchema,
-  SeekSchema,
-  SetSchema,
-  SpawnSchema,
-  StartRecordingSchema,
-  StepSchema,
-  StopRecordingSchema,
-} from "../gen/spherule/v1/control_pb";
+import type { SetSchema } from "../gen/spherule/v1/control_pb";
 import type { CommandKind, Link, Outcome } from "./link";
 
 /** The result of a command. */
@@ -48,46 +33,45 @@ export class Commands {
   ) {}
 
   pause(): Promise<Outcome> {
-    return this.send("Pause", { case: "pause", value: create(PauseSchema) });
+    return this.send("Pause", { case: "pause", value: {} });
   }
 
   resume(): Promise<Outcome> {
-    return this.send("Resume", { case: "resume", value: create(ResumeSchema) });
+    return this.send("Resume", { case: "resume", value: {} });
   }
 
   /** `unit`: the name of a step in the report. */
   step(count: number, unit = "step"): Promise<Outcome> {
     const name = count === 1 ? `One ${unit}` : `${count} ${unit}s`;
-    return this.send(name, { case: "step", value: create(StepSchema, { count }) });
+    return this.send(name, { case: "step", value: { count } });
   }
 
   reset(name = "Reset"): Promise<Outcome> {
-    return this.send(name, { case: "reset", value: create(ResetSchema) });
+    return this.send(name, { case: "reset", value: {} });
   }
 
   cancel(): Promise<Outcome> {
-    return this.send("Cancel", { case: "cancel", value: create(CancelSchema) }, true);
+    return this.send("Cancel", { case: "cancel", value: {} }, true);
   }
 
   seek(time: number): Promise<Outcome> {
-    return this.send("Seek", { case: "seek", value: create(SeekSchema, { time }) }, true);
+    return this.send("Seek", { case: "seek", value: { time } }, true);
   }
 
   startRecording(): Promise<Outcome> {
-    return this.send("Record", { case: "startRecording", value: create(StartRecordingSchema) }, true);
+    return this.send("Record", { case: "startRecording", value: {} }, true);
   }
 
   stopRecording(): Promise<Outcome> {
-    return this.send("Stop recording", { case: "stopRecording", value: create(StopRecordingSchema) }, true);
+    return this.send("Stop recording", { case: "stopRecording", value: {} }, true);
   }
 
   load(name: string): Promise<Outcome> {
-    const value = create(LoadSceneSchema, { source: { case: "name", value: name } });
-    return this.send(`Scene ${name}`, { case: "load", value });
+    return this.send(`Scene ${name}`, { case: "load", value: { source: { case: "name", value: name } } });
   }
 
   set(name: string, settings: MessageInitShape<typeof SetSchema>): Promise<Outcome> {
-    return this.send(name, { case: "set", value: create(SetSchema, settings) });
+    return this.send(name, { case: "set", value: settings });
   }
 
   drop({ min, max, count, radius }: Drop): Promise<Outcome> {
@@ -97,13 +81,12 @@ export class Commands {
       source: { case: "fill" as const, value: fill },
       radius: { kind: { case: "constant" as const, value: radius } },
     };
-    return this.send(`Drop ${count}`, { case: "spawn", value: create(SpawnSchema, { group }) });
+    return this.send(`Drop ${count}`, { case: "spawn", value: { group } });
   }
 
   /** `sphere`: id. */
   remove(sphere: number): Promise<Outcome> {
-    const value = create(RemoveSchema, { spheres: [BigInt(sphere)] });
-    return this.send(`Remove sphere ${sphere}`, { case: "remove", value });
+    return this.send(`Remove sphere ${sphere}`, { case: "remove", value: { spheres: [BigInt(sphere)] } });
   }
 
   /** Pushes a sphere along the ray. If its id is undefined, the server picks the first sphere that the ray meets. */
@@ -112,7 +95,7 @@ export class Commands {
     const target =
       sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: BigInt(sphere) };
     const name = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
-    return this.send(name, { case: "push", value: create(PushSchema, { target, impulse }) });
+    return this.send(name, { case: "push", value: { target, impulse } });
   }
 
   private async send(name: string, kind: CommandKind, quiet = false): Promise<Outcome> {

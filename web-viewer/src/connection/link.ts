@@ -1,10 +1,8 @@
-import { create } from "@bufbuild/protobuf";
 import { bufferOf } from "../columns";
-import { CommandSchema } from "../gen/spherule/v1/control_pb";
-import type { Command, CommandResult } from "../gen/spherule/v1/control_pb";
-import type { ControlMessage, FromWorker, LinkState, State, StreamRequest, ToWorker } from "./messages";
+import type { CommandResult } from "../gen/spherule/v1/control_pb";
+import type { CommandMessage, ControlMessage, FromWorker, LinkState, State, StreamRequest, ToWorker } from "./messages";
 
-export type CommandKind = Command["kind"];
+export type CommandKind = NonNullable<CommandMessage["kind"]>;
 
 /** How a command ended. `lost`: it was not sent, or the connection ended before its result arrived. */
 export type Outcome = CommandResult["outcome"] | { case: "lost"; value?: undefined };
@@ -54,7 +52,7 @@ export class Link {
   send(kind: CommandKind): Promise<Outcome> {
     if (this.state !== "open") return Promise.resolve({ case: "lost" });
     const id = ++this.lastId;
-    this.post({ kind: "command", command: create(CommandSchema, { id, kind }) });
+    this.post({ kind: "command", command: { id, kind } });
     return new Promise((resolve) => this.waiting.set(id, resolve));
   }
 

@@ -1,9 +1,10 @@
+import type { MessageInitShape } from "@bufbuild/protobuf";
 import type { Columns } from "../columns";
 import type {
   Change,
-  ClientMessage,
-  Command,
+  ClientMessageSchema,
   CommandResult,
+  CommandSchema,
   Control,
   Diagnostics,
   Dial,
@@ -17,7 +18,12 @@ import type {
 import type { Population, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
 
-/** Messages between the page and the worker that holds its connection. */
+/**
+ * Messages between the page and the worker that holds its connection. The worker encodes those for the server from
+ * plain objects, so that the page needs no protobuf library.
+ */
+
+export type CommandMessage = MessageInitShape<typeof CommandSchema>;
 
 /** `locked`: the server rejected the token, or requires one; the worker waits for another token. */
 export type LinkState = "connecting" | "open" | "waiting" | "locked";
@@ -33,7 +39,7 @@ export interface LinkChange {
 
 /** A message that asks for, keeps or gives away control of the simulation. */
 export type ControlMessage = Extract<
-  ClientMessage["kind"],
+  MessageInitShape<typeof ClientMessageSchema>["kind"],
   { case: "askControl" | "yieldControl" | "keepControl" }
 >;
 
@@ -94,6 +100,6 @@ export type ToWorker =
   | { kind: "retry" }
   | { kind: "view"; view: StreamRequest }
   | { kind: "drawing"; rate: number } // images per second; 0: unknown
-  | { kind: "command"; command: Command }
+  | { kind: "command"; command: CommandMessage }
   | { kind: "control"; message: ControlMessage }
   | { kind: "recycle"; buffer: ArrayBuffer };

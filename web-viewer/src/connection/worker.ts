@@ -1,6 +1,6 @@
 import { create, toBinary } from "@bufbuild/protobuf";
-import { AckSchema, ClientMessageSchema, HelloSchema, ViewSchema } from "../gen/spherule/v1/control_pb";
-import type { ClientMessage } from "../gen/spherule/v1/control_pb";
+import type { MessageInitShape } from "@bufbuild/protobuf";
+import { ClientMessageSchema } from "../gen/spherule/v1/control_pb";
 import { sharedNow } from "../clock";
 import { bufferOf } from "../columns";
 import { BufferPool } from "./buffer_pool";
@@ -23,13 +23,13 @@ let socket: Socket | undefined;
 const buffers = new BufferPool();
 const frames = new Frames(buffers);
 const stream = new Stream(frames, {
-  ack: (ack) => void send({ case: "ack", value: create(AckSchema, ack) }),
+  ack: (ack) => void send({ case: "ack", value: ack }),
   decoded: (frame) => page.postMessage({ kind: "frame", frame }, [bufferOf(frame.columns)]),
   malformed: (reason) => page.postMessage({ kind: "unreadable", reason }),
   lost: (count) => page.postMessage({ kind: "lost", count }),
 });
 
-function send(kind: ClientMessage["kind"]): boolean {
+function send(kind: MessageInitShape<typeof ClientMessageSchema>["kind"]): boolean {
   const message = toBinary(ClientMessageSchema, create(ClientMessageSchema, { kind }));
   return socket?.send(message as Uint8Array<ArrayBuffer>) ?? false;
 }
@@ -52,7 +52,7 @@ let view: StreamRequest | undefined;
 let token = "";
 
 function sendView(): void {
-  send({ case: "view", value: create(ViewSchema, view) });
+  send({ case: "view", value: view ?? {} });
 }
 
 function connect(url: string): void {
@@ -60,8 +60,7 @@ function connect(url: string): void {
     opened: () => {
       const at = sharedNow();
       stream.reset();
-      const hello = { client: clientName, view, token, turns: true, population: true };
-      send({ case: "hello", value: create(HelloSchema, hello) });
+      send({ case: "hello", value: { client: clientName, view, token, turns: true, population: true } });
       page.postMessage({ kind: "link", state: "open", at });
     },
     received,

@@ -1,4 +1,4 @@
-import { vec3 } from "gl-matrix";
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Facts, Vec3 } from "../model/facts";
 import type { Run } from "../model/population";
 import type { Shown } from "../model/states";

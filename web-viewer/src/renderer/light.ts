@@ -1,4 +1,5 @@
-import { mat4, vec3 } from "gl-matrix";
+import * as mat4 from "gl-matrix/esm/mat4.js";
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Facts, Vec3 } from "../model/facts";
 
 export interface Light {

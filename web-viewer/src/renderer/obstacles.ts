@@ -1,4 +1,4 @@
-import { vec3 } from "gl-matrix";
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Obstacle, Vec3 } from "../model/facts";
 import { across, faces, planeInBox, polygon } from "./shapes";
 import type { Vertices } from "./shapes";

@@ -1,4 +1,4 @@
-import { mat4 } from "gl-matrix";
+import * as mat4 from "gl-matrix/esm/mat4.js";
 import type { View } from "../camera/view";
 import { program } from "./program";
 import type { Program } from "./program";

@@ -1,4 +1,4 @@
-import { vec3 } from "gl-matrix";
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Vec3 } from "../model/facts";
 
 /** Vertices as a flat list: position (3), normal (3), colour (4). Three vertices make a triangle, or two a line. */

@@ -1,6 +1,4 @@
-import { create } from "@bufbuild/protobuf";
 import type { ControlMessage } from "../connection/messages";
-import { AskControlSchema, KeepControlSchema, YieldControlSchema } from "../gen/spherule/v1/control_pb";
 import { blockedReasonOf, controlAnswer, controlStateOf } from "../model/control_state";
 import type { ControlInfo, ControlState } from "../model/control_state";
 import type { Session } from "../model/session";
@@ -23,14 +21,14 @@ export class Steering {
     private readonly restrict: (blockedReason: string) => void,
   ) {
     this.line = new ControlLine({
-      request: () => send({ case: "askControl", value: create(AskControlSchema) }),
+      request: () => send({ case: "askControl", value: {} }),
       withdraw: () => {
         this.withdrawn = true;
-        send({ case: "yieldControl", value: create(YieldControlSchema) });
+        send({ case: "yieldControl", value: {} });
       },
-      handOver: (session) => send({ case: "yieldControl", value: create(YieldControlSchema, { session }) }),
-      release: () => send({ case: "yieldControl", value: create(YieldControlSchema) }),
-      keep: () => send({ case: "keepControl", value: create(KeepControlSchema) }),
+      handOver: (session) => send({ case: "yieldControl", value: { session } }),
+      release: () => send({ case: "yieldControl", value: {} }),
+      keep: () => send({ case: "keepControl", value: {} }),
     });
   }
 
