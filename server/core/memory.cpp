@@ -83,7 +83,8 @@ Result<Claim> Claim::make(std::string where, std::string_view what, std::uint64_
         return fail(ErrorKind::Refused, std::move(where),
                     fmt::format("{} more of memory are needed for {}, and {} are left: {} {}{}; use fewer spheres, or "
                                 "give the program more memory",
-                                sizeText(bytes), what, sizeText(left), now.whose, sizeText(now.limit), others));
+                                sizeText(bytes), what, sizeText(left), now.whose, sizeText(now.limit), others),
+                    Cause::NoMemory);
     }
     all.promised += bytes;
     lock.unlock();  // a claim's destructor locks the mutex

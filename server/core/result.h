@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,10 +18,48 @@ enum class ErrorKind {
     Cancelled,   // cancelled by the user
 };
 
+// Why a command is refused, for programs. As Refused.Cause in control.proto, in the same order.
+enum class Cause {
+    Unspecified,
+    Range,
+    NoRoom,
+    TooLarge,
+    NoMemory,
+    Busy,
+    Ended,
+    Cancelled,
+    TooManyCommands,
+    NotAllowed,
+    ControlHeld,
+    NoSuchSphere,
+    NoHit,
+    FixedSphere,
+    NoSuchScene,
+    NotSuited,
+    TooManySubsteps,
+    NonFinite,
+    Playback,
+    NoRecordings,
+    RecordingAlready,
+    NotRecording,
+    RecordingsFull,
+    NothingToCancel,
+    Unfit,
+    Stopping,
+};
+
+// The limits of a refused value, in its unit; absent: unknown.
+struct Limits {
+    std::optional<double> least;
+    std::optional<double> most;
+};
+
 struct Error {
     ErrorKind kind = ErrorKind::Input;
     std::string where;    // file, field path or resource; may be empty
     std::string message;  // the problem with the offending value, and how to fix it
+    Cause cause = Cause::Unspecified;
+    Limits limits{};
 
     [[nodiscard]] std::string text() const { return where.empty() ? message : where + ": " + message; }
 };
@@ -28,8 +67,9 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-[[nodiscard]] inline tl::unexpected<Error> fail(ErrorKind kind, std::string where, std::string message) {
-    return tl::unexpected<Error>(Error{kind, std::move(where), std::move(message)});
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorKind kind, std::string where, std::string message,
+                                                Cause cause = Cause::Unspecified, Limits limits = {}) {
+    return tl::unexpected<Error>(Error{kind, std::move(where), std::move(message), cause, limits});
 }
 
 }  // namespace spherule

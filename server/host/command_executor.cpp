@@ -42,18 +42,18 @@ void CommandExecutor::serveWaiting() {
     }
     const auto now = Clock::now();
     while (host_.changing() && !held_.empty() && now - held_.front().since > longestHold)
-        refuse(takeHeld(), changeInWords() + ": wait until that is done, or cancel it");
+        refuse(takeHeld(), changeInWords() + ": wait until that is done, or cancel it", Cause::Busy);
 }
 
 void CommandExecutor::serveNext(Clock::duration timeout) {
     if (auto request = requests_.popFor(timeout)) serve(std::move(*request));
 }
 
-void CommandExecutor::refuseAll(const std::string& reason) {
-    if (change_) refuseChange(reason);
-    while (!held_.empty()) refuse(takeHeld(), reason);
-    refuseSteps(reason);
-    refuseHashQueries(reason);
+void CommandExecutor::refuseAll(const std::string& reason, Cause cause) {
+    if (change_) refuseChange(reason, cause);
+    while (!held_.empty()) refuse(takeHeld(), reason, cause);
+    refuseSteps(reason, cause);
+    refuseHashQueries(reason, cause);
 }
 
 // Removes and returns the first command that waits for a change.
@@ -69,7 +69,7 @@ void CommandExecutor::serve(Request request) {
     const bool waits = net::rulesOf(request.command).waits_for_change();
     if (!waits || (!host_.changing() && held_.empty())) return execute(std::move(request));
     if (heldBytes_ + request.bytes > mostHeldBytes)
-        return refuse(request, "too many commands wait already for the change under way");
+        return refuse(request, "too many commands wait already for the change under way", Cause::TooManyCommands);
     heldBytes_ += request.bytes;
     held_.push_back({std::move(request), Clock::now()});
 }
@@ -78,7 +78,8 @@ void CommandExecutor::execute(Request request) {
     const v1::Command& command = request.command;
     const auto applied = apply(command);
     if (!applied) {
-        if (change_) refuseChange(fmt::format("session {} has asked for {}", request.session, wordsFor(command)));
+        if (change_)
+            refuseChange(fmt::format("session {} has asked for {}", request.session, wordsFor(command)), Cause::Ended);
         change_ = Pending{std::move(request), Clock::now()};
     } else if (command.has_step() && *applied) {
         effects_.publishChanges();
@@ -95,19 +96,28 @@ void CommandExecutor::execute(Request request) {
 void CommandExecutor::finish(const Request& request, const Result<sim::Applied>& applied) {
     const v1::CommandRules& rules = net::rulesOf(request.command);
     if (applied && rules.changes_world()) effects_.worldChanged();
-    if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done");
+    if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done", Cause::Ended);
     if (applied) effects_.publishChanges();
     publisher_.reply(request.session, resultOf(request.command, applied));
+    if (applied && rules.announced())
+        publisher_.announce(request.session, eventOf(request.command, *applied, spheresOf(request.command, *applied)));
+}
+
+// The number of spheres that the last command added or removed.
+std::uint64_t CommandExecutor::spheresOf(const v1::Command& command, const sim::Applied& applied) const {
+    if (applied.removed) return *applied.removed;
+    return command.has_spawn() ? host_.simulation().scene().groups.back().count : 0;
 }
 
 // Returns nullopt when a change has begun; its result comes later.
 std::optional<Result<sim::Applied>> CommandExecutor::apply(const v1::Command& command) {
     if (command.has_step() && steps_.size() >= mostStepCommands)
-        return fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()));
+        return fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()),
+                    Cause::TooManyCommands);
     try {
         return dispatch(command, host_, *this);
     } catch (const std::bad_alloc&) {
-        return fail(ErrorKind::Refused, "", noMemory);
+        return fail(ErrorKind::Refused, "", noMemory, Cause::NoMemory);
     } catch (const std::exception& error) {
         return fail(ErrorKind::Refused, "", error.what());
     }
@@ -116,25 +126,25 @@ std::optional<Result<sim::Applied>> CommandExecutor::apply(const v1::Command& co
 Result<void> CommandExecutor::cancel() {
     if (change_) {
         host_.cancelChange();
-        refuseChange("cancelled");
+        refuseChange("cancelled", Cause::Cancelled);
     } else if (!steps_.empty()) {
         host_.pause();
-        refuseSteps("cancelled");
+        refuseSteps("cancelled", Cause::Cancelled);
     } else {
-        return fail(ErrorKind::Refused, "", "nothing is under way that could be cancelled");
+        return fail(ErrorKind::Refused, "", "nothing is under way that could be cancelled", Cause::NothingToCancel);
     }
     return {};
 }
 
-void CommandExecutor::refuse(const Request& request, const std::string& reason) {
-    publisher_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason)));
+void CommandExecutor::refuse(const Request& request, const std::string& reason, Cause cause) {
+    publisher_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason, cause)));
 }
 
 // Refuses the change under way and the commands that wait for its end.
-void CommandExecutor::refuseChange(const std::string& reason) {
-    refuse(change_->request, reason);
+void CommandExecutor::refuseChange(const std::string& reason, Cause cause) {
+    refuse(change_->request, reason, cause);
     change_.reset();
-    while (!held_.empty()) refuse(takeHeld(), reason);
+    while (!held_.empty()) refuse(takeHeld(), reason, cause);
 }
 
 // Refuses the step commands that are held: a later command has ended them.
@@ -147,15 +157,16 @@ void CommandExecutor::refuseHeldSteps() {
             continue;
         }
         heldBytes_ -= pending.request.bytes;
-        refuse(pending.request, "none of its steps were done: a later command came before");
+        refuse(pending.request, "none of its steps were done: a later command came before", Cause::Ended);
     }
     held_ = std::move(others);
 }
 
-void CommandExecutor::refuseSteps(std::string_view reason) {
+void CommandExecutor::refuseSteps(std::string_view reason, Cause cause) {
     for (const Steps& steps : steps_) {
         const std::uint32_t asked = steps.command.request.command.step().count();
-        refuse(steps.command.request, fmt::format("{} of {} steps were done: {}", asked - steps.left, asked, reason));
+        refuse(steps.command.request, fmt::format("{} of {} steps were done: {}", asked - steps.left, asked, reason),
+               cause);
     }
     steps_.clear();
 }
@@ -166,7 +177,7 @@ void CommandExecutor::advanceChange(Clock::duration slice) {
         applied = host_.advanceChange(slice);
     } catch (const std::bad_alloc&) {
         host_.cancelChange();
-        applied = fail(ErrorKind::Refused, "", noMemory);
+        applied = fail(ErrorKind::Refused, "", noMemory, Cause::NoMemory);
     } catch (const std::exception& error) {
         host_.cancelChange();
         applied = fail(ErrorKind::Refused, "", error.what());
@@ -185,7 +196,8 @@ void CommandExecutor::answerQueries() {
         if (hashQueries_.size() < mostHashQueries)
             hashQueries_.push_back(std::move(query));
         else
-            refuse(query, "as many queries for the hash wait as may: send the next when one has been answered");
+            refuse(query, "as many queries for the hash wait as may: send the next when one has been answered",
+                   Cause::TooManyCommands);
     }
     queries.erase(withHash.begin(), withHash.end());
     answerHashQueries();
@@ -207,7 +219,7 @@ void CommandExecutor::answerHashQueries() {
     }
     if (hashing_ || hashQueries_.empty()) return;
     auto begun = beginHash();
-    if (!begun) return refuseHashQueries(begun.error().text());
+    if (!begun) return refuseHashQueries(begun.error().text(), begun.error().cause);
     begun->queries = std::exchange(hashQueries_, {});
     hashing_ = std::move(*begun);
 }
@@ -226,10 +238,10 @@ Result<CommandExecutor::HashQueries> CommandExecutor::beginHash() {
     return begun;
 }
 
-void CommandExecutor::refuseHashQueries(const std::string& reason) {
+void CommandExecutor::refuseHashQueries(const std::string& reason, Cause cause) {
     if (hashing_) hashQueries_.insert(hashQueries_.begin(), hashing_->queries.begin(), hashing_->queries.end());
     hashing_.reset();
-    for (const Request& query : std::exchange(hashQueries_, {})) refuse(query, reason);
+    for (const Request& query : std::exchange(hashQueries_, {})) refuse(query, reason, cause);
 }
 
 void CommandExecutor::countStep() {

@@ -57,9 +57,9 @@ class CommandExecutor : private ProducerCommands {
     void advanceChange(Clock::duration slice);
     // Counts a step for the oldest step command, and answers the command after its last step.
     void countStep();
-    void refuseSteps(std::string_view reason);
+    void refuseSteps(std::string_view reason, Cause cause);
     // Refuses all commands that have no answer yet, except those in the queue of requests.
-    void refuseAll(const std::string& reason);
+    void refuseAll(const std::string& reason, Cause cause);
 
     // The change or the step command under way.
     struct Activity {
@@ -92,14 +92,15 @@ class CommandExecutor : private ProducerCommands {
 
     void answerHashQueries();
     Result<HashQueries> beginHash();
-    void refuseHashQueries(const std::string& reason);
+    void refuseHashQueries(const std::string& reason, Cause cause);
     void serve(Request request);
     void execute(Request request);
+    [[nodiscard]] std::uint64_t spheresOf(const v1::Command& command, const sim::Applied& applied) const;
     void finish(const Request& request, const Result<sim::Applied>& applied);
     std::optional<Result<sim::Applied>> apply(const v1::Command& command);
     Request takeHeld();
-    void refuse(const Request& request, const std::string& reason);
-    void refuseChange(const std::string& reason);
+    void refuse(const Request& request, const std::string& reason, Cause cause);
+    void refuseChange(const std::string& reason, Cause cause);
     void refuseHeldSteps();
     Result<void> startRecording() override { return effects_.startRecording(); }
     Result<void> stopRecording() override { return effects_.stopRecording(); }

@@ -69,7 +69,8 @@ Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerComma
         case v1::Command::kQuery:
             return host.query();
         case v1::Command::kSeek:
-            return fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that");
+            return fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that",
+                        Cause::Unfit);
         case v1::Command::kStartRecording:
             return at(host, producer.startRecording());
         case v1::Command::kStopRecording:
@@ -79,7 +80,7 @@ Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerComma
         case v1::Command::KIND_NOT_SET:
             break;
     }
-    return fail(ErrorKind::Refused, "", "this command is not one for a simulation");
+    return fail(ErrorKind::Refused, "", "this command is not one for a simulation", Cause::Unfit);
 }
 
 }  // namespace spherule::host

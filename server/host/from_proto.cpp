@@ -39,7 +39,9 @@ Result<sim::Set> setOf(const v1::Set& message) {
     set.model = *model;
     if (message.has_auto_()) {
         const auto goal = scene::qualityGoalOf(message.auto_(), "auto");
-        if (!goal) return fail(ErrorKind::Refused, goal.error().where, goal.error().message);
+        if (!goal)
+            return fail(ErrorKind::Refused, goal.error().where, goal.error().message, goal.error().cause,
+                        goal.error().limits);
         set.goal.emplace(*goal);
     }
     return set;
@@ -99,7 +101,8 @@ Result<MakeScene> makeSceneOf(const v1::LoadScene& message, const std::string& d
     const auto names = scene::names();
     if (std::ranges::find(names, message.name()) == names.end())
         return fail(ErrorKind::Refused, "name",
-                    fmt::format("is {}; known are {}", scene::shown(message.name()), fmt::join(names, ", ")));
+                    fmt::format("is {}; known are {}", scene::shown(message.name()), fmt::join(names, ", ")),
+                    Cause::NoSuchScene);
     return [name = message.name(), deviceKind, overrides](Progress& progress) {
         return scene::load(name, deviceKind, overrides, &progress);
     };

@@ -138,7 +138,7 @@ void Host::beginShutdown(const std::optional<Error>& failure) {
 
 void Host::refuseWaiting() {
     const auto refuse = [this](const Request& request) {
-        const Error error{ErrorKind::Refused, "", "the server is stopping"};
+        const Error error{ErrorKind::Refused, "", "the server is stopping", Cause::Stopping};
         server_->reply(request.session, resultOf(request.command, tl::unexpected(error)));
     };
     while (const auto request = requests_.tryPop()) refuse(*request);

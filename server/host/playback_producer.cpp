@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "encode/morton.h"
 #include "host/to_proto.h"
+#include "net/command_rules.h"
 
 namespace spherule::host {
 
@@ -58,7 +59,10 @@ encode::StreamEncoder::Clock::duration PlaybackProducer::waitTime(encode::Stream
 }
 
 void PlaybackProducer::serve(const Request& request) {
-    publisher_.reply(request.session, resultOf(request.command, player_.apply(request.command, Player::Clock::now())));
+    const auto applied = player_.apply(request.command, Player::Clock::now());
+    publisher_.reply(request.session, resultOf(request.command, applied));
+    if (applied && net::rulesOf(request.command).announced())
+        publisher_.announce(request.session, eventOf(request.command, *applied, 0));
 }
 
 Result<void> PlaybackProducer::advance(encode::StreamEncoder::Clock::time_point now) {

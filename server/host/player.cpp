@@ -23,7 +23,7 @@ double secondsOf(Player::Clock::duration time) {
 }
 
 tl::unexpected<Error> refusal() {
-    return fail(ErrorKind::Refused, "", "a recording is played here: nothing in it can be changed");
+    return fail(ErrorKind::Refused, "", "a recording is played here: nothing in it can be changed", Cause::Playback);
 }
 
 }  // namespace
@@ -52,7 +52,8 @@ Result<sim::Applied> Player::apply(const v1::Command& command, Clock::time_point
             seek(recording_.begin());
             break;
         case v1::Command::kSeek:
-            if (!std::isfinite(command.seek().time())) return fail(ErrorKind::Refused, "time", "is no finite number");
+            if (!std::isfinite(command.seek().time()))
+                return fail(ErrorKind::Refused, "time", "is no finite number", Cause::Range);
             seek(std::clamp(command.seek().time(), recording_.begin(), recording_.end()));
             break;
         case v1::Command::kSet:
@@ -69,7 +70,7 @@ Result<void> Player::setSpeed(const v1::Set& set, Clock::time_point now) {
     v1::Set rest = set;
     rest.clear_speed();
     if (rest.ByteSizeLong() > 0)
-        return fail(ErrorKind::Refused, "", "a recording is played here: only its speed can be set");
+        return fail(ErrorKind::Refused, "", "a recording is played here: only its speed can be set", Cause::Playback);
     if (!set.has_speed()) return {};
     if (auto right = checkSpeed(set.speed()); !right) return right;
     goOnFrom(placeBy(now), now);

@@ -52,7 +52,9 @@ void SimulationHost::noticeGeneration() {
 }
 
 v1::ServerMessage SimulationHost::settings() const {
-    return settingsMessage(simulation_->scene(), scheduler_.speed(), paused_);
+    v1::ServerMessage message = settingsMessage(simulation_->scene(), scheduler_.speed(), paused_);
+    message.mutable_settings()->set_max_impulse(simulation_->maxImpulse());
+    return message;
 }
 
 Result<bool> SimulationHost::advance(Clock::time_point until) {

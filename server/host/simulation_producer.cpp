@@ -68,7 +68,7 @@ Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
         if (worked) continue;
         commands_.serveNext(waitTime(Clock::now()));
     }
-    commands_.refuseAll("the server is stopping");
+    commands_.refuseAll("the server is stopping", Cause::Stopping);
     return done;
 }
 
@@ -153,7 +153,7 @@ void SimulationProducer::stopAtNonFinite() {
     notify(v1::Event::NON_FINITE,
            fmt::format("{}. Paused, in the state of the last good step. Use more substeps before you resume.",
                        host_.simulation().divergence()));
-    commands_.refuseSteps("a position or velocity became non-finite");
+    commands_.refuseSteps("a position or velocity became non-finite", Cause::NonFinite);
     host_.simulation().rollback();
     sampler_.invalidateBaseline();
     publishChanges();

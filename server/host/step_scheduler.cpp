@@ -23,12 +23,14 @@ constexpr std::uint32_t mostSteps = 100'000;
 Result<void> checkSpeed(double speed) {
     if (speed >= slowest && speed <= fastest) return {};
     return fail(ErrorKind::Refused, "speed",
-                fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest));
+                fmt::format("is {:g}, must be within {:g} and {:g}", speed, slowest, fastest), Cause::Range,
+                {.least = slowest, .most = fastest});
 }
 
 Result<void> checkStepCount(std::uint32_t count) {
     if (count >= 1 && count <= mostSteps) return {};
-    return fail(ErrorKind::Refused, "count", fmt::format("is {}, must be within 1 and {}", count, mostSteps));
+    return fail(ErrorKind::Refused, "count", fmt::format("is {}, must be within 1 and {}", count, mostSteps),
+                Cause::Range, {.least = 1, .most = mostSteps});
 }
 
 void StepScheduler::setSpeed(double speed) {

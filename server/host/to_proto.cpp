@@ -251,6 +251,9 @@ std::string fieldOf(const v1::Command& command, std::string_view where) {
 
 }  // namespace
 
+static_assert(static_cast<int>(Cause::Stopping) == v1::Refused::STOPPING &&
+              v1::Refused::Cause_MAX == v1::Refused::STOPPING);
+
 v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied>& applied) {
     v1::CommandResult result;
     result.set_id(command.id());
@@ -260,8 +263,32 @@ v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied
         std::string field = fieldOf(command, applied.error().where);
         result.mutable_refused()->set_reason(utf8(field.empty() ? applied.error().text() : applied.error().message));
         result.mutable_refused()->set_field(std::move(field));
+        result.mutable_refused()->set_cause(static_cast<v1::Refused::Cause>(applied.error().cause));
+        if (const auto least = applied.error().limits.least) result.mutable_refused()->set_least(*least);
+        if (const auto most = applied.error().limits.most) result.mutable_refused()->set_most(*most);
     }
     return result;
+}
+
+v1::Event eventOf(const v1::Command& command, const sim::Applied& applied, std::uint64_t spheres) {
+    v1::Event event;
+    event.set_kind(v1::Event::COMMANDED);
+    event.set_text(wordsFor(command));
+    event.set_step(applied.step);
+    event.set_spheres(spheres);
+    v1::Command& told = *event.mutable_command();
+    // Spheres and scenes in commands may take megabytes.
+    if (command.has_spawn())
+        told.mutable_spawn()->mutable_group()->set_name(command.spawn().group().name());
+    else if (command.has_remove())
+        told.mutable_remove();
+    else if (command.has_load())
+        told.mutable_load()->set_name(
+            utf8(command.load().has_scene() ? command.load().scene().name() : command.load().name()));
+    else
+        told = command;
+    told.clear_id();
+    return event;
 }
 
 std::string wordsFor(const v1::Command& command) {

@@ -31,6 +31,9 @@ v1::Statistics statisticsMessage(const sim::Statistics& statistics);
 // the command's own message; if it names no field there, it becomes part of the reason.
 v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied>& applied);
 
+// Tells other sessions that a command was carried out. `spheres`: number of those that it added or removed.
+v1::Event eventOf(const v1::Command& command, const sim::Applied& applied, std::uint64_t spheres);
+
 // The command in words, for Change.what: "load box-50k", "reset", "spawn".
 std::string wordsFor(const v1::Command& command);
 

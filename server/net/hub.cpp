@@ -45,11 +45,12 @@ void Hub::resendScene(SessionId id) {
     if (entry->rendition.rate > 0 && order) entry->session->send(order);
 }
 
-void Hub::join(SessionId id, bool followsPopulation) {
+void Hub::join(SessionId id, const std::string& client, bool followsPopulation) {
     const std::lock_guard lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return;
     entry->joined = true;
+    entry->client = client;
     entry->follows = followsPopulation;
     sendScene(*entry);
     for (const auto& [kind, message] : retained_) entry->session->send(message);
@@ -137,6 +138,17 @@ void Hub::broadcast(const codec::SharedMessage& message) {
     for (const auto& [id, entry] : entries_) {
         if (entry.joined) entry.session->send(message);
     }
+}
+
+void Hub::announce(SessionId by, v1::Event event) {
+    const std::lock_guard lock(mutex_);
+    event.mutable_by()->set_session(by);
+    if (const Entry* const sender = find(by)) event.mutable_by()->set_client(sender->client);
+    v1::ServerMessage message;
+    *message.mutable_event() = std::move(event);
+    const auto shared = codec::share(std::move(message));
+    for (const auto& [id, entry] : entries_)
+        if (entry.joined && id != by) entry.session->send(shared);
 }
 
 void Hub::sendTo(SessionId id, codec::SharedMessage message) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -31,7 +32,7 @@ class Hub {
     SessionId add(std::shared_ptr<Subscriber> session);
     void remove(SessionId id);
     // Sends the retained messages. Call after the welcome.
-    void join(SessionId id, bool followsPopulation);
+    void join(SessionId id, const std::string& client, bool followsPopulation);
     // Sends the scene facts again: the session has missed changes of the population.
     void resendScene(SessionId id);
     // Sends frames of this rendition from its next keyframe on. Rate 0: no frames.
@@ -49,6 +50,8 @@ class Hub {
     void refreshScene(codec::SharedMessage scene);
     void publish(const codec::EncodedFrame& encoded);
     void broadcast(const codec::SharedMessage& message);
+    // Sends an event to all sessions but the one that caused it, whose client it names.
+    void announce(SessionId by, v1::Event event);
     void sendTo(SessionId id, codec::SharedMessage message);
 
     [[nodiscard]] std::uint32_t viewers() const { return viewers_; }
@@ -65,6 +68,7 @@ class Hub {
     struct Entry {
         std::shared_ptr<Subscriber> session;
         bool joined = false;
+        std::string client{};  // name in its hello
         bool follows = false;
         codec::Rendition rendition{};  // rate 0: no frames
         bool newcomer = false;         // has had no frame of the rendition yet

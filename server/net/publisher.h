@@ -34,6 +34,8 @@ class Publisher {
     virtual void publish(const codec::EncodedFrame& encoded) = 0;
     // Reliable lane. Messages that describe a current state replace queued ones of their kind.
     virtual void broadcast(codec::SharedMessage message) = 0;
+    // Sends an event that a session has caused to all other sessions. Adds `by`, the session with its client's name.
+    virtual void announce(SessionId by, v1::Event event) = 0;
     virtual void reply(SessionId session, v1::CommandResult result) = 0;
 
     [[nodiscard]] virtual std::uint32_t viewers() const = 0;  // sessions that want frames

@@ -59,6 +59,7 @@ class RunningServer final : public Server {
     void refreshScene(codec::SharedMessage scene) override { state_.hub.refreshScene(std::move(scene)); }
     void publish(const codec::EncodedFrame& encoded) override { state_.hub.publish(encoded); }
     void broadcast(codec::SharedMessage message) override { state_.hub.broadcast(message); }
+    void announce(SessionId by, v1::Event event) override { state_.hub.announce(by, std::move(event)); }
 
     void reply(SessionId session, v1::CommandResult result) override {
         v1::ServerMessage message;

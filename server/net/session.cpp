@@ -157,7 +157,7 @@ void Session::admit(const v1::Hello& hello, v1::Role role) {
     message.mutable_welcome()->set_role(role);
     message.mutable_welcome()->set_session(id_);
     queue(codec::share(std::move(message)));
-    state_.hub.join(id_, population_);
+    state_.hub.join(id_, client_, population_);
     onView(hello.view());
 }
 

@@ -10,6 +10,20 @@ namespace {
 
 constexpr const char* tooMany = "too many commands came from this client within a second";
 
+v1::Refused::Cause refusedCause(RejectReason reason) {
+    switch (reason) {
+        case RejectReason::CommandRate:
+        case RejectReason::CommandQueue:
+            return v1::Refused::TOO_MANY_COMMANDS;
+        case RejectReason::ViewersCommand:
+            return v1::Refused::NOT_ALLOWED;
+        case RejectReason::ControlHeld:
+            return v1::Refused::CONTROL_HELD;
+        default:
+            return v1::Refused::UNFIT;
+    }
+}
+
 }  // namespace
 
 // Refuses a message before it is parsed: when it needs too much memory, or is long and its command could not be queued.
@@ -63,6 +77,7 @@ void Session::refuse(std::uint64_t command, RejectReason cause, const std::strin
     message.mutable_result()->set_id(command);
     message.mutable_result()->mutable_refused()->set_field(field);
     message.mutable_result()->mutable_refused()->set_reason(reason);
+    message.mutable_result()->mutable_refused()->set_cause(refusedCause(cause));
     queue(std::make_shared<codec::Message>(std::move(message)));
 }
 

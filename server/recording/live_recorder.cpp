@@ -48,7 +48,9 @@ Result<void> LiveRecorder::startFromOptions() {
 }
 
 Result<void> LiveRecorder::start() {
-    if (writer_) return fail(ErrorKind::Refused, "", fmt::format("{} is being recorded already", state_.file()));
+    if (writer_)
+        return fail(ErrorKind::Refused, "", fmt::format("{} is being recorded already", state_.file()),
+                    Cause::RecordingAlready);
     const auto room = roomInFolder();
     if (!room) return tl::unexpected(room.error());
     const auto path = newPath();
@@ -58,7 +60,8 @@ Result<void> LiveRecorder::start() {
 
 Result<std::uint64_t> LiveRecorder::roomInFolder() const {
     if (options_.folder.empty())
-        return fail(ErrorKind::Refused, "", "this server keeps no recordings: start it with --recordings FOLDER");
+        return fail(ErrorKind::Refused, "", "this server keeps no recordings: start it with --recordings FOLDER",
+                    Cause::NoRecordings);
     std::error_code error;
     if (fs::create_directories(options_.folder, error))
         spdlog::warn("the folder of recordings, {}, was not there: it has been made", options_.folder);
@@ -78,11 +81,13 @@ Result<std::uint64_t> LiveRecorder::roomInFolder() const {
         return fail(ErrorKind::Refused, "",
                     fmt::format("the folder {} cannot be read: {}", options_.folder, error.message()));
     if (files >= mostFiles)
-        return fail(ErrorKind::Refused, "", fmt::format("{} has {} recordings: delete some", options_.folder, files));
+        return fail(ErrorKind::Refused, "", fmt::format("{} has {} recordings: delete some", options_.folder, files),
+                    Cause::RecordingsFull);
     if (taken + leastRoom <= options_.folderBytes) return options_.folderBytes - taken;
     return fail(ErrorKind::Refused, "",
                 fmt::format("the recordings in {} take up {} MB, all that --recordings-limit allows: delete some",
-                            options_.folder, taken / 1'000'000));
+                            options_.folder, taken / 1'000'000),
+                Cause::RecordingsFull);
 }
 
 // Returns a path with the scene and the time. It has a number if that file exists already.
@@ -113,7 +118,7 @@ Result<void> LiveRecorder::start(const std::string& path, bool replace, std::uin
 }
 
 Result<void> LiveRecorder::stop() {
-    if (!writer_) return fail(ErrorKind::Refused, "", "nothing is being recorded");
+    if (!writer_) return fail(ErrorKind::Refused, "", "nothing is being recorded", Cause::NotRecording);
     writer_->finish();
     return {};
 }

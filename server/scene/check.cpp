@@ -10,8 +10,8 @@
 
 namespace spherule::scene {
 
-void Check::refuse(std::string field, std::string reason) {
-    refuse(Error{ErrorKind::Input, std::move(field), std::move(reason)});
+void Check::refuse(std::string field, std::string reason, Cause cause, Limits limits) {
+    refuse(Error{ErrorKind::Input, std::move(field), std::move(reason), cause, limits});
 }
 
 void Check::refuse(Error error) {
@@ -21,32 +21,37 @@ void Check::refuse(Error error) {
 bool Check::goesOn(const char* doing, std::size_t done, std::size_t of) {
     if (progress_ == nullptr) return ok();
     progress_->at(doing, of > 0 ? static_cast<double>(done) / static_cast<double>(of) : 0);
-    if (ok() && progress_->cancelled()) error_ = {ErrorKind::Cancelled, "", "was cancelled"};
+    if (ok() && progress_->cancelled()) error_ = {ErrorKind::Cancelled, "", "was cancelled", Cause::Cancelled};
     return ok();
 }
 
 double Check::finite(double value, std::string_view field) {
     if (std::isfinite(value)) return value;
-    refuse(std::string(field), fmt::format("is {}, must be a finite number", value));
+    refuse(std::string(field), fmt::format("is {}, must be a finite number", value), Cause::Range);
     return 0;
 }
 
 double Check::positive(double value, std::string_view field) {
-    if (std::isfinite(value) && value <= 0) refuse(std::string(field), fmt::format("is {}, must be positive", value));
+    if (std::isfinite(value) && value <= 0)
+        refuse(std::string(field), fmt::format("is {}, must be positive", value), Cause::Range,
+               {.least = 0, .most = {}});
     return finite(value, field);
 }
 
 double Check::within(double value, double low, double high, std::string_view field, std::string_view unit) {
     value = finite(value, field);
     if (value < low || value > high) {
-        refuse(std::string(field), fmt::format("is {}, must be {} to {}{}", value, low, high, unit));
+        refuse(std::string(field), fmt::format("is {}, must be {} to {}{}", value, low, high, unit), Cause::Range,
+               {.least = low, .most = high});
     }
     return std::clamp(value, low, high);
 }
 
 double Check::upTo(double value, double high, std::string_view field, std::string_view unit) {
     value = positive(value, field);
-    if (value > high) refuse(std::string(field), fmt::format("is {}, must be at most {}{}", value, high, unit));
+    if (value > high)
+        refuse(std::string(field), fmt::format("is {}, must be at most {}{}", value, high, unit), Cause::Range,
+               {.least = 0, .most = high});
     return std::min(value, high);
 }
 

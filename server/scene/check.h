@@ -26,7 +26,7 @@ class Check {
     // `progress` may be null; otherwise it must outlive the check.
     explicit Check(Progress* progress = nullptr) : progress_(progress) {}
 
-    void refuse(std::string field, std::string reason);
+    void refuse(std::string field, std::string reason, Cause cause = Cause::Unspecified, Limits limits = {});
     void refuse(Error error);
 
     // Reports the progress of long work: `done` of `of` parts. Returns false if a value was refused, or if the work was

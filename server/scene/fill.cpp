@@ -75,16 +75,21 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const Scene& sc
     if (!room) return {};
     const glm::dvec3 side = region.max - region.min;
     if (const double narrowest = std::min({side.x, side.y, side.z}); narrowest < 2 * radii.max) {
-        check.refuse(input.field, fmt::format("is {} m wide between min and max, too narrow for a radius of {} m",
-                                              narrowest, radii.max));
+        check.refuse(
+            input.field,
+            fmt::format("is {} m wide between min and max, too narrow for a radius of {} m", narrowest, radii.max),
+            Cause::TooLarge, {.least = {}, .most = narrowest / 2});
         return {};
     }
 
-    const double least = fill.count() * 4.0 / 3 * std::numbers::pi * std::pow(radii.min, 3);
+    const double smallest = 4.0 / 3 * std::numbers::pi * std::pow(radii.min, 3);
+    const double least = fill.count() * smallest;
     if (least > jammed * side.x * side.y * side.z) {
-        check.refuse(countField, fmt::format("asks for {} spheres, at least {:.3g} of the volume between min and max; "
-                                             "random places without overlaps end at {}",
-                                             fill.count(), least / (side.x * side.y * side.z), jammed));
+        check.refuse(countField,
+                     fmt::format("asks for {} spheres, at least {:.3g} of the volume between min and max; "
+                                 "random places without overlaps end at {}",
+                                 fill.count(), least / (side.x * side.y * side.z), jammed),
+                     Cause::NoRoom, {.least = {}, .most = std::floor(jammed * side.x * side.y * side.z / smallest)});
         return {};
     }
 
@@ -100,7 +105,8 @@ std::vector<Sphere> fromFill(Check& check, const v1::Fill& fill, const Scene& sc
         check.refuse(countField,
                      fmt::format("asks for {} spheres, but no free place was found after {}; lower the count "
                                  "or make the region larger",
-                                 fill.count(), placed));
+                                 fill.count(), placed),
+                     Cause::NoRoom, {.least = {}, .most = static_cast<double>(placed)});
         return {};
     }
     return spheres;

@@ -82,7 +82,8 @@ void checkWork(Check& check, const Scene& scene, const std::string& source, std:
     check.refuse(source,
                  fmt::format("makes {} spheres in all, {} pairs with the {} obstacles, but a scene holds at most "
                              "{}; use fewer of one or the other",
-                             spheres, pairs, scene.obstacles.size(), maxObstaclePairs));
+                             spheres, pairs, scene.obstacles.size(), maxObstaclePairs),
+                 Cause::NoRoom);
 }
 
 constexpr std::size_t betweenMarks = 1024;  // spheres

@@ -10,7 +10,8 @@ std::optional<memory::Claim> checkRoom(Check& check, const SourceInput& input, d
     if (count > static_cast<double>(input.room)) {
         check.refuse(std::string(field),
                      fmt::format("asks for {:.0f} spheres, but a scene holds at most {} and has room for {}", count,
-                                 maxSpheres, input.room));
+                                 maxSpheres, input.room),
+                     Cause::NoRoom, {.least = {}, .most = static_cast<double>(input.room)});
         return std::nullopt;
     }
     const auto spheres = static_cast<std::uint64_t>(count);

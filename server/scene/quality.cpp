@@ -52,7 +52,8 @@ Result<void> checkYoung(const Scene& scene) {
         ErrorKind::Input, at(at("materials", soft->material), "young"),
         fmt::format("is {:.3g} Pa, so soft that spheres give way by more than half a radius under the impacts and "
                     "the weight of this scene; give at least {:.3g} Pa",
-                    scene.materials[soft->material].young, std::ceil(soft->smallestYoung / digit) * digit));
+                    scene.materials[soft->material].young, std::ceil(soft->smallestYoung / digit) * digit),
+        Cause::NotSuited);
 }
 
 // Returns the scene with the model, and with substeps that the model chooses.
@@ -99,7 +100,7 @@ Result<void> checkModel(const Scene& scene) {
     for (std::size_t k = 0; k < scene.materials.size(); ++k)
         if (!(scene.materials[k].young > 0))
             return fail(ErrorKind::Input, at(at("materials", k), "young"),
-                        "is missing; with one material's modulus given, accurate needs all of them");
+                        "is missing; with one material's modulus given, accurate needs all of them", Cause::NotSuited);
     return {};
 }
 
@@ -113,14 +114,17 @@ Result<void> fitSubsteps(Scene& scene) {
             return fail(ErrorKind::Input, field,
                         fmt::format("would be {:.0f} for this scene, must be at most {}; shorten the step or give "
                                     "substeps",
-                                    wanted, maxSubsteps));
+                                    wanted, maxSubsteps),
+                        Cause::TooManySubsteps, {.least = {}, .most = maxSubsteps});
         quality.substeps = static_cast<std::uint32_t>(wanted);
         return {};
     }
-    if (const std::uint32_t most = maxSubstepsFor(scene); quality.substeps < 1 || quality.substeps > most)
+    const std::uint32_t most = maxSubstepsFor(scene);
+    if (quality.substeps < 1 || quality.substeps > most)
         return fail(ErrorKind::Input, field,
                     fmt::format("is {}, must be 1 to {} for the {} spheres of this scene", quality.substeps, most,
-                                scene.spheres.size()));
+                                scene.spheres.size()),
+                    Cause::Range, {.least = 1, .most = most});
     const std::uint32_t fewest = minSubstepsFor(scene, quality.model);
     if (quality.substeps >= fewest) return {};
     if (quality.goal) {
@@ -131,7 +135,8 @@ Result<void> fitSubsteps(Scene& scene) {
         followsHertz(scene) ? "contacts of these materials would take less than 10 substeps then"
                             : fmt::format("springs so soft would give way by {:.0f} % of a radius", 100 * softest);
     return fail(ErrorKind::Input, field,
-                fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest));
+                fmt::format("is {}, but {}; give at least {}", quality.substeps, reason, fewest), Cause::Range,
+                {.least = fewest, .most = most});
 }
 
 std::uint32_t maxSubstepsFor(const Scene& scene) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,14 +30,16 @@ tl::unexpected<Error> refusal(const Error& error) {
     // The command names a field of the quality without its prefix.
     constexpr std::string_view prefix = "quality.";
     const bool quality = error.where.starts_with(prefix);
-    return fail(ErrorKind::Refused, quality ? error.where.substr(prefix.size()) : error.where, error.message);
+    return fail(ErrorKind::Refused, quality ? error.where.substr(prefix.size()) : error.where, error.message,
+                error.cause, error.limits);
 }
 
 Result<void> setGravity(scene::Scene& scene, const Set& set) {
     if (!set.gravity) return {};
     if (!(glm::length(*set.gravity) <= maxGravity))
         return fail(ErrorKind::Refused, "gravity",
-                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), maxGravity));
+                    fmt::format("is {:g} m/s^2 long, at most {:g} is allowed", glm::length(*set.gravity), maxGravity),
+                    Cause::Range, {.least = {}, .most = maxGravity});
     scene.forces.gravity = *set.gravity;
     return {};
 }
@@ -45,7 +48,8 @@ Result<void> setGravity(scene::Scene& scene, const Set& set) {
 Result<void> setMaterials(scene::Scene& scene, double value, double most, const char* name,
                           double scene::Material::*ofMaterial, std::optional<double> scene::MaterialPair::*ofPair) {
     if (!(value >= 0 && value <= most))
-        return fail(ErrorKind::Refused, name, fmt::format("is {:g}, must be within 0 and {:g}", value, most));
+        return fail(ErrorKind::Refused, name, fmt::format("is {:g}, must be within 0 and {:g}", value, most),
+                    Cause::Range, {.least = 0, .most = most});
     for (scene::Material& material : scene.materials) material.*ofMaterial = value;
     for (scene::MaterialPair& pair : scene.pairs) (pair.*ofPair).reset();
     return {};
@@ -220,7 +224,9 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& p
     const scene::Scene& scene = simulation_.scene_;
     const scene::Sphere& sphere = scene.spheres[*rank];
     const std::uint64_t id = simulation_.population_.idAt(*rank);
-    if (sphere.fixed) return fail(ErrorKind::Refused, "", fmt::format("sphere {} is fixed: nothing moves it", id));
+    if (sphere.fixed)
+        return fail(ErrorKind::Refused, "", fmt::format("sphere {} is fixed: nothing moves it", id),
+                    Cause::FixedSphere);
     if (auto slow = checkPush(*rank, push.impulse); !slow) return tl::unexpected(slow.error());
     Pipeline& pipeline = *simulation_.pipeline_;
     const std::uint32_t handle = simulation_.population_.handleAt(*rank);
@@ -236,14 +242,16 @@ Result<std::uint32_t> Simulation::CommandHandler::rankOf(std::uint64_t id, std::
     if (const auto rank = population.rankOf(id)) return *rank;
     return fail(ErrorKind::Refused, std::string(field),
                 population.wasBorn(id) ? fmt::format("is {}, a sphere that was removed", id)
-                                       : fmt::format("is {}, the scene has {} spheres", id, population.count()));
+                                       : fmt::format("is {}, the scene has {} spheres", id, population.count()),
+                Cause::NoSuchSphere);
 }
 
 Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Remove& remove) {
     std::vector<std::uint32_t> ranks;
     for (std::size_t k = 0; k < remove.spheres.size(); ++k) {
         const auto rank = rankOf(remove.spheres[k], "spheres");
-        if (!rank) return fail(ErrorKind::Refused, fmt::format("spheres[{}]", k), rank.error().message);
+        if (!rank)
+            return fail(ErrorKind::Refused, fmt::format("spheres[{}]", k), rank.error().message, Cause::NoSuchSphere);
         ranks.push_back(*rank);
     }
     if (remove.region) {
@@ -254,7 +262,8 @@ Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Rem
         const std::size_t named = ranks.size();
         for (std::uint32_t rank = 0; rank < state.count(); ++rank)
             if (remove.region->contains(positionOf(state, rank) + centre)) ranks.push_back(rank);
-        if (ranks.size() == named) return fail(ErrorKind::Refused, "region", "has no sphere's centre in it");
+        if (ranks.size() == named)
+            return fail(ErrorKind::Refused, "region", "has no sphere's centre in it", Cause::NoHit);
     }
     std::ranges::sort(ranks);
     ranks.erase(std::ranges::unique(ranks).begin(), ranks.end());
@@ -279,10 +288,22 @@ Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
         const glm::dvec3 origin = ray->origin - simulation_.scene_.bounds.centre();
         const auto hit =
             firstHit(simulation_.snapshot(), origin, ray->direction / length, simulation_.scene_.bounds.periods());
-        if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere");
+        if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere", Cause::NoHit);
         return *hit;
     }
     return rankOf(std::get<std::uint64_t>(push.target), "sphere");
+}
+
+// The speed (m/s) up to which the motion of a sphere of this radius can be limited to a safe one.
+double Simulation::maxSpeed(double radius) const {
+    return scene::safeMotion * radius * maxSubsteps_ / scene_.step;
+}
+
+double Simulation::maxImpulse() const {
+    const auto denser = [](const auto& a, const auto& b) { return a.density < b.density; };
+    const double density = std::ranges::max_element(scene_.materials, denser)->density;
+    const double radius = radii_.largest;
+    return 4.0 / 3 * std::numbers::pi * radius * radius * radius * density * maxSpeed(radius);
 }
 
 // Refuses an impulse that would make the sphere faster than the scene can compute.
@@ -293,19 +314,20 @@ Result<void> Simulation::CommandHandler::checkPush(std::uint32_t rank, const glm
     const glm::dvec3 change = impulse * std::abs(now.w);
     const double radius = static_cast<double>(scene.spheres[rank].radius);
     // A sphere that is already faster may still be slowed down.
-    const double most =
-        std::max(scene::safeMotion * radius * simulation_.maxSubsteps_ / scene.step, glm::length(velocity));
+    const double most = std::max(simulation_.maxSpeed(radius), glm::length(velocity));
     if (glm::length(velocity + change) <= most) return {};
     // The share of the impulse that gives the sphere the largest speed allowed.
     const double b = glm::dot(velocity, change);
     const double square = glm::dot(change, change);
     const double room = std::max(most * most - glm::dot(velocity, velocity), 0.0);
     const double share = (std::sqrt(b * b + square * room) - b) / square;
+    const double allowed = std::max(share, 0.0) * glm::length(impulse);
     return fail(ErrorKind::Refused, "impulse",
                 fmt::format("is {:g} N s, which gives sphere {} {:g} m/s; the scene can compute {:g} m/s at most: give "
                             "it at most {:g} N s",
                             glm::length(impulse), simulation_.population_.idAt(rank), glm::length(velocity + change),
-                            most, std::max(share, 0.0) * glm::length(impulse)));
+                            most, allowed),
+                Cause::Range, {.least = 0, .most = allowed});
 }
 
 }  // namespace spherule::sim

@@ -32,7 +32,7 @@ Preparation::Preparation(compute::Device& device, Build build, memory::Claim cop
         try {
             return build(progress_);
         } catch (const std::bad_alloc&) {
-            return fail(ErrorKind::Refused, "", "there is not enough memory for this");
+            return fail(ErrorKind::Refused, "", "there is not enough memory for this", Cause::NoMemory);
         } catch (const std::exception& error) {
             return fail(ErrorKind::Refused, "", error.what());
         }

@@ -101,6 +101,9 @@ class Simulation {
 
     [[nodiscard]] const scene::Scene& scene() const { return scene_; }
     [[nodiscard]] const RadiusStats& radii() const { return radii_; }
+    // The impulse (N s) that would give a sphere of the largest radius and the largest density the largest speed that
+    // the scene can compute. A push with a larger one is refused for every sphere at rest.
+    [[nodiscard]] double maxImpulse() const;
     [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return population_.count(); }
@@ -135,6 +138,7 @@ class Simulation {
     void readCounters();
     void growPairs();
     void uploadParameters();
+    [[nodiscard]] double maxSpeed(double radius) const;
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
     void saveLastFinite();

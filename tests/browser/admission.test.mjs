@@ -42,7 +42,7 @@ function traces(page, text) {
 test("a page of a server without tokens never mentions tokens", async () => {
   const openServer = await serve("billiards");
   const page = await open(suite.browser, openServer.url);
-  for (const id of ["token-prompt", "role", "control", "forget-token", "refusal"]) {
+  for (const id of ["token-prompt", "role", "control", "forget-token", "notice"]) {
     assert.equal(await page.isVisible(control(id)), false, id);
   }
   await controlIs(page, "unrestricted");
@@ -256,7 +256,7 @@ test("the page retries while the server is full", async () => {
   const first = await enter(suite.browser, small, tokens.viewer);
   const page = await visit(suite.browser, small.url);
   await give(page, tokens.viewer);
-  await says(page, "refusal", /^The server says: the limit of open sessions is reached$/);
+  await says(page, "notice-text", /^It says: The limit of open sessions is reached\./);
   await says(page, "connection", /^offline, trying again in \d+ s$/);
   assert.ok((await small.metric('spherule_rejected_total{cause="sessions"}')) > 0);
   await first.close();
@@ -273,10 +273,10 @@ test("the page shows the reason of a refusal, and retries", async () => {
     proxy.stutter(true);
     proxy.reset();
     proxy.restore();
-    await says(page, "refusal", /^The server says: hello was sent before$/);
+    await says(page, "notice-text", /^It says: Hello was sent before\./);
     await says(page, "connection", /^offline, trying again/);
     proxy.stutter(false);
-    await page.waitForSelector(control("refusal"), { state: "hidden" });
+    await page.waitForSelector(control("notice"), { state: "detached" });
     await says(page, "connection", /^connected$/);
     await page.close();
   } finally {

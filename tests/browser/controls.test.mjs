@@ -88,7 +88,9 @@ test("a refused command shows the reason", async () => {
   await page.click(control("step-many"));
   assert.equal(await outcomeOf("0 steps"), "refused");
   const toast = page.locator('[data-testid="toast"][data-tone="bad"]').last();
-  assert.match(await toast.textContent(), /refused: .+/);
+  const text = await toast.locator(control("toast-text")).textContent();
+  assert.equal(text, "Number of steps: give a whole number from 1 to 100\u202f000.");
+  assert.match(await toast.locator(control("toast-detail")).textContent(), /^step\.count is 0, must be/);
 });
 
 test("a click in push mode moves the clicked sphere away from the eye", async () => {

@@ -45,6 +45,7 @@ TEST(Commands, AreRefusedWhenTheQueueIsFull) {
     const auto answer = next(*client);
     EXPECT_EQ(answer.result().id(), 3U);
     EXPECT_EQ(answer.result().refused().reason(), "the command queue is full");
+    EXPECT_EQ(answer.result().refused().cause(), v1::Refused::TOO_MANY_COMMANDS);
 }
 
 TEST(Commands, UnknownToTheServerAreRefused) {
@@ -86,6 +87,7 @@ TEST(Commands, InvalidOnesAreRefusedWithFieldAndReason) {
         const v1::CommandResult result = next(*client).result();
         EXPECT_EQ(std::to_string(result.id()), one.id) << one.text;
         EXPECT_EQ(result.refused().field(), one.field) << one.text;
+        EXPECT_EQ(result.refused().cause(), v1::Refused::UNFIT) << one.text;
         EXPECT_NE(result.refused().reason().find(one.reason), std::string::npos) << result.refused().reason();
     }
     EXPECT_EQ(app.counters().rejectedFor(RejectReason::UnfitCommand), cases.size());
@@ -95,6 +97,24 @@ TEST(Commands, InvalidOnesAreRefusedWithFieldAndReason) {
 }
 
 // NaN and Infinity as Python and JavaScript libraries write them. The application refuses them with the field.
+TEST(Commands, OthersAreToldWithTheNameOfTheSender) {
+    FakeApp app;
+    const auto sender = join(app, 0);
+    const auto other = join(app, 0);
+    ASSERT_TRUE(sender->send(pauseOf(5)));
+    EXPECT_EQ(next(*sender).result().id(), 5U);
+    v1::Event event;
+    event.set_kind(v1::Event::COMMANDED);
+    app.server().announce(1, event);
+    const v1::Event told = next(*other).event();
+    EXPECT_EQ(told.kind(), v1::Event::COMMANDED);
+    EXPECT_EQ(told.by().session(), 1U);
+    EXPECT_EQ(told.by().client(), helloOf(0).hello().client());
+    // The sender is not told: its next message is another.
+    app.server().broadcast(eventOf("warm"));
+    EXPECT_EQ(next(*sender).event().text(), "warm");
+}
+
 TEST(Commands, MayHaveNonFiniteNumbers) {
     FakeApp app;
     const auto client = join(app, 0, Encoding::Text);

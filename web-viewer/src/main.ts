@@ -2,6 +2,7 @@ import { withoutToken } from "./connection/admission";
 import { loadViewRequest } from "./connection/view_request";
 import { modes } from "./model/quantities";
 import { createTestApi } from "./test_api";
+import { showFailure, watchForFailures } from "./ui/failure";
 import type { Choices } from "./ui/panel";
 import { Viewer } from "./viewer";
 
@@ -42,10 +43,8 @@ function start(): void {
 
 try {
   start();
+  watchForFailures();
 } catch (error) {
-  const notice = document.createElement("p");
-  notice.className = "failure";
-  notice.textContent = error instanceof Error ? error.message : String(error);
-  document.body.append(notice);
+  showFailure(error, true);
   throw error;
 }

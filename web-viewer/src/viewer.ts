@@ -4,7 +4,7 @@ import { pick, rayThrough } from "./camera/ray";
 import { DrawClock, sharedNow } from "./clock";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
-import type { Report } from "./connection/commands";
+import type { PushRay, Report } from "./connection/commands";
 import { Link } from "./connection/link";
 import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
@@ -16,6 +16,7 @@ import { markFirst } from "./perf_marks";
 import { Canvas } from "./renderer/canvas";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
+import { refusalText } from "./ui/refusals";
 import { longStay } from "./ui/toasts";
 
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
@@ -86,7 +87,7 @@ export class Viewer {
     if (tokenInAddress) {
       this.tokenNote = "The token in the address was ignored, because others can see addresses.";
       const text = "Do not put tokens in addresses: others can see them.";
-      this.page.toasts.show("Token ignored", text, "bad", longStay);
+      this.page.toasts.show("Token ignored", text, "bad", { stay: longStay });
     }
     this.link.connect(this.url, this.subscription.view, this.admission.begin());
     const resize = (): void => {
@@ -119,14 +120,14 @@ export class Viewer {
         this.admission.welcomed();
         this.page.panel.setScenes(welcome);
       },
-      sceneChanged: (facts, before) => {
-        const same = facts.name === before?.name;
-        this.camera.look(facts, same);
+      // docs/protocol.md lists the values that come from another scene, and the choices that stay.
+      sceneChanged: (facts, another) => {
+        this.camera.look(facts, !another);
         this.canvas.setFacts(facts);
-        if (!same) this.ranges.reset();
-        if (same) this.page.inspector.selection.follow(facts.population);
-        else this.page.inspector.selection.clear();
-        this.page.panel.setFacts(facts);
+        if (another) this.ranges.reset();
+        if (another) this.page.inspector.selection.clear();
+        else this.page.inspector.selection.follow(facts.population);
+        this.page.panel.setFacts(facts, another);
         this.drawn = "";
       },
       populationChanged: ({ population }, changed) => {
@@ -138,15 +139,18 @@ export class Viewer {
       dialChanged: (dial) => this.page.panel.setDial(dial),
       diagnosticsReceived: (diagnostics) => this.page.panel.setDiagnostics(diagnostics),
       recordingChanged: (recording, before) => this.page.recordingChanged(recording, before),
-      eventReceived: ({ text }) => this.page.toasts.show("Server", text, "plain"),
+      eventReceived: (event) => this.page.eventReceived(event),
       messageUnreadable: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
   }
 
   private report(report: Report): void {
     this.reports.add(report);
-    const applied = report.outcome.case === "applied";
-    if (!applied || !report.quiet) this.page.toasts.show(report.name, report.text, applied ? "good" : "bad");
+    const { name, outcome, text, quiet } = report;
+    const { toasts } = this.page;
+    if (outcome.case === "refused") toasts.show(name, refusalText(outcome.value), "bad", { detail: text });
+    else if (outcome.case === "lost") toasts.show(name, text, "bad");
+    else if (!quiet) toasts.show(name, text, "good");
   }
 
   private tick(now: number): void {
@@ -175,7 +179,7 @@ export class Viewer {
       if (shown) markFirst("drawn");
     }
     this.reportDrawRate(now);
-    this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.contextLost);
+    this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.graphics);
   }
 
   /** Call when the page is hidden or shown. */
@@ -183,6 +187,11 @@ export class Viewer {
     this.subscription.setVisible(visible);
     if (visible) this.session.resume(sharedNow());
     else this.link.reportDrawRate(0);
+  }
+
+  private async push(ray: PushRay, sphere: number | undefined): Promise<void> {
+    const { panel } = this.page;
+    if (panel.checkImpulse()) panel.pushed(await this.commands.push(ray, sphere, this.choices.impulse));
   }
 
   private reportDrawRate(now: number): void {
@@ -201,7 +210,7 @@ export class Viewer {
         const place = this.placeAt(x, y);
         const population = this.session.facts?.population;
         const sphere = place === undefined ? undefined : population?.idOf(place);
-        if (choices.push) void this.commands.push(rayThrough(camera.last, x, y), sphere, choices.impulse);
+        if (choices.push) void this.push(rayThrough(camera.last, x, y), sphere);
         else this.page.inspector.selection.select(population, place);
       },
     });

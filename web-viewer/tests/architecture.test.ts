@@ -13,7 +13,7 @@ const allowed: Record<string, string[]> = {
   format: [],
   perf_marks: ["clock"],
   codec: [],
-  connection: ["clock", "codec", "columns", "gen"],
+  connection: ["clock", "codec", "columns", "format", "gen"],
   colour: ["gen"],
   model: ["clock", "colour", "connection", "format", "gen", "perf_marks"],
   camera: ["model"],

@@ -1,6 +1,39 @@
+import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { gravityPresetOf } from "../src/ui/presets";
+import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
+import { factsOf } from "../src/model/facts";
+import { dropFor, dropRadiusFor, dropRadiusRule, gravityPresetOf, impulseRule } from "../src/ui/presets";
+
+function factsWith(radius: number, side: number) {
+  const places = radius > 0 ? { count: 2, radius } : {};
+  const bounds = { boundsMin: [0, 0, 0], boundsMax: [side, 2 * side, 3 * side] };
+  return factsOf(create(SceneFactsSchema, { ...bounds, ...places }));
+}
+
+test("spheres to drop fit the scene: they have its mean radius, or one that fits its bounds", () => {
+  assert.equal(dropRadiusFor(factsWith(0.02, 1)), 0.02);
+  assert.equal(dropRadiusFor(factsWith(0, 0.01)), 0.000115);
+  assert.equal(dropRadiusFor(factsWith(0, 800)), 9);
+  assert.equal(dropRadiusFor(factsWith(0.9, 1)), 0.23);
+  assert.deepEqual(dropRadiusRule(factsWith(0.02, 1)), { unit: "m", least: 1e-6, most: 0.23 });
+});
+
+test("the box for dropped spheres has room for the largest that are allowed", () => {
+  const facts = factsWith(0, 1);
+  for (const radius of [0.001, 0.1, dropRadiusRule(facts).most ?? NaN]) {
+    const { min, max } = dropFor(facts, 1, radius);
+    const sides = max.map((high, axis) => high - (min[axis] ?? NaN));
+    assert.ok(Math.min(...sides) >= 2 * radius, `radius ${radius}: sides ${sides.join(" ")}`);
+    assert.ok(Math.min(...min) >= radius && max.every((high, axis) => high <= axis + 1 - radius));
+  }
+});
+
+test("an impulse is limited once the server has told its limit", () => {
+  assert.deepEqual(impulseRule({ maxImpulse: 12 }), { unit: "N s", above: 0, most: 12 });
+  assert.equal(impulseRule({ maxImpulse: 0 }).most, undefined);
+  assert.equal(impulseRule(undefined).most, undefined);
+});
 
 test("a gravity preset is recognised by its values", () => {
   assert.equal(gravityPresetOf([0, 0, -1.62]), "Moon");

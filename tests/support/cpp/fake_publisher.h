@@ -16,6 +16,7 @@ class FakePublisher : public net::Publisher {
     void refreshScene(codec::SharedMessage) override {}
     void publish(const codec::EncodedFrame&) override {}
     void broadcast(codec::SharedMessage) override {}
+    void announce(net::SessionId, v1::Event) override {}
     void reply(net::SessionId, v1::CommandResult) override {}
     [[nodiscard]] std::uint32_t viewers() const override { return 0; }
     [[nodiscard]] std::vector<codec::Subscription> subscriptions() override { return {}; }

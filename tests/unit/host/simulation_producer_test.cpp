@@ -62,6 +62,11 @@ class TestSessions : private FakePublisher {
 
     std::vector<v1::CommandResult> answers;
     std::vector<v1::Change> changes;  // the changes sent to all sessions
+    struct Told {
+        net::SessionId by;
+        v1::Event event;
+    };
+    std::vector<Told> told;  // events about commands, for the other sessions
 
   private:
     void look() {
@@ -71,6 +76,7 @@ class TestSessions : private FakePublisher {
         if (message->content().has_change()) changes.push_back(message->content().change());
         look();
     }
+    void announce(net::SessionId by, v1::Event event) override { told.push_back({by, std::move(event)}); }
     void reply(net::SessionId, v1::CommandResult result) override {
         answers.push_back(std::move(result));
         look();
@@ -124,6 +130,8 @@ TEST(SimulationProducer, PauseAndCancelAreAnsweredWhileASceneLoads) {
         EXPECT_TRUE(sessions.answer(resume).has_applied());
         EXPECT_TRUE(sessions.answer(cancel).has_applied());
         EXPECT_EQ(sessions.refusal(load), "cancelled");
+        EXPECT_EQ(sessions.answer(load).refused().cause(), v1::Refused::CANCELLED);
+        EXPECT_EQ(sessions.answer(again).refused().cause(), v1::Refused::NOTHING_TO_CANCEL);
         EXPECT_NE(sessions.refusal(again).find("nothing is under way"), std::string::npos);
         EXPECT_LT(sessions.placeOf(pause), sessions.placeOf(load));
     }
@@ -183,6 +191,29 @@ TEST(SimulationProducer, PauseOrResumeEndsStepsThatWaitForAChange) {
         EXPECT_NE(sessions.refusal(step).find("none of its steps were done"), std::string::npos)
             << sessions.refusal(step);
     }
+}
+
+TEST(SimulationProducer, OthersAreToldOfCommandsThatChangeTheWorld) {
+    TestSessions sessions("billiards");
+    sessions.give(R"({"pause":{}})", 4);
+    sessions.give(R"({"set":{"gravity":[0,0,-1.62]}})", 5);
+    sessions.give(R"({"set":{"friction":-1}})", 5);  // refused
+    sessions.give(R"({"push":{"sphere":0,"impulse":[0,0,0]}})", 5);
+    sessions.give(R"({"spawn":{"group":{"name":"new","radius":{"constant":0.02},"list":{"spheres":[
+        {"position":[0.1,0.1,0.2]},{"position":[0.2,0.1,0.2]}]}}}})",
+                  5);
+    sessions.run([&] { return sessions.answers.size() == 5; });
+    ASSERT_EQ(sessions.answer(5).refused().reason(), "");
+    ASSERT_EQ(sessions.told.size(), 3U);
+    EXPECT_EQ(sessions.told[0].by, 4U);
+    EXPECT_EQ(sessions.told[0].event.kind(), v1::Event::COMMANDED);
+    EXPECT_TRUE(sessions.told[0].event.command().has_pause());
+    EXPECT_EQ(sessions.told[1].by, 5U);
+    EXPECT_EQ(sessions.told[1].event.command().set().gravity(2), -1.62);
+    const v1::Event& spawned = sessions.told[2].event;
+    EXPECT_EQ(spawned.spheres(), 2U);
+    EXPECT_EQ(spawned.command().spawn().group().name(), "new");
+    EXPECT_FALSE(spawned.command().spawn().group().has_list()) << "spheres may take megabytes";
 }
 
 TEST(SimulationProducer, BroadcastsTheProgressOfALongChange) {

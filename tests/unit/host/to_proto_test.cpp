@@ -4,6 +4,11 @@
 
 #include <chrono>
 #include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
 
 #include "host_support.h"
 
@@ -74,6 +79,72 @@ TEST(ResultOf, RefusalsOfTheHostHavePathsFromTheCommand) {
     command.mutable_push()->set_sphere(99);
     for (int axis = 0; axis < 3; ++axis) command.mutable_push()->add_impulse(1);
     EXPECT_EQ(refused(command), "push.sphere");
+}
+
+// Clients say by the cause and the limits what to do.
+TEST(ResultOf, RefusalsOfTheHostHaveACauseAndLimits) {
+    auto world = SimulationHost::open("cpu:1", "billiards", {});
+    ASSERT_TRUE(world);
+    const auto refused = [&](const std::string& json) {
+        v1::Command command;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &command).ok()) << json;
+        auto applied = give(**world, command);
+        while (!applied) applied = (*world)->advanceChange(std::chrono::milliseconds(10));
+        const auto result = resultOf(command, *applied);
+        EXPECT_TRUE(result.has_refused()) << json;
+        return result.refused();
+    };
+    struct Case {
+        std::string json;
+        v1::Refused::Cause cause;
+        double least, most;  // NaN: absent
+    };
+    const double none = std::nan("");
+    const std::string fill = R"({"spawn":{"group":{"radius":{"constant":0.1},"fill":{"min":[0,0,0],"max":)";
+    const std::vector<Case> cases = {
+        {R"({"set":{"speed":5000}})", v1::Refused::RANGE, 0.001, 1000},
+        {R"({"set":{"friction":-1}})", v1::Refused::RANGE, 0, 100},
+        {R"({"set":{"restitution":2}})", v1::Refused::RANGE, 0, 1},
+        {R"({"set":{"gravity":[0,0,-2e6]}})", v1::Refused::RANGE, none, 1e6},
+        {R"({"set":{"auto":{"overlap":0.9}}})", v1::Refused::RANGE, 1e-6, 0.5},
+        {R"({"set":{"auto":{"budgetMs":-1}}})", v1::Refused::RANGE, 0, none},
+        {R"({"step":{"count":0}})", v1::Refused::RANGE, 1, 100'000},
+        {R"({"load":{"name":"nothing"}})", v1::Refused::NO_SUCH_SCENE, none, none},
+        {R"({"push":{"sphere":999,"impulse":[0,0,1]}})", v1::Refused::NO_SUCH_SPHERE, none, none},
+        {R"({"push":{"ray":{"origin":[0,0,9],"direction":[0,0,1]},"impulse":[0,0,1]}})", v1::Refused::NO_HIT, none,
+         none},
+        {fill + R"([1,1,0.15],"count":1}}}})", v1::Refused::TOO_LARGE, none, 0.075},
+        {fill + R"([1,1,1],"count":1000}}}})", v1::Refused::NO_ROOM, none, 90},
+        {R"({"spawn":{"group":{"radius":{"constant":2e6},"fill":{"max":[1,1,1],"count":1}}}})", v1::Refused::RANGE,
+         1e-6, 1e6},
+    };
+    for (const Case& one : cases) {
+        const v1::Refused refusal = refused(one.json);
+        EXPECT_EQ(refusal.cause(), one.cause) << one.json << ": " << refusal.reason();
+        const auto text = [](bool present, double value) { return present ? fmt::format("{:.6g}", value) : "absent"; };
+        EXPECT_EQ(text(refusal.has_least(), refusal.least()), text(!std::isnan(one.least), one.least)) << one.json;
+        EXPECT_EQ(text(refusal.has_most(), refusal.most()), text(!std::isnan(one.most), one.most)) << one.json;
+    }
+}
+
+// The settings tell the largest impulse; it is taken, and a larger one is refused with this limit.
+TEST(ResultOf, TheLargestImpulseOfTheSettingsIsTaken) {
+    auto world = SimulationHost::open("cpu:1", "billiards", {});
+    ASSERT_TRUE(world);
+    (*world)->change(sim::Set{.gravity = glm::dvec3(0)});
+    const double most = (*world)->settings().settings().max_impulse();
+    ASSERT_GT(most, 0);
+    const auto push = [&](double impulse) {
+        v1::Command command;
+        command.mutable_push()->set_sphere(5);
+        for (const double part : {impulse, 0.0, 0.0}) command.mutable_push()->add_impulse(part);
+        return resultOf(command, *give(**world, command));
+    };
+    const v1::CommandResult refused = push(1.01 * most);
+    EXPECT_EQ(refused.refused().field(), "push.impulse");
+    EXPECT_EQ(refused.refused().cause(), v1::Refused::RANGE);
+    EXPECT_NEAR(refused.refused().most(), most, 1e-6 * most);
+    EXPECT_TRUE(push(0.999 * most).has_applied());
 }
 
 TEST(ResultOf, ContainsTheHitSphereOrTheStatistics) {

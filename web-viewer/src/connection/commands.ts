@@ -1,12 +1,13 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import type { SetSchema } from "../gen/spherule/v1/control_pb";
+import * as format from "../format";
 import type { CommandKind, Link, Outcome } from "./link";
 
 /** The result of a command. */
 export interface Report {
   name: string; // of the command, for the user
   outcome: Outcome;
-  text: string; // the outcome, for the user
+  text: string; // the outcome, for the user; of a refusal: in the words of the server
   quiet: boolean; // report only failures: a success is visible anyway
 }
 
@@ -42,7 +43,7 @@ export class Commands {
 
   /** `unit`: the name of a step in the report. */
   step(count: number, unit = "step"): Promise<Outcome> {
-    const name = count === 1 ? `One ${unit}` : `${count} ${unit}s`;
+    const name = count === 1 ? `One ${unit}` : `${format.count(count)} ${unit}s`;
     return this.send(name, { case: "step", value: { count } });
   }
 
@@ -81,12 +82,12 @@ export class Commands {
       source: { case: "fill" as const, value: fill },
       radius: { kind: { case: "constant" as const, value: radius } },
     };
-    return this.send(`Drop ${count}`, { case: "spawn", value: { group } });
+    return this.send(`Drop ${format.count(count)}`, { case: "spawn", value: { group } });
   }
 
   /** `sphere`: id. */
   remove(sphere: number): Promise<Outcome> {
-    return this.send(`Remove sphere ${sphere}`, { case: "remove", value: { spheres: [BigInt(sphere)] } });
+    return this.send(`Remove sphere ${format.count(sphere)}`, { case: "remove", value: { spheres: [BigInt(sphere)] } });
   }
 
   /** Pushes a sphere along the ray. If its id is undefined, the server picks the first sphere that the ray meets. */
@@ -94,7 +95,7 @@ export class Commands {
     const impulse = ray.direction.map((part) => part * newtonSeconds);
     const target =
       sphere === undefined ? { case: "ray" as const, value: ray } : { case: "sphere" as const, value: BigInt(sphere) };
-    const name = sphere === undefined ? "Push" : `Push sphere ${sphere}`;
+    const name = sphere === undefined ? "Push" : `Push sphere ${format.count(sphere)}`;
     return this.send(name, { case: "push", value: { target, impulse } });
   }
 
@@ -120,11 +121,12 @@ export class ReportLog {
 function textFor({ case: kind, value }: Outcome): string {
   switch (kind) {
     case "applied":
-      if (value.removed === undefined) return `applied at step ${value.step}`;
-      return `removed ${value.removed} ${value.removed === 1n ? "sphere" : "spheres"}, at step ${value.step}`;
+      return value.removed === undefined
+        ? `applied at step ${format.count(value.step)}`
+        : `removed ${format.count(value.removed)} ${value.removed === 1n ? "sphere" : "spheres"}`;
     case "refused":
-      return value.field ? `refused: ${value.field}: ${value.reason}` : `refused: ${value.reason}`;
+      return value.field ? `${value.field} ${value.reason}` : value.reason;
     default:
-      return "not sent: there is no connection";
+      return "The connection ended before the answer. Look whether it was carried out.";
   }
 }

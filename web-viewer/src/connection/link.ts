@@ -23,6 +23,9 @@ export class Link {
       if (data.kind === "result") this.resolve(data.result);
       listen(data);
     };
+    worker.onerror = (event) => {
+      throw new Error(`The connection's thread failed: ${event.message}`);
+    };
   }
 
   /** `token`: empty if there is none. */

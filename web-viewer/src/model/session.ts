@@ -32,7 +32,8 @@ const firstStateTimeout = 1000; // ms to wait for the first state of a scene bef
 export interface SessionEvents {
   linkChanged(change: LinkChange): void;
   welcomed(welcome: Welcome): void;
-  sceneChanged(facts: Facts, before: Facts | undefined): void;
+  /** `another`: it is another scene than before. Then what belongs to the scene starts from the scene again. */
+  sceneChanged(facts: Facts, another: boolean): void;
   /** `changed`: the places whose sphere has changed. */
   populationChanged(facts: Facts, changed: Run[]): void;
   settingsChanged(settings: Settings): void;
@@ -47,10 +48,13 @@ export interface SessionEvents {
 export class Session {
   link: LinkState = "connecting";
   linkReason = "";
+  attempted = false; // an attempt to connect has failed, or a connection has ended
   refusal = ""; // why the server refused this page; empty if it did not
   retryAt = 0; // ms, as sharedNow() counts
   silentSince: number | undefined; // ms: the connection is open, but the server does not answer
   farewell = ""; // why the server ended; empty once a server answers
+  deviceLost = false; // with `farewell`: the server's device is lost
+  divergence: Event | undefined; // positions became non-finite, and the world has not gone on since then
   welcome: Welcome | undefined;
   facts: Facts | undefined;
   settings: Settings | undefined;
@@ -105,6 +109,7 @@ export class Session {
         break;
       case "settings":
         this.settings = message.settings;
+        if (!message.settings.paused) this.divergence = undefined;
         this.events.settingsChanged(message.settings);
         break;
       case "frame":
@@ -140,8 +145,7 @@ export class Session {
         this.events.diagnosticsReceived(message.diagnostics);
         break;
       case "event":
-        if (farewells.includes(message.event.kind)) this.farewell = message.event.text;
-        else this.events.eventReceived(message.event);
+        this.eventReceived(message.event);
         break;
       case "unreadable":
         this.events.messageUnreadable(message.reason);
@@ -192,8 +196,20 @@ export class Session {
   staleness(now: number): number {
     if (!this.facts) return 0;
     const age = now - this.lastArrival;
-    const grace = this.live ? (this.paused ? Infinity : 5000) : 400;
+    const rests = this.paused || this.change !== undefined; // a long command may stop the world
+    const grace = this.live ? (rests ? Infinity : 5000) : 400;
     return Math.min(1, Math.max(0, (age - grace) / 600));
+  }
+
+  private eventReceived(event: Event): void {
+    if (farewells.includes(event.kind)) {
+      this.farewell = event.text;
+      this.deviceLost = event.kind === Event_Kind.DEVICE_LOST;
+    } else if (event.kind === Event_Kind.NON_FINITE) {
+      this.divergence = event;
+    } else {
+      this.events.eventReceived(event);
+    }
   }
 
   private sceneReceived(scene: SceneFacts): void {
@@ -207,9 +223,11 @@ export class Session {
     if (this.newConnection) this.states.begin(-1); // another server may give the same number to another epoch
     this.newConnection = false;
     this.facts = factsOf(scene);
+    const another = this.facts.name !== before?.name;
+    if (another) this.divergence = undefined;
     if (this.states.epoch !== this.facts.epoch) this.epochStart = sharedNow();
     this.states.begin(this.facts.epoch);
-    this.events.sceneChanged(this.facts, before);
+    this.events.sceneChanged(this.facts, another);
   }
 
   private replacePopulation(scene: SceneFacts): Run[] {
@@ -242,6 +260,7 @@ export class Session {
     markFirst("arrived", arrival);
     markFirst("decoded");
     this.frames += 1;
+    if (frame.step === 0) this.divergence = undefined; // the world was reset
     this.lastArrival = arrival;
     this.status = status;
   }
@@ -259,6 +278,7 @@ export class Session {
     this.linkReason = change.reason ?? "";
     this.retryAt = sharedNow() + (change.retryIn ?? 0);
     this.silentSince = undefined;
+    this.attempted ||= change.state === "waiting";
     if (change.state === "waiting") this.refusal = change.refused ? this.linkReason : "";
     if (change.state !== "open") this.stream = this.control = this.change = undefined;
     this.delay.reset();

@@ -5,13 +5,15 @@ import type { RenderQualityChoice } from "./render_quality";
 import { themes } from "./theme";
 import type { ThemeName } from "./theme";
 import type { Facts } from "../model/facts";
+import type { Graphics } from "../model/page_state";
 import type { Run } from "../model/population";
 import type { Shown } from "../model/states";
 
 /** The canvas and its WebGL context, which the browser may take away and give back. */
 export class Canvas {
   drawn = 0; // images since the page was loaded
-  private renderer: FrameRenderer | undefined; // undefined: the context is lost
+  graphics: Graphics = "ok";
+  private renderer: FrameRenderer | undefined; // undefined: the page cannot draw
   private readonly quality: RenderQualityControl;
   private facts: Facts | undefined;
   private theme: ThemeName = "light";
@@ -29,23 +31,24 @@ export class Canvas {
       depth: false,
       powerPreference: "high-performance",
     });
-    if (!gl) throw new Error("This browser does not support WebGL 2, which this page requires.");
-    this.quality = new RenderQualityControl(choice, drawsInSoftware(gl));
+    this.quality = new RenderQualityControl(choice, !gl || drawsInSoftware(gl));
+    if (!gl) {
+      this.graphics = "none";
+      return;
+    }
     this.renderer = new FrameRenderer(gl);
     element.addEventListener("webglcontextlost", (event) => {
       event.preventDefault(); // asks the browser to restore the context
       this.renderer = undefined;
+      this.graphics = "lost";
     });
     element.addEventListener("webglcontextrestored", () => {
       this.renderer = new FrameRenderer(gl);
+      this.graphics = "ok";
       if (this.facts) this.renderer.setFacts(this.facts, themes[this.theme]);
       this.fit();
       restored();
     });
-  }
-
-  get contextLost(): boolean {
-    return this.renderer === undefined;
   }
 
   setFacts(facts: Facts): void {
@@ -79,7 +82,7 @@ export class Canvas {
 
   /**
    * Draws an image. `elapsed`: ms since the last one if drawing is continuous, else undefined. Returns false if the
-   * context is lost.
+   * page cannot draw.
    */
   draw(shown: Shown | undefined, state: DrawState, elapsed: number | undefined): boolean {
     if (!this.renderer) return false;

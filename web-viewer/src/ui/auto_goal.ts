@@ -1,13 +1,31 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import type { Auto, AutoSchema } from "../gen/spherule/v1/scene_pb";
+import type { EntryRule } from "./entry";
 
 export type GoalName = "off" | "time" | "overlap";
 
-/** The goals for which the server can adjust the substeps. `first`: the initial value, in the unit shown. */
-export const goals: Record<GoalName, { name: string; label: string; first: number }> = {
-  off: { name: "Off", label: "", first: 0 },
-  time: { name: "Hold step time", label: "Step time, max, ms", first: 16 },
-  overlap: { name: "Hold overlap", label: "Mean overlap, max, %", first: 0.5 },
+interface Goal {
+  name: string;
+  label: string;
+  first: number; // the initial value, in the unit shown
+  rule: EntryRule;
+}
+
+/** The goals for which the server can adjust the substeps. */
+export const goals: Record<GoalName, Goal> = {
+  off: { name: "Off", label: "", first: 0, rule: { unit: "" } },
+  time: {
+    name: "Hold step time",
+    label: "Step time, max, ms",
+    first: 16,
+    rule: { unit: "ms", above: 0, most: 60_000 },
+  },
+  overlap: {
+    name: "Hold overlap",
+    label: "Mean overlap, max, %",
+    first: 0.5,
+    rule: { unit: "%", least: 0.0001, most: 50 },
+  },
 };
 
 export const goalNames = Object.fromEntries(Object.entries(goals).map(([key, { name }]) => [name, key]));

@@ -1,6 +1,7 @@
 import { clientName } from "../connection/protocol";
 import { blockedReasonOf } from "../model/control_state";
 import type { ControlState } from "../model/control_state";
+import type { Graphics } from "../model/page_state";
 import type { Session } from "../model/session";
 import { h, setText } from "./dom";
 
@@ -8,11 +9,9 @@ import { h, setText } from "./dom";
 export class Header {
   private readonly scene = h("h1", { "data-testid": "scene-name" }, "Spherule");
   private readonly description = h("p", { "data-testid": "scene-description" });
-  private readonly farewell = h("p", { class: "farewell", "data-testid": "farewell", role: "status" });
   private readonly dot = h("i");
   private readonly text = h("span", { "data-testid": "connection" });
   private readonly role = h("span", { class: "role", "data-testid": "role", hidden: true }, "watching");
-  private readonly refusal = h("p", { class: "refusal", "data-testid": "refusal", hidden: true });
   private readonly link: HTMLButtonElement;
   readonly element: HTMLElement;
 
@@ -23,23 +22,18 @@ export class Header {
     const attributes = { class: "link", type: "button", "data-testid": "retry", click: retry };
     this.link = h("button", attributes, this.dot, this.text);
     const brand = h("div", { class: "brand" }, h("span", { class: "mark" }), "Spherule", this.link, this.role);
-    this.element = h("header", {}, brand, this.refusal, this.scene, this.farewell, this.description);
+    this.element = h("header", {}, brand, this.scene, this.description);
   }
 
-  /** `now`: ms, as sharedNow() counts; `contextLost`: the browser has taken the WebGL context away. */
-  update(now: number, control: ControlState, contextLost: boolean): void {
+  /** `now`: ms, as sharedNow() counts. */
+  update(now: number, control: ControlState, graphics: Graphics): void {
     const { session } = this;
-    const state = contextLost ? "lost" : session.connection;
+    const state = graphics === "lost" ? "lost" : session.connection;
     this.link.dataset.state = state;
     this.link.title = titleFor(state, session);
     setText(this.text, this.textFor(state, now));
     this.role.hidden = control.kind !== "watching";
     this.role.title = blockedReasonOf(control);
-    setText(this.refusal, session.refusal && `The server says: ${session.refusal}`);
-    this.refusal.hidden = !session.refusal;
-    setText(this.farewell, session.farewell);
-    this.farewell.hidden = session.farewell === "";
-    this.description.hidden = session.farewell !== "";
     if (!session.facts) return;
     setText(this.scene, session.facts.name);
     setText(this.description, session.facts.description);

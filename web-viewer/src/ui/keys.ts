@@ -67,7 +67,8 @@ export function listenForKeys(keys: () => Key[], characters: CharacterKeys): voi
 function handlesKey(target: HTMLElement, key: string): boolean {
   if (target.matches("button, input[type=checkbox]")) return key === " " || key === "Enter";
   if (target.matches("input[type=range]")) return sliderKeys.includes(key);
-  return target.matches("input, select, textarea") && key !== "Escape";
+  if (key === "Escape") return target.matches("input[data-edited]");
+  return target.matches("input, select, textarea");
 }
 
 export interface KeyActions {

@@ -2,12 +2,15 @@ import type { Camera } from "../camera/camera";
 import type { Insets } from "../camera/view";
 import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
-import type { Recording } from "../gen/spherule/v1/control_pb";
+import type { Event, Recording } from "../gen/spherule/v1/control_pb";
 import type { ColourRanges } from "../model/colour_ranges";
 import { modes } from "../model/quantities";
+import { pageStateOf } from "../model/page_state";
+import type { Graphics, PageState } from "../model/page_state";
 import type { Session } from "../model/session";
 import type { Shown } from "../model/states";
 import type { ThemeName } from "../renderer/theme";
+import { announcementOf } from "./announcements";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
 import { Header } from "./header";
@@ -16,6 +19,8 @@ import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
+import { Notices, noticesFor, OutsideCount } from "./notices";
+import type { NoticeAction } from "./notices";
 import { Panel } from "./panel";
 import type { Choices, PanelActions } from "./panel";
 import { Playback } from "./playback";
@@ -46,6 +51,8 @@ export class Page {
   readonly steering: Steering;
   private readonly header: Header;
   private readonly change: ChangeLine;
+  private readonly notices: Notices;
+  private readonly outside = new OutsideCount();
   private readonly record: RecordButton;
   private readonly transport: Transport;
   private readonly legend: Legend;
@@ -107,11 +114,16 @@ export class Page {
     listenForKeys(() => this.keys(), this.characters);
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
+    this.notices = new Notices((action, { id }) => {
+      if (action === "retry" || action === "token") actions.retry();
+      else if (action === "dismiss") this.dismiss(id === "outside");
+      else this.act(action);
+    });
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
     this.playback = new Playback(session, commands, () => this.needsSpeeds);
     const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    const controls = [this.change, steering, this.playback, this.transport].map(({ element }) => element);
+    const controls = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
     this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, ...controls));
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
     container.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
@@ -127,10 +139,14 @@ export class Page {
   }
 
   /** Call at every tick. `now`: ms, as sharedNow() counts. */
-  update(now: number, shown: Shown | undefined, imagesPerSecond: number, contextLost: boolean): void {
+  update(now: number, shown: Shown | undefined, imagesPerSecond: number, graphics: Graphics): void {
     this.setPlaying(this.session.timeline !== undefined);
     this.steering.update();
     const { blockedReason } = this.steering;
+    const state = pageStateOf(this.session);
+    this.container.classList.toggle("old", !state.current);
+    this.container.classList.toggle("no-graphics", graphics === "none");
+    this.showNotices(state, graphics, now);
     this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
     this.change.update(this.session.change, blockedReason);
     this.transport.update(this.session.paused, blockedReason);
@@ -140,14 +156,20 @@ export class Page {
     document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
-    this.header.update(now, this.steering.state, contextLost);
-    this.status.update(now, imagesPerSecond);
+    this.header.update(now, this.steering.state, graphics);
+    this.status.update(now, imagesPerSecond, state.current);
     this.panel.stream.update(this.session, now);
   }
 
   recordingChanged(recording: Recording, before: Recording | undefined): void {
     const end = recordingEnd(recording, before);
-    if (end) this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", longStay);
+    if (end) this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay });
+  }
+
+  eventReceived(event: Event): void {
+    const announcement = announcementOf(event, this.playing);
+    if (announcement) this.toasts.show(announcement.who, announcement.what, "plain", { topic: announcement.who });
+    else this.toasts.show("Server", event.text, "plain");
   }
 
   /** The margins of the canvas that the page's elements cover (CSS pixels). */
@@ -155,6 +177,29 @@ export class Page {
     if (narrow.matches) return { top: 60, right: 0, bottom: this.deckHeight + 104, left: 0 };
     const open = !this.container.classList.contains("panel-closed");
     return { top: 24, right: open ? 304 : 0, bottom: this.deckHeight + 56, left: 0 };
+  }
+
+  private showNotices(state: PageState, graphics: Graphics, now: number): void {
+    const { refusal, farewell, status, divergence, facts } = this.session;
+    const outside = this.playing ? 0 : this.outside.due(status?.outside ?? 0);
+    const more = { outside, diverged: divergence !== undefined, known: facts !== undefined };
+    const notices = noticesFor({ state, graphics, host: location.host, refusal, farewell, ...more });
+    this.notices.update(notices, now, this.steering.blockedReason);
+  }
+
+  private dismiss(outside: boolean): void {
+    if (outside) this.outside.dismiss(this.session.status?.outside ?? 0);
+    else this.session.divergence = undefined;
+  }
+
+  private act(action: NoticeAction): void {
+    if (action === "reload") location.reload();
+    if (action === "reset") void this.commands.reset();
+    if (action === "drop") this.panel.dropNow();
+    if (action === "choose") {
+      this.showPanel(true);
+      this.panel.focusScene();
+    }
   }
 
   private setPlaying(playing: boolean): void {

@@ -1,6 +1,7 @@
 import GUI from "lil-gui";
-import type { Controller, OptionController } from "lil-gui";
+import type { Controller, NumberController, OptionController } from "lil-gui";
 import type { Commands } from "../connection/commands";
+import type { Outcome } from "../connection/link";
 import type { ViewRequest } from "../connection/messages";
 import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
 import type { Facts } from "../model/facts";
@@ -12,7 +13,20 @@ import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
 import { Restriction, tag } from "./controllers";
 import { Dial } from "./dial";
-import { customGravity, dropFor, gravityPresetOf, gravityPresets, impulseFor, impulseNote } from "./presets";
+import { Entry } from "./entry";
+import type { EntryRule } from "./entry";
+import {
+  customGravity,
+  dropFor,
+  dropRadiusFor,
+  dropRadiusRule,
+  gravityPresetOf,
+  gravityPresets,
+  impulseFor,
+  impulseNote,
+  impulseRule,
+} from "./presets";
+import { refusalText } from "./refusals";
 import { StatisticsTables } from "./statistics";
 import { StreamFolder } from "./stream_folder";
 
@@ -35,6 +49,8 @@ export interface PanelActions {
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
+const gravityRule: EntryRule = { unit: "m/s²", least: -1e6, most: 1e6 };
+const capital = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
 const themeNames = { Light: "light", Dark: "dark" };
 
 /**
@@ -67,7 +83,8 @@ export class Panel {
   private readonly dial = new Dial(
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
-  private goal!: Controller;
+  private goal!: NumberController;
+  private readonly entries = new Map<string, Entry>(); // by the name of the control
   private facts: Facts | undefined;
   private settings: Settings | undefined;
 
@@ -121,13 +138,13 @@ export class Panel {
     this.scene.options(scenes);
   }
 
-  setFacts(facts: Facts): void {
-    const otherScene = facts.name !== this.facts?.name;
+  /** `another`: it is another scene than before. */
+  setFacts(facts: Facts, another: boolean): void {
     this.facts = facts;
     this.world.scene = facts.name;
-    if (otherScene) {
-      const [low, high] = facts.population.radiusRange;
-      this.drop.radius = Number(((low + high) / 2 || 0.05).toPrecision(3));
+    if (another) {
+      for (const entry of this.entries.values()) entry.restore();
+      this.drop.radius = dropRadiusFor(facts);
       this.choices.impulse = impulseFor(this.drop.radius);
       if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.population.groups);
     }
@@ -167,14 +184,47 @@ export class Panel {
     this.refresh();
   }
 
-  dropNow(): void {
-    if (this.facts) void this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
+  focusScene(): void {
+    this.scene.$select.focus();
   }
 
-  /** Sends a change of settings. If the server refuses it, the control returns to the present setting. */
-  private async change(name: string, settings: Parameters<Commands["set"]>[1]): Promise<void> {
+  dropNow(): void {
+    void this.dropSpheres();
+  }
+
+  /** Whether the impulse can be sent. If not, its field says why. */
+  checkImpulse(): boolean {
+    return this.entries.get("impulse")?.check() ?? true;
+  }
+
+  /** Shows at the field of the impulse why the server refused a push. */
+  pushed(outcome: Outcome): void {
+    if (outcome.case !== "refused" || outcome.value.field !== "push.impulse") return;
+    this.entries.get("impulse")?.refuse(refusalText(outcome.value));
+  }
+
+  private async dropSpheres(): Promise<void> {
+    const [count, radius] = [this.entries.get("drop-count"), this.entries.get("drop-radius")];
+    if (!this.facts || !count?.check() || !radius?.check()) return;
+    const outcome = await this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
+    if (outcome.case === "applied") count.restore();
+    if (outcome.case !== "refused" || !outcome.value.field) return;
+    const ofCount = outcome.value.field.endsWith(".count");
+    (ofCount ? count : radius).refuse(refusalText(outcome.value));
+  }
+
+  /** Sends a change of settings. If the server refuses it, the setting stays, and the field at `entry` says why. */
+  private async change(name: string, settings: Parameters<Commands["set"]>[1], entry = ""): Promise<void> {
     const outcome = await this.commands.set(name, settings);
+    if (outcome.case === "refused" && outcome.value.field) this.entries.get(entry)?.refuse(refusalText(outcome.value));
     if (outcome.case !== "applied" && this.settings) this.setSettings(this.settings);
+  }
+
+  /** A number field that answers wrong entries. `below`: the element below which it does, else the field. */
+  private number(id: string, controller: Controller, rule: () => EntryRule, below?: HTMLElement): NumberController {
+    const tagged = tag(id, controller) as NumberController;
+    this.entries.set(id, new Entry(tagged, rule, below));
+    return tagged;
   }
 
   /** The setting that the user types or drags at present: messages of the server do not change it. */
@@ -197,7 +247,8 @@ export class Panel {
     this.playback = folder;
     this.steering.push(folder);
     folder.domElement.classList.add("playback");
-    const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
+    const setGravity = (entry?: string): void =>
+      void this.change("Gravity", { gravity: [world.x, world.y, world.z] }, entry);
     const presetNames = [...Object.keys(gravityPresets), customGravity];
     const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Gravity, m/s²"));
     preset.onFinishChange((name: string) => {
@@ -206,19 +257,20 @@ export class Panel {
       [world.x, world.y, world.z] = gravity;
       setGravity();
     });
-    for (const axis of ["x", "y", "z"] as const) {
-      const part = folder.add(world, axis).step(0.01).decimals(2).name(axis);
-      tag(`gravity-${axis}`, part).onFinishChange(setGravity);
-    }
-    tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
-      (restitution: number) => void this.change("Restitution", { restitution }),
-    );
-    tag("friction", folder.add(world, "friction", 0, 1, 0.01).name("Friction")).onFinishChange(
-      (friction: number) => void this.change("Friction", { friction }),
-    );
-    tag("speed", folder.add(world, "speed", 0.05, 4, 0.05).name("Speed, ×")).onFinishChange(
-      (speed: number) => void this.change("Speed", { speed }),
-    );
+    const axes = ["x", "y", "z"] as const;
+    const parts = axes.map((axis) => folder.add(world, axis).step(0.01).name(axis));
+    parts.forEach((part, i) => {
+      const id = `gravity-${axes[i]}`;
+      this.number(id, part, () => gravityRule, parts[2]?.domElement).onFinishChange(() => setGravity(id));
+    });
+    const add = (id: "restitution" | "friction" | "speed", [low, high, step]: number[], rule: EntryRule): void => {
+      const name = rule.unit ? `${capital(id)}, ${rule.unit}` : capital(id);
+      const control = this.number(id, folder.add(world, id, low, high, step).name(name), () => rule);
+      control.onFinishChange((value: number) => void this.change(capital(id), { [id]: value }, id));
+    };
+    add("restitution", [0, 1, 0.01], { unit: "", least: 0, most: 1 });
+    add("friction", [0, 1, 0.01], { unit: "", least: 0, most: 100 });
+    add("speed", [0.05, 4, 0.05], { unit: "×", least: 0.001, most: 1000 });
   }
 
   private addQuality(): void {
@@ -226,7 +278,7 @@ export class Panel {
     const folder = this.addSimulated("Quality");
     this.steering.push(folder);
     folder.$children.append(this.dial.element);
-    const setAuto = (): void => void this.change("Automatic", { auto: toAuto(world.auto, world.goal) });
+    const setAuto = (): void => void this.change("Automatic", { auto: toAuto(world.auto, world.goal) }, "goal");
     const auto = tag("auto", folder.add(world, "auto", goalNames).name("Automatic"));
     auto.onFinishChange((name: GoalName) => {
       world.goal = goals[name].first;
@@ -234,14 +286,17 @@ export class Panel {
     });
     auto.domElement.title = "Adjusts the substeps to hold a step time or a mean overlap";
     this.addSimulated("Now").$children.append(this.statistics.quality);
-    this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(setAuto).hide();
+    this.goal = this.number("goal", folder.add(world, "goal").min(0).name(""), () => goals[world.auto].rule);
+    this.goal.onFinishChange(setAuto).hide();
   }
 
   private addDrop(): void {
     const folder = this.addSimulated("Drop spheres");
     this.steering.push(folder);
-    tag("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"));
-    tag("drop-radius", folder.add(this.drop, "radius").min(1e-4).decimals(4).name("Radius, m"));
+    const countRule: EntryRule = { unit: "", whole: true, least: 1, most: 16_000_000 };
+    this.number("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"), () => countRule);
+    const radius = folder.add(this.drop, "radius").min(0).name("Radius, m");
+    this.number("drop-radius", radius, () => dropRadiusRule(this.facts));
     tag("drop", folder.add({ act: () => this.dropNow() }, "act").name("Drop"));
   }
 
@@ -249,7 +304,9 @@ export class Panel {
     const folder = this.addSimulated("Push");
     this.steering.push(folder);
     tag("push", folder.add(this.choices, "push").name("Push on click"));
-    tag("impulse", folder.add(this.choices, "impulse").min(0).name("Impulse, N s")).domElement.title = impulseNote;
+    const impulse = folder.add(this.choices, "impulse").min(0).name("Impulse, N s");
+    impulse.domElement.title = impulseNote;
+    this.number("impulse", impulse, () => impulseRule(this.settings));
   }
 
   private addLook(): void {

@@ -1,5 +1,7 @@
 import type { Drop } from "../connection/commands";
+import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Facts, Vec3 } from "../model/facts";
+import type { EntryRule } from "./entry";
 
 /** Gravity (m/s²) by name. */
 export const gravityPresets: Record<string, Vec3> = {
@@ -30,11 +32,33 @@ export function impulseFor(radius: number): number {
   return Number((pushSpeed * density * (4 / 3) * Math.PI * radius ** 3).toPrecision(2));
 }
 
-/** Spheres to drop in the upper third of the bounds, clear of its walls. */
+/** The first radius (m) of spheres to drop: the mean of the scene's radii, or a small part of the largest that fits. */
+export function dropRadiusFor(facts: Facts): number {
+  const [low, high] = facts.population.radiusRange;
+  const most = dropRadiusRule(facts).most ?? Infinity;
+  return Number(Math.min((low + high) / 2 || most / 20, most).toPrecision(3));
+}
+
+/** The radii (m) of spheres that dropFor() can place. */
+export function dropRadiusRule(facts: Facts | undefined): EntryRule {
+  const sides = facts ? facts.max.map((high, axis) => high - (facts.min[axis] ?? 0)) : [2e6];
+  return { unit: "m", least: 1e-6, most: Number((Math.min(...sides) / (2 * dropMargin + dropRoom)).toPrecision(2)) };
+}
+
+/** The impulses that the server takes for a sphere at rest, if it says so. */
+export function impulseRule(settings: Pick<Settings, "maxImpulse"> | undefined): EntryRule {
+  return { unit: "N s", above: 0, most: settings?.maxImpulse || undefined };
+}
+
+const dropMargin = 1.1; // radii between dropped spheres and the bounds
+const dropRoom = 2.2; // radii: the least side of the box for them
+
+/** Spheres to drop in the upper third of the bounds, clear of its walls. The box is higher for large spheres. */
 export function dropFor(facts: Facts, count: number, radius: number): Drop {
-  const margin = 1.1 * radius;
+  const margin = dropMargin * radius;
   const min = facts.min.map((low) => low + margin) as Vec3;
   const max = facts.max.map((high) => high - margin) as Vec3;
-  min[2] = Math.min(max[2], facts.max[2] - (facts.max[2] - facts.min[2]) / 3);
+  const third = facts.max[2] - (facts.max[2] - facts.min[2]) / 3;
+  min[2] = Math.max(min[2], Math.min(third, max[2] - dropRoom * radius));
   return { min, max, count, radius };
 }

@@ -1,6 +1,6 @@
 import type { Diagnostics, Settings, Statistics } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
-import { count, figure, seconds, vector } from "../format";
+import { count, figure, length, seconds, vector, withPrefix } from "../format";
 import { impactLabels, mergeImpacts } from "./dial_labels";
 import type { Impacts } from "./dial_labels";
 import { fillTable, h } from "./dom";
@@ -43,25 +43,25 @@ export class StatisticsTables {
       ["overlap-max", "Overlap, max", percent(s.overlapMax)],
       ["restitution", "Restitution", restitution, undefined, impactTitle],
       ["impacts", "Impacts", over, undefined, impactTitle],
-      ["energy", "Energy", `${rises ? "rises: " : ""}${figure(energy)} J`, rises],
+      ["energy", "Energy", `${rises ? "rises: " : ""}${withPrefix(energy, "J")}`, rises],
       ["speed-max", "Speed, max", `${figure(s.speedMax)} m/s`],
     ]);
     fillTable(this.rest, "statistics", [
       ["wall-overlap", "Wall overlap, max", percent(s.wallOverlapMax)],
-      ["contacts", "Contacts", count(Number(s.contacts))],
-      ["kinetic", "Kinetic energy", `${figure(s.kineticEnergy)} J`],
-      ["rotational", "Rotational energy", `${figure(s.rotationalEnergy)} J`],
-      ["elastic", "Elastic energy", `${figure(s.elasticEnergy)} J`],
-      ["potential", "Potential energy", `${figure(s.potentialEnergy)} J`],
+      ["contacts", "Contacts", count(s.contacts)],
+      ["kinetic", "Kinetic energy", withPrefix(s.kineticEnergy, "J")],
+      ["rotational", "Rotational energy", withPrefix(s.rotationalEnergy, "J")],
+      ["elastic", "Elastic energy", withPrefix(s.elasticEnergy, "J")],
+      ["potential", "Potential energy", withPrefix(s.potentialEnergy, "J")],
       ["momentum", "Momentum, N s", vector(s.momentum)],
       ["speed-rms", "Speed, rms", `${figure(s.speedRms)} m/s`],
-      ["height", "Mean height", `${figure(s.meanHeight)} m`],
+      ["height", "Mean height", length(s.meanHeight)],
       ["sleeping", "Asleep", count(s.sleeping)],
       ["outside", "Outside", count(s.outside)],
       ["non-finite", "Non-finite", count(s.nonFinite)],
       ...turnover(s),
       ...sums(s),
-      ["step", "Step", count(Number(s.step))],
+      ["step", "Step", count(s.step)],
       ["time", "Simulated time", seconds(s.simTime)],
     ]);
   }
@@ -74,8 +74,8 @@ const torqueTitle = "About the centre of the bounds, mean of the last second";
 function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[] {
   if (collisions === undefined) return [];
   const rows: Row[] = [
-    ["collisions", "Collisions", count(Number(collisions)), undefined, "Between spheres, so far"],
-    ["dissipated", "Dissipated energy", `${figure(dissipatedEnergy ?? 0)} J`, undefined, "By contacts, so far"],
+    ["collisions", "Collisions", count(collisions), undefined, "Between spheres, so far"],
+    ["dissipated", "Dissipated energy", withPrefix(dissipatedEnergy ?? 0, "J"), undefined, "By contacts, so far"],
   ];
   const components = (values: readonly number[]): string => values.map(figure).join("  ");
   for (const { surface, force, torque } of surfaceForces.slice(0, shownForces)) {
@@ -93,7 +93,7 @@ function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Row[
 function turnover({ born, removed }: Statistics): Row[] {
   if (removed === 0n) return [];
   return [
-    ["born", "Born", count(Number(born)), undefined, "All spheres since the beginning, the first ones included"],
-    ["removed", "Removed", count(Number(removed))],
+    ["born", "Born", count(born), undefined, "All spheres since the beginning, the first ones included"],
+    ["removed", "Removed", count(removed)],
   ];
 }

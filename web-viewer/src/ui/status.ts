@@ -25,7 +25,8 @@ export class StatusLine {
     );
   }
 
-  update(now: number, fps: number): void {
+  /** `now`: ms; `current`: the session's figures are current. */
+  update(now: number, fps: number, current: boolean): void {
     const { session } = this;
     const { facts, status, welcome, newest } = session;
     const spheres = facts?.population.count;
@@ -33,18 +34,19 @@ export class StatusLine {
     this.set("time", newest ? seconds(newest.simTime) : "–");
     const plays = session.timeline !== undefined; // a recording: nothing is simulated
     const factor = plays ? session.settings?.speed : status?.realTimeFactor;
-    this.set("factor", session.paused ? "paused" : factor === undefined ? "–" : `${figure(factor)} ×`);
-    this.fields.get("factor")?.parentElement?.toggleAttribute("data-alone", session.paused);
-    this.set("steps", status ? figure(status.stepsPerSecond) : "–", plays);
+    const paused = current && session.paused;
+    this.set("factor", paused ? "paused" : current && factor !== undefined ? `${figure(factor)} ×` : "–");
+    this.fields.get("factor")?.parentElement?.toggleAttribute("data-alone", paused);
+    this.set("steps", current && status ? figure(status.stepsPerSecond) : "–", plays);
     const asleep = status && spheres ? `${Math.round((100 * status.sleeping) / spheres)} %` : "–";
     this.set("asleep", asleep, plays);
     this.set("outside", status ? count(status.outside) : "0", !status?.outside);
     const rates = session.traffic.rates(now);
-    this.set("stream", session.live ? `${rates.frames.toFixed(0)}/s  ${bytesPerSecond(rates.bytes)}` : "–");
+    this.set("stream", current ? `${rates.frames.toFixed(0)}/s  ${bytesPerSecond(rates.bytes)}` : "–");
     const reason = reductionLabel(session.stream);
     this.setTitle("stream", `States per second, and their bandwidth. ${reason}`.trim());
     this.set("fps", fps > 0 ? fps.toFixed(0) : "idle");
-    this.set("viewers", status ? count(status.viewers) : "–", (status?.viewers ?? 0) < 2);
+    this.set("viewers", current && status ? count(status.viewers) : "–", (status?.viewers ?? 0) < 2);
     this.set("renderer", welcome ? [welcome.device, welcome.renderer].filter(Boolean).join(" · ") : "");
     if (welcome) this.setTitle("renderer", `Device of the simulation: ${welcome.reason}`);
   }

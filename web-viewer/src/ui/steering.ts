@@ -1,6 +1,7 @@
 import type { ControlMessage } from "../connection/messages";
 import { blockedReasonOf, controlAnswer, controlStateOf } from "../model/control_state";
 import type { ControlInfo, ControlState } from "../model/control_state";
+import { pageStateOf } from "../model/page_state";
 import type { Session } from "../model/session";
 import { ControlLine } from "./control_line";
 import type { Toasts } from "./toasts";
@@ -45,18 +46,23 @@ export class Steering {
 
   update(): void {
     const { welcome, control } = this.session;
-    if (welcome === this.info.welcome && control === this.info.control) return;
-    this.info = { welcome, control };
+    if (welcome !== this.info.welcome || control !== this.info.control) this.controlChanged({ welcome, control });
+    const blockedReason = pageStateOf(this.session).blockedReason || blockedReasonOf(this.state);
+    if (blockedReason === this.blockedReason) return;
+    this.blockedReason = blockedReason;
+    this.restrict(blockedReason);
+  }
+
+  private controlChanged(info: ControlInfo): void {
+    this.info = info;
     const before = this.state;
     const now = controlStateOf(this.info);
     this.state = now;
-    this.blockedReason = blockedReasonOf(now);
     const answer = controlAnswer(before, now);
     if (answer && (answer.granted || !this.withdrawn)) {
       this.toasts.show("Control", answer.text, answer.granted ? "good" : "plain");
     }
     this.withdrawn &&= now.kind === "taken" && now.asked;
     this.line.show(now);
-    this.restrict(this.blockedReason);
   }
 }

@@ -12,23 +12,34 @@ export class Toasts {
 
   /** Shows a message unless the same text is visible already. */
   once(title: string, text: string, tone: Tone): void {
-    const visible = [...this.element.children].some((toast) => toast.lastElementChild?.textContent === text);
+    const visible = [...this.element.children].some((toast) => toast.querySelector("span")?.textContent === text);
     if (!visible) this.show(title, text, tone);
   }
 
-  show(title: string, text: string, tone: Tone, stay: number = stays[tone]): void {
+  /**
+   * `stay`: ms; `detail`: more for those who want to know exactly, and the message stays while it is open; `topic`: the
+   * message replaces one with the same topic.
+   */
+  show(title: string, text: string, tone: Tone, { stay = stays[tone], detail = "", topic = "" } = {}): void {
+    if (topic) this.element.querySelector(`[data-topic="${CSS.escape(topic)}"]`)?.remove();
     const toast = h(
       "div",
-      { class: `toast ${tone}`, "data-testid": "toast", "data-tone": tone },
+      { class: `toast ${tone}`, "data-testid": "toast", "data-tone": tone, "data-topic": topic },
       h("strong", {}, title),
-      h("span", {}, text),
+      h("span", { "data-testid": "toast-text" }, text),
     );
-    toast.addEventListener("click", () => toast.remove());
+    const more = h("details", {}, h("summary", {}, "Details"), h("p", { "data-testid": "toast-detail" }, detail));
+    if (detail) toast.append(more);
+    toast.addEventListener("click", ({ target }) => {
+      if (!(target instanceof Node && more.contains(target))) toast.remove();
+    });
     this.element.append(toast);
     while (this.element.childElementCount > maxToasts) this.element.firstElementChild?.remove();
-    setTimeout(() => {
+    const leave = (): void => {
+      if (more.open) return void setTimeout(leave, stay);
       toast.classList.add("leaving");
       setTimeout(() => toast.remove(), 300);
-    }, stay);
+    };
+    setTimeout(leave, stay);
   }
 }
