@@ -30,7 +30,7 @@ test("the box for dropped spheres has room for the largest that are allowed", ()
 });
 
 test("an impulse is limited once the server has told its limit", () => {
-  assert.deepEqual(impulseRule({ maxImpulse: 12 }), { unit: "N s", above: 0, most: 12 });
+  assert.deepEqual(impulseRule({ maxImpulse: 1608.5 }), { unit: "N s", above: 0, most: 100 });
   assert.equal(impulseRule({ maxImpulse: 0 }).most, undefined);
   assert.equal(impulseRule(undefined).most, undefined);
 });
