@@ -37,6 +37,8 @@ test("a client with the name of this page gets a number, and one without a name 
 });
 
 test("other events and commands are no announcements", () => {
-  assert.equal(announcementOf(create(EventSchema, { kind: Event_Kind.WARNING, text: "hot" }), false), undefined);
+  const command = { kind: { case: "pause" as const, value: {} } };
+  const warning = create(EventSchema, { kind: Event_Kind.WARNING, by: { session: 3n, client: "Ada" }, command });
+  assert.equal(announcementOf(warning, false), undefined);
   assert.equal(told({ case: "push", value: {} }), undefined);
 });

@@ -7,7 +7,7 @@ import { dropFor, dropRadiusFor, dropRadiusRule, gravityPresetOf, impulseRule } 
 
 function factsWith(radius: number, side: number) {
   const places = radius > 0 ? { count: 2, radius } : {};
-  const bounds = { boundsMin: [0, 0, 0], boundsMax: [side, 2 * side, 3 * side] };
+  const bounds = { boundsMin: [0, 0, 0], boundsMax: [3 * side, 2 * side, side] };
   return factsOf(create(SceneFactsSchema, { ...bounds, ...places }));
 }
 
@@ -25,12 +25,12 @@ test("the box for dropped spheres has room for the largest that are allowed", ()
     const { min, max } = dropFor(facts, 1, radius);
     const sides = max.map((high, axis) => high - (min[axis] ?? NaN));
     assert.ok(Math.min(...sides) >= 2 * radius, `radius ${radius}: sides ${sides.join(" ")}`);
-    assert.ok(Math.min(...min) >= radius && max.every((high, axis) => high <= axis + 1 - radius));
+    assert.ok(Math.min(...min) >= radius && max.every((high, axis) => high <= 3 - axis - radius));
   }
 });
 
 test("an impulse is limited once the server has told its limit", () => {
-  assert.deepEqual(impulseRule({ maxImpulse: 12 }), { unit: "N s", above: 0, most: 12 });
+  assert.deepEqual(impulseRule({ maxImpulse: 1608.5 }), { unit: "N s", above: 0, most: 100 });
   assert.equal(impulseRule({ maxImpulse: 0 }).most, undefined);
   assert.equal(impulseRule(undefined).most, undefined);
 });

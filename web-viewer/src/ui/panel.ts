@@ -160,6 +160,7 @@ export class Panel {
     const edited = this.edited();
     if (edited) delete (values as Partial<typeof values>)[edited as keyof typeof values];
     Object.assign(this.world, values);
+    this.choices.impulse = Math.min(this.choices.impulse, impulseRule(settings).most ?? Infinity);
     this.dial.setSettings(settings);
     this.goal.show(this.world.auto !== "off").name(goals[this.world.auto].label);
     this.refresh();
