@@ -155,7 +155,7 @@ export class Viewer {
     this.clock.tick(now);
     const shown = session.states.shown(wall);
     this.ranges.update(this.session.facts, shown, now);
-    camera.insets = this.page.insets();
+    camera.cover(this.page.covered);
     camera.advance(this.clock.elapsed, reducedMotion.matches);
     const state = {
       view: camera.view(),

@@ -10,7 +10,7 @@ import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
-import { Restriction, tag } from "./controllers";
+import { nameFolders, Restriction, tag } from "./controllers";
 import { Dial } from "./dial";
 import { customGravity, dropFor, gravityPresetOf, gravityPresets, impulseFor, impulseNote } from "./presets";
 import { StatisticsTables } from "./statistics";
@@ -22,6 +22,7 @@ export interface Choices {
   modeChosen: boolean; // false: the scene determines the mode
   quality: RenderQualityChoice;
   theme: ThemeName;
+  themeChosen: boolean; // false: the system determines the theme
   push: boolean;
   impulse: number; // N s
   view: ViewRequest;
@@ -76,7 +77,7 @@ export class Panel {
     readonly choices: Choices,
     private readonly actions: PanelActions,
   ) {
-    this.gui = new GUI({ autoPlace: false, injectStyles: false, title: "Controls", width: 288 });
+    this.gui = new GUI({ autoPlace: false, injectStyles: false, touchStyles: 0, title: "Controls", width: 288 });
     this.element = this.gui.domElement;
     this.element.dataset.testid = "panel";
     this.scene = tag("scene", this.gui.add(this.world, "scene", [""]).name("Scene")) as OptionController;
@@ -92,6 +93,7 @@ export class Panel {
     this.access = this.gui.addFolder("Access").hide();
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
+    nameFolders(this.gui);
     this.restriction = new Restriction([this.scene, ...this.steering.flatMap((folder) => folder.controllers)]);
   }
 
@@ -209,6 +211,8 @@ export class Panel {
     for (const axis of ["x", "y", "z"] as const) {
       const part = folder.add(world, axis).step(0.01).decimals(2).name(axis);
       tag(`gravity-${axis}`, part).onFinishChange(setGravity);
+      const name = `${preset.$name.id} ${part.$name.id}`;
+      part.domElement.querySelector("input")?.setAttribute("aria-labelledby", name);
     }
     tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
       (restitution: number) => void this.change("Restitution", { restitution }),
