@@ -4,6 +4,7 @@ import { modes } from "./model/quantities";
 import { createTestApi } from "./test_api";
 import { showFailure, watchForFailures } from "./ui/failure";
 import type { Choices } from "./ui/panel";
+import { systemTheme } from "./ui/system_theme";
 import { Viewer } from "./viewer";
 
 /** Reads a choice from the address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
@@ -26,12 +27,13 @@ function start(): void {
   const clean = withoutToken(location.href);
   if (clean !== undefined) history.replaceState(history.state, "", clean);
   const mode = chosen("colour", modes);
-  const prefersDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  const theme = chosen("theme", ["light", "dark"]);
   const choices: Choices = {
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
-    theme: chosen("theme", ["light", "dark"]) ?? (prefersDark ? "dark" : "light"),
+    theme: theme ?? systemTheme(),
+    themeChosen: theme !== undefined,
     push: false,
     impulse: 1,
     view: loadViewRequest(new URLSearchParams(location.search), () => localStorage),

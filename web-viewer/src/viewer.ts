@@ -160,7 +160,7 @@ export class Viewer {
     if (session.facts) this.subscription.setSpeeds(this.page.needsSpeeds);
     const shown = session.states.shown(wall);
     this.ranges.update(this.session.facts, shown, now);
-    camera.insets = this.page.insets();
+    camera.cover(this.page.covered);
     camera.advance(this.clock.elapsed, reducedMotion.matches);
     const state = {
       view: camera.view(),

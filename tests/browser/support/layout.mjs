@@ -1,12 +1,15 @@
-// Finds elements of the page that overlap or are cut off.
+// Finds elements of the page that overlap, are cut off, or cover the scene.
+import { control } from "./browser.mjs";
 
-const narrow = 720; // px: up to this width the panel covers the page
-
-/** Returns the faults as text. It is a fault if fewer than `least` elements are visible. */
-export async function collisions(page, least) {
-  const { width, height, boxes } = await page.evaluate(() => ({
+/** The places of the page's elements. */
+function boxesOf(page) {
+  return page.evaluate(() => ({
     width: innerWidth,
     height: innerHeight,
+    scrolls: document.scrollingElement.scrollWidth > innerWidth || document.scrollingElement.scrollHeight > innerHeight,
+    wide: Array.from(document.querySelectorAll("header, .facts > *, .controls > *, .lil-root, .lil-root > *"))
+      .filter((element) => element.scrollWidth > element.clientWidth)
+      .map((element) => element.className || element.tagName),
     boxes: Array.from(document.querySelectorAll("#page > *, .facts > *, .controls > *, header > *, .transport > *"))
       .filter((element) => !element.matches(".foot, header, .toasts, dialog"))
       .map((element) => ({
@@ -16,8 +19,16 @@ export async function collisions(page, least) {
       }))
       .filter((box) => box.width > 0 && box.height > 0),
   }));
+}
+
+const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+
+/** Returns the faults as text. It is a fault if fewer than `least` elements are visible. */
+export async function collisions(page, least) {
+  const { width, height, scrolls, wide, boxes } = await boxesOf(page);
   const faults = boxes.length < least ? [`only ${boxes.length} parts`] : [];
-  const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+  faults.push(...wide.map((name) => `the content of ${name} is wider`));
+  if (scrolls) faults.push("the page scrolls");
   const holds = (a, b) => b.within.startsWith("transport") && a.name === "transport";
   boxes.forEach((box, i) => {
     if (box.left < 0 || box.top < 0 || box.right > width || box.bottom > height) faults.push(`${box.name} is cut off`);
@@ -30,18 +41,47 @@ export async function collisions(page, least) {
   return faults;
 }
 
+/** Shows or hides the panel. */
+export async function showPanel(page, shown) {
+  if ((await page.isVisible(control("panel"))) !== shown) await page.click(control("panel-toggle"));
+}
+
 /** Returns the faults at widths from a phone to a large screen, with the panel shown and hidden. */
 export async function collisionsByWidth(page, least) {
   const found = [];
-  for (const width of [360, 390, 480, narrow, narrow + 1, 800, 960, 1079, 1080, 1100, 1280, 1440, 1920]) {
+  for (const width of [360, 390, 480, 720, 721, 800, 960, 1079, 1080, 1100, 1280, 1440, 1920]) {
     await page.setViewportSize({ width, height: 800 });
-    for (const open of width > narrow ? [true, false] : [false]) {
-      await page.evaluate((wanted) => {
-        const panel = document.querySelector('[data-testid="panel"]');
-        if ((panel.offsetHeight > 0) !== wanted) document.querySelector('[data-testid="panel-toggle"]').click();
-      }, open);
+    for (const open of [true, false]) {
+      await showPanel(page, open);
       found.push({ width, faults: await collisions(page, least) });
     }
   }
   return found;
+}
+
+/**
+ * Waits until the picture has moved to the part of the canvas that is free. Returns which elements cover the rectangle
+ * around the bounds of the scene, and whether it leaves the window.
+ */
+export async function coverings(page) {
+  await page.evaluate(async () => {
+    const placeOf = () => JSON.stringify(spherule.project(spherule.session.facts.origin));
+    for (let still = 0, last; still < 4; still = last === placeOf() ? still + 1 : 0) {
+      last = placeOf();
+      await new Promise(requestAnimationFrame);
+    }
+  });
+  const scene = await page.evaluate(() => {
+    const { min, max } = spherule.session.facts;
+    const points = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => min.map((low, axis) => ((k >> axis) & 1 ? max[axis] : low)));
+    const places = points.map((point) => spherule.project(point));
+    const [xs, ys] = [places.map(([x]) => x), places.map(([, y]) => y)];
+    return { left: Math.min(...xs), right: Math.max(...xs), top: Math.min(...ys), bottom: Math.max(...ys) };
+  });
+  const { width, height, boxes } = await boxesOf(page);
+  const { left, right, top, bottom } = scene;
+  const inside = left >= 0 && top >= 0 && right <= width && bottom <= height;
+  const covering = boxes.filter((box) => !apart(box, scene)).map(({ name }) => `${name} covers the scene`);
+  const size = Math.max((right - left) / width, (bottom - top) / height);
+  return [...(inside ? [] : ["the scene leaves the window"]), ...covering, ...(size < 0.25 ? ["it is tiny"] : [])];
 }

@@ -1,8 +1,10 @@
 import type { Facts } from "../model/facts";
+import { freePart } from "./free_part";
+import type { Box } from "./free_part";
 import { approached, framing, near, orbited, panned, poseFrom, zoomed } from "./orbit";
 import type { Pose } from "./orbit";
-import { viewOf } from "./view";
-import type { Insets, View } from "./view";
+import { extentOf, tangentPerPixel, viewOf } from "./view";
+import type { Extent, Insets, View } from "./view";
 
 const orbitSpeed = 0.006; // radians per pixel
 const ease = 70; // ms, time constant with which the pose approaches the goal
@@ -10,21 +12,32 @@ const ease = 70; // ms, time constant with which the pose approaches the goal
 /** A camera whose movements set a goal pose, which the shown pose approaches smoothly. */
 export class Camera {
   pose: Pose = { target: [0, 0, 0], distance: 5, azimuth: -1, elevation: 0.4 };
-  insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
   private goal: Pose = this.pose;
   private home: Pose = this.pose;
-  private fieldOfView = 45;
-  private extent = 10; // m, diagonal of the bounds
+  private extent: Extent = { horizontal: 0, vertical: 0, least: 0.4 }; // of the scene, in the home pose
+  private diagonal = 10; // m, of the bounds
   private size: [number, number] = [1, 1];
-  private current: View = viewOf(this.pose, 45, 1, 1, this.insets, 10);
+  private covered: readonly Box[] = [];
+  private insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
+  private insetsGoal: Insets = this.insets;
+  private jumps = true; // the next insets are taken at once
+  private current: View = viewOf(this.pose, this.extent, 1, 1, this.insets, 10);
 
   /** Takes the scene's camera, or one that sees all of its bounds. `stay`: keeps the present pose. */
   look(facts: Facts, stay: boolean): void {
-    this.fieldOfView = facts.fieldOfView;
-    this.extent = Math.hypot(facts.max[0] - facts.min[0], facts.max[1] - facts.min[1], facts.max[2] - facts.min[2]);
+    this.diagonal = Math.hypot(facts.max[0] - facts.min[0], facts.max[1] - facts.min[1], facts.max[2] - facts.min[2]);
     const { eye, target } = facts;
     this.home = eye && target ? poseFrom(eye, target) : framing(facts.min, facts.max, facts.fieldOfView);
+    this.extent = extentOf(this.home, facts.fieldOfView, facts.min, facts.max);
     if (!stay) this.pose = this.goal = this.home;
+    this.findFreePart(!stay);
+  }
+
+  /** `boxes`: what covers the canvas. The picture moves to the part in which it is largest. */
+  cover(boxes: readonly Box[]): void {
+    if (boxes === this.covered) return;
+    this.covered = boxes;
+    this.findFreePart(false);
   }
 
   reset(): void {
@@ -38,6 +51,7 @@ export class Camera {
 
   resize(width: number, height: number): void {
     this.size = [Math.max(1, width), Math.max(1, height)];
+    this.findFreePart(true);
   }
 
   orbit(dx: number, dy: number): void {
@@ -55,20 +69,22 @@ export class Camera {
     const { top, right, bottom, left } = this.insets;
     const dx = x === undefined ? 0 : x - (this.size[0] + left - right) / 2;
     const dy = y === undefined ? 0 : y - (this.size[1] + top - bottom) / 2;
-    this.goal = zoomed(this.goal, factor, dx * metres, -dy * metres, [0.01 * this.extent, 8 * this.extent]);
+    this.goal = zoomed(this.goal, factor, dx * metres, -dy * metres, [0.01 * this.diagonal, 8 * this.diagonal]);
   }
 
-  /** Moves the pose by `elapsed` ms. `still`: to the goal at once. Returns false if it has reached its goal. */
-  advance(elapsed: number, still = false): boolean {
-    if (this.pose === this.goal) return false;
+  /** Moves pose and insets by `elapsed` ms. `still`: to their goals at once. */
+  advance(elapsed: number, still = false): void {
     const share = still ? 1 : 1 - Math.exp(-elapsed / ease);
-    this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, share);
-    return true;
+    this.insets = this.jumps ? this.insetsGoal : between(this.insets, this.insetsGoal, share);
+    this.jumps = false;
+    if (this.pose !== this.goal) {
+      this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, share);
+    }
   }
 
   view(): View {
-    const reach = 3 * this.extent + Math.hypot(...this.pose.target.map((t, i) => t - (this.home.target[i] ?? 0)));
-    this.current = viewOf(this.pose, this.fieldOfView, this.size[0], this.size[1], this.insets, reach);
+    const reach = 3 * this.diagonal + Math.hypot(...this.pose.target.map((t, i) => t - (this.home.target[i] ?? 0)));
+    this.current = viewOf(this.pose, this.extent, this.size[0], this.size[1], this.insets, reach);
     return this.current;
   }
 
@@ -77,7 +93,21 @@ export class Camera {
     return this.current;
   }
 
+  /** `jumps`: the picture goes there at once. */
+  private findFreePart(jumps: boolean): void {
+    const [width, height] = this.size;
+    this.insetsGoal = freePart(width, height, this.covered, (w, h) => 1 / tangentPerPixel(this.extent, w, h));
+    this.jumps ||= jumps;
+  }
+
   private metresPerPixel(): number {
     return (2 * this.goal.distance * this.current.halfTangent) / this.size[1];
   }
+}
+
+/** Insets on the way from one to another, by `share` in 0..1; the last half pixel is one step. */
+function between(from: Insets, to: Insets, share: number): Insets {
+  const part = (side: keyof Insets): number =>
+    Math.abs(to[side] - from[side]) < 0.5 ? to[side] : from[side] + share * (to[side] - from[side]);
+  return { top: part("top"), right: part("right"), bottom: part("bottom"), left: part("left") };
 }

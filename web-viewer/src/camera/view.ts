@@ -1,4 +1,5 @@
 import * as mat4 from "gl-matrix/esm/mat4.js";
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import { eyeOf, rotationOf } from "./orbit";
 import type { Pose } from "./orbit";
 import type { Vec3 } from "../model/facts";
@@ -24,24 +25,60 @@ export interface View {
 }
 
 /**
- * Computes the matrices. The pose's target lies in the middle of the part of the canvas that is not covered. `reach`: m
- * around the target that are visible.
+ * The least extent of the picture in the free part of the canvas: tangents of the angles at the eye between the view's
+ * axis and the edges of the picture.
+ */
+export interface Extent {
+  horizontal: number;
+  vertical: number;
+  least: number; // in both directions: half the field of view
+}
+
+const widest = 16 / 9; // the aspect ratio for which scenes choose their cameras
+const margin = 1.04;
+
+/** The extent that shows the box from a pose. Parts of the box outside of the pose's own 16:9 picture do not count. */
+export function extentOf(pose: Pose, fieldOfView: number, min: Vec3, max: Vec3): Extent {
+  const least = Math.tan((fieldOfView * Math.PI) / 360);
+  const eye = eyeOf(pose);
+  const rotation = rotationOf(pose);
+  let [horizontal, vertical] = [0, 0];
+  for (let corner = 0; corner < 8; corner++) {
+    const point: Vec3 = [(corner & 1 ? max : min)[0], (corner & 2 ? max : min)[1], (corner & 4 ? max : min)[2]];
+    const from = vec3.subtract([0, 0, 0], point, eye);
+    const [x, y, z] = vec3.transformMat4([0, 0, 0], from, rotation) as Vec3;
+    const depth = Math.max(1e-9, -z); // a corner behind the eye is outside of every picture
+    horizontal = Math.max(horizontal, Math.abs(x) / depth);
+    vertical = Math.max(vertical, Math.abs(y) / depth);
+  }
+  return {
+    horizontal: Math.min(margin * horizontal, widest * least),
+    vertical: Math.min(margin * vertical, least),
+    least,
+  };
+}
+
+/** The tangent per pixel with which a free part of this size (CSS pixels) shows the extent. */
+export function tangentPerPixel({ horizontal, vertical, least }: Extent, width: number, height: number): number {
+  // The field of view applies to the shorter side, so that an upright phone sees as much as a desktop.
+  return 2 * Math.max(least / Math.min(width, height), horizontal / width, vertical / height);
+}
+
+/**
+ * Computes the matrices. The pose's target lies in the middle of the part of the canvas that is not covered, and this
+ * part shows the extent. `reach`: m around the target that are visible.
  */
 export function viewOf(
   pose: Pose,
-  fieldOfView: number,
+  extent: Extent,
   width: number,
   height: number,
   insets: Insets,
   reach: number,
 ): View {
-  const free = {
-    width: Math.max(1, width - insets.left - insets.right),
-    height: Math.max(1, height - insets.top - insets.bottom),
-  };
-  // The field of view applies to the shorter side of the free part, so that an upright phone sees as much as a desktop.
-  const scale = height / Math.min(free.height, free.width);
-  const halfTangent = Math.tan((fieldOfView * Math.PI) / 360) * scale;
+  const freeWidth = Math.max(1, width - insets.left - insets.right);
+  const freeHeight = Math.max(1, height - insets.top - insets.bottom);
+  const halfTangent = 0.5 * height * tangentPerPixel(extent, freeWidth, freeHeight);
   const near = Math.max(pose.distance * 0.01, pose.distance - reach);
   const far = pose.distance + reach;
   const projection = mat4.perspective(mat4.create(), 2 * Math.atan(halfTangent), width / height, near, far);

@@ -1,10 +1,20 @@
 import type { Controller } from "lil-gui";
+import type GUI from "lil-gui";
 
 /** Marks a controller of the panel for tests, which then do not depend on the panel's markup. */
 export function tag<C extends Controller>(id: string, controller: C): C {
   controller.domElement.dataset.control = id;
   controller.domElement.querySelector("input:not([type=range]), select, button")?.setAttribute("data-testid", id);
   return controller;
+}
+
+/** Tells assistive software which controls belong together. */
+export function nameFolders(gui: GUI): void {
+  gui.foldersRecursive().forEach(({ domElement, $title }, i) => {
+    $title.id = `folder-${i}`;
+    domElement.setAttribute("role", "group");
+    domElement.setAttribute("aria-labelledby", $title.id);
+  });
 }
 
 /** A set of controllers that are disabled together, with a reason as their tooltip. */

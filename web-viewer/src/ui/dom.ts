@@ -34,6 +34,11 @@ export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Sets the tooltip if it has changed. */
+export function setTitle(element: HTMLElement, title: string): void {
+  if (element.title !== title) element.title = title;
+}
+
 /** A row of a table. `warning`: why the value is highlighted. */
 export type Row = [id: string, name: string, value: string, warning?: string, title?: string];
 

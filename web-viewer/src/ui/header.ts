@@ -3,12 +3,31 @@ import { blockedReasonOf } from "../model/control_state";
 import type { ControlState } from "../model/control_state";
 import type { Graphics } from "../model/page_state";
 import type { Session } from "../model/session";
-import { h, setText } from "./dom";
+import { h, icon, setText, setTitle } from "./dom";
+
+const info = "M10 3.2a6.8 6.8 0 1 1 0 13.6 6.8 6.8 0 0 1 0-13.6zM10 9.2v4.2M10 6.6v.1";
 
 /** Shows the scene's name and the state of the connection. */
 export class Header {
-  private readonly scene = h("h1", { "data-testid": "scene-name" }, "Spherule");
-  private readonly description = h("p", { "data-testid": "scene-description" });
+  private readonly scene = h("h1", { dir: "auto", "data-testid": "scene-name" }, "Spherule");
+  private readonly description = h("p", {
+    class: "description",
+    dir: "auto",
+    "data-testid": "scene-description",
+  });
+  private readonly about = h(
+    "button",
+    {
+      class: "about",
+      type: "button",
+      title: "About the scene",
+      "aria-label": "About the scene",
+      "data-testid": "about",
+      hidden: true,
+      click: () => this.describe(!this.element.classList.contains("described")),
+    },
+    icon(info),
+  );
   private readonly dot = h("i");
   private readonly text = h("span", { "data-testid": "connection" });
   private readonly role = h("span", { class: "role", "data-testid": "role", hidden: true }, "watching");
@@ -21,8 +40,11 @@ export class Header {
   ) {
     const attributes = { class: "link", type: "button", "data-testid": "retry", click: retry };
     this.link = h("button", attributes, this.dot, this.text);
-    const brand = h("div", { class: "brand" }, h("span", { class: "mark" }), "Spherule", this.link, this.role);
-    this.element = h("header", {}, brand, this.scene, this.description);
+    const product = [h("span", { class: "mark" }), h("span", { class: "product" }, "Spherule")];
+    const brand = h("div", { class: "brand" }, ...product, this.link, this.role);
+    const title = h("div", { class: "title" }, this.scene, this.about);
+    this.element = h("header", {}, brand, title, this.description);
+    this.describe(false);
   }
 
   /** `now`: ms, as sharedNow() counts. */
@@ -36,7 +58,16 @@ export class Header {
     this.role.title = blockedReasonOf(control);
     if (!session.facts) return;
     setText(this.scene, session.facts.name);
+    setTitle(this.scene, session.facts.name);
     setText(this.description, session.facts.description);
+    setTitle(this.description, session.facts.description);
+    this.about.hidden = this.description.hidden || session.facts.description === "";
+  }
+
+  /** Shows or hides the description where the screen has no room for it. */
+  private describe(shown: boolean): void {
+    this.element.classList.toggle("described", shown);
+    this.about.setAttribute("aria-expanded", String(shown));
   }
 
   private textFor(state: string, now: number): string {

@@ -51,6 +51,7 @@ export class Help {
     else {
       this.element.showModal();
       this.element.focus(); // else the check box has the focus, and space would change it
+      this.element.scrollTop = 0;
     }
   }
 }

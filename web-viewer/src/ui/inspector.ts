@@ -5,27 +5,33 @@ import { shownPosition } from "../model/positions";
 import { modes, quantityOf } from "../model/quantities";
 import { Selection } from "../model/selection";
 import type { Shown } from "../model/states";
-import { h, setText } from "./dom";
+import { h, setText, setTitle } from "./dom";
 
 /** Shows the selected sphere: its position and its quantities. */
 export class Inspector {
   readonly selection = new Selection();
   private readonly name = h("h2", { "data-testid": "inspected" });
-  private readonly text = h("p");
+  private readonly lines = h("div");
   private readonly removal: HTMLButtonElement;
   private removing = false; // the command has no result yet
   readonly element: HTMLElement;
 
   /** `remove` is given the id of the sphere to remove. */
   constructor(private readonly remove: (id: number) => Promise<Outcome>) {
-    const deselect = { type: "button", title: "Deselect (Esc)", click: () => this.selection.clear() };
+    const deselect = {
+      type: "button",
+      class: "close",
+      title: "Deselect (Esc)",
+      "aria-label": "Deselect",
+      click: () => this.selection.clear(),
+    };
     const click = (): void => void this.removeSelected();
     this.removal = h("button", { type: "button", class: "remove", "data-testid": "remove", click }, "Remove");
     this.element = h(
       "section",
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
       h("div", { class: "row" }, this.name, h("button", deselect, "×")),
-      this.text,
+      this.lines,
       this.removal,
     );
   }
@@ -47,9 +53,20 @@ export class Inspector {
     if (!known) return;
     const lines = modes.flatMap((mode) => quantityOf(mode).describe?.(facts, shown, place) ?? []);
     setText(this.name, `Sphere ${count(id)}`);
-    setText(this.text, [`at ${vector(shownPosition(facts, shown, place), 3)} m`, ...lines].join("\n"));
+    this.show([`at ${vector(shownPosition(facts, shown, place), 3)} m`, ...lines]);
     this.removal.hidden = playing;
     this.removal.disabled = blockedReason !== "";
     this.removal.title = blockedReason || "Remove the sphere (Del)";
+  }
+
+  /** Each text has a line of its own, whatever it contains. */
+  private show(texts: string[]): void {
+    while (this.lines.childElementCount > texts.length) this.lines.lastElementChild?.remove();
+    texts.forEach((text, i) => {
+      const line = this.lines.children[i] ?? this.lines.appendChild(h("p"));
+      if (!(line instanceof HTMLElement)) return;
+      setText(line, text);
+      setTitle(line, text);
+    });
   }
 }

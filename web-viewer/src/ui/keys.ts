@@ -9,7 +9,7 @@ export interface Key {
   act(): void;
 }
 
-/** Keys that move a focused slider. */
+/** Keys that move a focused slider, and that scroll a dialog. */
 const sliderKeys = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"];
 
 type Store = Pick<Storage, "getItem" | "setItem">;
@@ -66,7 +66,7 @@ export function listenForKeys(keys: () => Key[], characters: CharacterKeys): voi
 /** Whether the focused element handles the key itself. */
 function handlesKey(target: HTMLElement, key: string): boolean {
   if (target.matches("button, input[type=checkbox]")) return key === " " || key === "Enter";
-  if (target.matches("input[type=range]")) return sliderKeys.includes(key);
+  if (target.matches("input[type=range], dialog")) return sliderKeys.includes(key);
   if (key === "Escape") return target.matches("input[data-edited]");
   return target.matches("input, select, textarea");
 }

@@ -8,7 +8,7 @@ import { h, setText } from "./dom";
 
 /** Explains the colours. */
 export class Legend {
-  private readonly title = h("h2", { "data-testid": "legend-title" });
+  private readonly title = h("span", { "data-testid": "legend-title" });
   private readonly body = h("div", { class: "scale" });
   private readonly low = h("span", { "data-testid": "legend-low" });
   private readonly high = h("span", { "data-testid": "legend-high" });
@@ -31,7 +31,7 @@ export class Legend {
     this.element = h(
       "section",
       { class: "legend", "data-testid": "legend", "aria-label": "Colours" },
-      h("div", { class: "row" }, this.head, this.lock),
+      h("div", { class: "row" }, h("h2", {}, this.head), this.lock),
       this.body,
     );
   }
@@ -61,11 +61,12 @@ export class Legend {
       const bar = h("div", { class: "bar", style: `background: ${rampGradient(content.bar)}` });
       return [bar, h("div", { class: "ends" }, this.low, this.high)];
     }
-    return [...content.swatches.map(swatchOf), ...content.notes.map((note) => h("p", {}, note))];
+    const swatches = h("div", { class: "swatches" }, ...content.swatches.map(swatchOf));
+    return [swatches, ...content.notes.map((note) => h("p", {}, note))];
   }
 }
 
 function swatchOf({ colour, name, figure }: Swatch): HTMLElement {
   const sample = h("i", { style: `background: ${css(colour)}` });
-  return h("div", { class: "swatch" }, sample, h("span", {}, name), h("b", {}, figure));
+  return h("div", { class: "swatch" }, sample, h("bdi", { title: name }, name), h("b", {}, figure));
 }

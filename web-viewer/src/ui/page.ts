@@ -1,5 +1,5 @@
 import type { Camera } from "../camera/camera";
-import type { Insets } from "../camera/view";
+import type { Box } from "../camera/free_part";
 import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
@@ -28,6 +28,7 @@ import { Prompt } from "./prompt";
 import { RecordButton, recordingEnd } from "./record";
 import { StatusLine } from "./status";
 import { Steering } from "./steering";
+import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
@@ -38,7 +39,7 @@ export interface PageActions extends PanelActions {
   camera: Camera;
 }
 
-const narrow = window.matchMedia("(width <= 720px)");
+const small = window.matchMedia("(width <= 720px) or (height <= 480px)");
 const figurePeriod = 200; // ms; figures that change faster cannot be read
 
 /** All elements over the canvas. */
@@ -49,6 +50,8 @@ export class Page {
   readonly playback: Playback;
   readonly prompt: Prompt;
   readonly steering: Steering;
+  /** Where elements cover the canvas; another array after each change. */
+  covered: readonly Box[] = [];
   private readonly header: Header;
   private readonly change: ChangeLine;
   private readonly notices: Notices;
@@ -60,8 +63,6 @@ export class Page {
   private readonly characters = new CharacterKeys(() => localStorage);
   private readonly help = new Help(this.characters);
   private readonly keys: () => Key[];
-  private readonly deck: HTMLElement;
-  private deckHeight = 56; // px
   private playing = false; // the server plays a recording
   private lastFigures = 0; // ms
 
@@ -73,10 +74,20 @@ export class Page {
     private readonly choices: Choices,
     actions: PageActions,
   ) {
-    const themeChanged = (theme: ThemeName): void => {
+    const showTheme = (theme: ThemeName): void => {
       document.documentElement.dataset.theme = theme;
       actions.themeChanged(theme);
     };
+    const themeChanged = (theme: ThemeName): void => {
+      choices.themeChosen = true;
+      showTheme(theme);
+    };
+    whenSystemThemeChanges((theme) => {
+      if (choices.themeChosen) return;
+      choices.theme = theme;
+      showTheme(theme);
+      this.panel.refresh();
+    });
     this.panel = new Panel(commands, choices, { ...actions, themeChanged });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.header = new Header(session, actions.retry);
@@ -123,13 +134,17 @@ export class Page {
     this.playback = new Playback(session, commands, () => this.needsSpeeds);
     const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    const controls = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
-    this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, ...controls));
-    const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
+    const lines = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
+    const controls = h("div", { class: "controls" }, ...lines);
+    const deck = h("div", { class: "deck" }, controls);
+    const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, deck));
     container.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
-    new ResizeObserver(() => this.measureDeck()).observe(this.deck);
+    panel.element.setAttribute("role", "region");
+    panel.element.setAttribute("aria-label", "Controls");
+    const covering = [header, inspector, legend, panel, status].map(({ element }) => element);
+    this.observe([...covering, controls]);
     document.documentElement.dataset.theme = choices.theme;
-    this.showPanel(!narrow.matches);
+    this.showPanel(!small.matches);
     this.help.describe(this.keys(), this.playing);
   }
 
@@ -172,13 +187,6 @@ export class Page {
     else this.toasts.show("Server", event.text, "plain");
   }
 
-  /** The margins of the canvas that the page's elements cover (CSS pixels). */
-  insets(): Insets {
-    if (narrow.matches) return { top: 60, right: 0, bottom: this.deckHeight + 104, left: 0 };
-    const open = !this.container.classList.contains("panel-closed");
-    return { top: 24, right: open ? 304 : 0, bottom: this.deckHeight + 56, left: 0 };
-  }
-
   private showNotices(state: PageState, graphics: Graphics, now: number): void {
     const { refusal, farewell, status, divergence, facts } = this.session;
     const outside = this.playing ? 0 : this.outside.due(status?.outside ?? 0);
@@ -211,10 +219,13 @@ export class Page {
     this.help.describe(this.keys(), playing);
   }
 
-  /** On a narrow screen the panel lies above the deck: passes the deck's height to the style sheet. */
-  private measureDeck(): void {
-    this.deckHeight = this.deck.offsetHeight;
-    this.container.style.setProperty("--deck", `${this.deckHeight}px`);
+  /** Measures where the elements cover the canvas. They move only if one of them or the page changes its size. */
+  private observe(elements: HTMLElement[]): void {
+    const observer = new ResizeObserver(() => {
+      const boxes = elements.map((element) => element.getBoundingClientRect());
+      this.covered = boxes.filter(({ width, height }) => width > 0 && height > 0);
+    });
+    for (const element of [this.container, ...elements]) observer.observe(element);
   }
 
   private toggle(): void {

@@ -11,7 +11,7 @@ import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
-import { Restriction, tag } from "./controllers";
+import { nameFolders, Restriction, tag } from "./controllers";
 import { Dial } from "./dial";
 import { Entry } from "./entry";
 import type { EntryRule } from "./entry";
@@ -36,6 +36,7 @@ export interface Choices {
   modeChosen: boolean; // false: the scene determines the mode
   quality: RenderQualityChoice;
   theme: ThemeName;
+  themeChosen: boolean; // false: the system determines the theme
   push: boolean;
   impulse: number; // N s
   view: ViewRequest;
@@ -93,7 +94,7 @@ export class Panel {
     readonly choices: Choices,
     private readonly actions: PanelActions,
   ) {
-    this.gui = new GUI({ autoPlace: false, injectStyles: false, title: "Controls", width: 288 });
+    this.gui = new GUI({ autoPlace: false, injectStyles: false, touchStyles: 0, title: "Controls", width: 288 });
     this.element = this.gui.domElement;
     this.element.dataset.testid = "panel";
     this.scene = tag("scene", this.gui.add(this.world, "scene", [""]).name("Scene")) as OptionController;
@@ -109,6 +110,7 @@ export class Panel {
     this.access = this.gui.addFolder("Access").hide();
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
+    nameFolders(this.gui);
     this.restriction = new Restriction([this.scene, ...this.steering.flatMap((folder) => folder.controllers)]);
   }
 
@@ -262,6 +264,8 @@ export class Panel {
     const parts = axes.map((axis) => folder.add(world, axis).step(0.01).name(axis));
     parts.forEach((part, i) => {
       const id = `gravity-${axes[i]}`;
+      const name = `${preset.$name.id} ${part.$name.id}`;
+      part.domElement.querySelector("input")?.setAttribute("aria-labelledby", name);
       this.number(id, part, () => gravityRule, parts[2]?.domElement).onFinishChange(() => setGravity(id));
     });
     const add = (id: "restitution" | "friction" | "speed", [low, high, step]: number[], rule: EntryRule): void => {

@@ -54,7 +54,7 @@ export class Transport {
     this.unit = h("button", { type: "button", "data-testid": "step-many", click: stepMany });
     this.reset = button("reset", () => actions.reset(), icons.reset);
     this.element = h(
-      "nav",
+      "section",
       { class: "transport" },
       this.pause,
       this.step,
