@@ -131,7 +131,7 @@ test("a model's own substeps follow gravity, and others are kept", async () => {
 test("diagnostics are updated regularly", async () => {
   const step = await page.evaluate(() => Number(spherule.session.diagnostics.statistics.step));
   await when(page, (then) => spherule.session.diagnostics.statistics.step > then, step);
-  assert.match(await text("statistics-energy"), / J$/);
+  assert.match(await text("statistics-energy"), / [nµmkMGT]?J$/);
   assert.match(await text("statistics-overlap-mean"), / %$/);
   assert.match(await text("statistics-step-time"), / ms$/);
   assert.match(await text("statistics-restitution"), /^not measured$|^\S+ of 0\.\d+$|^–$/);
@@ -142,7 +142,7 @@ test("diagnostics are updated regularly", async () => {
 
 test("forces on the walls are among the diagnostics, in a scene with contact sums", async () => {
   assert.match(await text("statistics-collisions"), /^[\d\u202f]+$/);
-  assert.match(await text("statistics-dissipated"), / J$/);
+  assert.match(await text("statistics-dissipated"), / [nµmkMGT]?J$/);
   assert.match(await text("statistics-force-Z_MIN"), /^\S+ {2}\S+ {2}−\S+$/);
   assert.notEqual(await text("statistics-torque-X_MAX"), "");
 });
