@@ -71,7 +71,7 @@ TEST_P(ContactCounts, AreThoseOfAllPairsAndSurfaces) {
         ASSERT_TRUE(scene::fitSubsteps(scene));
         auto simulation = simulate(scene);
         run(*simulation, GetParam() == scene::Model::Accurate ? 0.05 : 0.3);
-        const std::vector<std::uint32_t> counts = simulation->pipeline().contactCounts();
+        const std::vector<std::uint32_t> counts = simulation->contactCounts();
         const sim::State state = simulation->snapshot();
         const std::vector<int> expected = countsOf(simulation->scene(), state);
         int sure = 0;
@@ -99,7 +99,7 @@ TEST(ContactCounts, OfDustAreWalls) {
     measure::addSphere(scene, {0, 0.01, -0.46}, 0.05);
     measure::addSphere(scene, {0.46, 0.46, 0}, 0.05);
     measure::addSphere(scene, {0.3, 0.3, 0}, 0.05);
-    EXPECT_EQ(simulate(scene)->pipeline().contactCounts(), (std::vector<std::uint32_t>{1, 1, 2, 0}));
+    EXPECT_EQ(simulate(scene)->contactCounts(), (std::vector<std::uint32_t>{1, 1, 2, 0}));
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST_P(Fixed, SpheresDoNotMeetEachOther) {
     EXPECT_EQ(statistics.overlapMax, 0);
     EXPECT_EQ(simulation->counters().pairs, simulation->counters().pairs / PAIR_PADDING * PAIR_PADDING)
         << "no pair is listed";
-    EXPECT_EQ(simulation->pipeline().contactCounts(), std::vector<std::uint32_t>(21, 0U));
+    EXPECT_EQ(simulation->contactCounts(), std::vector<std::uint32_t>(21, 0U));
 }
 
 // A sphere leaves a fixed one as two-body mechanics says for an infinite mass: e along the normal, and friction that
@@ -207,7 +207,7 @@ TEST_P(SleepOnFixed, SpheresCarryASleeper) {
     EXPECT_NEAR(positionOf(state, 3).z, std::sqrt(4 * r * r - 0.11 * 0.11), 2e-3);
     // In `fast`, the last push of a substep may leave gaps.
     const std::uint32_t least = GetParam() == scene::Model::Balanced ? 3 : 1;
-    EXPECT_GE(simulation->pipeline().contactCounts()[3], least);
+    EXPECT_GE(simulation->contactCounts()[3], least);
     EXPECT_EQ(simulation->statistics().sleeping, 1U) << "a fixed sphere does not sleep";
     run(*simulation, 2);
     EXPECT_TRUE(asleep(simulation->snapshot(), 3)) << "nothing wakes it";

@@ -20,6 +20,7 @@ namespace {
 // Returns the slots of all pairs that are closer than the margin. It computes with floats, as the kernel does.
 std::vector<SlotPair> withinMargin(sim::Simulation& simulation) {
     auto at = simulation.pipeline().read<glm::vec4>(sim::Array::ListReference);
+    at.resize(simulation.count());  // the array has room for more spheres
     const auto radii = simulation.pipeline().read<glm::vec4>(sim::Array::Position);
     for (std::size_t slot = 0; slot < at.size(); ++slot) at[slot].w = radii[slot].w;
     const float margin = simulation.plan().grid.margin;

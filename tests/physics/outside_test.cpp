@@ -203,7 +203,8 @@ TEST(Outside, ContactListsOfALeavingSwarmAreComplete) {
         std::size_t touching = 0;
         for (int k = 0; k < 150; ++k) {
             run(*simulation, scene.step);
-            const auto place = simulation->pipeline().read<glm::vec4>(sim::Array::Position);
+            auto place = simulation->pipeline().read<glm::vec4>(sim::Array::Position);
+            place.resize(simulation->count());
             const auto listed = listedPairs(*simulation);
             for (std::uint32_t a = 0; a < place.size(); ++a) {
                 for (std::uint32_t b = a + 1; b < place.size(); ++b) {

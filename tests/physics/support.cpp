@@ -104,6 +104,7 @@ using Words = std::vector<std::uint32_t>;
 
 Words idsOf(sim::Simulation& simulation) {
     Words ids = simulation.pipeline().read<std::uint32_t>(sim::Array::IdAndMaterial);
+    ids.resize(simulation.count());  // the arrays have room for more spheres
     for (std::uint32_t& id : ids) id &= 0xffffffU;
     return ids;
 }
