@@ -75,6 +75,7 @@ function sceneAt(at) {
     position: point(0.3 + 0.35 * (k % 5), 0.3 + 0.35 * (Math.floor(k / 5) % 4), 0.3 + 0.4 * Math.floor(k / 20)),
   }));
   const scene = {
+    name: "far", // one name: the picture lies beside it
     gravity: [0, 0, 0],
     bounds: { min: point(0, 0, 0), max: point(2, 2, 2) },
     obstacles: [
