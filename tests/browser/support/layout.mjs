@@ -1,8 +1,9 @@
 // Finds elements of the page that overlap, are cut off, or cover the scene.
 import { control } from "./browser.mjs";
 
-/** The places of the page's elements. */
-function boxesOf(page) {
+/** The places of the elements, in the next frame but one: elements may take a frame to follow their containers. */
+async function boxesOf(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return page.evaluate(() => ({
     width: innerWidth,
     height: innerHeight,

@@ -89,6 +89,6 @@ export class FrameRenderer {
     scene.draw(facts, shown, state, eye, this.environment, this.spheres, shadow);
     target.end();
     const [smallest, largest] = facts.population.radiusRange;
-    post.draw(state.view, 2.2 * (smallest + largest) * 0.5, state.dim);
+    post.draw(state.view, 2.2 * (smallest + largest) * 0.5, state.dim, theme.haze);
   }
 }

@@ -31,8 +31,8 @@ export class PostPass {
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.openness, 0);
   }
 
-  /** `reach`: m within which surfaces darken each other; `dim`: 0..1, how stale the image is. */
-  draw(view: View, reach: number, dim: number): void {
+  /** `reach`: m within which surfaces darken each other; `dim`: 0..1, how stale the image is; `haze`: grey over it. */
+  draw(view: View, reach: number, dim: number, haze: number): void {
     const { gl, target, composite } = this;
     gl.disable(gl.DEPTH_TEST);
     this.drawOcclusion(view, reach);
@@ -46,6 +46,7 @@ export class PostPass {
       gl.uniform2f(composite.at("u_planes"), view.near, view.far);
     }
     gl.uniform1f(composite.at("u_dim"), dim);
+    gl.uniform1f(composite.at("u_haze"), haze);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.DEPTH_TEST);
   }

@@ -13,6 +13,7 @@ export interface Theme {
   sky: number[];
   ground: number[];
   shadow: number; // strength
+  haze: number; // grey over a stale image, 0..1
 }
 
 export const themes = {
@@ -28,6 +29,7 @@ export const themes = {
     sky: [0.42, 0.46, 0.52],
     ground: [0.20, 0.19, 0.185],
     shadow: 0.86,
+    haze: 0.9,
   },
   dark: {
     backgroundTop: "#2a3239",
@@ -41,6 +43,7 @@ export const themes = {
     sky: [0.27, 0.31, 0.37],
     ground: [0.11, 0.11, 0.12],
     shadow: 0.9,
+    haze: 0.1,
   },
 } satisfies Record<string, Theme>;
 

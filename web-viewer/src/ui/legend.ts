@@ -28,6 +28,12 @@ export class Legend {
       { type: "button", class: "head", title: "Next colour mode", "data-testid": "legend-next", click: next },
       this.title,
     );
+    const { body } = this;
+    new ResizeObserver(() => {
+      const scrolls = body.scrollHeight > body.clientHeight;
+      if (scrolls) body.tabIndex = 0; // for the keyboard
+      else body.removeAttribute("tabindex");
+    }).observe(body);
     this.element = h(
       "section",
       { class: "legend", "data-testid": "legend", "aria-label": "Colours" },

@@ -3,6 +3,7 @@
 precision highp sampler2D;
 uniform sampler2D u_scene;
 uniform float u_dim;        // 0..1: how stale the image is
+uniform float u_haze;       // grey over a stale image
 #ifdef OCCLUSION
 uniform sampler2D u_occlusion;
 uniform sampler2D u_depth;
@@ -41,7 +42,7 @@ void main() {
     colour *= mix(vec3(0.30, 0.33, 0.40), vec3(1.0), openness());
 #endif
     float grey = dot(colour, vec3(0.3, 0.59, 0.11));
-    colour = mix(colour, mix(vec3(grey), vec3(0.9), 0.25), 0.75 * u_dim);
+    colour = mix(colour, mix(vec3(grey), vec3(u_haze), 0.25), 0.75 * u_dim);
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     o_colour = vec4(colour + (noise - 0.5) / 255.0, 1.0);
 }
