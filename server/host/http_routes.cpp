@@ -14,12 +14,13 @@ namespace spherule::host {
 namespace {
 
 std::string_view typeOf(std::string_view path) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> types = {{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> types = {{
         {".html", "text/html; charset=utf-8"},
         {".js", "text/javascript; charset=utf-8"},
         {".css", "text/css; charset=utf-8"},
         {".svg", "image/svg+xml"},
         {".png", "image/png"},
+        {".webp", "image/webp"},
         {".ico", "image/x-icon"},
     }};
     for (const auto& [suffix, type] : types)

@@ -115,10 +115,7 @@ export class Viewer {
   private createSession(): Session {
     return new Session((state) => this.link.recycle(state), {
       linkChanged: (change) => this.admission.linkChanged(change),
-      welcomed: (welcome) => {
-        this.admission.welcomed();
-        this.page.panel.setScenes(welcome);
-      },
+      welcomed: () => this.admission.welcomed(),
       sceneChanged: (facts, before) => {
         const same = facts.name === before?.name;
         this.camera.look(facts, same);

@@ -1,6 +1,6 @@
-// Bundles the page: index.html, viewer.js, worker.js, style.css, favicon.svg. The page fetches nothing from elsewhere.
+// Bundles the page: viewer.js, worker.js, style.css and the files of src/page. The page fetches nothing from elsewhere.
 import * as esbuild from "esbuild";
-import { copyFileSync, mkdirSync, readFileSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { generate } from "./generate.mjs";
 import { options, root } from "./options.mjs";
@@ -39,6 +39,4 @@ await esbuild.build({
   plugins: [withoutFont],
   logLevel: "warning",
 });
-for (const file of ["index.html", "favicon.svg"]) {
-  copyFileSync(path.join(root, "src/page", file), path.join(out, file));
-}
+cpSync(path.join(root, "src/page"), out, { recursive: true });

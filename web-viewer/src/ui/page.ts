@@ -10,6 +10,7 @@ import type { Shown } from "../model/states";
 import type { ThemeName } from "../renderer/theme";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
+import { Gallery } from "./gallery";
 import { Header } from "./header";
 import { Help } from "./help";
 import { Inspector } from "./inspector";
@@ -26,7 +27,7 @@ import { Steering } from "./steering";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends PanelActions {
+export interface PageActions extends Omit<PanelActions, "showScenes"> {
   retry(): void;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
@@ -52,6 +53,7 @@ export class Page {
   private readonly status: StatusLine;
   private readonly characters = new CharacterKeys(() => localStorage);
   private readonly help = new Help(this.characters);
+  private readonly gallery: Gallery;
   private readonly keys: () => Key[];
   private readonly deck: HTMLElement;
   private deckHeight = 56; // px
@@ -70,7 +72,9 @@ export class Page {
       document.documentElement.dataset.theme = theme;
       actions.themeChanged(theme);
     };
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged });
+    this.gallery = new Gallery(session, commands);
+    const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
+    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.header = new Header(session, actions.retry);
     this.legend = new Legend(ranges, () => {
@@ -103,19 +107,20 @@ export class Page {
     };
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
     this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
-    this.keys = () => (this.prompt.open ? [] : keysFor(keyActions, this.playing));
+    this.keys = () => (this.prompt.open || this.gallery.open ? [] : keysFor(keyActions, this.playing));
     listenForKeys(() => this.keys(), this.characters);
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
     const needsSpeeds = (): boolean => choices.mode === "speed" || this.inspector.selection.id !== undefined;
     this.playback = new Playback(session, commands, needsSpeeds);
-    const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
+    const { header, legend, inspector, panel, status, toasts, help, steering } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
     const controls = [this.change, steering, this.playback, this.transport].map(({ element }) => element);
     this.deck = h("div", { class: "deck" }, h("div", { class: "controls" }, ...controls));
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, this.deck));
-    container.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
+    const dialogs = [help, this.gallery, this.prompt].map(({ element }) => element);
+    container.append(header.element, foot, panel.element, status.element, toasts.element, ...dialogs);
     new ResizeObserver(() => this.measureDeck()).observe(this.deck);
     document.documentElement.dataset.theme = choices.theme;
     this.showPanel(!narrow.matches);
@@ -133,6 +138,7 @@ export class Page {
     this.playback.update(now, shown, blockedReason);
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.legend.update(this.choices.mode, this.session.facts);
+    this.gallery.update(blockedReason);
     document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;

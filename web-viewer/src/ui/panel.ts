@@ -1,8 +1,8 @@
 import GUI from "lil-gui";
-import type { Controller, OptionController } from "lil-gui";
+import type { Controller } from "lil-gui";
 import type { Commands } from "../connection/commands";
 import type { ViewRequest } from "../connection/messages";
-import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Dial as DialMessage, Settings } from "../gen/spherule/v1/control_pb";
 import type { Facts } from "../model/facts";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
@@ -12,8 +12,10 @@ import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
 import { Restriction, tag } from "./controllers";
 import { Dial } from "./dial";
-import { customGravity, dropFor, gravityPresetOf, gravityPresets, impulseFor, impulseNote } from "./presets";
-import { StatisticsTables } from "./statistics";
+import { rememberFolders } from "./folders";
+import { customGravity, gravityPresetOf, gravityPresets } from "./presets";
+import { dropCountFor, dropFor, impulseFor, impulseNote } from "./presets";
+import { StatisticsLists } from "./statistics";
 import { StreamFolder } from "./stream_folder";
 
 /** Choices of the user that concern only this page. */
@@ -32,6 +34,7 @@ export interface PanelActions {
   qualityChanged(quality: RenderQualityChoice): void;
   viewRequested(view: ViewRequest): void;
   forgetToken(): void;
+  showScenes(): void;
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
@@ -44,9 +47,8 @@ export class Panel {
   readonly element: HTMLElement;
   readonly stream: StreamFolder;
   private readonly gui: GUI;
-  private readonly statistics = new StatisticsTables();
+  private readonly statistics = new StatisticsLists();
   private readonly world = {
-    scene: "",
     gravity: "Earth",
     x: 0,
     y: 0,
@@ -63,7 +65,7 @@ export class Panel {
   private playback!: GUI; // the folder of which a recording uses the speed
   private readonly access: GUI; // hidden while there is no token
   private readonly restriction: Restriction;
-  private readonly scene: OptionController;
+  private readonly scenes: Controller;
   private readonly dial = new Dial(
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
@@ -79,20 +81,25 @@ export class Panel {
     this.gui = new GUI({ autoPlace: false, injectStyles: false, title: "Controls", width: 288 });
     this.element = this.gui.domElement;
     this.element.dataset.testid = "panel";
-    this.scene = tag("scene", this.gui.add(this.world, "scene", [""]).name("Scene")) as OptionController;
-    this.scene.onFinishChange((name: string) => void commands.load(name));
-    this.addQuality();
-    this.addWorld();
+    this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
     this.addDrop();
     this.addPush();
+    this.addGravity();
+    this.addQuality();
+    this.addWorld();
     this.addLook();
     const requested = (view: ViewRequest): void => actions.viewRequested(view);
-    this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, requested);
-    this.addStatistics();
+    const stream = this.gui.addFolder("Stream");
+    this.stream = new StreamFolder(stream, choices.view, requested);
+    const now = this.addSimulated("Now");
+    now.$children.append(this.statistics.quality.element);
+    const statistics = this.addSimulated("Statistics");
+    statistics.$children.append(this.statistics.rest.element);
     this.access = this.gui.addFolder("Access").hide();
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
-    this.restriction = new Restriction([this.scene, ...this.steering.flatMap((folder) => folder.controllers)]);
+    rememberFolders(this.gui, [stream, now, statistics], () => localStorage);
+    this.restriction = new Restriction(this.steering.flatMap((folder) => folder.controllers));
   }
 
   /** Disables all controls that send commands; an empty reason enables them. */
@@ -110,24 +117,19 @@ export class Panel {
   /** `playing`: the server plays a recording. Hides the controls that then have no effect. */
   setPlaying(playing: boolean): void {
     if (playing) this.choices.push = false;
-    this.scene.show(!playing);
+    this.scenes.show(!playing);
     for (const folder of this.simulated) folder.show(!playing);
     for (const controller of this.playback.controllers) controller.show(!playing || controller.property === "speed");
     this.playback.title(playing ? "Recording" : "World");
     this.refresh();
   }
 
-  setScenes({ scenes }: Welcome): void {
-    this.scene.options(scenes);
-  }
-
   setFacts(facts: Facts): void {
     const otherScene = facts.name !== this.facts?.name;
     this.facts = facts;
-    this.world.scene = facts.name;
     if (otherScene) {
-      const [low, high] = facts.population.radiusRange;
-      this.drop.radius = Number(((low + high) / 2 || 0.05).toPrecision(3));
+      this.drop.radius = Number((facts.population.meanRadius || 0.05).toPrecision(2));
+      this.drop.count = dropCountFor(facts, this.drop.radius);
       this.choices.impulse = impulseFor(this.drop.radius);
       if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.population.groups);
     }
@@ -191,15 +193,13 @@ export class Panel {
     return folder;
   }
 
-  private addWorld(): void {
+  private addGravity(): void {
     const { world } = this;
-    const folder = this.gui.addFolder("World");
-    this.playback = folder;
+    const folder = this.addSimulated("Gravity");
     this.steering.push(folder);
-    folder.domElement.classList.add("playback");
     const setGravity = (): void => void this.change("Gravity", { gravity: [world.x, world.y, world.z] });
     const presetNames = [...Object.keys(gravityPresets), customGravity];
-    const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Gravity, m/s²"));
+    const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Preset, m/s²"));
     preset.onFinishChange((name: string) => {
       const gravity = gravityPresets[name];
       if (!gravity) return;
@@ -210,6 +210,14 @@ export class Panel {
       const part = folder.add(world, axis).step(0.01).decimals(2).name(axis);
       tag(`gravity-${axis}`, part).onFinishChange(setGravity);
     }
+  }
+
+  private addWorld(): void {
+    const { world } = this;
+    const folder = this.gui.addFolder("World");
+    this.playback = folder;
+    this.steering.push(folder);
+    folder.domElement.classList.add("playback");
     tag("restitution", folder.add(world, "restitution", 0, 1, 0.01).name("Restitution")).onFinishChange(
       (restitution: number) => void this.change("Restitution", { restitution }),
     );
@@ -233,7 +241,6 @@ export class Panel {
       setAuto();
     });
     auto.domElement.title = "Adjusts the substeps to hold a step time or a mean overlap";
-    this.addSimulated("Now").$children.append(this.statistics.quality);
     this.goal = tag("goal", folder.add(world, "goal").min(0).decimals(3).name("")).onFinishChange(setAuto).hide();
   }
 
@@ -262,9 +269,5 @@ export class Panel {
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
     const theme = tag("theme", folder.add(choices, "theme", themeNames).name("Theme"));
     theme.onChange((value: ThemeName) => actions.themeChanged(value));
-  }
-
-  private addStatistics(): void {
-    this.addSimulated("Statistics").$children.append(this.statistics.rest);
   }
 }

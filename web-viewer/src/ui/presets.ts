@@ -30,11 +30,24 @@ export function impulseFor(radius: number): number {
   return Number((pushSpeed * density * (4 / 3) * Math.PI * radius ** 3).toPrecision(2));
 }
 
-/** Spheres to drop in the upper third of the bounds, clear of its walls. */
-export function dropFor(facts: Facts, count: number, radius: number): Drop {
-  const margin = 1.1 * radius;
+type Bounds = Pick<Facts, "min" | "max">;
+
+/** Spheres to drop in the upper third of the bounds, or in a higher part if they need it, clear of the walls. */
+export function dropFor(facts: Bounds, count: number, radius: number): Drop {
+  const margin = 0.1 * radius;
   const min = facts.min.map((low) => low + margin) as Vec3;
   const max = facts.max.map((high) => high - margin) as Vec3;
-  min[2] = Math.min(max[2], facts.max[2] - (facts.max[2] - facts.min[2]) / 3);
+  const height = Math.max((facts.max[2] - facts.min[2]) / 3, 2.2 * radius);
+  min[2] = Math.max(min[2], max[2] - height);
   return { min, max, count, radius };
+}
+
+const mostDropped = 200;
+const fill = 0.1; // of the space: so many random places without overlaps are soon found
+
+/** The first number of spheres to drop: fewer where there is little room. `radius`: of these spheres (m). */
+export function dropCountFor(facts: Bounds, radius: number): number {
+  const { min, max } = dropFor(facts, 1, radius);
+  const room = min.reduce((volume, low, axis) => volume * Math.max(0, (max[axis] ?? low) - low), 1);
+  return Math.max(1, Math.min(mostDropped, Math.floor((fill * room) / ((4 / 3) * Math.PI * radius ** 3))));
 }
