@@ -111,9 +111,13 @@ test("diagnostics are folded until someone asks for them, and then stay open", a
     assert.equal(await title(name).getAttribute("aria-expanded"), "false", name);
   }
   await title("Now").click();
-  await when(page, () => document.querySelector('[data-testid="statistics-energy"]')?.textContent.endsWith(" J"));
-  await page.locator("summary", { hasText: "Overlap, mean" }).press("Enter");
+  const figure = page.locator("summary", { hasText: "Overlap, mean" });
+  await figure.waitFor();
+  await figure.press("Enter");
   await page.getByText("How far touching spheres overlap").waitFor();
+  await figure.press("Space");
+  await page.getByText("How far touching spheres overlap").waitFor({ state: "hidden" });
+  assert.equal(await page.evaluate(() => spherule.session.paused), false, "the figure took the key");
   await page.reload();
   await when(page, () => spherule.session.frames > 0);
   assert.equal(await title("Now").getAttribute("aria-expanded"), "true");
