@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::string_view suffix = ".json";
 
-// A name that stands for one of three scenes: the one with as many spheres as the kind of device simulates in about
-// real time.
+// A name that stands for one of three scenes: the one whose number of spheres suits the kind of device.
 struct SizedScene {
     std::string_view name;
     std::string_view gpu;

@@ -1,4 +1,4 @@
-// What a new visitor can do at once: each takes few actions, and nothing has to be scrolled.
+// A new visitor pours, pushes and resets with few actions, and without scrolling.
 import assert from "node:assert/strict";
 import { writeFile } from "node:fs/promises";
 import path from "node:path";

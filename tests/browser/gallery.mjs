@@ -13,8 +13,8 @@ const views = {
   "rapids-50k": { time: 4 },
   pour: { time: 0.8 },
   billiards: { time: 0.45, zoom: 1 },
-  cradle: { time: 0.33 },
-  "cradle-touching": { time: 0.33 },
+  cradle: { time: 0.25 },
+  "cradle-touching": { time: 0.25 },
   bounce: { time: 1.35, zoom: 1 },
   "two-spheres": { time: 0.35, zoom: 1 },
   "box-4k": { time: 0.5, zoom: 1 },
@@ -40,7 +40,6 @@ for (const [name, { time, zoom = 0, quality = "full" }] of Object.entries(views)
   await server.ctl("seek", String(time));
   await when(page, (then) => Math.abs((spherule.shown?.time ?? -1) - then) < 0.04, time);
   await page.keyboard.press("c"); // hides the panel
-  await page.focus("canvas");
   for (let k = 0; k < zoom; k++) await page.keyboard.press("+");
   await settled(page);
   await page.evaluate(() => (document.getElementById("page").style.visibility = "hidden"));

@@ -35,7 +35,7 @@ Motion motionDuring(sim::Simulation& simulation, int seconds) {
     return mean;
 }
 
-// What visitors see first shows motion, however late they come.
+// Visitors see motion first, however late they come.
 TEST(FirstScene, StillMovesAfterAMinute) {
     const auto simulation = simulate(named(std::string(scene::defaultScene), {.substeps = 4}));  // half of its own
     run(*simulation, 5);

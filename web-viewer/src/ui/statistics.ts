@@ -118,7 +118,7 @@ function motion(s: Statistics): Figure[] {
       id: "potential",
       name: "Potential energy",
       value: joules(s.potentialEnergy),
-      about: "Of gravity, above the floor of the bounds, and of attractions. Gravity along a periodic axis has none",
+      about: "Energy in gravity, above the floor of the bounds, and in attractions. A periodic axis has none",
     },
     { id: "momentum", name: "Momentum, N s", value: vector(s.momentum), about: "Sum over all spheres" },
     { id: "speed-rms", name: "Speed, rms", value: `${figure(s.speedRms)} m/s`, about: "Root mean square" },
@@ -126,7 +126,7 @@ function motion(s: Statistics): Figure[] {
       id: "height",
       name: "Mean height",
       value: `${figure(s.meanHeight)} m`,
-      about: "Of the centres, above the floor of the bounds",
+      about: "Height of the centres above the floor of the bounds",
     },
     {
       id: "sleeping",
@@ -179,13 +179,13 @@ function sums({ collisions, dissipatedEnergy, surfaceForces }: Statistics): Figu
       id: `force-${surface}`,
       name: `Force on ${surface},\u00a0N`,
       value: components(force),
-      about: "Of the spheres on this wall or obstacle, along x, y and z, mean of the last second",
+      about: "The spheres exert it on this wall or obstacle, along x, y and z. Mean of the last second",
     },
     {
       id: `torque-${surface}`,
       name: `Torque on ${surface},\u00a0N\u00a0m`,
       value: components(torque),
-      about: "About the centre of the bounds, around x, y and z, mean of the last second",
+      about: "The spheres exert it, about the centre of the bounds, around x, y and z. Mean of the last second",
     },
   ]);
   const more = surfaceForces.length - shownForces;
