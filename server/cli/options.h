@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "scene/catalog.h"
 #include "scene/load.h"
 
 // Each of the functions `add...(app, exitCode)` adds a subcommand to the command line. When chosen, the subcommand runs
@@ -15,7 +16,7 @@ namespace spherule::cli {
 
 // Options of the command line that choose a scene and change it.
 struct SceneOptions {
-    std::string scene = "box";
+    std::string scene{scene::defaultScene};
     std::string device = "auto";
     scene::Overrides overrides;
 

@@ -6,6 +6,7 @@
 #include "cli/options.h"
 #include "codec/columns.h"
 #include "encode/column_encoder.h"
+#include "scene/catalog.h"
 #include "sim/plan.h"
 
 namespace spherule::cli {
@@ -13,7 +14,7 @@ namespace spherule::cli {
 namespace {
 
 struct PlanOptions {
-    std::string scene = "box";
+    std::string scene{scene::defaultScene};
     std::string kind = "gpu";
     scene::Overrides overrides;
     bool json = false;

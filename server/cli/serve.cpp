@@ -24,6 +24,7 @@ Result<std::unique_ptr<host::FrameProducer>> open(const ServeOptions& options, c
     io.board.update([&](host::ServerStatus& current) {
         current.device = (*simulation)->device().info();
         current.scenes = scene::names();
+        current.catalog = scene::catalog(current.device.kind);
         current.scene = (*simulation)->simulation().scene().name;
         current.spheres = (*simulation)->simulation().count();
     });

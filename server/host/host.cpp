@@ -89,6 +89,12 @@ net::Handlers Host::handlers() {
                 const ServerStatus status = board_.read();
                 v1::Welcome welcome = welcomeOf(status.device);
                 for (const std::string& name : status.scenes) welcome.add_scenes(name);
+                for (const scene::CatalogEntry& entry : status.catalog) {
+                    v1::SceneEntry& shown = *welcome.add_gallery();
+                    shown.set_name(entry.name);
+                    shown.set_description(entry.description);
+                    shown.set_spheres(entry.spheres);
+                }
                 return welcome;
             },
         .submit =

@@ -16,11 +16,12 @@ namespace {
 constexpr std::string_view compressed = ".gz";
 
 std::string_view typeOf(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> types = {{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> types = {{
         {".html", "text/html; charset=utf-8"},
         {".js", "text/javascript; charset=utf-8"},
         {".css", "text/css; charset=utf-8"},
         {".svg", "image/svg+xml"},
+        {".webp", "image/webp"},
     }};
     for (const auto& [suffix, type] : types)
         if (name.ends_with(suffix)) return type;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compute/device.h"
+#include "scene/catalog.h"
 #include "spherule/v1/control.pb.h"
 
 namespace spherule::host {
@@ -16,7 +17,8 @@ struct ServerStatus {
     std::string state = "starting";  // starting, running or paused; draining and failed are final
     std::string slow;                // why commands or states may be late; empty: they are not
     compute::DeviceInfo device;
-    std::vector<std::string> scenes;  // names of scenes that can be loaded
+    std::vector<std::string> scenes;           // names of scenes that can be loaded
+    std::vector<scene::CatalogEntry> catalog;  // the scenes of the program
     std::string scene;
     std::uint64_t born = 0;
     std::uint64_t removed = 0;

@@ -92,7 +92,7 @@ std::optional<std::string> RateController::onAck(double drawRate, double decodeM
     const auto less = nextLower(rendition_);
     const bool fewer = less && less->rate < rendition_.rate;  // lower precision would not help
     if (slowAcks_ >= slowAcksPerStep && fewer && stepDown(now))
-        return drawsLess ? fmt::format("only {:.0f} pictures per second are minDrawnShare", drawRate)
+        return drawsLess ? fmt::format("only {:.0f} pictures per second are drawn", drawRate)
                          : fmt::format("a frame takes {:.0f} ms to decode", decodeMs);
     return onTick(now);
 }

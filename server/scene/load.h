@@ -32,7 +32,7 @@ struct Overrides {
 };
 
 // `source` is a path to a JSON file, or the name of a scene that comes with the program. `deviceKind` ("gpu", "cpu",
-// "software") decides how many spheres the default scene `box` has.
+// "software") decides how many spheres the scenes `rapids` and `box` have.
 // `progress`, here and below, receives the progress and may cancel the work: Cancelled.
 Result<Scene> load(const std::string& source, std::string_view deviceKind, const Overrides& overrides = {},
                    Progress* progress = nullptr);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, shows, visit, when } from "./support/browser.mjs";
+import { control, open, says, shows, unfold, visit, when } from "./support/browser.mjs";
 import { enter, give, join, prompt, tokens } from "./support/entrance.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
 import { proxyTo } from "./support/proxy.mjs";
@@ -147,7 +147,7 @@ test("for a viewer, controls that send commands are disabled with a reason, and 
   assert.equal(await page.isVisible(control("role")), true);
   assert.equal(await page.isVisible(control("control")), false);
   const buttons = ["pause", "step", "step-count", "step-many", "reset", "record"];
-  for (const id of [...buttons, "scene", "dial", "gravity-preset", "restitution", "drop", "push"]) {
+  for (const id of [...buttons, "dial", "gravity-preset", "restitution", "drop", "push"]) {
     assert.equal(await page.isDisabled(control(id)), true, id);
     const title = await page.locator(control(id)).evaluate((element) => element.closest("[title]").title);
     assert.match(title, /watch but not control/, id);
@@ -155,9 +155,10 @@ test("for a viewer, controls that send commands are disabled with a reason, and 
   for (const key of ["Space", ".", "r", "d", "p", "Space"]) await page.keyboard.press(key);
   assert.deepEqual(await toasts(page), ["Not sentYou can watch but not control"]);
 
-  for (const id of ["colour", "theme", "tier", "home", "legend-lock"]) {
+  for (const id of ["scenes", "colour", "theme", "tier", "home", "legend-lock"]) {
     assert.equal(await page.isDisabled(control(id)), false, id);
   }
+  await unfold(page, "Stream");
   await page.selectOption(control("tier"), { index: 0 });
   await says(page, "stream-tier", /^Fine/);
   const eye = await page.evaluate(() => spherule.camera.eye);

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { control, open, pause, when } from "./support/browser.mjs";
+import { chooseScene, control, open, pause, when } from "./support/browser.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -123,7 +123,7 @@ test("a click without push mode selects the sphere", async () => {
 });
 
 test("a scene from the list replaces the present one, and drops add spheres", async () => {
-  await page.selectOption(control("scene"), "bounce");
+  await chooseScene(page, "bounce");
   await when(page, () => spherule.session.facts?.name === "bounce" && spherule.session.frames > 0);
   const before = await page.evaluate(() => spherule.spheres);
   await type("drop-count", 25);

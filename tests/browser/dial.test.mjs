@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { control, open, says, when } from "./support/browser.mjs";
+import { control, open, says, unfold, when } from "./support/browser.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -148,9 +148,10 @@ test("forces on the walls are among the diagnostics, in a scene with contact sum
 });
 
 test("a long name of a surface beside three long numbers fits into the panel", async () => {
+  await unfold(page, "Statistics");
   const sticksOut = await page.evaluate(() => {
     const value = document.querySelector('[data-testid="statistics-torque-X_MAX"]');
-    const name = value.parentElement.querySelector("th");
+    const name = value.parentElement.querySelector("span");
     const [nameBefore, valueBefore] = [name.textContent, value.textContent];
     name.textContent = "Torque on obstacles[1023], N m";
     value.textContent = "−0.000123  −0.000123  −0.000123";

@@ -2,7 +2,7 @@
 // against a server that allows it, to show that the attack itself is valid.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { control, launch, open, says, shows, visit, when } from "./support/browser.mjs";
+import { chooseScene, control, launch, open, says, shows, unfold, visit, when } from "./support/browser.mjs";
 import { tlsOptions } from "./support/certificate.mjs";
 import { enter, give, join, tokens } from "./support/entrance.mjs";
 import { foreignSite, reach } from "./support/foreign.mjs";
@@ -137,11 +137,12 @@ test("no action on the page violates its security policy", async () => {
   await page.selectOption(control("theme"), "Dark");
   await page.selectOption(control("gravity-preset"), "Moon");
   await page.selectOption(control("auto"), { index: 1 });
+  await unfold(page, "Stream");
   await page.selectOption(control("tier"), { index: 0 });
   await says(page, "stream-tier", /^Fine/);
   await page.click(control("reset"));
   await when(page, () => spherule.reports.some(({ name }) => name === "Reset"));
-  await page.selectOption(control("scene"), "bounce");
+  await chooseScene(page, "bounce");
   await when(page, () => spherule.session.facts?.name === "bounce");
   const asker = await join(server, "asker");
   await says(page, "control", /asker requests/);

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, when } from "./support/browser.mjs";
+import { control, open, says, unfold, when } from "./support/browser.mjs";
 import { collisionsByWidth } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { play, serve, spherule } from "./support/server.mjs";
@@ -82,10 +82,12 @@ test("the page shows the recording, and hides controls without effect", async ()
   assert.ok(Math.abs(timeline.end - duration) < 1e-6);
   assert.equal(recording, undefined);
   assert.ok(drawn > 0);
+  await unfold(page, "Stream");
+  await page.locator(control("rate")).waitFor();
   for (const id of ["pause", "step", "step-many", "reset", "speed", "colour", "tier", "rate", "timeline"]) {
     assert.equal(await page.isVisible(control(id)), true, id);
   }
-  const world = ["scene", "dial", "auto", "gravity-preset", "restitution", "friction", "drop", "push"];
+  const world = ["scenes", "dial", "auto", "gravity-preset", "restitution", "friction", "drop", "push"];
   for (const id of [...world, "record", "timeline-flaw"]) assert.equal(await page.isVisible(control(id)), false, id);
   assert.match(await page.textContent(control("help-overlay")), /to the beginning/);
   assert.doesNotMatch(await page.textContent(control("help-overlay")), /drop|push/);

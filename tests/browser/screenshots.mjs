@@ -1,15 +1,14 @@
 // Takes the picture of docs/images/page.png: node tests/browser/screenshots.mjs FOLDER (SPHERULE names the binary). Not a test.
 // The server simulates in real time while the picture is taken.
-import { control, launch, open, settled, when } from "./support/browser.mjs";
+import { control, launch, open, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 
 const folder = process.argv[2] ?? "docs/images";
-const server = await serve("box-10k");
+const server = await serve("rapids");
 const browser = await launch();
-const page = await open(browser, server.url, { size: [1280, 720], picture: "full", colour: "id" });
-await when(page, (asleep) => document.querySelector(asleep).textContent === "100 %", control("status-asleep"));
+const page = await open(browser, server.url, { size: [1280, 720], picture: "full", colour: "group" });
+await when(page, () => spherule.session.newest.simTime > 8);
 await when(page, (factor) => parseFloat(document.querySelector(factor).textContent) > 0.98, control("status-factor"));
-await settled(page);
 await page.screenshot({ path: `${folder}/page.png`, timeout: 120_000 });
 await browser.close();
 await server.stop();

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { control, open, says, when } from "./support/browser.mjs";
+import { control, open, says, unfold, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -39,6 +39,7 @@ test("the server sends the chosen precision and rate, and the choice is saved", 
   const page = await open(suite.browser, server.url, { size: [1280, 900] });
   await says(page, "stream-tier", /^Normal/);
   const coarse = await page.evaluate(() => spherule.positions([0]).quantum);
+  await unfold(page, "Stream");
   await page.selectOption(control("tier"), { label: fine });
   await says(page, "stream-tier", /^Fine/);
   await when(page, (quantum) => spherule.positions([0])?.quantum < quantum / 9, coarse);

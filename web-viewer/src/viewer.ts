@@ -116,10 +116,7 @@ export class Viewer {
   private createSession(): Session {
     return new Session((state) => this.link.recycle(state), {
       linkChanged: (change) => this.admission.linkChanged(change),
-      welcomed: (welcome) => {
-        this.admission.welcomed();
-        this.page.panel.setScenes(welcome);
-      },
+      welcomed: () => this.admission.welcomed(),
       // docs/protocol.md lists the values that come from another scene, and the choices that stay.
       sceneChanged: (facts, another) => {
         this.camera.look(facts, !another);

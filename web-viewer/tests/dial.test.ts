@@ -4,8 +4,9 @@ import { create } from "@bufbuild/protobuf";
 import { DialSchema } from "../src/gen/spherule/v1/control_pb";
 import { AutoSchema, Model } from "../src/gen/spherule/v1/scene_pb";
 import { toAuto, fromAuto } from "../src/ui/auto_goal";
-import { costRows, errorRows, impactLabels, mergeImpacts, nearest, substepLabel } from "../src/ui/dial_labels";
-import type { DialRow, Impacts } from "../src/ui/dial_labels";
+import { costFigures, errorFigures, impactLabels, mergeImpacts, nearest, substepLabel } from "../src/ui/dial_labels";
+import type { Impacts } from "../src/ui/dial_labels";
+import type { Figure } from "../src/ui/figures";
 
 const dial = create(DialSchema, {
   positions: [
@@ -28,7 +29,7 @@ const dial = create(DialSchema, {
 const [, balanced] = dial.positions;
 assert.ok(balanced);
 const settings = { step: 1 / 60, speed: 1 };
-const valuesOf = (rows: DialRow[]): string[] => rows.map(({ name, value }) => `${name}: ${value}`);
+const valuesOf = (figures: Figure[]): string[] => figures.map(({ name, value }) => `${name}: ${value}`);
 
 test("the nearest position is of the same model, and the nearest by the ratio of substeps", () => {
   assert.deepEqual([8, 11, 12, 1000, 1].map((substeps) => nearest(dial, Model.BALANCED, substeps)), [1, 1, 2, 2, 1]);
@@ -37,7 +38,7 @@ test("the nearest position is of the same model, and the nearest by the ratio of
 });
 
 test("errors are listed by importance, with their significant digits", () => {
-  assert.deepEqual(valuesOf(errorRows(balanced)), [
+  assert.deepEqual(valuesOf(errorFigures(balanced)), [
     "Overlap in piles: 0.33 %",
     "Bounce height: under 0.001 %",
     "Restitution: within 0.0012",
@@ -48,11 +49,11 @@ test("errors are listed by importance, with their significant digits", () => {
 
 test("the cost is proportional to the substeps, and shows whether the requested speed is reached", () => {
   const quick = ["Step time: about 4 ms", "Speed: holds real time"];
-  assert.deepEqual(valuesOf(costRows(balanced, 8, true, settings)), quick);
+  assert.deepEqual(valuesOf(costFigures(balanced, 8, true, settings)), quick);
   const slow = ["Step time: roughly 40 ms", "Speed: runs at 0.42 × real time"];
-  assert.deepEqual(valuesOf(costRows(balanced, 80, false, settings)), slow);
-  assert.equal(costRows(balanced, 80, true, { ...settings, speed: 0.25 })[1]?.value, "holds the speed");
-  assert.equal(costRows(balanced, 8, true, { ...settings, speed: 8 })[1]?.value, "runs at 4.2 × real time");
+  assert.deepEqual(valuesOf(costFigures(balanced, 80, false, settings)), slow);
+  assert.equal(costFigures(balanced, 80, true, { ...settings, speed: 0.25 })[1]?.value, "holds the speed");
+  assert.equal(costFigures(balanced, 8, true, { ...settings, speed: 8 })[1]?.value, "runs at 4.2 × real time");
   assert.deepEqual([1, 2, 1000].map(substepLabel), ["1 substep", "2 substeps", "1\u202f000 substeps"]);
 });
 

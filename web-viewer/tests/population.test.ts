@@ -59,6 +59,15 @@ test("places without a sphere have radius 0, whether radii differ or not", () =>
   assert.deepEqual(different.radiusRange, [0.25, 1]);
 });
 
+test("the mean radius is of the spheres that can move, or of all if none can", () => {
+  assert.equal(populationOf().meanRadius, 0.5);
+  const radii = { radius: 0, radii: floats(9, 1, 0.25, 9, 9, 0.75) };
+  assert.equal(populationOf(radii).meanRadius, (1 + 0.25 + 0.75) / 3);
+  assert.equal(populationOf({ ...radii, groups: [{ fixed: true }, {}] }).meanRadius, 0.75);
+  assert.equal(populationOf({ ...radii, groups: [{ fixed: true }, { fixed: true }] }).meanRadius, 2 / 3);
+  assert.equal(populationOf({ ...radii, places: [], count: 0, radii: floats() }).meanRadius, 0);
+});
+
 test("without places, all are in use and ids are places, as older servers have it", () => {
   const groups = [{ name: "a", first: 0, count: 2 }, { name: "b", first: 2, count: 4 }];
   const population = populationOf({ places: [], groups });

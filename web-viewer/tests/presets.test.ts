@@ -1,9 +1,18 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import type { Drop } from "../src/connection/commands";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { factsOf } from "../src/model/facts";
-import { dropFor, dropRadiusFor, dropRadiusRule, gravityPresetOf, impulseRule } from "../src/ui/presets";
+import type { Vec3 } from "../src/model/facts";
+import {
+  dropCountFor,
+  dropFor,
+  dropRadiusFor,
+  dropRadiusRule,
+  gravityPresetOf,
+  impulseRule,
+} from "../src/ui/presets";
 
 function factsWith(radius: number, side: number) {
   const places = radius > 0 ? { count: 2, radius } : {};
@@ -38,4 +47,17 @@ test("an impulse is limited once the server has told its limit", () => {
 test("a gravity preset is recognised by its values", () => {
   assert.equal(gravityPresetOf([0, 0, -1.62]), "Moon");
   assert.equal(gravityPresetOf([0, 0, -1.7]), "Custom");
+});
+
+test("spheres are dropped in the upper third of the bounds, or in a part that is high enough for them", () => {
+  const rapids = { min: [0, 0, 0] as Vec3, max: [9.6, 3.6, 1.8] as Vec3 };
+  const heights = ({ min, max }: Drop): [number, number] => [min[2] ?? NaN, max[2] ?? NaN];
+  const [low, high] = heights(dropFor(rapids, 200, 0.06));
+  assert.ok(low > 1.1 && high < 1.8, `from ${low} to ${high} m`);
+  assert.equal(dropCountFor(rapids, 0.06), 200);
+  const box = { min: [-1, -1, 0] as Vec3, max: [1, 1, 1.5] as Vec3 };
+  const [bottom, top] = heights(dropFor(box, 1, 0.3));
+  assert.ok(top - bottom > 0.6, "higher than a sphere");
+  assert.ok(dropCountFor(box, 0.3) < 5, "200 would be refused");
+  assert.equal(dropCountFor(box, 0.9), 1);
 });

@@ -87,3 +87,14 @@ export async function settled(page) {
     }
   });
 }
+
+/** Chooses a scene from the gallery. */
+export async function chooseScene(page, name) {
+  await page.click(control("scenes"));
+  await page.click(control(`scene-${name}`));
+}
+
+/** Opens a folder of the panel that is folded. */
+export async function unfold(page, name) {
+  await page.click(`.lil-title[aria-expanded="false"]:text-is("${name}")`);
+}

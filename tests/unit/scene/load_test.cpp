@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
+#include "scene/catalog.h"
 #include "scene_support.h"
 
 namespace spherule::scene::testing {
@@ -19,7 +22,7 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
     for (const std::string& name : names()) {
         const auto scene = load(name, "software");
         ASSERT_TRUE(scene) << scene.error().text();
-        EXPECT_EQ(scene->name, name == "box" ? "box-4k" : name);
+        EXPECT_EQ(scene->name, name == "box" ? "box-4k" : name == "rapids" ? "rapids-3k" : name);
         EXPECT_FALSE(scene->description.empty()) << name;
         EXPECT_FALSE(scene->spheres.empty()) << name;
         for (const Group& group : scene->groups) EXPECT_FALSE(group.colour.empty()) << name;
@@ -27,16 +30,42 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
 }
 
 TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
-    const std::vector<std::string> expected{"billiards", "bounce",    "box",        "box-10k",
-                                            "box-4k",    "box-50k",   "cradle",     "cradle-touching",
-                                            "pour",      "stress-1m", "two-spheres"};
+    const std::vector<std::string> expected{
+        "billiards", "bounce", "box",       "box-10k",    "box-4k",    "box-50k",   "cradle",     "cradle-touching",
+        "pour",      "rapids", "rapids-3k", "rapids-50k", "rapids-6k", "stress-1m", "two-spheres"};
     EXPECT_EQ(names(), expected);
 }
 
-TEST(SceneLoad, BoxDependsOnTheDevice) {
+TEST(SceneLoad, SizedScenesDependOnTheDevice) {
     EXPECT_EQ(load("box", "gpu")->spheres.size(), 50'000U);
     EXPECT_EQ(load("box", "cpu")->spheres.size(), 10'000U);
     EXPECT_EQ(load("box", "software")->spheres.size(), 4'000U);
+    for (const auto& [kind, name] : {std::pair{"gpu", "rapids-50k"}, {"cpu", "rapids-6k"}, {"software", "rapids-3k"}})
+        EXPECT_EQ(load(std::string(defaultScene), kind)->name, name);
+}
+
+TEST(SceneCatalog, DescribesEachSceneWithoutBuildingIt) {
+    std::vector<std::string> listed;
+    for (const CatalogEntry& entry : catalog("cpu")) {
+        const auto scene = load(entry.name, "cpu");
+        ASSERT_TRUE(scene) << scene.error().text();
+        EXPECT_EQ(entry.spheres, scene->spheres.size()) << entry.name;
+        EXPECT_EQ(entry.description, scene->description) << entry.name;
+        listed.push_back(entry.name);
+    }
+    std::vector<std::string> expected = names();
+    std::erase(expected, "box");
+    std::erase(expected, "rapids");
+    std::ranges::sort(listed);
+    EXPECT_EQ(listed, expected) << "each once, and none that stands for another one";
+}
+
+TEST(SceneCatalog, BeginsWithTheDefaultSceneOfTheDevice) {
+    for (const auto& [kind, name] : {std::pair{"gpu", "rapids-50k"}, {"cpu", "rapids-6k"}, {"software", "rapids-3k"}}) {
+        const auto entries = catalog(kind);
+        EXPECT_EQ(entries.front().name, name);
+        EXPECT_TRUE(std::ranges::is_sorted(entries.begin() + 1, entries.end(), {}, &CatalogEntry::spheres));
+    }
 }
 
 TEST(SceneLoad, OneMillionSpheresLoadWithinSeconds) {
@@ -63,7 +92,8 @@ TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(
         load("bux", "gpu").error().text(),
         "\"bux\": is not the name of a scene; there are billiards, bounce, box, box-10k, box-4k, box-50k, cradle, "
-        "cradle-touching, pour, stress-1m, two-spheres. A file is named with its ending, .json");
+        "cradle-touching, pour, rapids, rapids-3k, rapids-50k, rapids-6k, stress-1m, two-spheres. A file is named with "
+        "its ending, .json");
 }
 
 TEST(SceneLoad, MissingFilesAreRefused) {

@@ -15,6 +15,7 @@ export interface Group {
   count: number; // spheres at present
   colour: Rgb;
   own: boolean; // the colour is given by the scene
+  fixed: boolean; // nothing moves its spheres
 }
 
 const unused = -1; // id at a place without a sphere
@@ -87,6 +88,21 @@ export class Population {
   get radiusRange(): [number, number] {
     if (this.radius > 0) return [this.radius, this.radius];
     return this.radiusExtent.of(this.radii ?? [], Number.MIN_VALUE);
+  }
+
+  /** The mean radius of the spheres that can move, or of all if none can (m); 0 if there are no spheres. */
+  get meanRadius(): number {
+    if (this.radius > 0) return this.radius;
+    const sums = { moving: { sum: 0, count: 0 }, fixed: { sum: 0, count: 0 } };
+    for (let place = 0; place < this.places; place++) {
+      const radius = this.radiusOf(place);
+      if (radius <= 0) continue;
+      const one = this.groupOf(place)?.fixed ? sums.fixed : sums.moving;
+      one.sum += radius;
+      one.count += 1;
+    }
+    const { sum, count } = sums.moving.count > 0 ? sums.moving : sums.fixed;
+    return count > 0 ? sum / count : 0;
   }
 
   /** The smallest and the largest id; zeros if there are no spheres. */
@@ -240,9 +256,9 @@ export function joined(runs: readonly Run[], gap: number): Run[] {
   return spans;
 }
 
-function groupFrom({ name, colour: hex }: GroupFacts, index: number, count: number): Group {
+function groupFrom({ name, colour: hex, fixed }: GroupFacts, index: number, count: number): Group {
   const { colour, own } = groupColour(hex, index);
-  return { name: name || `group ${index + 1}`, count, colour, own };
+  return { name: name || `group ${index + 1}`, count, colour, own, fixed };
 }
 
 /** `bytes`: float32 little endian. Missing values are 0. */

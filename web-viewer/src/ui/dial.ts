@@ -1,6 +1,8 @@
 import type { Dial as DialMessage, DialPosition, Settings } from "../gen/spherule/v1/control_pb";
-import { costRows, errorRows, modelName, models, nearest, substepLabel } from "./dial_labels";
+import { costFigures, errorFigures, modelName, models, nearest, substepLabel } from "./dial_labels";
 import { h, setText } from "./dom";
+import { Figures } from "./figures";
+import type { Figure } from "./figures";
 
 /** The quality dial, from fast to accurate. Shows the measured errors of a position, and its cost on this server. */
 export class Dial {
@@ -14,7 +16,7 @@ export class Dial {
   private readonly model = h("b", { "data-testid": "dial-model" });
   private readonly substeps = h("span", { "data-testid": "dial-substeps" });
   private readonly scale = h("div", { class: "marks", "aria-hidden": "true" });
-  private readonly rows = h("table", { class: "statistics" });
+  private readonly figures = new Figures("dial");
   private readonly note = h("p", { "data-testid": "dial-note" });
   readonly element = h(
     "div",
@@ -22,7 +24,7 @@ export class Dial {
     h("div", { class: "reading" }, this.model, this.substeps),
     this.slider,
     this.scale,
-    this.rows,
+    this.figures.element,
     this.note,
   );
   private dial: DialMessage | undefined;
@@ -86,17 +88,12 @@ export class Dial {
     setText(this.model, modelName(model));
     setText(this.substeps, `${substepLabel(substeps)} a step`);
     this.model.title = models.find((one) => one.model === model)?.description ?? "";
-    this.rows.hidden = !position;
-    const rows = position
-      ? [...errorRows(position), ...costRows(position, substeps, dial.calibrated, settings)]
-      : [];
-    const rowText = rows.map(({ name, value }) => `${name} ${value}`).join(", ");
-    this.slider.setAttribute("aria-valuetext", `${modelName(model)}, ${substepLabel(substeps)}: ${rowText}`);
-    this.rows.replaceChildren(
-      ...rows.map(({ id, name, title, value }) =>
-        h("tr", { title }, h("th", {}, name), h("td", { "data-testid": `dial-${id}` }, value)),
-      ),
-    );
+    const errors = position ? errorFigures(position) : [];
+    const costs = position ? costFigures(position, substeps, dial.calibrated, settings) : [];
+    const valueText = [...errors, ...costs].map(({ name, value }) => `${name} ${value}`).join(", ");
+    this.slider.setAttribute("aria-valuetext", `${modelName(model)}, ${substepLabel(substeps)}: ${valueText}`);
+    const source = (figure: Figure): Figure => ({ ...figure, about: `${figure.about}. On ${dial.measuredOn}` });
+    this.figures.show([...errors.map(source), ...costs]);
     const measured =
       position && position.substeps !== substeps
         ? [`Errors are those measured with ${substepLabel(position.substeps)}.`]
@@ -104,7 +101,6 @@ export class Dial {
     const missing = dial.missing.map((one) => `${modelName(one.model)} is not available: ${one.reason}.`);
     setText(this.note, [...measured, ...missing].join(" "));
     this.note.hidden = this.note.textContent === "";
-    this.rows.title = `Errors measured on ${dial.measuredOn}`;
   }
 
   private drawScale({ positions }: DialMessage): void {

@@ -1,6 +1,7 @@
 import type { Dial, DialPosition, Settings, Statistics } from "../gen/spherule/v1/control_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure } from "../format";
+import type { Figure } from "./figures";
 
 /** The contact models. */
 export const models = [
@@ -13,16 +14,9 @@ export function modelName(model: Model): string {
   return models.find((candidate) => candidate.model === model)?.name ?? "Unknown";
 }
 
-export interface DialRow {
-  id: string;
-  name: string;
-  title: string;
-  value: string;
-}
-
 interface Curve {
   name: string;
-  title: string;
+  about: string;
   percent: boolean;
   within: boolean; // the error is the largest of several
 }
@@ -31,29 +25,33 @@ interface Curve {
 const curves: Record<string, Curve> = {
   "bed overlap": {
     name: "Overlap in piles",
-    title: "Mean overlap over radius, in a pile of a few hundred spheres at rest; it is larger in deeper piles",
+    about: "Mean overlap over radius, in a pile of a few hundred spheres at rest; it is larger in deeper piles",
     percent: true,
     within: false,
   },
   "bounce apex": {
     name: "Bounce height",
-    title: "Largest error of the first five bounces",
+    about: "Largest error of the first five bounces",
     percent: true,
     within: true,
   },
   restitution: {
     name: "Restitution",
-    title: "Largest error in impacts of two spheres",
+    about: "Largest error in impacts of two spheres",
     percent: false,
     within: true,
   },
   "slip to roll": {
     name: "Slip to roll",
-    title: "Error of the time until a sliding sphere rolls",
+    about: "Error of the time until a sliding sphere rolls",
     percent: true,
     within: true,
   },
 };
+
+function unknownCurve(name: string): Curve {
+  return { name, about: "An error that the server measures", percent: true, within: true };
+}
 
 /** The index of the model's position with the nearest number of substeps; -1 if the model has no position. */
 export function nearest(dial: Dial, model: Model, substeps: number): number {
@@ -65,14 +63,14 @@ export function nearest(dial: Dial, model: Model, substeps: number): number {
 }
 
 /** The measured errors of a position, most important first. */
-export function errorRows(position: DialPosition): DialRow[] {
+export function errorFigures(position: DialPosition): Figure[] {
   const known = Object.keys(curves);
   const rank = (curve: string): number => (known.includes(curve) ? known.indexOf(curve) : known.length);
   return [...position.errors]
     .sort((a, b) => rank(a.curve) - rank(b.curve))
     .map(({ curve, error }) => {
-      const { name, title, percent, within } = curves[curve] ?? { name: curve, title: "", percent: true, within: true };
-      return { id: curve.replaceAll(" ", "-"), name, title, value: errorText(error, percent, within) };
+      const { name, about, percent, within } = curves[curve] ?? unknownCurve(curve);
+      return { id: curve.replaceAll(" ", "-"), name, about, value: errorText(error, percent, within) };
     });
 }
 
@@ -86,12 +84,12 @@ function errorText(error: number, percent: boolean, within: boolean): string {
 }
 
 /** The cost of a position with this number of substeps, and the speed that the server then reaches. */
-export function costRows(
+export function costFigures(
   position: DialPosition,
   substeps: number,
   calibrated: boolean,
   { step, speed }: Pick<Settings, "step" | "speed">,
-): DialRow[] {
+): Figure[] {
   const ms = (position.stepMs * substeps) / position.substeps;
   const reached = (1000 * step) / ms;
   const enough = 0.98; // share of the requested speed: nobody sees the difference
@@ -100,13 +98,13 @@ export function costRows(
     {
       id: "cost",
       name: "Step time",
-      title: "Estimated wall time per step in the present state of the scene",
+      about: "Estimated wall time per step in the present state of the scene",
       value: `${calibrated ? "about" : "roughly"} ${twoDigits(ms)} ms`,
     },
     {
       id: "pace",
       name: "Speed",
-      title: "Whether the simulation reaches the requested speed",
+      about: "Whether the simulation reaches the requested speed",
       value: reached >= enough * speed ? full : `runs at ${twoDigits(reached)} × real time`,
     },
   ];

@@ -38,17 +38,3 @@ export function setText(element: HTMLElement, text: string): void {
 export function setTitle(element: HTMLElement, title: string): void {
   if (element.title !== title) element.title = title;
 }
-
-/** A row of a table. `warning`: why the value is highlighted. */
-export type Row = [id: string, name: string, value: string, warning?: string, title?: string];
-
-/** Shows the rows in a table. The test id of a value is `PREFIX-ID`. */
-export function fillTable(table: HTMLElement, prefix: string, rows: Row[]): void {
-  table.hidden = false;
-  table.replaceChildren(
-    ...rows.map(([id, name, value, warning = "", title = ""]) => {
-      const cell = { class: warning ? "warning" : "", title: warning, "data-testid": `${prefix}-${id}` };
-      return h("tr", { title }, h("th", {}, name), h("td", cell, value));
-    }),
-  );
-}

@@ -65,7 +65,7 @@ export function listenForKeys(keys: () => Key[], characters: CharacterKeys): voi
 
 /** Whether the focused element handles the key itself. */
 function handlesKey(target: HTMLElement, key: string): boolean {
-  if (target.matches("button, input[type=checkbox]")) return key === " " || key === "Enter";
+  if (target.matches("button, summary, input[type=checkbox]")) return key === " " || key === "Enter";
   if (target.matches("input[type=range], dialog")) return sliderKeys.includes(key);
   if (key === "Escape") return target.matches("input[data-edited]");
   return target.matches("input, select, textarea");

@@ -13,6 +13,7 @@ import type { ThemeName } from "../renderer/theme";
 import { announcementOf } from "./announcements";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
+import { Gallery } from "./gallery";
 import { Header } from "./header";
 import { Help } from "./help";
 import { Inspector } from "./inspector";
@@ -32,7 +33,7 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends PanelActions {
+export interface PageActions extends Omit<PanelActions, "showScenes"> {
   retry(): void;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
@@ -62,6 +63,7 @@ export class Page {
   private readonly status: StatusLine;
   private readonly characters = new CharacterKeys(() => localStorage);
   private readonly help = new Help(this.characters);
+  private readonly gallery: Gallery;
   private readonly keys: () => Key[];
   private playing = false; // the server plays a recording
   private lastFigures = 0; // ms
@@ -88,7 +90,9 @@ export class Page {
       showTheme(theme);
       this.panel.refresh();
     });
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged });
+    this.gallery = new Gallery(session, commands);
+    const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
+    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.header = new Header(session, actions.retry);
     this.legend = new Legend(ranges, () => {
@@ -121,7 +125,7 @@ export class Page {
     };
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
     this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
-    this.keys = () => (this.prompt.open ? [] : keysFor(keyActions, this.playing));
+    this.keys = () => (this.prompt.open || this.gallery.open ? [] : keysFor(keyActions, this.playing));
     listenForKeys(() => this.keys(), this.characters);
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
@@ -132,13 +136,14 @@ export class Page {
     });
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
     this.playback = new Playback(session, commands, () => this.needsSpeeds);
-    const { header, legend, inspector, panel, status, toasts, help, steering, prompt } = this;
+    const { header, legend, inspector, panel, status, toasts, help, steering } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
     const lines = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
     const controls = h("div", { class: "controls" }, ...lines);
     const deck = h("div", { class: "deck" }, controls);
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, deck));
-    container.append(header.element, foot, panel.element, status.element, toasts.element, help.element, prompt.element);
+    const dialogs = [help, this.gallery, this.prompt].map(({ element }) => element);
+    container.append(header.element, foot, panel.element, status.element, toasts.element, ...dialogs);
     panel.element.setAttribute("role", "region");
     panel.element.setAttribute("aria-label", "Controls");
     const covering = [header, inspector, legend, panel, status].map(({ element }) => element);
@@ -168,6 +173,7 @@ export class Page {
     this.playback.update(now, shown, blockedReason);
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.legend.update(this.choices.mode, this.session.facts);
+    this.gallery.update(blockedReason);
     document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
@@ -204,10 +210,7 @@ export class Page {
     if (action === "reload") location.reload();
     if (action === "reset") void this.commands.reset();
     if (action === "drop") this.panel.dropNow();
-    if (action === "choose") {
-      this.showPanel(true);
-      this.panel.focusScene();
-    }
+    if (action === "choose") this.gallery.show(this.steering.blockedReason);
   }
 
   private setPlaying(playing: boolean): void {

@@ -1,9 +1,9 @@
 import GUI from "lil-gui";
-import type { Controller, NumberController, OptionController } from "lil-gui";
+import type { Controller, NumberController } from "lil-gui";
 import type { Commands } from "../connection/commands";
 import type { Outcome } from "../connection/link";
 import type { ViewRequest } from "../connection/messages";
-import type { Diagnostics, Dial as DialMessage, Settings, Welcome } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Dial as DialMessage, Settings } from "../gen/spherule/v1/control_pb";
 import type { Facts } from "../model/facts";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
@@ -15,8 +15,10 @@ import { nameFolders, Restriction, tag } from "./controllers";
 import { Dial } from "./dial";
 import { Entry } from "./entry";
 import type { EntryRule } from "./entry";
+import { rememberFolders } from "./folders";
 import {
   customGravity,
+  dropCountFor,
   dropFor,
   dropRadiusFor,
   dropRadiusRule,
@@ -27,7 +29,7 @@ import {
   impulseRule,
 } from "./presets";
 import { refusalText } from "./refusals";
-import { StatisticsTables } from "./statistics";
+import { StatisticsLists } from "./statistics";
 import { StreamFolder } from "./stream_folder";
 
 /** Choices of the user that concern only this page. */
@@ -47,6 +49,7 @@ export interface PanelActions {
   qualityChanged(quality: RenderQualityChoice): void;
   viewRequested(view: ViewRequest): void;
   forgetToken(): void;
+  showScenes(): void;
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
@@ -61,9 +64,8 @@ export class Panel {
   readonly element: HTMLElement;
   readonly stream: StreamFolder;
   private readonly gui: GUI;
-  private readonly statistics = new StatisticsTables();
+  private readonly statistics = new StatisticsLists();
   private readonly world = {
-    scene: "",
     gravity: "Earth",
     x: 0,
     y: 0,
@@ -80,7 +82,7 @@ export class Panel {
   private playback!: GUI; // the folder of which a recording uses the speed
   private readonly access: GUI; // hidden while there is no token
   private readonly restriction: Restriction;
-  private readonly scene: OptionController;
+  private readonly scenes: Controller;
   private readonly dial = new Dial(
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
@@ -97,21 +99,26 @@ export class Panel {
     this.gui = new GUI({ autoPlace: false, injectStyles: false, touchStyles: 0, title: "Controls", width: 288 });
     this.element = this.gui.domElement;
     this.element.dataset.testid = "panel";
-    this.scene = tag("scene", this.gui.add(this.world, "scene", [""]).name("Scene")) as OptionController;
-    this.scene.onFinishChange((name: string) => void commands.load(name));
-    this.addQuality();
-    this.addWorld();
+    this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
     this.addDrop();
     this.addPush();
+    this.addGravity();
+    this.addQuality();
+    this.addWorld();
     this.addLook();
     const requested = (view: ViewRequest): void => actions.viewRequested(view);
-    this.stream = new StreamFolder(this.gui.addFolder("Stream"), choices.view, requested);
-    this.addStatistics();
+    const stream = this.gui.addFolder("Stream");
+    this.stream = new StreamFolder(stream, choices.view, requested);
+    const now = this.addSimulated("Now");
+    now.$children.append(this.statistics.quality.element);
+    const statistics = this.addSimulated("Statistics");
+    statistics.$children.append(this.statistics.rest.element);
     this.access = this.gui.addFolder("Access").hide();
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
     nameFolders(this.gui);
-    this.restriction = new Restriction([this.scene, ...this.steering.flatMap((folder) => folder.controllers)]);
+    rememberFolders(this.gui, [stream, now, statistics], () => localStorage);
+    this.restriction = new Restriction(this.steering.flatMap((folder) => folder.controllers));
   }
 
   /** Disables all controls that send commands; an empty reason enables them. */
@@ -129,24 +136,20 @@ export class Panel {
   /** `playing`: the server plays a recording. Hides the controls that then have no effect. */
   setPlaying(playing: boolean): void {
     if (playing) this.choices.push = false;
-    this.scene.show(!playing);
+    this.scenes.show(!playing);
     for (const folder of this.simulated) folder.show(!playing);
     for (const controller of this.playback.controllers) controller.show(!playing || controller.property === "speed");
     this.playback.title(playing ? "Recording" : "World");
     this.refresh();
   }
 
-  setScenes({ scenes }: Welcome): void {
-    this.scene.options(scenes);
-  }
-
   /** `another`: it is another scene than before. */
   setFacts(facts: Facts, another: boolean): void {
     this.facts = facts;
-    this.world.scene = facts.name;
     if (another) {
       for (const entry of this.entries.values()) entry.restore();
       this.drop.radius = dropRadiusFor(facts);
+      this.drop.count = dropCountFor(facts, this.drop.radius);
       this.choices.impulse = impulseFor(this.drop.radius);
       if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.population.groups);
     }
@@ -185,10 +188,6 @@ export class Panel {
     this.choices.mode = mode;
     this.choices.modeChosen = true;
     this.refresh();
-  }
-
-  focusScene(): void {
-    this.scene.$select.focus();
   }
 
   dropNow(): void {
@@ -244,16 +243,14 @@ export class Panel {
     return folder;
   }
 
-  private addWorld(): void {
+  private addGravity(): void {
     const { world } = this;
-    const folder = this.gui.addFolder("World");
-    this.playback = folder;
+    const folder = this.addSimulated("Gravity");
     this.steering.push(folder);
-    folder.domElement.classList.add("playback");
     const setGravity = (entry?: string): void =>
       void this.change("Gravity", { gravity: [world.x, world.y, world.z] }, entry);
     const presetNames = [...Object.keys(gravityPresets), customGravity];
-    const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Gravity, m/s²"));
+    const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Preset, m/s²"));
     preset.onFinishChange((name: string) => {
       const gravity = gravityPresets[name];
       if (!gravity) return;
@@ -268,6 +265,14 @@ export class Panel {
       part.domElement.querySelector("input")?.setAttribute("aria-labelledby", name);
       this.number(id, part, () => gravityRule, parts[2]?.domElement).onFinishChange(() => setGravity(id));
     });
+  }
+
+  private addWorld(): void {
+    const { world } = this;
+    const folder = this.gui.addFolder("World");
+    this.playback = folder;
+    this.steering.push(folder);
+    folder.domElement.classList.add("playback");
     const add = (id: "restitution" | "friction" | "speed", [low, high, step]: number[], rule: EntryRule): void => {
       const name = rule.unit ? `${capital(id)}, ${rule.unit}` : capital(id);
       const control = this.number(id, folder.add(world, id, low, high, step).name(name), () => rule);
@@ -290,7 +295,6 @@ export class Panel {
       setAuto();
     });
     auto.domElement.title = "Adjusts the substeps to hold a step time or a mean overlap";
-    this.addSimulated("Now").$children.append(this.statistics.quality);
     this.goal = this.number("goal", folder.add(world, "goal").min(0).name(""), () => goals[world.auto].rule);
     this.goal.onFinishChange(setAuto).hide();
   }
@@ -324,9 +328,5 @@ export class Panel {
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
     const theme = tag("theme", folder.add(choices, "theme", themeNames).name("Theme"));
     theme.onChange((value: ThemeName) => actions.themeChanged(value));
-  }
-
-  private addStatistics(): void {
-    this.addSimulated("Statistics").$children.append(this.statistics.rest);
   }
 }

@@ -32,15 +32,16 @@ export function impulseFor(radius: number): number {
   return Number((pushSpeed * density * (4 / 3) * Math.PI * radius ** 3).toPrecision(2));
 }
 
-/** The first radius (m) of spheres to drop: the mean of the scene's radii, or a small part of the largest that fits. */
+/** The first radius (m) of dropped spheres: the mean of the moving ones, or a small part of the largest that fits. */
 export function dropRadiusFor(facts: Facts): number {
-  const [low, high] = facts.population.radiusRange;
   const most = dropRadiusRule(facts).most ?? Infinity;
-  return Number(Math.min((low + high) / 2 || most / 20, most).toPrecision(3));
+  return Number(Math.min(facts.population.meanRadius || most / 20, most).toPrecision(3));
 }
 
+type Bounds = Pick<Facts, "min" | "max">;
+
 /** The radii (m) of spheres that dropFor() can place. */
-export function dropRadiusRule(facts: Facts | undefined): EntryRule {
+export function dropRadiusRule(facts: Bounds | undefined): EntryRule {
   const sides = facts ? facts.max.map((high, axis) => high - (facts.min[axis] ?? 0)) : [2e6];
   return { unit: "m", least: 1e-6, most: Number((Math.min(...sides) / (2 * dropMargin + dropRoom)).toPrecision(2)) };
 }
@@ -59,11 +60,21 @@ const dropMargin = 1.1; // radii between dropped spheres and the bounds
 const dropRoom = 2.2; // radii: the least side of the box for them
 
 /** Spheres to drop in the upper third of the bounds, clear of its walls. The box is higher for large spheres. */
-export function dropFor(facts: Facts, count: number, radius: number): Drop {
+export function dropFor(facts: Bounds, count: number, radius: number): Drop {
   const margin = dropMargin * radius;
   const min = facts.min.map((low) => low + margin) as Vec3;
   const max = facts.max.map((high) => high - margin) as Vec3;
   const third = facts.max[2] - (facts.max[2] - facts.min[2]) / 3;
   min[2] = Math.max(min[2], Math.min(third, max[2] - dropRoom * radius));
   return { min, max, count, radius };
+}
+
+const mostDropped = 200;
+const fill = 0.1; // of the space: so many random places without overlaps are soon found
+
+/** The first number of spheres to drop: fewer where there is little room. `radius`: of these spheres (m). */
+export function dropCountFor(facts: Bounds, radius: number): number {
+  const { min, max } = dropFor(facts, 1, radius);
+  const room = min.reduce((volume, low, axis) => volume * Math.max(0, (max[axis] ?? low) - low), 1);
+  return Math.max(1, Math.min(mostDropped, Math.floor((fill * room) / ((4 / 3) * Math.PI * radius ** 3))));
 }

@@ -3,8 +3,9 @@ import type { ViewRequest } from "../connection/messages";
 import { frameRates } from "../connection/view_request";
 import type { Session } from "../model/session";
 import { tag } from "./controllers";
-import { fillTable, h, setText } from "./dom";
-import { reductionLabel, streamRows, tierLabel, tiers } from "./stream_labels";
+import { h, setText } from "./dom";
+import { Figures } from "./figures";
+import { reductionLabel, streamFigures, tierLabel, tiers } from "./stream_labels";
 
 const tierNames = Object.fromEntries(tiers.map(({ tier }) => [tierLabel(tier), tier]));
 const fixedNames = { Automatic: false, Fixed: true };
@@ -13,7 +14,7 @@ const period = 1000; // ms between updates of the figures
 
 /** The folder of the panel for the stream: the user's choice, and the stream that the server sends. */
 export class StreamFolder {
-  private readonly table = h("table", { class: "statistics", hidden: true });
+  private readonly figures = new Figures("stream");
   private readonly note = h("p", { class: "note", "data-testid": "stream-note", hidden: true });
   private lastUpdate = 0; // ms
 
@@ -30,7 +31,7 @@ export class StreamFolder {
     const fixed = tag("fixed", folder.add(view, "fixed", fixedNames).name("If too slow"));
     fixed.onFinishChange(changed).domElement.title =
       "If this page or its connection is too slow: Automatic lowers precision and frame rate, Fixed skips frames";
-    folder.$children.append(this.note, this.table);
+    folder.$children.append(this.note, this.figures.element);
   }
 
   /** `now`: ms, as sharedNow() counts. */
@@ -40,6 +41,6 @@ export class StreamFolder {
     if (now - this.lastUpdate < period) return;
     this.lastUpdate = now;
     const { stream, traffic, delay, lost } = session;
-    fillTable(this.table, "stream", streamRows(this.view, stream, traffic.rates(now), delay.newest, lost));
+    this.figures.show(streamFigures(this.view, stream, traffic.rates(now), delay.newest, lost));
   }
 }

@@ -1,0 +1,31 @@
+import type GUI from "lil-gui";
+
+const key = "spherule.folders";
+
+type Store = Pick<Storage, "getItem" | "setItem">;
+
+/**
+ * Opens the folders of the panel, except the `folded` ones. A folder that the user has opened or closed stays as it is
+ * when the page is loaded again, if the browser can store it.
+ */
+export function rememberFolders(gui: GUI, folded: GUI[], store: () => Store): void {
+  const chosen = load(store); // by title: whether it is open
+  for (const folder of gui.folders) folder.open(chosen[folder._title] ?? !folded.includes(folder));
+  gui.onOpenClose((folder) => {
+    chosen[folder._title] = !folder._closed;
+    try {
+      store().setItem(key, JSON.stringify(chosen));
+    } catch {
+      // The browser forbids storage: the next page starts with the default.
+    }
+  });
+}
+
+function load(store: () => Store): Record<string, boolean> {
+  try {
+    const saved: unknown = JSON.parse(store().getItem(key) ?? "{}");
+    return Object.fromEntries(Object.entries(saved ?? {}).filter(([, open]) => typeof open === "boolean"));
+  } catch {
+    return {};
+  }
+}
