@@ -1,7 +1,7 @@
 // Wrong entries on the panel are answered at their fields, by the page and by the server.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { control, open, pause, says, when } from "./support/browser.mjs";
+import { chooseScene, control, open, pause, says, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -114,12 +114,12 @@ test("another scene brings its own values, and clears wrong entries", async () =
   await page.selectOption(control("colour"), "Radius");
   await enter("speed", "2");
   await when(page, () => spherule.session.settings.speed === 2);
-  await page.selectOption(control("scene"), "two-spheres");
+  await chooseScene(page, "two-spheres");
   await when(page, () => spherule.session.facts.name === "two-spheres" && spherule.session.settings.gravity[2] === 0);
-  // From the scene: gravity, materials, radius, impulse. From the user: speed, pause, colour, count.
+  // From the scene: gravity, materials, count, radius, impulse. From the user: speed, pause, colour.
   await when(page, () => document.querySelector('[data-testid="drop-radius"]').value === "0.05");
   const value = (id) => page.inputValue(control(id));
-  assert.deepEqual([await value("gravity-z"), await value("speed"), await value("drop-count")], ["0", "2", "7"]);
+  assert.deepEqual([await value("gravity-z"), await value("speed"), await value("drop-count")], ["0", "2", "200"]);
   assert.equal(await value("colour"), "Radius");
   assert.equal(await page.evaluate(() => spherule.session.settings.paused), true);
   await when(page, () => document.querySelector('[data-testid="restitution-wrong"]').hidden);

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, when } from "./support/browser.mjs";
+import { control, open, says, unfold, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -33,6 +33,7 @@ const suite = browserSuite(async (_, folder) => {
   await server.ctl("pause");
   await server.ctl("load", file); // stays paused
   page = await open(suite.browser, server.url, { size: [1000, 700] });
+  await unfold(page, "Stream");
 });
 
 /** Waits until the page shows the speed of a sphere, within 1 %. */

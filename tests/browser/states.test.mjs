@@ -20,7 +20,7 @@ async function notices(page, ...ids) {
 /** The controls that look usable and send commands. */
 const usable = (page) =>
   page.evaluate(() => {
-    const local = ["tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
+    const local = ["scenes", "tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
     const elements = document.querySelectorAll("#page :is(button, input, select)[data-testid]");
     return Array.from(elements)
       .filter((one) => one.offsetParent && !one.disabled && !one.closest("dialog, [data-notice], .legend"))
@@ -43,7 +43,8 @@ test("a scene without spheres says what to do, and the notice drops some", async
   assert.deepEqual(await collisions(page, 5), []);
   await shot(page, "empty");
   await page.click(control("notice-choose"));
-  assert.equal(await page.evaluate(() => document.activeElement.dataset.testid), "scene");
+  await page.waitForSelector(`${control("gallery")}[open]`);
+  await page.keyboard.press("Escape");
   await page.click(control("notice-drop"));
   await when(page, () => spherule.spheres === 200);
   await notices(page);

@@ -72,9 +72,10 @@ export function dropFor(facts: Bounds, count: number, radius: number): Drop {
 const mostDropped = 200;
 const fill = 0.1; // of the space: so many random places without overlaps are soon found
 
-/** The first number of spheres to drop: fewer where there is little room. `radius`: of these spheres (m). */
+/** The first number of spheres to drop: a round one, fewer where there is little room. `radius`: of them (m). */
 export function dropCountFor(facts: Bounds, radius: number): number {
   const { min, max } = dropFor(facts, 1, radius);
   const room = min.reduce((volume, low, axis) => volume * Math.max(0, (max[axis] ?? low) - low), 1);
-  return Math.max(1, Math.min(mostDropped, Math.floor((fill * room) / ((4 / 3) * Math.PI * radius ** 3))));
+  const fitting = Number(((fill * room) / ((4 / 3) * Math.PI * radius ** 3)).toPrecision(1));
+  return Math.max(1, Math.min(mostDropped, Math.floor(fitting)));
 }
