@@ -20,7 +20,7 @@ interface ColumnFormat {
   encoded(frame: Frame): EncodedColumn | undefined;
 }
 
-/** A column of this name is an input of the shaders: a_<name>From and a_<name>To (renderer/program.ts). */
+/** A column of this name has tables in the shaders: u_<name>From and u_<name>To (renderer/program.ts). */
 export const columnFormats: { position: ColumnFormat; speed: ColumnFormat } = {
   // x y z (m), relative to the centre of the bounds
   position: { components: 3, encoded: (frame) => frame },
@@ -43,8 +43,5 @@ export function bufferOf(columns: Columns): ArrayBuffer {
   return columns.position.values.buffer as ArrayBuffer;
 }
 
-/** The values of all columns. */
-export function valuesOf(columns: Columns): Float32Array {
-  const length = columnNames.reduce((sum, name) => sum + (columns[name]?.values.length ?? 0), 0);
-  return new Float32Array(bufferOf(columns), 0, length);
-}
+/** Spheres per block: neighbours in the codec's order. A state has the box of the positions in each block. */
+export const blockPlaces = 512;

@@ -1,6 +1,6 @@
 import { Camera } from "./camera/camera";
 import { listen } from "./camera/gestures";
-import { pick, rayThrough } from "./camera/ray";
+import { rayThrough } from "./camera/ray";
 import { DrawClock, sharedNow } from "./clock";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
@@ -106,11 +106,9 @@ export class Viewer {
     requestAnimationFrame(tick);
   }
 
-  /** The place of the sphere that is drawn at a point of the canvas (CSS pixels). */
+  /** The place of the sphere that the image shows at a point of the canvas (CSS pixels). */
   placeAt(x: number, y: number): number | undefined {
-    const { facts, states } = this.session;
-    const shown = states.shown(sharedNow());
-    return facts && shown && pick(facts, shown, rayThrough(this.camera.last, x, y));
+    return this.canvas.placeAt(x, y);
   }
 
   private createSession(): Session {
@@ -127,6 +125,7 @@ export class Viewer {
         this.page.panel.setFacts(facts, another);
         this.drawn = "";
       },
+      orderChanged: (order) => this.canvas.setOrder(order),
       populationChanged: ({ population }, changed) => {
         this.canvas.updatePopulation(changed);
         this.page.inspector.selection.follow(population);

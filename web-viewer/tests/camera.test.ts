@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Camera } from "../src/camera/camera";
 import { approached, eyeOf, framing, orbited, panned, poseFrom, zoomed } from "../src/camera/orbit";
-import { hit, project, rayThrough } from "../src/camera/ray";
+import { project, rayThrough } from "../src/camera/ray";
 import { freePart } from "../src/camera/free_part";
 import { extentOf, tangentPerPixel, viewOf } from "../src/camera/view";
 import type { Vec3 } from "../src/model/facts";
@@ -158,23 +158,9 @@ test("the picture moves to a new free part smoothly, and at once with reduced mo
   close([middleOf(camera)], [796], 1e-2);
 });
 
-test("a ray enters a sphere at its near side, and misses spheres beside and behind it", () => {
-  const ray = { origin: [0, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
-  assert.equal(hit(ray, [5, 0, 0], 1), 4);
-  assert.equal(hit(ray, [5, 1.01, 0], 1), Infinity);
-  assert.equal(hit(ray, [-5, 0, 0], 1), Infinity);
-});
-
 test("approaching turns the shorter way", () => {
   const [from, to] = [poseFrom([-5, 1, 0], [0, 0, 0]), poseFrom([-5, -1, 0], [0, 0, 0])];
   assert.ok(eyeOf(approached(from, to, 0.5))[0] < -5);
-});
-
-test("a ray from inside a sphere meets it where it leaves", () => {
-  const ray = { origin: [0.5, 0, 0] as Vec3, direction: [1, 0, 0] as Vec3 };
-  assert.equal(hit(ray, [0, 0, 0], 2), 1.5);
-  assert.equal(hit(ray, [-1, 0, 0], 2), 0.5);
-  assert.equal(hit(ray, [-5, 0, 0], 2), Infinity);
 });
 
 test("with reduced motion, the camera is at its goal at once", () => {

@@ -92,3 +92,24 @@ test("a box is drawn with six sides", () => {
 test("an obstacle of a shape that this page does not know is not drawn", () => {
   assert.deepEqual(surfaceOf({ shape: { case: undefined }, colour: undefined }, grey, bounds).vertices, []);
 });
+
+test("triangles are counter-clockwise as seen from the free side", () => {
+  const sphere = { $typeName: "spherule.v1.SphereShape" as const, centre: [0, 0, 0], radius: 1 };
+  const cylinder = { $typeName: "spherule.v1.CylinderShape" as const, from: [0, 0, 0], to: [0, 1, 1], radius: 0.5 };
+  const plane = { $typeName: "spherule.v1.Plane" as const, point: [0, 0, 0], normal: [1, 0, 1] };
+  const box = { $typeName: "spherule.v1.Box" as const, min: [-1, -1, -1], max: [1, 1, 1] };
+  const shapes: Obstacle["shape"][] = [{ case: "plane", value: plane }, { case: "box", value: box }];
+  for (const hollow of [false, true]) {
+    shapes.push({ case: "sphere", value: { ...sphere, hollow } }, { case: "cylinder", value: { ...cylinder, hollow } });
+  }
+  for (const shape of shapes) {
+    const { vertices } = drawn(shape);
+    for (let i = 0; i < vertices.length; i += 3) {
+      const [a, b, c] = vertices.slice(i, i + 3) as [Vertex, Vertex, Vertex];
+      const [u, v] = [minus(b.place, a.place), minus(c.place, a.place)];
+      const across: Vec3 = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+      if (Math.hypot(...across) < 1e-9) continue; // at a pole
+      assert.ok(dot(across, a.normal) > 0, `${shape.case}, triangle ${i / 3}`);
+    }
+  }
+});

@@ -2,7 +2,6 @@ import { create } from "@bufbuild/protobuf";
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { pick } from "../src/camera/ray";
 import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { ColourRanges, highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
@@ -137,13 +136,8 @@ test("runs are joined to few uploads, and two populations are compared by their 
   ]);
 });
 
-test("places without a sphere are neither picked nor measured, and the legend counts spheres", () => {
+test("places without a sphere are not measured, and the legend counts spheres", () => {
   const scene = factsOf(create(SceneFactsSchema, { ...facts, boundsMin: [-9, -9, -9], boundsMax: [9, 9, 9] }));
-  const position = { values: Float32Array.from(all.flatMap((place) => [place, 0, 0])), quantum: 0.01 };
-  const state: State = { sequence: 1, epoch: 3, step: 1, simTime: 0, count: 6, columns: { position } };
-  const shown = { from: state, to: state, mix: 1, moving: false };
-  assert.equal(pick(scene, shown, { origin: [-5, 0, 0], direction: [1, 0, 0] }), 1);
-  assert.equal(pick(scene, shown, { origin: [3, 0, 5], direction: [0, 0, -1] }), undefined);
   const isUsed = (place: number): boolean => scene.population.isUsed(place);
   assert.equal(highOf((place) => (isUsed(place) ? 7 - place : 1000), 6, isUsed), 5);
   assert.equal(highOf(() => 1000, 6, () => false), undefined);
@@ -156,7 +150,8 @@ test("automatic colour ranges ignore places without a sphere", () => {
   const scene = factsOf(create(SceneFactsSchema, facts));
   const at = (simTime: number, xs: number[]): State => {
     const position = { values: Float32Array.from(xs.flatMap((x) => [x, 0, 0])), quantum: 0.01 };
-    return { sequence: 1, epoch: 3, step: 1, simTime, count: 6, columns: { position } };
+    const drawing = { order: 1, boxes: new Float32Array(0) };
+    return { sequence: 1, epoch: 3, step: 1, simTime, count: 6, columns: { position }, ...drawing };
   };
   const ranges = new ColourRanges();
   const shown = { from: at(0, [0, 0, 0, 0, 0, 0]), to: at(1, [90, 2, 2, 90, 90, 2]), mix: 1, moving: false };

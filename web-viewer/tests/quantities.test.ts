@@ -22,7 +22,8 @@ function legendOf(mode: Mode, of: Facts): LegendContent {
 
 function state(sequence: number, simTime: number, x: number): State {
   const position = { values: Float32Array.of(x, 0, 0), quantum: 0.01 };
-  return { sequence, epoch: 1, step: sequence, simTime, count: 1, columns: { position } };
+  const drawing = { order: 1, boxes: new Float32Array(0) };
+  return { sequence, epoch: 1, step: sequence, simTime, count: 1, columns: { position }, ...drawing };
 }
 
 test("only the range of speeds is automatic", () => {

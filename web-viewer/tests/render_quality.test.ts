@@ -14,5 +14,5 @@ test("a chosen quality is kept, and a software renderer starts with light qualit
   const control = new RenderQualityControl("full", true);
   for (let i = 0; i < 200; i++) control.took(500);
   assert.equal(control.quality, ladder[0]);
-  assert.equal(new RenderQualityControl("auto", true).quality.occlusion, false);
+  assert.equal(new RenderQualityControl("auto", true).quality.full, false);
 });

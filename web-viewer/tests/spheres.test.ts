@@ -5,26 +5,28 @@ import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts
 import { factsOf } from "../src/model/facts";
 import type { State } from "../src/model/states";
 import { SphereData } from "../src/renderer/spheres";
+import { Table } from "../src/renderer/table";
 
 const places = 1000;
 const groups = [{ name: "a", count: places }];
 const scene = create(SceneFactsSchema, { epoch: 3, count: places, radius: 0.5, groups });
 
-/** A WebGL context that does nothing but keep the uploads: of a whole buffer, or of a part from a byte on. */
+/** A WebGL context that does nothing but keep the uploads: the first place of each, and the number of places. */
 function createContext() {
-  const uploads: { at: number | undefined; bytes: number }[] = [];
+  const uploads: [first: number, count: number][] = [];
   const calls: Record<string, unknown> = {
-    createBuffer: () => ({}),
-    bufferData: (_: number, data: ArrayBufferView) => void uploads.push({ at: undefined, bytes: data.byteLength }),
-    bufferSubData: (_: number, at: number, data: ArrayBufferView) => void uploads.push({ at, bytes: data.byteLength }),
+    createTexture: () => ({}),
+    texSubImage2D: (_: number, __: number, x: number, y: number, columns: number, rows: number) =>
+      void uploads.push([2048 * y + x, columns * rows]),
   };
   const gl = new Proxy(calls, { get: (target, name: string) => target[name] ?? (() => undefined) });
   return { gl: gl as unknown as WebGL2RenderingContext, uploads };
 }
 
 function state(sequence: number): State {
-  const position = { values: new Float32Array(3 * places), quantum: 0.01 };
-  return { sequence, epoch: 3, step: sequence, simTime: sequence, count: places, columns: { position } };
+  const columns = { position: { values: new Float32Array(3 * places), quantum: 0.01 } };
+  const drawing = { order: 1, boxes: new Float32Array(0) };
+  return { sequence, epoch: 3, step: sequence, simTime: sequence, count: places, columns, ...drawing };
 }
 
 test("a change of the population uploads only what has changed, after the first one", () => {
@@ -39,13 +41,32 @@ test("a change of the population uploads only what has changed, after the first 
     data.updatePopulation(facts.population.apply(create(PopulationSchema, { epoch: 3, ...fields })));
   };
   change({ number: 1, removed: [{ first: 7, count: 2 }] });
-  const whole = uploads.filter(({ at }) => at === undefined).map(({ bytes }) => bytes);
-  assert.deepEqual(whole, [4 * places, 4 * places, 4 * places], "radii, ids and colours");
+  const whole = uploads.filter(([, count]) => count === places);
+  assert.equal(whole.length, 3, "radii, ids and groups");
   change({ number: 2, removed: [{ first: 500, count: 3 }], added: [{ first: 7, count: 1, id: 1000n, group: 0 }] });
-  const tables = [28, 28, 28, 2000, 2000, 2000]; // the first bytes of radii, ids and colours
-  const values = [84, 6000, 84, 6000]; // of both states
-  assert.deepEqual(uploads.map(({ at }) => at), [...tables, ...values]);
-  assert.deepEqual(uploads.map(({ bytes }) => bytes), [4, 4, 4, 12, 12, 12, 12, 36, 12, 36]);
+  const tables = [[7, 1], [7, 1], [7, 1], [500, 3], [500, 3], [500, 3]]; // radii, ids and groups
+  const looks = [[0, 2]];
+  const values = [[7, 1], [500, 3], [7, 1], [500, 3]]; // of both states
+  assert.deepEqual(uploads, [...tables, ...looks, ...values]);
+});
+
+test("a table uploads the rows of a range in few parts", () => {
+  const { gl, uploads } = createContext();
+  const table = new Table(gl, 1);
+  table.fit(10_000);
+  table.upload(new Float32Array(10_000), { first: 2000, count: 7000 });
+  assert.deepEqual(uploads, [[2000, 48], [2048, 6144], [8192, 808]]);
+});
+
+test("a state that is shown again is not uploaded again", () => {
+  const { gl, uploads } = createContext();
+  const data = new SphereData(gl);
+  data.setFacts(factsOf(scene));
+  const [from, to] = [state(1), state(2)];
+  data.show({ from, to, mix: 0, moving: true });
+  uploads.length = 0;
+  data.show({ from, to, mix: 0.5, moving: true });
+  assert.deepEqual(uploads, []);
 });
 
 test("a state whose buffer has returned to the worker is not uploaded again", () => {
@@ -59,5 +80,5 @@ test("a state whose buffer has returned to the worker is not uploaded again", ()
   uploads.length = 0;
   const change = create(PopulationSchema, { epoch: 3, number: 1, removed: [{ first: 4, count: 1 }] });
   data.updatePopulation(facts.population.apply(change));
-  assert.deepEqual(uploads.filter(({ at }) => at !== undefined), [{ at: 48, bytes: 12 }]);
+  assert.deepEqual(uploads.filter(([first, count]) => first === 4 && count === 1).length, 1);
 });

@@ -23,6 +23,18 @@ const withoutFont = {
   },
 };
 
+/** Removes comments and indentation from shaders. */
+const shortShaders = {
+  name: "short shaders",
+  setup(build) {
+    build.onLoad({ filter: /\.glsl$/ }, ({ path: file }) => {
+      const lines = readFileSync(file, "utf8").replace(/\s*\/\/.*$/gm, "").split("\n");
+      const contents = lines.map((line) => line.trim()).filter((line) => line !== "").join("\n");
+      return { contents, loader: "text" };
+    });
+  },
+};
+
 const { out, protoc, debug } = options();
 generate(protoc);
 const { outputFiles, metafile } = await esbuild.build({
@@ -41,8 +53,7 @@ const { outputFiles, metafile } = await esbuild.build({
   minify: !debug,
   sourcemap: debug ? "inline" : false,
   legalComments: "none",
-  loader: { ".glsl": "text" },
-  plugins: [withoutFont],
+  plugins: [withoutFont, shortShaders],
   logLevel: "warning",
 });
 const viewer = Object.values(metafile.outputs).find(({ entryPoint }) => entryPoint === "src/main.ts");

@@ -12,6 +12,7 @@ const ease = 70; // ms, time constant with which the pose approaches the goal
 /** A camera whose movements set a goal pose, which the shown pose approaches smoothly. */
 export class Camera {
   pose: Pose = { target: [0, 0, 0], distance: 5, azimuth: -1, elevation: 0.4 };
+  orthographic = false;
   private goal: Pose = this.pose;
   private home: Pose = this.pose;
   private extent: Extent = { horizontal: 0, vertical: 0, least: 0.4 }; // of the scene, in the home pose
@@ -84,7 +85,8 @@ export class Camera {
 
   view(): View {
     const reach = 3 * this.diagonal + Math.hypot(...this.pose.target.map((t, i) => t - (this.home.target[i] ?? 0)));
-    this.current = viewOf(this.pose, this.extent, this.size[0], this.size[1], this.insets, reach);
+    const [width, height] = this.size;
+    this.current = viewOf(this.pose, this.extent, width, height, this.insets, reach, this.orthographic);
     return this.current;
   }
 

@@ -19,9 +19,12 @@ export interface View {
   fromClip: mat4; // its inverse
   width: number; // CSS pixels
   height: number;
-  halfTangent: number; // tangent of half the vertical angle of view
-  near: number;
+  halfTangent: number; // tangent of half the vertical angle of view, or of that in which the target's plane is seen
+  near: number; // m along the direction of the view; negative: behind the eye
   far: number;
+  forward: Vec3; // direction of the view, unit length
+  orthographic: boolean; // all rays are parallel
+  distance: number; // m, from the eye to the target
 }
 
 /**
@@ -75,16 +78,45 @@ export function viewOf(
   height: number,
   insets: Insets,
   reach: number,
+  orthographic = false,
 ): View {
   const freeWidth = Math.max(1, width - insets.left - insets.right);
   const freeHeight = Math.max(1, height - insets.top - insets.bottom);
   const halfTangent = 0.5 * height * tangentPerPixel(extent, freeWidth, freeHeight);
-  const near = Math.max(pose.distance * 0.01, pose.distance - reach);
-  const far = pose.distance + reach;
-  const projection = mat4.perspective(mat4.create(), 2 * Math.atan(halfTangent), width / height, near, far);
-  projection[8] -= (insets.left - insets.right) / width;
-  projection[9] -= (insets.bottom - insets.top) / height;
+  const { distance } = pose;
+  const near = orthographic ? distance - reach : Math.max(distance * 0.01, distance - reach);
+  const far = distance + reach;
+  const projection = mat4.create();
+  const across = (insets.left - insets.right) / width;
+  const up = (insets.bottom - insets.top) / height;
+  if (orthographic) {
+    const half = distance * halfTangent; // m
+    const side = (half * width) / height;
+    mat4.ortho(projection, -side, side, -half, half, near, far);
+    projection[12] += across;
+    projection[13] += up;
+  } else {
+    mat4.perspective(projection, 2 * Math.atan(halfTangent), width / height, near, far);
+    projection[8] -= across;
+    projection[9] -= up;
+  }
   const toClip = mat4.multiply(mat4.create(), projection, rotationOf(pose));
   const fromClip = mat4.invert(mat4.create(), toClip) ?? mat4.create();
-  return { eye: eyeOf(pose), projection, toClip, fromClip, width, height, halfTangent, near, far };
+  const eye = eyeOf(pose);
+  const forward = vec3.subtract([0, 0, 0], pose.target, eye) as Vec3;
+  vec3.normalize(forward, forward);
+  return {
+    eye,
+    projection,
+    toClip,
+    fromClip,
+    width,
+    height,
+    halfTangent,
+    near,
+    far,
+    forward,
+    orthographic,
+    distance,
+  };
 }

@@ -1,11 +1,12 @@
 import { Decoder } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
 import { speedsOf } from "../codec/speeds";
-import { columnFormats, columnNames } from "../columns";
+import { blockPlaces, columnFormats, columnNames } from "../columns";
 import type { ColumnName, Columns, EncodedColumn } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
 import type { BufferPool } from "./buffer_pool";
-import { idsOf, scatter } from "./order";
+import type { DrawOrder, State } from "./messages";
+import { boxesOf, idsOf, scatter } from "./order";
 import type { Quanta } from "./order";
 import type { Periods } from "./periods";
 
@@ -13,7 +14,9 @@ import type { Periods } from "./periods";
  * The result of decoding a frame. `state`: its columns. `foreign`: the frame is of another epoch or order, and is
  * ignored. `behind`: the chain is lost, and decoding needs a keyframe.
  */
-export type Decoded = { kind: "state"; columns: Columns } | { kind: "foreign" } | { kind: "behind" };
+export type Decoded = ({ kind: "state" } & DecodedState) | { kind: "foreign" } | { kind: "behind" };
+
+export type DecodedState = Pick<State, "columns" | "order" | "boxes">;
 
 /**
  * Decodes frames to columns, by place. Decodes one chain at a time; a keyframe starts a chain. A frame is a keyframe
@@ -46,12 +49,16 @@ export class Frames {
     this.chain = undefined;
   }
 
-  /** Sets the order of the next frames. Throws an Error if the order is no permutation of the scene's ids. */
-  setOrder(order: Order): void {
-    if (order.epoch !== this.epoch) return;
+  /**
+   * Sets the order of the next frames; returns a copy. Undefined: it is of another epoch. Throws an Error if the order
+   * is no permutation of the scene's ids.
+   */
+  setOrder(order: Order): DrawOrder | undefined {
+    if (order.epoch !== this.epoch) return undefined;
     this.order = undefined;
     this.ids = idsOf(order.ids, this.count);
     this.order = order.number;
+    return { epoch: order.epoch, number: order.number, places: this.ids.slice() };
   }
 
   /** Throws an Error that says what is wrong with a malformed frame; the chain is then lost. */
@@ -73,7 +80,7 @@ export class Frames {
     }
     for (const { name, spb } of encoded) this.decoderOf(name).apply(spb);
     this.chain = chain;
-    return { kind: "state", columns: this.columnsOf(encoded) };
+    return { kind: "state", ...this.stateOf(encoded, frame.order) };
   }
 
   private decoderOf(name: ColumnName): Decoder {
@@ -90,10 +97,12 @@ export class Frames {
     return turns.map((each, axis) => (each > 0 ? (this.periods[axis] as number) / each : quantum)) as Quanta;
   }
 
-  /** The columns of the frame that has just been decoded. */
-  private columnsOf(encoded: NamedColumn[]): Columns {
+  /** The state of the frame that has just been decoded. */
+  private stateOf(encoded: NamedColumn[], order: number): DecodedState {
     const valuesPerSphere = encoded.reduce((sum, { name }) => sum + columnFormats[name].components, 0);
-    const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * valuesPerSphere * this.count);
+    const boxFloats = 6 * Math.ceil(this.count / blockPlaces);
+    const floats = valuesPerSphere * this.count + boxFloats;
+    const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * floats);
     let at = 0;
     const filled = encoded.map(({ name, quantum }) => {
       const { components } = columnFormats[name];
@@ -104,7 +113,10 @@ export class Frames {
       at += values.byteLength;
       return [name, { values, quantum }];
     });
-    return Object.fromEntries(filled) as Columns;
+    const positions = this.decoderOf("position");
+    const boxes = new Float32Array(buffer, at, boxFloats);
+    boxesOf(positions.newest, this.count, this.quantaOf(positions, encoded[0]?.quantum ?? 0), this.periods, boxes);
+    return { columns: Object.fromEntries(filled) as Columns, order, boxes };
   }
 }
 

@@ -43,6 +43,13 @@ export type ControlMessage = Extract<
   { case: "askControl" | "yieldControl" | "keepControl" }
 >;
 
+/** The order of drawing: the places of an epoch, neighbours near each other. */
+export interface DrawOrder {
+  epoch: number;
+  number: number;
+  places: Uint32Array;
+}
+
 /** A state of all places for spheres. */
 export interface State {
   sequence: number;
@@ -51,6 +58,12 @@ export interface State {
   simTime: number; // s
   count: number; // places
   columns: Columns;
+  order: number; // of the order that `boxes` has
+  /**
+   * The boxes of the centres in each block of the order: low and high corner (m, relative to the centre of the bounds).
+   * They are unbounded along periodic axes.
+   */
+  boxes: Float32Array;
 }
 
 export interface Received extends State {
@@ -82,6 +95,7 @@ export type FromWorker =
   | { kind: "population"; population: Population }
   | { kind: "settings"; settings: Settings }
   | { kind: "stream"; stream: Stream }
+  | { kind: "order"; order: DrawOrder }
   | { kind: "frame"; frame: Received }
   | { kind: "result"; result: CommandResult }
   | { kind: "event"; event: Event }

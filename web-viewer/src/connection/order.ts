@@ -1,3 +1,5 @@
+import { blockPlaces } from "../columns";
+
 const idBytes = 3;
 
 /**
@@ -40,5 +42,34 @@ export function scatter(
     values[to] = x * (units[from] as number);
     if (components > 1) values[to + 1] = y * (units[from + 1] as number);
     if (components > 2) values[to + 2] = z * (units[from + 2] as number);
+  }
+}
+
+/**
+ * Writes the box of the positions in each block of the frame order: low and high corner, six values per block. They are
+ * unbounded along periodic axes, where positions are those of any image. `units`: three values per sphere, in frame
+ * order. `periods`: the length of each periodic axis, else 0.
+ */
+export function boxesOf(
+  units: Int32Array,
+  count: number,
+  quanta: Quanta,
+  periods: readonly number[],
+  boxes: Float32Array,
+): void {
+  for (let axis = 0; axis < 3; axis++) {
+    const periodic = (periods[axis] ?? 0) > 0;
+    for (let block = 0; block * blockPlaces < count; block++) {
+      let low = Infinity;
+      let high = -Infinity;
+      const end = 3 * Math.min(count, (block + 1) * blockPlaces);
+      for (let at = 3 * block * blockPlaces + axis; !periodic && at < end; at += 3) {
+        const unit = units[at] as number;
+        if (unit < low) low = unit;
+        if (unit > high) high = unit;
+      }
+      boxes[6 * block + axis] = periodic ? -Infinity : low * quanta[axis as 0 | 1 | 2];
+      boxes[6 * block + 3 + axis] = periodic ? Infinity : high * quanta[axis as 0 | 1 | 2];
+    }
   }
 }

@@ -1,8 +1,7 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
-import type { Columns } from "../columns";
 import type { AckSchema } from "../gen/spherule/v1/control_pb";
 import type { Frame } from "../gen/spherule/v1/frame_pb";
-import type { Frames } from "./frames";
+import type { DecodedState, Frames } from "./frames";
 import { KeyframeRequester } from "./keyframe_request";
 import type { Received } from "./messages";
 
@@ -47,7 +46,7 @@ export class Stream {
         this.keyframe.cancel();
         this.reported = false;
         this.ack(frame.sequence, decodeMs, false);
-        this.events.decoded(received(frame, decoded.columns, arrival, bytes, decodeMs));
+        this.events.decoded(received(frame, decoded, arrival, bytes, decodeMs));
         return;
       }
       // The server counts every frame without an ack as in flight, so ignored frames are acknowledged too.
@@ -73,7 +72,7 @@ export class Stream {
 
 function received(
   frame: Frame,
-  columns: Columns,
+  { columns, order, boxes }: DecodedState,
   arrival: number,
   bytes: number,
   decodeMs: number,
@@ -87,6 +86,8 @@ function received(
     count,
     population,
     columns,
+    order,
+    boxes,
     arrival,
     ready: Number(stampUs) / 1000,
     bytes,

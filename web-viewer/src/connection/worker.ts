@@ -39,7 +39,11 @@ function received(data: ArrayBuffer): void {
     const arrival = sharedNow();
     const kind = decode(data);
     if (kind.case === "frame") return stream.receive(kind.value, arrival, data.byteLength);
-    if (kind.case === "order") return frames.setOrder(kind.value);
+    if (kind.case === "order") {
+      const order = frames.setOrder(kind.value);
+      if (order) page.postMessage({ kind: "order", order }, [order.places.buffer]);
+      return;
+    }
     if (kind.case === "scene") frames.setScene(kind.value.epoch, kind.value.count, periodsOf(kind.value));
     const message = forPage(kind);
     if (message) page.postMessage(message);

@@ -6,7 +6,7 @@ import type { Shown } from "./states";
 
 interface Automatic {
   range: AutoRange;
-  value(facts: Facts, shown: Shown, place: number): number | undefined;
+  value(facts: Facts, shown: Shown, place: number): number;
 }
 
 /** The range of values that the scale of each mode covers. */
@@ -62,24 +62,26 @@ export class ColourRanges {
   }
 }
 
+const samples = new Float64Array(2048); // reused: each state is sampled
+
 /**
- * The 98th percentile of the values at the places in use, from at most `samples` of them, spread over all; undefined if
- * none is known. `places`: their number, free ones included.
+ * The 98th percentile of the values at the places in use, from at most 2048 of them, spread over all; undefined if none
+ * is known. `value`: NaN if it is unknown. `places`: their number, free ones included.
  */
 export function highOf(
-  value: (place: number) => number | undefined,
+  value: (place: number) => number,
   places: number,
   isUsed: (place: number) => boolean = () => true,
-  samples = 2048,
 ): number | undefined {
-  const parts = Math.min(samples, places);
-  const values: number[] = [];
+  const parts = Math.min(samples.length, places);
+  let found = 0;
   for (let part = 0; part < parts; part++) {
     const end = Math.floor(((part + 1) * places) / parts);
     let place = Math.floor((part * places) / parts);
     while (place < end && !isUsed(place)) place += 1;
-    const known = place < end ? value(place) : undefined;
-    if (known !== undefined) values.push(known);
+    const known = place < end ? value(place) : NaN;
+    if (known === known) samples[found++] = known;
   }
-  return Float64Array.from(values).sort()[Math.floor(0.98 * (values.length - 1))];
+  if (found === 0) return undefined;
+  return samples.subarray(0, found).sort()[Math.floor(0.98 * (found - 1))];
 }

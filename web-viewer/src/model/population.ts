@@ -16,10 +16,12 @@ export interface Group {
   colour: Rgb;
   own: boolean; // the colour is given by the scene
   fixed: boolean; // nothing moves its spheres
+  roughness: number; // of the surface, 0..1
+  metal: number; // 0..1
 }
 
 const unused = -1; // id at a place without a sphere
-const noGroup = 0xffffffff;
+const noGroup = 0xffffffff; // as in renderer/shaders/colour.glsl
 
 /** The spheres at the places of frames: id, radius and group of each. Places beyond the last one are ignored. */
 export class Population {
@@ -35,7 +37,8 @@ export class Population {
   /** Id at each place, negative if it is not in use; exact below 2^53. Undefined: ids are the numbers of places. */
   ids: Float64Array | undefined;
 
-  private readonly groupNumbers: Uint32Array; // per place
+  /** The index of the group at each place; noGroup if there is none. */
+  readonly groupNumbers: Uint32Array;
   private readonly radiusExtent = new Extent();
   private readonly idExtent = new Extent();
 
@@ -258,7 +261,7 @@ export function joined(runs: readonly Run[], gap: number): Run[] {
 
 function groupFrom({ name, colour: hex, fixed }: GroupFacts, index: number, count: number): Group {
   const { colour, own } = groupColour(hex, index);
-  return { name: name || `group ${index + 1}`, count, colour, own, fixed };
+  return { name: name || `group ${index + 1}`, count, colour, own, fixed, roughness: 0.45, metal: 0 };
 }
 
 /** `bytes`: float32 little endian. Missing values are 0. */

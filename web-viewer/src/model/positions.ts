@@ -27,35 +27,23 @@ export function shownPosition(facts: Facts, shown: Shown, place: number): Vec3 {
 }
 
 /**
- * The positions at which a sphere is drawn (m): one that reaches across a face of a periodic axis is drawn at both
- * faces.
+ * The speed of a sphere (m/s): the one that the server sent, or the mean between the two states. NaN: unknown. It
+ * allocates nothing.
  */
-export function shownImages(facts: Facts, shown: Shown, place: number): Vec3[] {
-  const images = [shownPosition(facts, shown, place)];
-  facts.periods.forEach((period, axis) => {
-    if (period === 0) return;
-    const from = (images[0]?.[axis] ?? 0) - (facts.origin[axis] ?? 0);
-    if (Math.abs(from) + facts.population.radiusOf(place) <= period / 2) return;
-    for (const image of [...images]) {
-      const other: Vec3 = [...image];
-      other[axis] = (image[axis] ?? 0) - Math.sign(from) * period;
-      images.push(other);
-    }
-  });
-  return images;
-}
-
-/** The mean speed of a sphere between two states of different times (m/s). */
-function speedOf(facts: Facts, from: State, to: State, place: number): number {
+export function speedOf(facts: Facts, { from, to, mix }: Shown, place: number): number {
+  const before = from.columns.speed?.values[place];
+  const after = to.columns.speed?.values[place];
+  if (before !== undefined && after !== undefined) return before + mix * (after - before);
   const time = to.simTime - from.simTime;
+  if (!(time > 0)) return NaN;
   const at = 3 * place;
   const { values: a } = from.columns.position;
   const { values: b } = to.columns.position;
-  const [x, y, z] = facts.periods;
-  const dx = shortest((b[at] ?? 0) - (a[at] ?? 0), x);
-  const dy = shortest((b[at + 1] ?? 0) - (a[at + 1] ?? 0), y);
-  const dz = shortest((b[at + 2] ?? 0) - (a[at + 2] ?? 0), z);
-  return Math.hypot(dx, dy, dz) / time;
+  const { periods } = facts;
+  const dx = shortest((b[at] ?? 0) - (a[at] ?? 0), periods[0]);
+  const dy = shortest((b[at + 1] ?? 0) - (a[at + 1] ?? 0), periods[1]);
+  const dz = shortest((b[at + 2] ?? 0) - (a[at + 2] ?? 0), periods[2]);
+  return Math.sqrt(dx * dx + dy * dy + dz * dz) / time;
 }
 
 /**
@@ -64,14 +52,13 @@ function speedOf(facts: Facts, from: State, to: State, place: number): number {
  */
 export function shownSpeed(
   facts: Facts,
-  { from, to, mix }: Shown,
+  shown: Shown,
   place: number,
 ): { speed: number; error: number } | undefined {
-  const before = from.columns.speed?.values[place];
-  const after = to.columns.speed?.values[place];
-  if (before !== undefined && after !== undefined) return { speed: before + mix * (after - before), error: 0 };
-  const time = to.simTime - from.simTime;
-  if (!(time > 0)) return undefined;
+  const speed = speedOf(facts, shown, place);
+  if (Number.isNaN(speed)) return undefined;
+  const { from, to } = shown;
+  if (from.columns.speed && to.columns.speed) return { speed, error: 0 };
   const quanta = from.columns.position.quantum + to.columns.position.quantum;
-  return { speed: speedOf(facts, from, to, place), error: (Math.sqrt(3) / 2) * (quanta / time) };
+  return { speed, error: (Math.sqrt(3) / 2) * (quanta / (to.simTime - from.simTime)) };
 }

@@ -3,18 +3,18 @@ import type { Ramp } from "../colour/ramp";
 import type { Rgb } from "../colour/rgb";
 import { count, figure, length } from "../format";
 import type { Facts } from "./facts";
-import { shownSpeed } from "./positions";
+import { shownSpeed, speedOf } from "./positions";
 import type { Shown } from "./states";
 
 export type Range = [number, number];
 
 /**
  * A colour scale. Its range is constant in a scene, or automatic: then it begins at 0, and its end follows the values
- * that are shown, but is at least `least`. An undefined value is unknown.
+ * that are shown, but is at least `least`. A value that is NaN is unknown.
  */
 export type Scale = { ramp: Ramp } & (
   | { range(facts: Facts): Range }
-  | { value(facts: Facts, shown: Shown, place: number): number | undefined; least: number }
+  | { value(facts: Facts, shown: Shown, place: number): number; least: number }
 );
 
 export interface Swatch {
@@ -44,8 +44,8 @@ const negligible = 0.01; // error of a speed, as a share of it
 export const quantities = {
   speed: {
     label: "Speed",
-    glsl: "speedNow()",
-    scale: { ramp: speedRamp, value: (facts, shown, place) => shownSpeed(facts, shown, place)?.speed, least: 0.1 },
+    glsl: "speedNow(place)",
+    scale: { ramp: speedRamp, value: speedOf, least: 0.1 },
     legend: (_, [, high]) => ({ bar: speedRamp, low: "0", high: `${figure(high)} m/s` }),
     describe: (facts, shown, place) => {
       const known = shownSpeed(facts, shown, place);
@@ -58,7 +58,7 @@ export const quantities = {
   },
   radius: {
     label: "Radius",
-    glsl: "a_radius",
+    glsl: "radiusOf(place)",
     scale: { ramp: radiusRamp, range: ({ population }) => population.radiusRange },
     legend: (_, [low, high]) => {
       if (low < high) return { bar: radiusRamp, low: length(low), high: length(high) };
@@ -71,7 +71,7 @@ export const quantities = {
   },
   id: {
     label: "Id",
-    glsl: "id()",
+    glsl: "idOf(place)",
     scale: { ramp: idRamp, range: ({ population }) => population.idRange },
     legend: (_, [low, high]) => ({ bar: idRamp, low: count(low), high: count(high) }),
   },
@@ -86,7 +86,7 @@ export const quantities = {
   },
   group: {
     label: "Group",
-    glsl: "a_group.rgb",
+    glsl: "lookOf(place).colour",
     legend: ({ population: { groups } }) => {
       const shown = groups.slice(0, groupsShown);
       const more = groups.length - shown.length;

@@ -1,5 +1,5 @@
 import { sharedNow } from "../clock";
-import type { FromWorker, LinkChange, LinkState, Received } from "../connection/messages";
+import type { DrawOrder, FromWorker, LinkChange, LinkState, Received } from "../connection/messages";
 import { Event_Kind } from "../gen/spherule/v1/control_pb";
 import type {
   Change,
@@ -34,6 +34,7 @@ export interface SessionEvents {
   welcomed(welcome: Welcome): void;
   /** `another`: it is another scene than before. Then what belongs to the scene starts from the scene again. */
   sceneChanged(facts: Facts, another: boolean): void;
+  orderChanged(order: DrawOrder): void;
   /** `changed`: the places whose sphere has changed. */
   populationChanged(facts: Facts, changed: Run[]): void;
   settingsChanged(settings: Settings): void;
@@ -111,6 +112,9 @@ export class Session {
         this.settings = message.settings;
         if (!message.settings.paused) this.divergence = undefined;
         this.events.settingsChanged(message.settings);
+        break;
+      case "order":
+        this.events.orderChanged(message.order);
         break;
       case "frame":
         this.frameReceived(message.frame);

@@ -1,9 +1,9 @@
-import type { Received, State } from "../connection/messages";
+import type { DrawOrder, Received, State } from "../connection/messages";
 import { PlayoutBuffer } from "./playout";
 import type { TimeAdvance } from "./playout";
 import type { Run } from "./population";
 
-export type { State };
+export type { DrawOrder, State };
 
 /** The states that are drawn, interpolated by `mix` in 0..1. */
 export interface Shown {
@@ -55,6 +55,7 @@ export class States {
    */
   carryBack(frame: State, places: readonly Run[]): void {
     for (const state of this.byKey.values()) {
+      growBoxes(state, frame);
       for (const [name, { values }] of Object.entries(frame.columns)) {
         const earlier = state.columns[name as keyof State["columns"]]?.values;
         if (!earlier) continue;
@@ -81,5 +82,13 @@ export class States {
       this.byKey.delete(key);
       if (state) this.drop(state);
     }
+  }
+}
+
+/** Makes the boxes of a state include those of another one. */
+function growBoxes({ boxes }: State, other: State): void {
+  for (let k = 0; k < boxes.length; k++) {
+    const value = other.boxes[k] ?? 0;
+    boxes[k] = k % 6 < 3 ? Math.min(boxes[k] as number, value) : Math.max(boxes[k] as number, value);
   }
 }

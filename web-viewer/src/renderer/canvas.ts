@@ -7,7 +7,7 @@ import type { ThemeName } from "./theme";
 import type { Facts } from "../model/facts";
 import type { Graphics } from "../model/page_state";
 import type { Run } from "../model/population";
-import type { Shown } from "../model/states";
+import type { DrawOrder, Shown } from "../model/states";
 
 /** The canvas and its WebGL context, which the browser may take away and give back. */
 export class Canvas {
@@ -16,6 +16,7 @@ export class Canvas {
   private renderer: FrameRenderer | undefined; // undefined: the page cannot draw
   private readonly quality: RenderQualityControl;
   private facts: Facts | undefined;
+  private order: DrawOrder | undefined;
   private theme: ThemeName = "light";
   private size: [number, number] = [1, 1]; // CSS pixels
 
@@ -45,7 +46,7 @@ export class Canvas {
     element.addEventListener("webglcontextrestored", () => {
       this.renderer = new FrameRenderer(gl);
       this.graphics = "ok";
-      if (this.facts) this.renderer.setFacts(this.facts, themes[this.theme]);
+      if (this.facts) this.renderer.setFacts(this.facts, themes[this.theme], this.order);
       this.fit();
       restored();
     });
@@ -53,9 +54,16 @@ export class Canvas {
 
   setFacts(facts: Facts): void {
     if (facts.population.places !== this.facts?.population.places) this.quality.restart();
+    if (this.order?.epoch !== facts.epoch) this.order = undefined;
     this.facts = facts;
-    this.renderer?.setFacts(facts, themes[this.theme]);
+    this.renderer?.setFacts(facts, themes[this.theme], this.order);
     this.fit();
+  }
+
+  setOrder(order: DrawOrder): void {
+    if (order.epoch !== this.facts?.epoch) return;
+    this.order = order;
+    this.renderer?.setOrder(order);
   }
 
   /** `changed`: the places whose sphere has changed. */
@@ -65,7 +73,7 @@ export class Canvas {
 
   setTheme(theme: ThemeName): void {
     this.theme = theme;
-    if (this.facts) this.renderer?.setFacts(this.facts, themes[theme]);
+    if (this.facts) this.renderer?.setFacts(this.facts, themes[theme], this.order);
   }
 
   choose(choice: RenderQualityChoice): void {
@@ -91,6 +99,14 @@ export class Canvas {
     this.element.classList.toggle("empty", !this.facts);
     this.drawn += 1;
     return true;
+  }
+
+  /** The place of the sphere that the last image shows at a point (CSS pixels from the upper left corner). */
+  placeAt(x: number, y: number): number | undefined {
+    const { width, height } = this.element;
+    const column = Math.floor((x * width) / this.size[0]);
+    const row = Math.floor((y * height) / this.size[1]);
+    return this.renderer?.placeAt(column, height - 1 - row);
   }
 
   private fit(): void {

@@ -1,59 +1,73 @@
-import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Facts, Vec3 } from "../model/facts";
 import type { Run } from "../model/population";
-import type { Shown } from "../model/states";
+import type { DrawOrder, Shown, State } from "../model/states";
 import type { DrawState } from "./draw_state";
 import { Environment } from "./environment";
-import { FrameUniforms } from "./frame_uniforms";
+import { FrameUniforms, pixelOf } from "./frame_uniforms";
 import { lightFor } from "./light";
 import type { Light } from "./light";
 import { PostPass } from "./post";
 import type { RenderQuality } from "./render_quality";
 import { ScenePass } from "./scene_pass";
-import { ShadowMap } from "./shadow_map";
-import { SphereData } from "./spheres";
 import { SceneTarget } from "./scene_target";
+import { ShadowMap } from "./shadow_map";
+import { SpherePass } from "./sphere_pass";
+import { SphereData } from "./spheres";
 import type { Theme } from "./theme";
 
 /**
- * Draws images in three passes: shadow map, scene, post-processing. It owns all resources of one WebGL context, and is
- * created again after that is lost.
+ * Draws images in passes: the shadow map if something has moved; colours of what is no sphere; codes of the spheres;
+ * the light of each pixel; translucent surfaces and lines; post-processing. It owns all resources of one WebGL context,
+ * and is created again after that is lost.
  */
 export class FrameRenderer {
   private readonly uniforms: FrameUniforms;
-  private readonly spheres: SphereData;
+  private readonly data: SphereData;
   private readonly environment: Environment;
   private scene: ScenePass | undefined;
+  private spheres: SpherePass | undefined;
   private shadow: ShadowMap | undefined;
   private target: SceneTarget | undefined;
   private post: PostPass | undefined;
   private facts: Facts | undefined;
+  private order: DrawOrder | undefined;
   private light: Light | undefined;
   private theme: Theme | undefined;
   private quality: RenderQuality | undefined;
-  private shadowKey = ""; // identifies the content of the shadow map
+  private readonly eye: Vec3 = [0, 0, 0]; // of the last image, relative to the centre of the bounds
+  private cast: { from: State | undefined; to: State | undefined; mix: number } | undefined; // in the shadow map
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.uniforms = new FrameUniforms(gl);
-    this.spheres = new SphereData(gl);
+    this.data = new SphereData(gl);
     this.environment = new Environment(gl);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
   }
 
-  setFacts(facts: Facts, theme: Theme): void {
+  /** `order`: of drawing; undefined: by place. */
+  setFacts(facts: Facts, theme: Theme, order: DrawOrder | undefined): void {
     this.facts = facts;
     this.theme = theme;
     this.light = lightFor(facts);
-    this.spheres.setFacts(facts);
+    this.uniforms.setLight(this.light, theme);
+    this.data.setFacts(facts);
     this.environment.set(facts, theme);
-    this.shadowKey = "";
+    this.setOrder(order);
+  }
+
+  setOrder(order: DrawOrder | undefined): void {
+    this.order = order;
+    this.data.setOrder(order);
+    if (this.facts) this.spheres?.setFacts(this.facts, order);
+    this.cast = undefined;
   }
 
   /** `changed`: the places whose sphere has changed. */
   updatePopulation(changed: readonly Run[]): void {
-    this.spheres.updatePopulation(changed);
-    this.shadowKey = "";
+    this.data.updatePopulation(changed);
+    if (this.facts) this.spheres?.setFacts(this.facts, this.order);
+    this.cast = undefined;
   }
 
   /** Width and height in pixels of the canvas. */
@@ -62,33 +76,54 @@ export class FrameRenderer {
     if (quality !== this.quality) {
       this.shadow?.free();
       this.shadow = new ShadowMap(gl, quality.shadowSize);
-      this.scene = new ScenePass(gl, quality);
-      this.shadowKey = "";
+      this.scene = new ScenePass(gl, quality.full);
+      this.spheres = new SpherePass(gl, quality.full);
+      if (this.facts) this.spheres.setFacts(this.facts, this.order);
+      this.cast = undefined;
     }
     if (quality !== this.quality || width !== this.target?.width || height !== this.target.height) {
       this.post?.free();
       this.target?.free();
-      this.target = new SceneTarget(gl, width, height, quality.samples);
-      this.post = new PostPass(gl, this.target, quality.occlusion);
+      this.target = new SceneTarget(gl, width, height);
+      this.post = new PostPass(gl, this.target, quality.full);
     }
     this.quality = quality;
   }
 
   draw(shown: Shown | undefined, state: DrawState): void {
-    const { facts, light, theme, target, scene, shadow, post } = this;
-    if (!facts || !light || !theme || !target || !scene || !shadow || !post) return;
-    if (shown) this.spheres.show(shown);
-    else this.spheres.count = 0;
-    const shadowKey = shown ? `${shown.from.sequence} ${shown.to.sequence} ${shown.mix}` : "none";
-    if (shadowKey !== this.shadowKey) shadow.draw(light, this.spheres, shown?.mix ?? 0, this.environment);
-    this.shadowKey = shadowKey;
-    const eye = vec3.subtract([0, 0, 0], state.view.eye, facts.origin) as Vec3;
-    this.uniforms.fill(state.view, eye, light, theme, target.height);
-    this.environment.face(state.view.eye);
-    target.begin();
-    scene.draw(facts, shown, state, eye, this.environment, this.spheres, shadow);
-    target.end();
-    const [smallest, largest] = facts.population.radiusRange;
-    post.draw(state.view, 2.2 * (smallest + largest) * 0.5, state.dim, theme.haze);
+    const { facts, light, theme, target, scene, spheres, shadow, post, data, environment, eye } = this;
+    if (!facts || !light || !theme || !target || !scene || !spheres || !shadow || !post) return;
+    if (shown) data.show(shown);
+    else data.count = 0;
+    this.castShadows(shadow, light, shown);
+    const { view } = state;
+    for (let axis = 0; axis < 3; axis++) eye[axis] = (view.eye[axis] as number) - (facts.origin[axis] as number);
+    const pixel = pixelOf(view, target.height);
+    this.uniforms.fill(view, eye, pixel);
+    environment.face(view.eye);
+    shadow.bind();
+    target.beginForward();
+    scene.draw(facts, state, eye, environment);
+    target.beginCodes();
+    if (shown) spheres.drawCodes(shown, data, state, eye, pixel);
+    spheres.shade(facts, shown, state, data, target);
+    scene.drawOver(state, eye, environment);
+    post.draw(state, facts, data, shown?.mix ?? 0, theme.haze);
+  }
+
+  /** The place of the sphere at a pixel of the last image, from the lower left corner. */
+  placeAt(x: number, y: number): number | undefined {
+    const { target } = this;
+    if (!target || x < 0 || y < 0 || x >= target.width || y >= target.height) return undefined;
+    const code = target.codeAt(x, y);
+    return code === 0 ? undefined : code & 0xffffff;
+  }
+
+  private castShadows(shadow: ShadowMap, light: Light, shown: Shown | undefined): void {
+    const { cast } = this;
+    const mix = shown?.mix ?? 0;
+    if (cast && cast.from === shown?.from && cast.to === shown?.to && cast.mix === mix) return;
+    shadow.draw(light, this.data, mix, this.environment);
+    this.cast = { from: shown?.from, to: shown?.to, mix };
   }
 }

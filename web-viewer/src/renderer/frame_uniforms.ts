@@ -5,10 +5,15 @@ import { frameBinding } from "./program";
 import { linear } from "./theme";
 import type { Theme } from "./theme";
 
+const matrixFloats = 16;
+const vectorFloats = 4;
+const perImage = 3 * matrixFloats + 3 * vectorFloats; // floats that depend on the view
+const all = perImage + 9 * vectorFloats;
+
 /** The uniform block that all passes of an image share (shaders/frame.glsl). */
 export class FrameUniforms {
   private readonly buffer: WebGLBuffer;
-  private readonly data = new Float32Array(3 * 16 + 10 * 4);
+  private readonly data = new Float32Array(all);
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.buffer = gl.createBuffer();
@@ -16,26 +21,44 @@ export class FrameUniforms {
     gl.bufferData(gl.UNIFORM_BUFFER, this.data.byteLength, gl.DYNAMIC_DRAW);
   }
 
-  /** `eye`: relative to the centre of the bounds (m). `pixels`: height of the image. */
-  fill(view: View, eye: Vec3, light: Light, theme: Theme, pixels: number): void {
-    const pixel = (2 * view.halfTangent) / pixels;
-    const values = [
-      ...[...view.toClip, ...view.fromClip, ...light.map],
-      ...[...eye, pixel],
-      ...[...light.direction, theme.shadow],
-      ...[...theme.key, 1],
-      ...[...theme.sky, 1],
-      ...[...theme.ground, 1],
-      ...[...linear(theme.backgroundTop), 1],
-      ...[...linear(theme.backgroundBottom), 1],
-      ...[...linear(theme.tile), 1],
-      ...[...linear(theme.surround), 1],
-      ...[...linear(theme.ink), 1],
+  setLight(light: Light, theme: Theme): void {
+    const { data } = this;
+    data.set(light.map, 2 * matrixFloats);
+    const vectors = [
+      [...light.direction, theme.shadow],
+      theme.key,
+      theme.sky,
+      theme.ground,
+      linear(theme.backgroundTop),
+      linear(theme.backgroundBottom),
+      linear(theme.tile),
+      linear(theme.surround),
+      linear(theme.ink),
     ];
-    this.data.set(values);
-    const { gl } = this;
+    vectors.forEach((vector, k) => data.set(vector, perImage + k * vectorFloats));
+  }
+
+  /** `eye`: relative to the centre of the bounds (m). `pixel`: see pixelOf(). */
+  fill(view: View, eye: Vec3, pixel: number): void {
+    const { gl, data } = this;
+    data.set(view.toClip, 0);
+    data.set(view.fromClip, matrixFloats);
+    let at = 3 * matrixFloats;
+    data.set(eye, at);
+    data[at + 3] = pixel;
+    at += vectorFloats;
+    data.set(view.forward, at);
+    data[at + 3] = view.orthographic ? 1 : 0;
+    at += vectorFloats;
+    data[at] = view.near;
+    data[at + 1] = view.far;
     gl.bindBuffer(gl.UNIFORM_BUFFER, this.buffer);
-    gl.bufferSubData(gl.UNIFORM_BUFFER, 0, this.data);
+    gl.bufferSubData(gl.UNIFORM_BUFFER, 0, data);
     gl.bindBufferBase(gl.UNIFORM_BUFFER, frameBinding, this.buffer);
   }
+}
+
+/** The height of a pixel (m) at a distance of 1 m, or at all distances if the view is orthographic. */
+export function pixelOf(view: View, height: number): number {
+  return (2 * view.halfTangent * (view.orthographic ? view.distance : 1)) / height;
 }

@@ -83,7 +83,8 @@ function round(outline: Outline, axis: Vec3, place: (way: Vec3) => Vec3, hollow:
   for (let row = 0; row + 1 < outline.length; row++) {
     for (let side = 0; side < rounds; side++) {
       const corners = [vertex(row, side), vertex(row, side + 1), vertex(row + 1, side + 1), vertex(row + 1, side)];
-      for (const i of [0, 1, 2, 0, 2, 3]) vertices.push(...(corners[i] ?? []));
+      const winding = hollow ? [0, 2, 1, 0, 3, 2] : [0, 1, 2, 0, 2, 3]; // counter-clockwise from the free side
+      for (const i of winding) vertices.push(...(corners[i] ?? []));
     }
   }
   return vertices;

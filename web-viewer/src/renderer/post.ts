@@ -1,51 +1,61 @@
 import * as mat4 from "gl-matrix/esm/mat4.js";
-import type { View } from "../camera/view";
-import { program } from "./program";
+import type { Facts } from "../model/facts";
+import type { DrawState } from "./draw_state";
+import { bindTexture, program } from "./program";
 import type { Program } from "./program";
-import { texture } from "./scene_target";
 import type { SceneTarget } from "./scene_target";
+import { placeParts } from "./sphere_pass";
+import type { SphereData } from "./spheres";
+import { texture } from "./table";
 import compositeFragment from "./shaders/composite.frag.glsl";
+import frame from "./shaders/frame.glsl";
+import meet from "./shaders/meet.glsl";
 import occlusionFragment from "./shaders/occlusion.frag.glsl";
 import screen from "./shaders/screen.vert.glsl";
 
-/** Post-processing: copies the drawn scene to the canvas, with ambient occlusion if the quality includes it. */
+/** Post-processing: copies the scene to the canvas; if `full`, with ambient occlusion, outlines and smooth edges. */
 export class PostPass {
   private readonly composite: Program;
   private readonly occlusion: Program | undefined;
   private readonly openness: WebGLTexture | undefined;
   private readonly framebuffer: WebGLFramebuffer | undefined;
   private readonly half: [number, number];
+  private readonly unproject = mat4.create();
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
     private readonly target: SceneTarget,
-    occlusion: boolean,
+    full: boolean,
   ) {
     this.half = [Math.ceil(target.width / 2), Math.ceil(target.height / 2)];
-    this.composite = program(gl, [screen], [compositeFragment], occlusion ? ["OCCLUSION"] : []);
-    if (!occlusion) return;
-    this.occlusion = program(gl, [screen], [occlusionFragment]);
+    const parts = full ? [frame, ...placeParts, meet, compositeFragment] : [compositeFragment];
+    this.composite = program(gl, [screen], parts, full ? ["FULL"] : []);
+    if (!full) return;
+    this.occlusion = program(gl, [screen], [frame, occlusionFragment]);
     this.openness = texture(gl, gl.R8, ...this.half, gl.LINEAR);
     this.framebuffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.openness, 0);
   }
 
-  /** `reach`: m within which surfaces darken each other; `dim`: 0..1, how stale the image is; `haze`: grey over it. */
-  draw(view: View, reach: number, dim: number, haze: number): void {
+  /** `mix`: as in Shown; `haze`: grey over a stale image. */
+  draw(state: DrawState, facts: Facts, data: SphereData, mix: number, haze: number): void {
     const { gl, target, composite } = this;
+    const [smallest, largest] = facts.population.radiusRange;
+    const radius = 0.5 * (smallest + largest);
     gl.disable(gl.DEPTH_TEST);
-    this.drawOcclusion(view, reach);
+    bindTexture(gl, "u_depth", target.depth);
+    this.drawOcclusion(state, 2.2 * radius);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, target.width, target.height);
     composite.use();
-    this.bind(0, target.colour, composite, "u_scene");
+    bindTexture(gl, "u_scene", target.colour);
     if (this.openness) {
-      this.bind(1, this.openness, composite, "u_occlusion");
-      this.bind(2, target.depth, composite, "u_depth");
-      gl.uniform2f(composite.at("u_planes"), view.near, view.far);
+      bindTexture(gl, "u_openness", this.openness);
+      data.prepare(composite, mix);
+      gl.uniform1f(composite.at("u_reach"), 6 * radius);
     }
-    gl.uniform1f(composite.at("u_dim"), dim);
+    gl.uniform1f(composite.at("u_dim"), state.dim);
     gl.uniform1f(composite.at("u_haze"), haze);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.DEPTH_TEST);
@@ -56,23 +66,16 @@ export class PostPass {
     if (this.framebuffer) this.gl.deleteFramebuffer(this.framebuffer);
   }
 
-  private drawOcclusion(view: View, reach: number): void {
-    const { gl, occlusion, framebuffer, target } = this;
+  /** `reach`: m within which surfaces darken each other. */
+  private drawOcclusion(state: DrawState, reach: number): void {
+    const { gl, occlusion, framebuffer } = this;
     if (!occlusion || !framebuffer) return;
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
     gl.viewport(0, 0, ...this.half);
     occlusion.use();
-    this.bind(0, target.depth, occlusion, "u_depth");
-    const unproject = mat4.invert(mat4.create(), view.projection) ?? mat4.create();
-    gl.uniformMatrix4fv(occlusion.at("u_unproject"), false, unproject);
+    mat4.invert(this.unproject, state.view.projection);
+    gl.uniformMatrix4fv(occlusion.at("u_unproject"), false, this.unproject);
     gl.uniform1f(occlusion.at("u_reach"), reach);
-    gl.uniform1f(occlusion.at("u_scale"), 0.5 / view.halfTangent);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-  }
-
-  private bind(unit: number, bound: WebGLTexture, to: Program, name: string): void {
-    this.gl.activeTexture(this.gl.TEXTURE0 + unit);
-    this.gl.bindTexture(this.gl.TEXTURE_2D, bound);
-    this.gl.uniform1i(to.at(name), unit);
   }
 }

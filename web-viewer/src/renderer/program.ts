@@ -7,20 +7,49 @@ export interface Program {
   at(uniform: string): WebGLUniformLocation | null;
 }
 
-/** The inputs of a column: its values in the two states that are interpolated. */
-type ColumnInput = `a_${ColumnName}${"From" | "To"}`;
+/** The table of a column: its values in one of the two states that are interpolated. */
+type ColumnTable = `u_${ColumnName}${"From" | "To"}`;
 
-const columnInputs = columnNames.flatMap((name): ColumnInput[] => [`a_${name}From`, `a_${name}To`]);
+const columnTables = columnNames.flatMap((name): ColumnTable[] => [`u_${name}From`, `u_${name}To`]);
+
+/** Textures have the same units in all programs, so that a texture is bound once for several programs. */
+const samplers = [
+  "u_shadow",
+  "u_code",
+  "u_depth",
+  "u_forward",
+  "u_scene",
+  "u_openness",
+  "u_order",
+  "u_radius",
+  "u_id",
+  "u_group",
+  "u_looks",
+  ...columnTables,
+] as const;
+export type Sampler = (typeof samplers)[number];
+
+/** GLSL: the tables of all columns, and functions of a place: its values in both states. */
+export const columnDeclarations = columnNames
+  .map((name) => {
+    const [type, parts] = columnFormats[name].components === 1 ? ["float", "r"] : ["vec3", "rgb"];
+    const fetch = (end: string): string => `texelFetch(u_${name}${end}, texelOf(place), 0).${parts}`;
+    return [
+      `uniform highp sampler2D u_${name}From, u_${name}To;`,
+      `${type} ${name}From(int place) { return ${fetch("From")}; }`,
+      `${type} ${name}To(int place) { return ${fetch("To")}; }`,
+    ].join("\n");
+  })
+  .join("\n");
+
+export function bindTexture(gl: WebGL2RenderingContext, sampler: Sampler, texture: WebGLTexture): void {
+  gl.activeTexture(gl.TEXTURE0 + samplers.indexOf(sampler));
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+}
 
 /** Attribute slots are the same in all programs, so that programs can share vertex arrays. */
-const attributes = [...columnInputs, "a_radius", "a_id", "a_group", "a_position", "a_normal", "a_colour"] as const;
+const attributes = ["a_position", "a_normal", "a_colour"] as const;
 export type Attribute = (typeof attributes)[number];
-
-/** GLSL declarations of the inputs of all columns. */
-export const columnDeclarations = columnNames
-  .map((name) => [name, columnFormats[name].components] as const)
-  .map(([name, size]) => `in ${size === 1 ? "float" : `vec${size}`} a_${name}From, a_${name}To;`)
-  .join("\n");
 
 export function slot(attribute: Attribute): number {
   return attributes.indexOf(attribute);
@@ -59,6 +88,11 @@ export function program(
   }
   const block = gl.getUniformBlockIndex(linked, "Frame");
   if (block !== gl.INVALID_INDEX) gl.uniformBlockBinding(linked, block, frameBinding);
+  gl.useProgram(linked);
+  samplers.forEach((name, unit) => {
+    const location = gl.getUniformLocation(linked, name);
+    if (location) gl.uniform1i(location, unit);
+  });
   const locations = new Map<string, WebGLUniformLocation | null>();
   return {
     use: () => gl.useProgram(linked),

@@ -1,14 +1,12 @@
 /** How an image is drawn. */
 export interface RenderQuality {
-  samples: number; // per pixel, for smooth outlines
-  occlusion: boolean; // ambient occlusion
+  full: boolean; // with soft shadows, ambient occlusion, outlines and smooth edges
   shadowSize: number; // texels per side
-  softShadow: boolean;
   scale: number; // pixels per CSS pixel, at most
 }
 
-const full: RenderQuality = { samples: 4, occlusion: true, shadowSize: 2048, softShadow: true, scale: 2 };
-const light: RenderQuality = { samples: 0, occlusion: false, shadowSize: 1024, softShadow: false, scale: 1 };
+const full: RenderQuality = { full: true, shadowSize: 2048, scale: 2 };
+const light: RenderQuality = { full: false, shadowSize: 1024, scale: 1 };
 
 /** From the best to the cheapest. */
 export const ladder: readonly RenderQuality[] = [

@@ -1,11 +1,11 @@
 import type { Environment } from "./environment";
 import type { Light } from "./light";
-import { columnDeclarations, program } from "./program";
+import { bindTexture, program } from "./program";
 import type { Program } from "./program";
 import type { SphereData } from "./spheres";
-import { texture } from "./scene_target";
+import { placeParts } from "./sphere_pass";
+import { texture } from "./table";
 import emptyFragment from "./shaders/empty.frag.glsl";
-import position from "./shaders/position.glsl";
 import shadowFragment from "./shaders/shadow.frag.glsl";
 import shadowVertex from "./shaders/shadow.vert.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
@@ -21,7 +21,7 @@ export class ShadowMap {
     private readonly gl: WebGL2RenderingContext,
     private readonly size: number,
   ) {
-    this.spheres = program(gl, [columnDeclarations, position, shadowVertex], [shadowFragment]);
+    this.spheres = program(gl, [...placeParts, shadowVertex], [shadowFragment]);
     this.solids = program(gl, [solidVertex], [emptyFragment]);
     this.texture = texture(gl, gl.DEPTH_COMPONENT24, size, size, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
@@ -42,22 +42,19 @@ export class ShadowMap {
     gl.uniformMatrix4fv(this.spheres.at("u_light"), false, light.clip);
     gl.uniform3fv(this.spheres.at("u_right"), light.right);
     gl.uniform3fv(this.spheres.at("u_up"), light.up);
-    data.draw(this.spheres, mix);
+    data.prepare(this.spheres, mix);
+    data.draw(this.spheres, 0, data.count);
     this.solids.use();
     gl.uniformMatrix4fv(this.solids.at("u_matrix"), false, light.clip);
     gl.uniform3f(this.solids.at("u_from"), 0, 0, 0);
     environment.solids.draw();
-    environment.facing.draw();
+    environment.oneSided.draw();
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
-  /** Binds the map for a program that includes shaders/light.glsl. */
-  bind(to: Program, unit: number): void {
-    const { gl } = this;
-    gl.activeTexture(gl.TEXTURE0 + unit);
-    gl.bindTexture(gl.TEXTURE_2D, this.texture);
-    gl.uniform1i(to.at("u_shadow"), unit);
-    gl.uniform1f(to.at("u_shadowTexel"), 1 / this.size);
+  /** Binds the map for programs that include shaders/light.glsl. */
+  bind(): void {
+    bindTexture(this.gl, "u_shadow", this.texture);
   }
 
   free(): void {

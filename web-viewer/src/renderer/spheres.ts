@@ -1,55 +1,63 @@
-import { bufferOf, columnFormats, columnNames, valuesOf } from "../columns";
+import { bufferOf, columnFormats, columnNames } from "../columns";
+import type { ColumnName } from "../columns";
 import type { Facts } from "../model/facts";
 import { capacity } from "../model/playout";
 import { joined } from "../model/population";
 import type { Population, Run } from "../model/population";
-import type { Shown, State } from "../model/states";
-import { slot } from "./program";
-import type { Attribute, Program } from "./program";
+import type { DrawOrder, Shown, State } from "../model/states";
+import { bindTexture } from "./program";
+import type { Program } from "./program";
+import { Table } from "./table";
 
-/** A buffer on the device, and the state that it holds. */
+/** A state on the device. */
 interface Resident {
-  buffer: WebGLBuffer;
+  tables: Map<ColumnName, Table>;
   state: State | undefined;
   used: number; // value of `turn` at its last use
 }
 
+const texelsPerLook = 2;
+
 /**
- * The spheres' data on the device, per place: states as received (float32), and radius, id and group colour, which
- * change with the population.
+ * The spheres' data on the device, in tables by place: states as received, and radius, id and group, which change with
+ * the population. Shaders read them with shaders/spheres.glsl.
  */
 export class SphereData {
   count = 0; // places
-  private readonly array: WebGLVertexArrayObject;
   private readonly residents: Resident[];
-  private readonly radii: WebGLBuffer;
-  private readonly ids: WebGLBuffer;
-  private readonly colours: WebGLBuffer;
+  private readonly radii: Table;
+  private readonly ids: Table;
+  private readonly groups: Table; // number of the group at each place
+  private readonly looks: Table; // colour and surface of each group
+  private readonly order: Table;
+  private readonly nothing: Table;
   private facts: Facts | undefined;
-  private tabled = false; // the buffers hold ids
+  private images: Image[] = [];
+  private perLength: number[] = [0, 0, 0]; // 1/m
+  private tabled = false; // the tables hold ids, and radii even if all are equal
+  private idValues = new Float32Array(0); // ids as the device holds them
   private turn = 0;
 
   constructor(private readonly gl: WebGL2RenderingContext) {
-    this.array = gl.createVertexArray();
-    this.residents = Array.from({ length: capacity }, () => ({ buffer: gl.createBuffer(), state: undefined, used: 0 }));
-    this.radii = gl.createBuffer();
-    this.ids = gl.createBuffer();
-    this.colours = gl.createBuffer();
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    this.residents = Array.from({ length: capacity }, () => ({ tables: new Map(), state: undefined, used: 0 }));
+    this.radii = new Table(gl, 1);
+    this.ids = new Table(gl, 1);
+    this.groups = new Table(gl, 1, true);
+    this.looks = new Table(gl, 4);
+    this.order = new Table(gl, 1, true);
+    this.nothing = new Table(gl, 1);
   }
 
   setFacts(facts: Facts): void {
-    const { gl } = this;
-    const { population } = facts;
+    const { population, periods } = facts;
     this.facts = facts;
+    this.images = imagesOf(facts);
+    this.perLength = periods.map((length) => (length > 0 ? 1 / length : 0));
     this.tabled = population.ids !== undefined;
-    gl.bindVertexArray(this.array);
-    this.setFloats("a_radius", this.radii, population.radii);
-    this.setFloats("a_id", this.ids, population.ids && new Float32Array(population.ids));
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.colours);
-    gl.bufferData(gl.ARRAY_BUFFER, colours(population, 0, population.places), gl.STATIC_DRAW);
-    this.perInstance("a_group");
-    gl.vertexAttribPointer(slot("a_group"), 4, gl.UNSIGNED_BYTE, true, 4, 0);
-    gl.bindVertexArray(null);
+    for (const table of [this.radii, this.ids, this.groups]) table.fit(population.places);
+    this.uploadTables(population, { first: 0, count: population.places });
+    this.uploadLooks(population);
   }
 
   /** Uploads what has changed in the population. `changed`: the places whose sphere has changed. */
@@ -58,129 +66,136 @@ export class SphereData {
     if (!facts) return;
     const { population } = facts;
     const spans = joined(changed, Math.max(64, population.places >> 8)); // few uploads
-    if (this.tabled && population.ids) for (const span of spans) this.uploadTables(population, span);
+    if (this.tabled) for (const span of spans) this.uploadTables(population, span);
     else this.setFacts(facts);
-    for (const { buffer, state } of this.residents) {
+    this.uploadLooks(population);
+    for (const { tables, state } of this.residents) {
       // The buffer of a state that is not needed any more has returned to the worker.
-      if (state && bufferOf(state.columns).byteLength > 0) this.uploadValues(buffer, state, spans);
+      if (!state || bufferOf(state.columns).byteLength === 0) continue;
+      for (const [name, table] of tables) {
+        const values = state.columns[name]?.values;
+        if (values) for (const span of spans) table.upload(values, span);
+      }
     }
+  }
+
+  /** The order of drawing; undefined: by place. */
+  setOrder(order: DrawOrder | undefined): void {
+    const places = order?.places ?? Uint32Array.from({ length: this.facts?.population.places ?? 0 }, (_, k) => k);
+    this.order.fit(places.length);
+    this.order.upload(places, { first: 0, count: places.length });
   }
 
   /** Selects the states to draw, and uploads those that are new. */
   show(shown: Shown): void {
-    const { gl } = this;
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.population.places ?? 0);
-    gl.bindVertexArray(this.array);
-    for (const [end, state] of [
-      ["From", shown.from],
-      ["To", shown.to],
-    ] as const) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.resident(state));
-      for (const name of columnNames) {
-        const { components } = columnFormats[name];
-        const input = `a_${name}${end}` as const;
-        const column = state.columns[name];
-        if (!column) {
-          gl.disableVertexAttribArray(slot(input));
-          continue;
-        }
-        this.perInstance(input);
-        const { BYTES_PER_ELEMENT: bytes, byteOffset } = column.values;
-        gl.vertexAttribPointer(slot(input), components, gl.FLOAT, false, bytes * components, byteOffset);
-      }
-    }
-    gl.bindVertexArray(null);
+    this.bindState("From", shown.from);
+    this.bindState("To", shown.to);
+    bindTexture(this.gl, "u_order", this.order.texture);
+    bindTexture(this.gl, "u_radius", this.radii.texture);
+    bindTexture(this.gl, "u_id", this.ids.texture);
+    bindTexture(this.gl, "u_group", this.groups.texture);
+    bindTexture(this.gl, "u_looks", this.looks.texture);
+  }
+
+  /** Sets the uniforms of shaders/spheres.glsl. `mix`: as in Shown. */
+  prepare(program: Program, mix: number): void {
+    const { gl, facts } = this;
+    if (!facts) return;
+    gl.uniform1f(program.at("u_mix"), mix);
+    gl.uniform1f(program.at("u_sameRadius"), this.tabled ? 0 : facts.population.radius);
+    gl.uniform1i(program.at("u_idsGiven"), this.tabled ? 1 : 0);
+    gl.uniform3fv(program.at("u_period"), facts.periods);
+    gl.uniform3fv(program.at("u_perLength"), this.perLength);
   }
 
   /**
-   * Draws all spheres in one instanced call, with a program that includes shaders/position.glsl. Spheres that reach
-   * across a face of a periodic axis are drawn again at the other face, with one more call for each set of axes.
+   * Draws spheres from `first` on in the order of drawing, with a prepared program: as squares, or as points. Spheres
+   * that reach across a face of a periodic axis are drawn again at the other face, with one more call for each set of
+   * axes.
    */
-  draw(program: Program, mix: number): void {
-    const { gl, facts } = this;
-    if (!facts || this.count === 0) return;
-    gl.uniform1f(program.at("u_mix"), mix);
-    gl.vertexAttrib1f(slot("a_radius"), facts.population.radius);
-    gl.vertexAttrib1f(slot("a_id"), -1);
-    gl.bindVertexArray(this.array);
-    gl.uniform3fv(program.at("u_period"), facts.periods);
-    gl.uniform3fv(program.at("u_perLength"), facts.periods.map((length) => (length > 0 ? 1 / length : 0)));
-    for (const image of imagesOf(facts)) {
-      gl.uniform3fv(program.at("u_image"), image);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.count);
+  draw(program: Program, first: number, count: number, points = false): void {
+    const { gl } = this;
+    if (count === 0) return;
+    gl.uniform1i(program.at("u_first"), first);
+    for (const { axes, bits } of this.images) {
+      gl.uniform3fv(program.at("u_image"), axes);
+      gl.uniform1ui(program.at("u_imageBits"), bits);
+      if (points) gl.drawArrays(gl.POINTS, 0, count);
+      else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     }
-    gl.bindVertexArray(null);
   }
 
-  private resident(state: State): WebGLBuffer {
+  private bindState(end: "From" | "To", state: State): void {
+    const { tables } = this.resident(state);
+    for (const name of columnNames) {
+      const table = state.columns[name] ? tables.get(name) : undefined;
+      bindTexture(this.gl, `u_${name}${end}`, (table ?? this.nothing).texture);
+    }
+  }
+
+  private resident(state: State): Resident {
     this.turn += 1;
     let found = this.residents.find((resident) => resident.state === state);
     if (!found) {
       found = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
-      this.gl.bindBuffer(this.gl.ARRAY_BUFFER, found.buffer);
-      this.gl.bufferData(this.gl.ARRAY_BUFFER, valuesOf(state.columns), this.gl.STREAM_DRAW);
       found.state = state;
-    }
-    found.used = this.turn;
-    return found.buffer;
-  }
-
-  /** Fills the buffer of an input with one value per place. Undefined: the input has the same value at all places. */
-  private setFloats(input: Attribute, buffer: WebGLBuffer, values: Float32Array | undefined): void {
-    const { gl } = this;
-    if (!values) return gl.disableVertexAttribArray(slot(input));
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
-    this.perInstance(input);
-    gl.vertexAttribPointer(slot(input), 1, gl.FLOAT, false, 4, 0);
-  }
-
-  private uploadTables(population: Population, { first, count }: Run): void {
-    const { radii, ids } = population;
-    const end = first + count;
-    if (radii) this.upload(this.radii, 4 * first, radii.subarray(first, end));
-    if (ids) this.upload(this.ids, 4 * first, new Float32Array(ids.subarray(first, end)));
-    this.upload(this.colours, 4 * first, colours(population, first, count));
-  }
-
-  private uploadValues(buffer: WebGLBuffer, state: State, spans: readonly Run[]): void {
-    for (const name of columnNames) {
-      const { components } = columnFormats[name];
-      const values = state.columns[name]?.values;
-      if (!values) continue;
-      for (const { first, count } of spans) {
-        const part = values.subarray(components * first, components * (first + count));
-        this.upload(buffer, part.byteOffset, part);
+      for (const name of columnNames) {
+        const values = state.columns[name]?.values;
+        if (values) this.uploadColumn(found, name, values, state.count);
       }
     }
+    found.used = this.turn;
+    return found;
   }
 
-  private upload(buffer: WebGLBuffer, at: number, values: Float32Array | Uint8Array): void {
-    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, buffer);
-    this.gl.bufferSubData(this.gl.ARRAY_BUFFER, at, values);
+  private uploadColumn({ tables }: Resident, name: ColumnName, values: Float32Array, count: number): void {
+    let table = tables.get(name);
+    if (!table) {
+      table = new Table(this.gl, columnFormats[name].components === 1 ? 1 : 3);
+      tables.set(name, table);
+    }
+    table.fit(count);
+    table.upload(values, { first: 0, count });
   }
 
-  private perInstance(name: Attribute): void {
-    this.gl.enableVertexAttribArray(slot(name));
-    this.gl.vertexAttribDivisor(slot(name), 1);
+  private uploadTables({ radii, ids, groupNumbers }: Population, run: Run): void {
+    if (radii) this.radii.upload(radii, run);
+    if (ids) {
+      if (this.idValues.length !== ids.length) this.idValues = new Float32Array(ids.length);
+      this.idValues.set(ids.subarray(run.first, run.first + run.count), run.first);
+      this.ids.upload(this.idValues, run);
+    }
+    this.groups.upload(groupNumbers, run);
+  }
+
+  /** Two texels per group: colour (sRGB) and roughness; metal. */
+  private uploadLooks({ groups }: Population): void {
+    const values = new Float32Array(4 * texelsPerLook * Math.max(1, groups.length));
+    groups.forEach(({ colour, roughness, metal }, group) => {
+      values.set([...colour, roughness, metal], 4 * texelsPerLook * group);
+    });
+    this.looks.fit(values.length / 4);
+    this.looks.upload(values, { first: 0, count: values.length / 4 });
   }
 }
 
-/** All sets of periodic axes, as 1 per axis in the set and 0 for the others. The first one is empty. */
-function imagesOf({ periods }: Facts): number[][] {
-  return periods.reduce<number[][]>(
+/** A set of periodic axes across whose faces images are drawn: 1 per axis in the set, and the same as bits. */
+interface Image {
+  axes: number[];
+  bits: number; // as in the codes of shaders/code.glsl
+}
+
+/** All sets of periodic axes. The first one is empty. */
+function imagesOf({ periods }: Facts): Image[] {
+  return periods.reduce<Image[]>(
     (sets, length, axis) =>
-      length > 0 ? [...sets, ...sets.map((set) => set.map((one, k) => (k === axis ? 1 : one)))] : sets,
-    [[0, 0, 0]],
+      length > 0
+        ? sets.flatMap((set) => [
+            set,
+            { axes: set.axes.map((one, k) => (k === axis ? 1 : one)), bits: set.bits | (1 << axis) },
+          ])
+        : sets,
+    [{ axes: [0, 0, 0], bits: 0 }],
   );
-}
-
-/** The colour of the group at each place (sRGB), four bytes per place. */
-function colours(population: Population, first: number, count: number): Uint8Array {
-  const bytes = new Uint8Array(4 * count).fill(160);
-  for (let k = 0; k < count; k++) {
-    const colour = population.groupOf(first + k)?.colour;
-    colour?.forEach((part, c) => (bytes[4 * k + c] = Math.round(255 * part)));
-  }
-  return bytes;
 }

@@ -125,6 +125,7 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     ...each(`1 – ${modes.length}`, `colour by ${colourNames}`, colours, actions.colour),
     one("l", "lock the colour range", actions.lock),
     one("f", "reset the view", () => camera.reset()),
+    one("o", "perspective or orthographic view", () => (camera.orthographic = !camera.orthographic)),
     one("x", "look along x", () => camera.along(0, 0)),
     one("y", "look along y", () => camera.along(-Math.PI / 2, 0)),
     one("z", "look down", () => camera.along(-Math.PI / 2, Math.PI / 2 - 0.02)),

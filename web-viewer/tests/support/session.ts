@@ -24,6 +24,7 @@ export function createSession() {
     diagnosticsReceived: none,
     eventReceived: none,
     recordingChanged: none,
+    orderChanged: none,
     messageUnreadable: (reason) => void faults.push(reason),
   });
   let sequence = 0;
@@ -45,7 +46,8 @@ export function createSession() {
       sequence += 1;
       const times = { sequence, step: sequence, simTime: sequence / 10, arrival: 100 * sequence, ready: 0 };
       const position = { values: Float32Array.from(xs.flatMap((x) => [x, 0, 0])), quantum: 0.01 };
-      const rest = { count: xs.length, columns: { position }, bytes: 0, decodeMs: 0, status: undefined };
+      const drawing = { columns: { position }, order: 1, boxes: new Float32Array(0) };
+      const rest = { count: xs.length, ...drawing, bytes: 0, decodeMs: 0, status: undefined };
       session.handle({ kind: "frame", frame: { ...times, ...rest, epoch, population } });
     },
   };

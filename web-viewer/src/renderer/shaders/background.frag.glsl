@@ -1,5 +1,5 @@
 in vec2 v_at;
-out vec4 o_colour;
+layout(location = 0) out vec4 o_colour;
 
 void main() {
     vec2 off = v_at - vec2(0.5, 0.55);

@@ -1,7 +1,9 @@
-// The expressions of model/quantities.ts may use these inputs, position.glsl, and `position`: the centre
-// of the sphere (m, relative to the centre of the bounds).
-in vec4 a_group;                // sRGB
-in float a_id;                  // negative: the id is the number of the place
+// The expressions of model/quantities.ts may use these functions, those of spheres.glsl and place.glsl, `place`, and
+// `position`: the centre of the sphere (m, relative to the centre of the bounds).
+uniform highp sampler2D u_id;
+uniform bool u_idsGiven;              // false: the id is the number of the place
+uniform highp usampler2D u_group;     // number of the group at each place
+uniform highp sampler2D u_looks;      // two texels per group: colour (sRGB) and roughness; metal
 
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
@@ -10,6 +12,20 @@ uniform bool u_speedsSent;      // the two states have speeds
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
 uniform vec3 u_cellSize;        // m, per axis; 0: no grid
 uniform ivec3 u_cells;
+
+// How the spheres of a group look.
+struct Look {
+    vec3 colour;        // sRGB
+    float roughness;    // 0..1
+    float metal;        // 0..1
+};
+
+Look lookOf(int place) {
+    uint group = texelFetch(u_group, texelOf(place), 0).r;
+    if (group == 0xffffffffu) return Look(vec3(0.63), 0.5, 0.0);
+    vec4 first = texelFetch(u_looks, texelOf(2 * int(group)), 0);
+    return Look(first.rgb, first.a, texelFetch(u_looks, texelOf(2 * int(group) + 1), 0).r);
+}
 
 vec3 rampAt(float at) {
     float scaled = clamp(at, 0.0, 1.0) * 5.0;
@@ -26,12 +42,12 @@ uint scrambled(uint x) {
     return x ^ (x >> 16);
 }
 
-float id() { return a_id < 0.0 ? float(gl_InstanceID) : a_id; }
+float idOf(int place) { return u_idsGiven ? texelFetch(u_id, texelOf(place), 0).r : float(place); }
 
 // m/s; 0 if it is unknown. See shownSpeed() of model/positions.ts.
-float speedNow() {
-    if (u_speedsSent) return mix(a_speedFrom, a_speedTo, u_mix);
-    return length(shortest(a_positionTo - a_positionFrom)) * u_inverseTime;
+float speedNow(int place) {
+    if (u_speedsSent) return mix(speedFrom(place), speedTo(place), u_mix);
+    return length(shortest(positionTo(place) - positionFrom(place))) * u_inverseTime;
 }
 
 // The hue of a cell is random; its lightness alternates between neighbours.

@@ -2,7 +2,7 @@
 in vec3 v_position;
 in vec3 v_normal;
 in vec4 v_colour;
-out vec4 o_colour;
+layout(location = 0) out vec4 o_colour;
 
 uniform vec2 u_half;      // m: half the bounds along x and y
 uniform float u_ruler;    // m between lines

@@ -1,10 +1,8 @@
 // Ambient occlusion from the depth buffer, after the "Alchemy" estimator of McGuire et al. 2011: the mean height of
 // neighbours above the tangent plane, over their squared distance.
-precision highp sampler2D;
-uniform sampler2D u_depth;
+uniform highp sampler2D u_depth;
 uniform mat4 u_unproject;    // inverse of the projection
 uniform float u_reach;       // m
-uniform float u_scale;       // share of the image height that 1 m covers at a distance of 1 m
 out vec4 o_share;
 
 const int samples = 10;
@@ -34,7 +32,7 @@ void main() {
     vec3 dy = abs(above.z) < abs(below.z) ? above : below;
     vec3 normal = normalize(cross(dx, dy));
 
-    float span = float(size.y) * min(u_reach * u_scale / -position.z, 0.12);    // texels
+    float span = min(u_reach / pixelAt(-position.z), 0.12 * float(size.y));    // texels
     float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     float hidden = 0.0;
     for (int i = 0; i < samples; i++) {

@@ -1,4 +1,8 @@
 // Spheres are drawn as discs through their centres that face the light, so that no sphere shades its own lit side.
+uniform highp usampler2D u_order;
+uniform int u_first;
+uniform vec3 u_image;
+uniform uint u_imageBits;
 uniform mat4 u_light;
 uniform vec3 u_right;
 uniform vec3 u_up;
@@ -7,9 +11,10 @@ out vec2 v_corner;
 
 void main() {
     v_corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-    if (!isDrawn()) {
-        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-        return;
-    }
-    gl_Position = u_light * vec4(centreNow() + a_radius * (v_corner.x * u_right + v_corner.y * u_up), 1.0);
+    int place = int(texelFetch(u_order, texelOf(u_first + gl_InstanceID), 0).r);
+    float radius = radiusOf(place);
+    vec3 position = positionNow(place);
+    bool drawn = radius > 0.0 && isInside(position, radius, u_image);
+    vec3 at = imageOf(position, u_image) + radius * (v_corner.x * u_right + v_corner.y * u_up);
+    gl_Position = drawn ? u_light * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

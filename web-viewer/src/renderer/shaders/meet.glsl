@@ -1,0 +1,20 @@
+// Where a ray meets a sphere. The distance between the ray and the centre comes from the difference of two points: the
+// difference of two squares would lose most digits of small spheres far away (Haines, Akenine-Moller and others,
+// "Precision improvements for ray/sphere intersection", 2019).
+struct Meeting {
+    float outline;    // m from the outline of the sphere: positive inside
+    float along;      // m along the ray to the surface; to the nearest point of the sphere if the ray misses it
+    bool visible;     // the surface is before the eye
+    bool within;      // the eye is in the sphere, and sees its inner side
+};
+
+Meeting meet(Ray ray, vec3 centre, float radius) {
+    vec3 to = centre - ray.origin;
+    float middle = dot(to, ray.direction);
+    vec3 off = to - middle * ray.direction;
+    float off2 = dot(off, off);
+    float depth = sqrt(max(0.0, radius * radius - off2));
+    bool within = !isOrthographic() && dot(to, to) < radius * radius;
+    float along = within ? middle + depth : middle - depth;
+    return Meeting(radius - sqrt(off2), along, isOrthographic() || within || middle > 0.0, within);
+}
