@@ -17,7 +17,8 @@ export interface TestApi {
   readonly session: Session;
   readonly reports: readonly Report[]; // results of this page's commands, the newest last
   readonly drawn: number; // images since the page was loaded
-  readonly camera: Pose & { eye: Vec3 };
+  /** `toClip`: of the image, from positions relative to the eye to clip space, column after column. */
+  readonly camera: Pose & { eye: Vec3; toClip: number[] };
   /** Simulated times (s): of the image, and of the two states from which it is interpolated. */
   readonly shown: { time: number; from: number; to: number } | undefined;
   /** Whether a seek in the recording is in progress. */
@@ -30,6 +31,8 @@ export interface TestApi {
   positions(ids: number[]): { step: number; quantum: number; positions: (Vec3 | undefined)[] } | undefined;
   /** The id of the sphere that is drawn at a point of the page (CSS pixels). */
   at(x: number, y: number): number | undefined;
+  /** The places of the spheres that the image shows, row after row from the top; negative: none. */
+  readonly places: { width: number; height: number; places: number[] } | undefined;
   /** Projects a point (m) to the page (CSS pixels); undefined if it lies behind the eye. */
   project(point: Vec3): [number, number] | undefined;
 }
@@ -49,7 +52,7 @@ export function createTestApi(viewer: Viewer): TestApi {
       return canvas.drawn;
     },
     get camera() {
-      return { ...camera.pose, eye: camera.last.eye };
+      return { ...camera.pose, eye: camera.last.eye, toClip: [...camera.last.toClip] };
     },
     get shown() {
       const shown = session.states.shown(sharedNow());
@@ -75,6 +78,10 @@ export function createTestApi(viewer: Viewer): TestApi {
     at(x, y) {
       const place = viewer.placeAt(x, y);
       return place === undefined ? undefined : session.facts?.population.idOf(place);
+    },
+    get places() {
+      const drawn = canvas.places();
+      return drawn && { ...drawn, places: [...drawn.places] };
     },
     project: (point) => project(camera.last, point),
   };

@@ -22,6 +22,38 @@ import { longStay } from "./ui/toasts";
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
+/** What an image depends on, to find whether it would be another one. Allocates nothing per image. */
+class Content {
+  private next: unknown[] = [];
+  private kept: unknown[] = [];
+  private length = 0;
+
+  begin(): void {
+    this.length = 0;
+  }
+
+  add(value: unknown): this {
+    this.next[this.length++] = value;
+    return this;
+  }
+
+  get changed(): boolean {
+    if (this.kept.length !== this.length) return true;
+    for (let k = 0; k < this.length; k++) if (this.kept[k] !== this.next[k]) return true;
+    return false;
+  }
+
+  /** The image has been drawn. */
+  keep(): void {
+    [this.kept, this.next] = [this.next, this.kept];
+  }
+
+  /** The image must be drawn again. */
+  forget(): void {
+    this.kept.length = 0;
+  }
+}
+
 /**
  * Connects the parts: messages of the server go to the canvas and the page, and the user's actions go to the server.
  */
@@ -39,7 +71,7 @@ export class Viewer {
   private readonly subscription: ViewSubscription;
   private tokenNote = ""; // message of the next token dialog
   private lastReport = 0; // ms: when the worker was last given the draw rate
-  private drawn = ""; // identifies the image on the canvas
+  private readonly image = new Content(); // of the canvas
 
   constructor(
     element: HTMLCanvasElement,
@@ -47,7 +79,7 @@ export class Viewer {
     private readonly choices: Choices,
     private readonly url: string, // of the server
   ) {
-    this.canvas = new Canvas(element, choices.quality, () => (this.drawn = ""));
+    this.canvas = new Canvas(element, choices.quality, () => this.image.forget());
     this.link = new Link(new Worker("worker.js"), (message) => this.session.handle(message));
     this.subscription = new ViewSubscription({ ...choices.view }, (view) => this.link.requestView(view));
     this.session = this.createSession();
@@ -93,7 +125,7 @@ export class Viewer {
     const resize = (): void => {
       this.camera.resize(window.innerWidth, window.innerHeight);
       this.canvas.resize(window.innerWidth, window.innerHeight);
-      this.drawn = "";
+      this.image.forget();
     };
     window.addEventListener("resize", resize);
     resize();
@@ -123,13 +155,13 @@ export class Viewer {
         if (another) this.page.inspector.selection.clear();
         else this.page.inspector.selection.follow(facts.population);
         this.page.panel.setFacts(facts, another);
-        this.drawn = "";
+        this.image.forget();
       },
       orderChanged: (order) => this.canvas.setOrder(order),
       populationChanged: ({ population }, changed) => {
         this.canvas.updatePopulation(changed);
         this.page.inspector.selection.follow(population);
-        this.drawn = "";
+        this.image.forget();
       },
       settingsChanged: (settings) => this.page.panel.setSettings(settings),
       dialChanged: (dial) => this.page.panel.setDial(dial),
@@ -165,12 +197,16 @@ export class Viewer {
       selected: this.page.inspector.selection.place,
       dim: session.staleness(wall),
     };
-    const look = [state.mode, state.range, state.selected, state.dim, choices.theme, choices.quality];
-    const content = [shown?.from.sequence, shown?.to.sequence, shown?.mix];
-    const image = [...content, ...state.view.eye, ...state.view.toClip, ...look].join(" ");
-    const draws = image !== this.drawn && !session.awaitsState(wall);
+    const { image } = this;
+    image.begin();
+    image.add(shown?.from.sequence).add(shown?.to.sequence).add(shown?.mix);
+    for (const part of state.view.eye) image.add(part);
+    for (const part of state.view.toClip) image.add(part);
+    image.add(state.mode).add(state.range[0]).add(state.range[1]).add(state.selected).add(state.dim);
+    image.add(choices.theme).add(choices.quality);
+    const draws = image.changed && !session.awaitsState(wall);
     if (draws && this.canvas.draw(shown, state, this.clock.sinceDrawn)) {
-      this.drawn = image;
+      image.keep();
       this.clock.drew();
       if (shown) markFirst("drawn");
     }

@@ -1,5 +1,6 @@
 import type { DrawState } from "./draw_state";
 import { FrameRenderer } from "./frame_renderer";
+import { placeIn } from "./scene_target";
 import { RenderQualityControl } from "./render_quality";
 import type { RenderQualityChoice } from "./render_quality";
 import { themes } from "./theme";
@@ -107,6 +108,20 @@ export class Canvas {
     const column = Math.floor((x * width) / this.size[0]);
     const row = Math.floor((y * height) / this.size[1]);
     return this.renderer?.placeAt(column, height - 1 - row);
+  }
+
+  /** The places of the spheres in the last image, row after row from the top; negative: none. For tests. */
+  places(): { width: number; height: number; places: Int32Array } | undefined {
+    const { width, height } = this.element;
+    const codes = this.renderer?.codes();
+    if (codes?.length !== width * height) return undefined;
+    const places = new Int32Array(codes.length);
+    for (let row = 0; row < height; row++) {
+      for (let column = 0; column < width; column++) {
+        places[(height - 1 - row) * width + column] = placeIn(codes[row * width + column] ?? 0) ?? -1;
+      }
+    }
+    return { width, height, places };
   }
 
   private fit(): void {

@@ -9,7 +9,7 @@ import type { Light } from "./light";
 import { PostPass } from "./post";
 import type { RenderQuality } from "./render_quality";
 import { ScenePass } from "./scene_pass";
-import { SceneTarget } from "./scene_target";
+import { placeIn, SceneTarget } from "./scene_target";
 import { ShadowMap } from "./shadow_map";
 import { SpherePass } from "./sphere_pass";
 import { SphereData } from "./spheres";
@@ -115,8 +115,12 @@ export class FrameRenderer {
   placeAt(x: number, y: number): number | undefined {
     const { target } = this;
     if (!target || x < 0 || y < 0 || x >= target.width || y >= target.height) return undefined;
-    const code = target.codeAt(x, y);
-    return code === 0 ? undefined : code & 0xffffff;
+    return placeIn(target.codes(x, y, 1, 1)[0] ?? 0);
+  }
+
+  /** The codes of the last image, row after row from the bottom. */
+  codes(): Uint32Array | undefined {
+    return this.target?.codes(0, 0, this.target.width, this.target.height);
   }
 
   private castShadows(shadow: ShadowMap, light: Light, shown: Shown | undefined): void {

@@ -1,7 +1,7 @@
 import { texture } from "./table";
 
 /**
- * The framebuffers of an image. `codes`: the spheres' codes and their depth as drawn, and the colours of all else.
+ * The framebuffers of an image. `code`: the spheres' codes and their depth as drawn, and the colours of all else.
  * `scene`: colours of all, and the depth of the surfaces. Each has textures that later passes read.
  */
 export class SceneTarget {
@@ -10,10 +10,9 @@ export class SceneTarget {
   readonly drawnDepth: WebGLTexture;
   readonly colour: WebGLTexture;
   readonly depth: WebGLTexture;
-  private readonly codes: WebGLFramebuffer;
+  private readonly codeTarget: WebGLFramebuffer;
   private readonly scene: WebGLFramebuffer;
   private readonly none = Uint32Array.of(0, 0, 0, 0);
-  private readonly found = new Uint32Array(1);
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -25,14 +24,14 @@ export class SceneTarget {
     this.drawnDepth = texture(gl, gl.DEPTH_COMPONENT24, width, height, gl.NEAREST);
     this.colour = texture(gl, gl.RGBA8, width, height, gl.LINEAR);
     this.depth = texture(gl, gl.DEPTH_COMPONENT24, width, height, gl.NEAREST);
-    this.codes = framebuffer(gl, this.drawnDepth, this.forward, this.code);
+    this.codeTarget = framebuffer(gl, this.drawnDepth, this.forward, this.code);
     this.scene = framebuffer(gl, this.depth, this.colour);
   }
 
   /** Begins to draw what is no sphere, to `forward`. */
   beginForward(): void {
     const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.codes);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.codeTarget);
     gl.viewport(0, 0, this.width, this.height);
     gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1]);
     gl.clearBufferuiv(gl.COLOR, 1, this.none);
@@ -52,21 +51,27 @@ export class SceneTarget {
     gl.viewport(0, 0, this.width, this.height);
   }
 
-  /** The code at a pixel, from the lower left corner. Waits until the image is drawn. */
-  codeAt(x: number, y: number): number {
+  /** The codes of a part of the image, from its lower left corner. Waits until the image is drawn. */
+  codes(x: number, y: number, width: number, height: number): Uint32Array {
     const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.codes);
+    const found = new Uint32Array(width * height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.codeTarget);
     gl.readBuffer(gl.COLOR_ATTACHMENT1);
-    gl.readPixels(x, y, 1, 1, gl.RED_INTEGER, gl.UNSIGNED_INT, this.found);
-    return this.found[0] ?? 0;
+    gl.readPixels(x, y, width, height, gl.RED_INTEGER, gl.UNSIGNED_INT, found);
+    return found;
   }
 
   free(): void {
     const { gl } = this;
     for (const used of [this.code, this.forward, this.drawnDepth, this.colour, this.depth]) gl.deleteTexture(used);
-    gl.deleteFramebuffer(this.codes);
+    gl.deleteFramebuffer(this.codeTarget);
     gl.deleteFramebuffer(this.scene);
   }
+}
+
+/** The place in a code of shaders/place.glsl; undefined if there is no sphere. */
+export function placeIn(code: number): number | undefined {
+  return code === 0 ? undefined : code & 0xffffff;
 }
 
 function framebuffer(gl: WebGL2RenderingContext, depth: WebGLTexture, ...colours: WebGLTexture[]): WebGLFramebuffer {

@@ -1,0 +1,86 @@
+// What is drawn against what an independent computation expects, pixel by pixel.
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import path from "node:path";
+import { test } from "node:test";
+import { open, settled, when } from "./support/browser.mjs";
+import { compare, placesSeen } from "./support/rays.mjs";
+import { serve } from "./support/server.mjs";
+import { browserSuite } from "./support/suite.mjs";
+
+const suite = browserSuite();
+
+/** Spheres of very different sizes in a cube with sides of 2, which do not overlap. */
+function cluster() {
+  let state = 12345;
+  const random = () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
+  const spheres = [];
+  while (spheres.length < 40) {
+    const radius = 0.05 * 10 ** random();
+    const position = [0, 1, 2].map(() => (1 - radius) * (2 * random() - 1));
+    const isFree = spheres.every((other) => {
+      return Math.hypot(...position.map((x, k) => x - other.position[k])) > radius + other.radius;
+    });
+    if (isFree) spheres.push({ position, radius });
+  }
+  return spheres;
+}
+
+// Keys that lead from one pose to the next, the first from the scene's own camera.
+const poses = [
+  [],
+  ["ArrowLeft", "ArrowLeft", "ArrowUp"],
+  ["+", "+", "+"],
+  ["ArrowDown", "ArrowDown", "ArrowDown", "ArrowLeft"],
+  ["x"],
+  ["o"], // orthographic
+  ["ArrowRight", "ArrowRight", "ArrowUp"],
+  ["+", "+"],
+  ["y"],
+  ["o", "z"],
+  ["-", "-", "-", "-", "-", "-"],
+  ["f", "+", "+", "+"],
+];
+
+for (const [size, at] of [
+  [0.002, 0], // radii from 0.1 to 1 mm
+  [0.002, 1e6],
+  [1, 1e4],
+  [2000, 0], // radii from 100 to 1,000 m
+  [2000, 1e6],
+]) {
+  test(`spheres of ${0.05 * size} to ${0.5 * size} m are drawn in their places, ${at} m from the origin`, async () => {
+    const spheres = cluster().map(({ position, radius }) => ({
+      position: position.map((x) => at + size * x),
+      radius: size * radius,
+    }));
+    const scene = {
+      gravity: [0, 0, 0],
+      bounds: { min: [at - size, at - size, at - size], max: [at + size, at + size, at + size] },
+      groups: [{ name: "cluster", list: { spheres } }],
+      camera: { eye: [at + 3 * size, at - 3 * size, at + 2 * size], target: [at, at, at], fieldOfView: 30 },
+    };
+    const file = path.join(suite.folder, "cluster.json");
+    writeFileSync(file, JSON.stringify(scene));
+    const server = await serve(file);
+    const page = await open(suite.browser, `${server.url}?tier=fine`, { size: [240, 136], reducedMotion: "reduce" });
+    await page.keyboard.press(" ");
+    await when(page, () => spherule.session.paused);
+    let [different, pixels, shown] = [0, 0, 0];
+    for (const [pose, keys] of poses.entries()) {
+      for (const key of keys) await page.keyboard.press(key);
+      await settled(page);
+      const { camera, drawn } = await page.evaluate(() => ({ camera: spherule.camera, drawn: spherule.places }));
+      const { differ, wrong } = compare(drawn, placesSeen(camera, spheres, drawn.width, drawn.height));
+      assert.deepEqual(wrong, [], `pose ${pose}`);
+      different += differ;
+      shown += drawn.places.filter((place) => place >= 0).length;
+      pixels += drawn.places.length;
+    }
+    assert.ok(different < 0.01 * pixels, `${different} of ${pixels} pixels differ, at edges`);
+    assert.ok(shown > 0.1 * pixels, `only ${shown} of ${pixels} pixels show a sphere`);
+    assert.deepEqual(page.faults, []);
+    await page.close();
+    await server.stop();
+  });
+}
