@@ -1,4 +1,4 @@
-// What is drawn against what an independent computation expects, pixel by pixel.
+// The image against an independent computation, pixel by pixel.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";

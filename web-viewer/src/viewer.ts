@@ -22,7 +22,7 @@ import { longStay } from "./ui/toasts";
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
-/** What an image depends on, to find whether it would be another one. Allocates nothing per image. */
+/** The values that an image depends on, to find whether it would be another one. Allocates nothing per image. */
 class Content {
   private next: unknown[] = [];
   private kept: unknown[] = [];

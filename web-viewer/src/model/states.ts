@@ -85,7 +85,7 @@ export class States {
   }
 }
 
-/** Makes the boxes of a state include those of another one. */
+/** Makes the boxes of a state include the boxes of another one. */
 function growBoxes({ boxes }: State, other: State): void {
   for (let k = 0; k < boxes.length; k++) {
     const value = other.boxes[k] ?? 0;

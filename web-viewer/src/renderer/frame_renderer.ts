@@ -16,9 +16,8 @@ import { SphereData } from "./spheres";
 import type { Theme } from "./theme";
 
 /**
- * Draws images in passes: the shadow map if something has moved; colours of what is no sphere; codes of the spheres;
- * the light of each pixel; translucent surfaces and lines; post-processing. It owns all resources of one WebGL context,
- * and is created again after that is lost.
+ * Draws images in passes, which docs/architecture.md lists. It owns all resources of one WebGL context, and is created
+ * again after that is lost.
  */
 export class FrameRenderer {
   private readonly uniforms: FrameUniforms;

@@ -14,7 +14,7 @@ import solidVertex from "./shaders/solid.vert.glsl";
 
 const seenFromBehind = 0.25; // opacity of obstacles
 
-/** Draws what is no sphere: background, floor and obstacles; later translucent surfaces and lines. */
+/** Draws background, floor and obstacles; later translucent surfaces and lines. */
 export class ScenePass {
   private readonly background: Program;
   private readonly floor: Program;

@@ -28,7 +28,7 @@ export class SceneTarget {
     this.scene = framebuffer(gl, this.depth, this.colour);
   }
 
-  /** Begins to draw what is no sphere, to `forward`. */
+  /** Begins to draw background, floor and obstacles, to `forward`. */
   beginForward(): void {
     const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.codeTarget);

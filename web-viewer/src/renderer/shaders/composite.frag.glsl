@@ -1,5 +1,5 @@
 // Copies the shaded scene to the canvas. FULL: smooths the outlines of spheres by the share of the pixel that they cover,
-// and other edges by their contrast; darkens what is close behind another surface, and what others hide from the sky.
+// and other edges by their contrast. Darkens surfaces that lie behind another one at its edge, or in a hollow.
 uniform highp sampler2D u_scene;
 uniform float u_dim;     // 0..1: how stale the image is
 uniform float u_haze;    // grey over a stale image
@@ -41,7 +41,7 @@ float coverageOf(uint code) {
 
 float brightness(vec3 colour) { return dot(colour, vec3(0.3, 0.59, 0.11)); }
 
-// Smooths an edge of what is no sphere along its direction, after FXAA (Lottes 2009).
+// Smooths an edge of floor and obstacles along its direction, after FXAA (Lottes 2009).
 vec3 smoothed(vec3 colour, vec3 beside[4]) {
     float here = brightness(colour);
     float right = brightness(beside[0]), left = brightness(beside[1]);

@@ -1,6 +1,6 @@
-// Where a ray meets a sphere. The distance between the ray and the centre comes from the difference of two points: the
-// difference of two squares would lose most digits of small spheres far away (Haines, Akenine-Moller and others,
-// "Precision improvements for ray/sphere intersection", 2019).
+// Where a ray meets a sphere. The distance between the ray and the centre comes from the difference of two points. The
+// difference of two squares would lose most digits of small spheres far away: see Haines and others, "Precision
+// improvements for ray/sphere intersection", 2019.
 struct Meeting {
     float outline;    // m from the outline of the sphere: positive inside
     float along;      // m along the ray to the surface; to the nearest point of the sphere if the ray misses it
