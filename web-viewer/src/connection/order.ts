@@ -47,7 +47,7 @@ export function scatter(
 
 /**
  * Writes the box of the positions in each block of the frame order: low and high corner, six values per block. They are
- * unbounded along periodic axes, where a position may be that of any image. `units`: three values per sphere, in frame
+ * unbounded along periodic axes, where a position may belong to any image. `units`: three values per sphere, in frame
  * order. `periods`: the length of each periodic axis, else 0.
  */
 export function boxesOf(

@@ -1,5 +1,5 @@
-// Copies the shaded scene to the canvas. FULL: smooths the outlines of spheres by the share of the pixel that they cover,
-// and other edges by their contrast. Darkens surfaces that lie behind another one at its edge, or in a hollow.
+// Copies the shaded scene to the canvas. FULL: smooths the outlines of spheres by the share of the pixel that they
+// cover, and other edges by their contrast. Darkens surfaces that lie behind another one at its edge, or in a hollow.
 uniform highp sampler2D u_scene;
 uniform float u_dim;     // 0..1: how stale the image is
 uniform float u_haze;    // grey over a stale image
