@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/check.h"
+#include "scene/group.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
 
@@ -50,7 +51,7 @@ Result<sim::Set> setOf(const v1::Set& message) {
 sim::Spawn spawnOf(const v1::Spawn& message) {
     const v1::Group& group = message.group();
     return {.name = group.name(),
-            .colour = group.colour(),
+            .look = scene::lookOf(group),
             .place = [group](const scene::Scene& scene, Progress& progress) {
                 return scene::buildGroup(group, scene, &progress);
             }};

@@ -28,7 +28,9 @@ void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
 void setGroup(v1::GroupFacts& message, const scene::Scene& scene, std::size_t number) {
     const scene::Group& group = scene.groups[number];
     message.set_name(group.name);
-    message.set_colour(group.colour);
+    message.set_colour(group.look.colour);
+    message.set_roughness(static_cast<float>(group.look.roughness));
+    message.set_metal(static_cast<float>(group.look.metal));
     if (group.count == 0) return;
     const scene::Sphere& first = scene.spheres[group.first];
     message.set_material(first.material);

@@ -65,7 +65,7 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
                                                  .taken = scene.spheres,
                                                  .occupancy = occupancy,
                                                  .room = maxSpheres - first});
-        scene.groups.push_back({group.name(), first, static_cast<std::uint32_t>(spheres.size()), group.colour()});
+        scene.groups.push_back({group.name(), first, static_cast<std::uint32_t>(spheres.size()), lookOf(group)});
         append(check, scene.spheres, std::move(spheres));
     }
 }

@@ -123,6 +123,12 @@ bool addTaken(Check& check, std::span<const Sphere> taken, Occupancy& occupancy)
     return check.ok();
 }
 
+Look lookOf(const v1::Group& message) {
+    Look look{.colour = message.colour(), .metal = message.metal()};
+    if (message.has_roughness()) look.roughness = message.roughness();
+    return look;
+}
+
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context) {
     const std::string source = at(context.field, sourceName(message));
     SourceInput input{.field = source,
@@ -135,6 +141,8 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     const std::uint8_t material =
         materialNamed(check, message.material(), scene.materials, at(context.field, "material"));
     check.colour(message.colour(), at(context.field, "colour"));
+    if (message.has_roughness()) check.within(message.roughness(), 0, 1, at(context.field, "roughness"));
+    check.within(message.metal(), 0, 1, at(context.field, "metal"));
     if (message.name().size() > longestName)
         check.refuse(at(context.field, "name"),
                      fmt::format("is {} bytes long, must be at most {}", message.name().size(), longestName));

@@ -24,6 +24,9 @@ struct GroupContext {
     std::size_t room = 0;                              // spheres that the scene may still take
 };
 
+// The fields of a group that readGroup() has checked.
+Look lookOf(const v1::Group& message);
+
 // Returns the spheres of a group. Each is inside the bounds of `scene` and clear of its obstacles.
 std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scene& scene, const GroupContext& context);
 

@@ -65,11 +65,18 @@ struct Quality {
     std::optional<QualityGoal> goal{};  // nullopt: substeps stay the same
 };
 
+// How the spheres of a group look in pictures.
+struct Look {
+    std::string colour;       // "#rrggbb"; empty: the viewer chooses
+    double roughness = 0.45;  // of the surface, 0 to 1
+    double metal = 0;         // 0 to 1
+};
+
 struct Group {
     std::string name;
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    std::string colour;  // "#rrggbb" or empty
+    Look look;
 };
 
 enum Face : std::uint8_t { XMin, XMax, YMin, YMax, ZMin, ZMax };
@@ -128,7 +135,7 @@ struct Obstacle {
 struct Camera {
     glm::dvec3 eye{};
     glm::dvec3 target{};
-    double fieldOfView = 45;  // degrees, vertical
+    double fieldOfView = 30;  // degrees, vertical
 };
 
 struct Sleep {

@@ -32,7 +32,7 @@ Camera framing(const Bounds& bounds, double fieldOfView) {
 Camera readCamera(Check& check, const v1::Camera& message, const Bounds& bounds) {
     const double fieldOfView = message.has_field_of_view()
                                    ? check.within(message.field_of_view(), 1, 150, "camera.fieldOfView", " degrees")
-                                   : 45;
+                                   : Camera{}.fieldOfView;
     if (!check.ok()) return {};
     Camera camera = framing(bounds, fieldOfView);
     camera.eye = check.vectorOr(message.eye(), camera.eye, "camera.eye");

@@ -106,7 +106,7 @@ Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State st
     auto added = spawn.place(scene, progress);
     if (!added) return tl::unexpected(added.error());
     if (added->empty()) return fail(ErrorKind::Refused, "group", "has no spheres");
-    scene.groups.push_back({spawn.name, state.count(), static_cast<std::uint32_t>(added->size()), spawn.colour});
+    scene.groups.push_back({spawn.name, state.count(), static_cast<std::uint32_t>(added->size()), spawn.look});
     state.append(stateOf(scene, *added));
     scene.spheres.insert(scene.spheres.end(), added->begin(), added->end());
     if (auto fits = scene::fitSubsteps(scene); !fits) return refusal(fits.error());

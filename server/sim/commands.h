@@ -33,7 +33,7 @@ struct Reset {};
 // Adds a group of spheres.
 struct Spawn {
     std::string name{};
-    std::string colour{};  // "#rrggbb" or empty
+    scene::Look look{};
     // Finds a place for each sphere of the group in the scene. Called on a thread that does not own the device.
     std::function<Result<std::vector<scene::Sphere>>(const scene::Scene&, Progress&)> place{};
 };

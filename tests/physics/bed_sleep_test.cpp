@@ -179,7 +179,7 @@ TEST(BedSleep, OutlastsASpawnBeyondItsReach) {
     for (int round = 0; round < 5; ++round) {
         const sim::State asleepBefore = simulation->snapshot();
         const double x = 2 * (round - 2);
-        const sim::Spawn spawn{.name = "ten", .colour = "", .place = [x](const scene::Scene&, Progress&) {
+        const sim::Spawn spawn{.name = "ten", .look = {}, .place = [x](const scene::Scene&, Progress&) {
                                    std::vector<scene::Sphere> ten;
                                    for (int k = 0; k < 10; ++k)
                                        ten.push_back({.position = {x + 0.11 * (k % 5), 0.11 * (k / 5), 0.285},

@@ -165,7 +165,7 @@ TEST(Periodic, SpawnKeepsThePathsAndResetBeginsThemAgain) {
     run(*simulation, 1);
     const sim::State before = simulation->snapshot();
     const sim::Spawn spawn{
-        .name = "one", .colour = "", .place = [](const scene::Scene&, Progress&) -> Result<std::vector<scene::Sphere>> {
+        .name = "one", .look = {}, .place = [](const scene::Scene&, Progress&) -> Result<std::vector<scene::Sphere>> {
             return std::vector<scene::Sphere>{scene::Sphere{.position = {0, 0, 0}, .radius = 0.01F}};
         }};
     ASSERT_TRUE(simulation->apply(spawn));

@@ -44,7 +44,7 @@ scene::Scene heap(scene::Model model, int count) {
 }
 
 sim::Spawn spawnAt(std::vector<glm::dvec3> places, float size = radius) {
-    return {.name = "new", .colour = "", .place = [places = std::move(places), size](const scene::Scene&, Progress&) {
+    return {.name = "new", .look = {}, .place = [places = std::move(places), size](const scene::Scene&, Progress&) {
                 std::vector<scene::Sphere> spheres;
                 for (const glm::dvec3& place : places) spheres.push_back({.position = place, .radius = size});
                 return Result<std::vector<scene::Sphere>>(std::move(spheres));

@@ -268,7 +268,7 @@ TEST(FloorForceOfAccurate, OutlastsASpawn) {
         run(*simulation, 2);
         const double before = forceOn(meansOver(*simulation, 0.05), "Z_MIN").force.z;
         const double top = scene.bounds.max.z - 2 * bedRadius;
-        const sim::Spawn ten{.name = "ten", .colour = "", .place = [top](const scene::Scene&, Progress&) {
+        const sim::Spawn ten{.name = "ten", .look = {}, .place = [top](const scene::Scene&, Progress&) {
                                  std::vector<scene::Sphere> spheres;
                                  for (int k = 0; k < 10; ++k)
                                      spheres.push_back({.position = {0.11 * (k % 3 - 1), 0.11 * (k / 3 - 1.5), top},

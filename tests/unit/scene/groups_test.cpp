@@ -8,7 +8,8 @@ namespace {
 TEST(SceneGroups, ListSpheresInheritPropertiesOfTheGroup) {
     const Scene scene =
         sceneWith(R"("materials": [{"restitution": 0.3, "density": 500}, {"name": "b", "restitution": 0.9}], "groups": [
-        {"name": "a", "colour": "#102030", "velocity": [1, 2, 3], "spin": [4, 5, 6], "radius": {"constant": 0.1},
+        {"name": "a", "colour": "#102030", "roughness": 0.25, "metal": 1,
+         "velocity": [1, 2, 3], "spin": [4, 5, 6], "radius": {"constant": 0.1},
          "list": {"spheres": [{"position": [0.2, 0.3, 0.4]},
                               {"position": [0.6, 0.7, 0.8], "velocity": [0, 0, 1], "spin": [7, 0, 0], "radius": 0.05}]}},
         {"name": "b", "material": "b", "list": {"spheres": [{"position": [0.5, 0.5, 0.5], "radius": 0.2}]}}])");
@@ -29,7 +30,11 @@ TEST(SceneGroups, ListSpheresInheritPropertiesOfTheGroup) {
     EXPECT_EQ(scene.materials[third.material].restitution, 0.9);
     ASSERT_EQ(scene.groups.size(), 2U);
     EXPECT_EQ(scene.groups[0].name, "a");
-    EXPECT_EQ(scene.groups[0].colour, "#102030");
+    EXPECT_EQ(scene.groups[0].look.colour, "#102030");
+    EXPECT_EQ(scene.groups[0].look.roughness, 0.25);
+    EXPECT_EQ(scene.groups[0].look.metal, 1);
+    EXPECT_EQ(scene.groups[1].look.roughness, 0.45);
+    EXPECT_EQ(scene.groups[1].look.metal, 0);
     EXPECT_EQ(scene.groups[0].count, 2U);
     EXPECT_EQ(scene.groups[1].first, 2U);
     EXPECT_EQ(scene.groups[1].count, 1U);

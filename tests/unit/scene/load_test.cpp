@@ -25,7 +25,7 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
         EXPECT_EQ(scene->name, name == "box" ? "box-4k" : name == "rapids" ? "rapids-3k" : name);
         EXPECT_FALSE(scene->description.empty()) << name;
         EXPECT_FALSE(scene->spheres.empty()) << name;
-        for (const Group& group : scene->groups) EXPECT_FALSE(group.colour.empty()) << name;
+        for (const Group& group : scene->groups) EXPECT_FALSE(group.look.colour.empty()) << name;
     }
 }
 

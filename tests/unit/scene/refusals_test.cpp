@@ -105,6 +105,8 @@ TEST(SceneRefusals, ColoursAreHexadecimal) {
               R"(groups[0].colour: is "red", must be #rrggbb in hexadecimal)");
     EXPECT_EQ(refusalOf(group(R"("list": {}, "colour": "#12345g")")),
               R"(groups[0].colour: is "#12345g", must be #rrggbb in hexadecimal)");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "roughness": 1.5)")), "groups[0].roughness: is 1.5, must be 0 to 1");
+    EXPECT_EQ(refusalOf(group(R"("list": {}, "metal": -0.1)")), "groups[0].metal: is -0.1, must be 0 to 1");
     EXPECT_EQ(refusalOf(group(R"("list": {}, "colour": "#1A2b3C")")), "accepted");
 }
 

@@ -54,7 +54,7 @@ export function factsOf(scene: SceneFacts): Facts {
     cellWidths: periods.map((length, axis) => (cells[axis] && length / cells[axis]) || scene.cellSize) as Vec3,
     eye: scene.camera?.eye.length === 3 ? vec3(scene.camera.eye) : undefined,
     target: scene.camera?.target.length === 3 ? vec3(scene.camera.target) : undefined,
-    fieldOfView: scene.camera?.fieldOfView ?? 45,
+    fieldOfView: scene.camera?.fieldOfView ?? 30,
   };
 }
 

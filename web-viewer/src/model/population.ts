@@ -259,9 +259,9 @@ export function joined(runs: readonly Run[], gap: number): Run[] {
   return spans;
 }
 
-function groupFrom({ name, colour: hex, fixed }: GroupFacts, index: number, count: number): Group {
+function groupFrom({ name, colour: hex, fixed, roughness = 0.45, metal }: GroupFacts, index: number, count: number): Group {
   const { colour, own } = groupColour(hex, index);
-  return { name: name || `group ${index + 1}`, count, colour, own, fixed, roughness: 0.45, metal: 0 };
+  return { name: name || `group ${index + 1}`, count, colour, own, fixed, roughness, metal };
 }
 
 /** `bytes`: float32 little endian. Missing values are 0. */
