@@ -1,11 +1,12 @@
 uniform highp sampler2DShadow u_shadow;
 
-// Light is linear in the shaders, and stored as its square root, which is close to sRGB and much cheaper. Bright light
-// is compressed, so that highlights keep their hue.
-vec3 encode(vec3 linear) {
+// Light is linear in the shaders, and stored as its square root, which is close to sRGB and much cheaper.
+vec3 encode(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }
+
+// Compresses bright light to less than 1, so that highlights keep their hue.
+vec3 compressed(vec3 linear) {
     vec3 bright = max(linear - 0.6, 0.0);
-    vec3 soft = min(linear, 0.6) + 0.4 * bright / (bright + 0.4);
-    return sqrt(clamp(soft, 0.0, 1.0));
+    return min(linear, 0.6) + 0.4 * bright / (bright + 0.4);
 }
 
 // A number in 0..1 that differs from pixel to pixel, after Jimenez 2014 ("interleaved gradient noise").
@@ -74,5 +75,5 @@ vec3 shade(Surface surface, vec3 normal, vec3 toEye, float share) {
     vec2 integral = vec2(-1.04, 1.04) * a + r.zw;
     vec3 ambient = mix(ground.rgb, sky.rgb, 0.5 + 0.5 * normal.z);
     vec3 reflected = surroundings(reflect(-toEye, normal), surface.roughness);
-    return colour + diffuse * ambient + reflected * (mirrored * integral.x + integral.y);
+    return compressed(colour + diffuse * ambient + reflected * (mirrored * integral.x + integral.y));
 }
