@@ -172,3 +172,23 @@ test("with reduced motion, the camera is at its goal at once", () => {
   close([turned(still)], [-0.6]);
   assert.ok(Math.abs(turned(moving)) < 0.1);
 });
+
+test("an orthographic view shows the plane of the target as large as a perspective view, with parallel rays", () => {
+  const pose = poseFrom([3, -4, 2], [1, 1, 0.5]);
+  const insets = { top: 30, right: 200, bottom: 0, left: 0 };
+  const perspective = viewOf(pose, field, 800, 500, insets, 20);
+  const orthographic = viewOf(pose, field, 800, 500, insets, 20, true);
+  const right: Vec3 = [-Math.sin(pose.azimuth), Math.cos(pose.azimuth), 0];
+  for (const offset of [-1, 0, 2]) {
+    const point = pose.target.map((part, axis) => part + offset * (right[axis] ?? 0)) as Vec3;
+    close(project(orthographic, point) ?? [], project(perspective, point) ?? [NaN, NaN], 1e-3);
+  }
+  for (const [x, y] of [[10, 20], [700, 400]] as const) {
+    const { origin, direction } = rayThrough(orthographic, x, y);
+    close(direction, orthographic.forward);
+    for (const far of [0, 7]) {
+      const point = origin.map((part, axis) => part + far * (direction[axis] ?? 0)) as Vec3;
+      close(project(orthographic, point) ?? [], [x, y], 1e-3);
+    }
+  }
+});
