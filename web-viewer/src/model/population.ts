@@ -259,8 +259,9 @@ export function joined(runs: readonly Run[], gap: number): Run[] {
   return spans;
 }
 
-function groupFrom({ name, colour: hex, fixed, roughness = 0.45, metal }: GroupFacts, index: number, count: number): Group {
-  const { colour, own } = groupColour(hex, index);
+function groupFrom(group: GroupFacts, index: number, count: number): Group {
+  const { name, fixed, roughness = 0.45, metal } = group;
+  const { colour, own } = groupColour(group.colour, index);
   return { name: name || `group ${index + 1}`, count, colour, own, fixed, roughness, metal };
 }
 
