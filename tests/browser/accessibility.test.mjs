@@ -4,7 +4,7 @@ import path from "node:path";
 import { test } from "node:test";
 import { axeFaults, faintParts } from "./support/axe.mjs";
 import { control, open, pause, visit, when } from "./support/browser.mjs";
-import { prompt, tokens } from "./support/entrance.mjs";
+import { enter, prompt, tokens } from "./support/entrance.mjs";
 import { collisions, showPanel } from "./support/layout.mjs";
 import { play, serve, spherule } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -56,6 +56,20 @@ test("the help is accessible", async () => {
   await page.waitForSelector(`${control("help-overlay")}[open]`);
   await expectAccessible(page);
   await page.keyboard.press("Escape");
+});
+
+test("the gallery is accessible, also for a viewer", async () => {
+  const watched = await serve("cradle", { tokens });
+  const watcher = await enter(suite.browser, watched, tokens.viewer);
+  for (const other of [page, watcher]) {
+    await showPanel(other, true);
+    await other.click(control("scenes"));
+    await other.waitForSelector(`${control("gallery")}[open]`);
+    await expectAccessible(other);
+    await other.keyboard.press("Escape");
+  }
+  await watcher.close();
+  await watched.stop();
 });
 
 test("a selected sphere is accessible", async () => {
