@@ -69,6 +69,7 @@ test("a notice and a long state of the connection cover nothing", async () => {
     for (const open of [false, true]) {
       await showPanel(other, open);
       assert.deepEqual(await collisions(other, 7), [], `${size}${open ? ", with the panel" : ""}`);
+      if (!open) assert.deepEqual(await coverings(other), [], `${size}`);
     }
   }
   await other.close();
