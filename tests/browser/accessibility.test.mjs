@@ -151,6 +151,8 @@ test("the help scrolls with arrow keys", async () => {
   await page.setViewportSize({ width: 640, height: 360 });
   await page.focus(control("picture"));
   await page.keyboard.press("?");
+  await page.waitForSelector(`${control("help-overlay")}[open]`);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))); // drawn
   const top = () => page.$eval(control("help-overlay"), (element) => element.scrollTop);
   assert.equal(await top(), 0);
   for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowDown");

@@ -17,12 +17,26 @@ const scene = {
 };
 
 let server;
-let page;
+let page; // paused
+let offline; // a page whose server has ended, with a selected sphere
 const suite = browserSuite(async (browser) => {
-  server = await serve(await sceneFile("plain", scene));
-  page = await open(browser, server.url, still);
-  await pause(page);
+  const file = await sceneFile("plain", scene);
+  [server, page] = await paused(browser, file);
+  const [ended, other] = await paused(browser, file);
+  await coverings(other); // waits until the picture stands still
+  await select(other);
+  await ended.stop();
+  await other.waitForSelector(control("notice"));
+  offline = other;
 });
+
+/** Serves the scene of a file. Returns the server and a page that shows it paused. */
+async function paused(browser, file) {
+  const own = await serve(file);
+  const shown = await open(browser, own.url, still);
+  await pause(shown);
+  return [own, shown];
+}
 
 /** Writes a scene to a file; returns its path. */
 async function sceneFile(name, content) {
@@ -56,24 +70,16 @@ for (const size of sizes) {
   });
 }
 
-test("a notice and a long state of the connection cover nothing", async () => {
-  const own = await serve(await sceneFile("own", scene));
-  const other = await open(suite.browser, own.url, { ...still, size: sizes.at(-1) });
-  await pause(other);
-  await coverings(other); // waits until the picture stands still
-  await select(other);
-  await own.stop();
-  await other.waitForSelector(control("notice"));
-  for (const size of sizes) {
-    await other.setViewportSize({ width: size[0], height: size[1] });
+for (const size of sizes) {
+  test(`at ${size.join(" x ")}, a notice and a long state of the connection cover nothing`, async () => {
+    await offline.setViewportSize({ width: size[0], height: size[1] });
     for (const open of [false, true]) {
-      await showPanel(other, open);
-      assert.deepEqual(await collisions(other, 7), [], `${size}${open ? ", with the panel" : ""}`);
-      if (!open) assert.deepEqual(await coverings(other), [], `${size}`);
+      await showPanel(offline, open);
+      assert.deepEqual(await collisions(offline, 7), [], open ? "with the panel" : "without the panel");
+      if (!open) assert.deepEqual(await coverings(offline), []);
     }
-  }
-  await other.close();
-});
+  });
+}
 
 test("the gallery fits into each window, and none of its parts covers another", async () => {
   for (const [width, height] of sizes) {

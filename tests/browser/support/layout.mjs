@@ -71,6 +71,7 @@ export async function galleryFaults(page) {
     const close = gallery.querySelector(".close");
     const cards = Array.from(gallery.querySelectorAll("li button"));
     const found = [];
+    if (boxOf(document.activeElement).top < boxOf(close).bottom) found.push("the title covers the focused card");
     for (const [place, card] of [["beginning", cards[0]], ["end", cards.at(-1)]]) {
       gallery.scrollTop = place === "end" ? gallery.scrollHeight : 0;
       await new Promise(requestAnimationFrame);
