@@ -4,7 +4,7 @@ import path from "node:path";
 import { test } from "node:test";
 import { axeFaults, faintParts } from "./support/axe.mjs";
 import { control, open, pause, visit, when } from "./support/browser.mjs";
-import { prompt, tokens } from "./support/entrance.mjs";
+import { enter, prompt, tokens } from "./support/entrance.mjs";
 import { collisions, showPanel } from "./support/layout.mjs";
 import { play, serve, spherule } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -56,6 +56,20 @@ test("the help is accessible", async () => {
   await page.waitForSelector(`${control("help-overlay")}[open]`);
   await expectAccessible(page);
   await page.keyboard.press("Escape");
+});
+
+test("the gallery is accessible, also for a viewer", async () => {
+  const watched = await serve("cradle", { tokens });
+  const watcher = await enter(suite.browser, watched, tokens.viewer);
+  for (const other of [page, watcher]) {
+    await showPanel(other, true);
+    await other.click(control("scenes"));
+    await other.waitForSelector(`${control("gallery")}[open]`);
+    await expectAccessible(other);
+    await other.keyboard.press("Escape");
+  }
+  await watcher.close();
+  await watched.stop();
 });
 
 test("a selected sphere is accessible", async () => {
@@ -137,6 +151,8 @@ test("the help scrolls with arrow keys", async () => {
   await page.setViewportSize({ width: 640, height: 360 });
   await page.focus(control("picture"));
   await page.keyboard.press("?");
+  await page.waitForSelector(`${control("help-overlay")}[open]`);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))); // drawn
   const top = () => page.$eval(control("help-overlay"), (element) => element.scrollTop);
   assert.equal(await top(), 0);
   for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowDown");

@@ -4,7 +4,7 @@ import { writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
 import { control, open, pause, when } from "./support/browser.mjs";
-import { collisions, coverings, showPanel } from "./support/layout.mjs";
+import { collisions, coverings, galleryFaults, showPanel } from "./support/layout.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -16,28 +16,40 @@ const scene = {
   groups: [{ name: "one", list: { spheres: [{ position: [1.5, 1, 0.5] }] }, radius: { constant: 0.4 } }],
 };
 
-let folder;
 let server;
-let page;
-browserSuite(async (browser, own) => {
-  folder = own;
-  server = await serve(await sceneFile("plain", scene));
-  page = await open(browser, server.url, still);
-  await pause(page);
+let page; // paused
+let offline; // a page whose server has ended, with a selected sphere
+const suite = browserSuite(async (browser) => {
+  const file = await sceneFile("plain", scene);
+  [server, page] = await paused(browser, file);
+  const [ended, other] = await paused(browser, file);
+  await coverings(other); // waits until the picture stands still
+  await select(other);
+  await ended.stop();
+  await other.waitForSelector(control("notice"));
+  offline = other;
 });
+
+/** Serves the scene of a file. Returns the server and a page that shows it paused. */
+async function paused(browser, file) {
+  const own = await serve(file);
+  const shown = await open(browser, own.url, still);
+  await pause(shown);
+  return [own, shown];
+}
 
 /** Writes a scene to a file; returns its path. */
 async function sceneFile(name, content) {
-  const file = path.join(folder, `${name}.json`);
+  const file = path.join(suite.folder, `${name}.json`);
   await writeFile(file, JSON.stringify(content));
   return file;
 }
 
 /** Clicks on sphere 0, and waits until the page shows its figures. */
-async function select() {
-  const [x, y] = await page.evaluate(() => spherule.project(spherule.positions([0]).positions[0]));
-  await page.mouse.click(x, y);
-  await page.waitForSelector(control("inspected"));
+async function select(one) {
+  const [x, y] = await one.evaluate(() => spherule.project(spherule.positions([0]).positions[0]));
+  await one.mouse.click(x, y);
+  await one.waitForSelector(control("inspected"));
 }
 
 for (const size of sizes) {
@@ -48,7 +60,7 @@ for (const size of sizes) {
       assert.deepEqual(await collisions(page, 5), []);
       assert.deepEqual(await coverings(page), []);
     }
-    await select();
+    await select(page);
     assert.deepEqual(await collisions(page, 6), []);
     assert.deepEqual(await coverings(page), []);
     assert.equal(await page.evaluate(() => spherule.selected), 0);
@@ -57,6 +69,24 @@ for (const size of sizes) {
     await when(page, () => spherule.selected === undefined);
   });
 }
+
+for (const size of sizes) {
+  test(`at ${size.join(" x ")}, a notice and a long state of the connection cover nothing`, async () => {
+    await offline.setViewportSize({ width: size[0], height: size[1] });
+    for (const open of [false, true]) {
+      await showPanel(offline, open);
+      assert.deepEqual(await collisions(offline, 7), [], open ? "with the panel" : "without the panel");
+      if (!open) assert.deepEqual(await coverings(offline), []);
+    }
+  });
+}
+
+test("the gallery fits into each window, and none of its parts covers another", async () => {
+  for (const [width, height] of sizes) {
+    await page.setViewportSize({ width, height });
+    assert.deepEqual(await galleryFaults(page), [], `${width} x ${height}`);
+  }
+});
 
 // Texts by scene authors, who may write anything, of at most 200 bytes.
 const zalgo = "Z\u0300\u0301\u0302\u0303\u0304\u0305\u0306\u0307\u0308".repeat(10);
@@ -81,7 +111,10 @@ for (const [kind, text] of Object.entries(hostile)) {
       await page.setViewportSize({ width: size[0], height: size[1] });
       await showPanel(page, true);
       assert.deepEqual(await coverings(page), [], `${size}`);
-      if (size === sizes[0]) await select();
+      if (size === sizes[0]) {
+        assert.deepEqual(await galleryFaults(page), [], `the gallery at ${size}`);
+        await select(page);
+      }
       assert.deepEqual(await collisions(page, 6), [], `${size}`);
       assert.deepEqual(await coverings(page), [], `${size}`);
     }
@@ -90,7 +123,7 @@ for (const [kind, text] of Object.entries(hostile)) {
       ".swatch bdi",
     ]);
     assert.deepEqual(shown, [text, text], "the whole text is in the tooltip");
-    assert.equal(await page.locator("#page img").count(), 0);
+    assert.equal(await page.locator("#page img:not([src^='scenes/'])").count(), 0);
     assert.deepEqual(page.faults, []);
   });
 }

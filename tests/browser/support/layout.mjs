@@ -8,9 +8,18 @@ async function boxesOf(page) {
     width: innerWidth,
     height: innerHeight,
     scrolls: document.scrollingElement.scrollWidth > innerWidth || document.scrollingElement.scrollHeight > innerHeight,
-    wide: Array.from(document.querySelectorAll("header, .facts > *, .controls > *, .lil-root, .lil-root > *"))
+    wide: Array.from(
+      document.querySelectorAll("header, .facts > *, .controls > *, .lil-root, .lil-root > *, .lil-controller"),
+    )
       .filter((element) => element.scrollWidth > element.clientWidth)
-      .map((element) => element.className || element.tagName),
+      .map((element) => element.dataset.control || element.className || element.tagName),
+    cut: Array.from(document.querySelectorAll(".field"))
+      .filter((element) => {
+        const [field, line] = [element.getBoundingClientRect(), element.parentElement.getBoundingClientRect()];
+        const isHidden = field.width === 0 || field.top >= line.bottom;
+        return !isHidden && (field.left < line.left || field.right > line.right || field.bottom > line.bottom);
+      })
+      .map((element) => element.className),
     boxes: Array.from(document.querySelectorAll("#page > *, .facts > *, .controls > *, header > *, .transport > *"))
       .filter((element) => !element.matches(".foot, header, .toasts, dialog"))
       .map((element) => ({
@@ -26,9 +35,10 @@ const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.
 
 /** Returns the faults as text. It is a fault if fewer than `least` elements are visible. */
 export async function collisions(page, least) {
-  const { width, height, scrolls, wide, boxes } = await boxesOf(page);
+  const { width, height, scrolls, wide, cut, boxes } = await boxesOf(page);
   const faults = boxes.length < least ? [`only ${boxes.length} parts`] : [];
   faults.push(...wide.map((name) => `the content of ${name} is wider`));
+  faults.push(...cut.map((name) => `${name} is cut off`));
   if (scrolls) faults.push("the page scrolls");
   const holds = (a, b) => b.within.startsWith("transport") && a.name === "transport";
   boxes.forEach((box, i) => {
@@ -45,6 +55,48 @@ export async function collisions(page, least) {
 /** Shows or hides the panel. */
 export async function showPanel(page, shown) {
   if ((await page.isVisible(control("panel"))) !== shown) await page.click(control("panel-toggle"));
+}
+
+/** Opens the gallery. Returns faults of its layout as text, at its beginning and at its end, and closes it. */
+export async function galleryFaults(page) {
+  await showPanel(page, true);
+  await page.click(control("scenes"));
+  await page.waitForSelector(`${control("gallery")}[open]`);
+  const faults = await page.evaluate(async (selector) => {
+    const gallery = document.querySelector(selector);
+    const boxOf = (element) => element.getBoundingClientRect();
+    const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+    const holds = (a, b) => a.left <= b.left && b.right <= a.right && a.top <= b.top && b.bottom <= a.bottom;
+    const overlaps = (boxes) => boxes.some((a, i) => boxes.slice(i + 1).some((b) => !apart(a, b)));
+    const close = gallery.querySelector(".close");
+    const cards = Array.from(gallery.querySelectorAll("li button"));
+    const found = [];
+    if (boxOf(document.activeElement).top < boxOf(close).bottom) found.push("the title covers the focused card");
+    for (const [place, card] of [["beginning", cards[0]], ["end", cards.at(-1)]]) {
+      gallery.scrollTop = place === "end" ? gallery.scrollHeight : 0;
+      await new Promise(requestAnimationFrame);
+      const [window, frame] = [{ left: 0, top: 0, right: innerWidth, bottom: innerHeight }, boxOf(gallery)];
+      const reaches = (element) => {
+        const { left, top, width, height } = boxOf(element);
+        return element.contains(document.elementFromPoint(left + width / 2, top + height / 2));
+      };
+      if (!holds(window, frame)) found.push(`${place}: the gallery leaves the window`);
+      if (!holds(frame, boxOf(close)) || !reaches(close)) found.push(`${place}: its button is out of sight`);
+      if (!reaches(card)) found.push(`${place}: ${card.dataset.testid} is out of sight`);
+    }
+    if (gallery.scrollWidth > gallery.clientWidth) found.push("the gallery scrolls to the side");
+    if (overlaps(cards.map(boxOf))) found.push("cards overlap");
+    for (const card of cards) {
+      const parts = Array.from(card.children, boxOf);
+      const isWide = ({ scrollWidth, clientWidth }) => clientWidth > 0 && scrollWidth > clientWidth;
+      const isCut = [card, ...card.children].some(isWide) || !parts.every((part) => holds(boxOf(card), part));
+      if (overlaps(parts)) found.push(`parts of ${card.dataset.testid} overlap`);
+      if (isCut) found.push(`${card.dataset.testid} is cut off`);
+    }
+    return found;
+  }, control("gallery"));
+  await page.keyboard.press("Escape");
+  return faults;
 }
 
 /** Returns the faults at widths from a phone to a large screen, with the panel shown and hidden. */

@@ -76,7 +76,6 @@ export class Entry {
     this.input = $input;
     this.input.type = "text"; // a number field would hide the text that is no number
     this.input.inputMode = "decimal";
-    this.input.setAttribute("aria-describedby", this.message.id);
     this.message.dataset.testid = `${domElement.dataset.control}-wrong`;
     below.after(this.message);
     // These run before lil-gui's listeners, which take the number at the beginning of any text.
@@ -158,5 +157,7 @@ export class Entry {
     setText(this.message, error && error.replace(/\.?$/, "."));
     this.message.hidden = !this.wrong;
     this.input.setAttribute("aria-invalid", String(this.wrong));
+    if (this.wrong) this.input.setAttribute("aria-describedby", this.message.id);
+    else this.input.removeAttribute("aria-describedby");
   }
 }

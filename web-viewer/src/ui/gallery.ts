@@ -98,8 +98,8 @@ export class Gallery {
         click: () => reason || this.load(name),
       },
       picture,
-      h("span", { class: "name" }, h("b", {}, name), h("small", {}, number)),
-      h("span", { class: "about" }, description),
+      h("span", { class: "name" }, h("b", { dir: "auto" }, name), h("small", {}, number)),
+      h("span", { class: "about", dir: "auto" }, description),
     );
     if (current) button.setAttribute("aria-current", "true");
     return button;

@@ -1,5 +1,5 @@
-// The expressions of model/quantities.ts may use the functions of this file, of spheres.glsl and of place.glsl, `place`,
-// and `position`: the centre of the sphere (m, relative to the centre of the bounds).
+// The expressions of model/quantities.ts may use the functions of this file, spheres.glsl and place.glsl. They may use
+// `place`, and `position`: the centre of the sphere (m, relative to the centre of the bounds).
 uniform highp sampler2D u_id;
 uniform bool u_idsGiven;              // false: the id is the number of the place
 uniform highp usampler2D u_group;     // number of the group at each place
