@@ -134,10 +134,10 @@ TEST_F(SimMemory, CommandsWithoutMemoryAreRefusedAndChangeNothing) {
     const auto simulation = Simulation::create(*device_, std::move(*scene));
     ASSERT_TRUE(simulation);
     ASSERT_TRUE((*simulation)->step());
-    const Spawn spawn{.look = {},
-                      .place = [group = latticeOf(1, 0).groups(0)](const scene::Scene& to, Progress& progress) {
-                          return scene::buildGroup(group, to, &progress);
-                      }};
+    Spawn spawn;
+    spawn.place = [group = latticeOf(1, 0).groups(0)](const scene::Scene& to, Progress& progress) {
+        return scene::buildGroup(group, to, &progress);
+    };
     for (const Command& command : {Command(Reset()), Command(Set{.friction = 0.3}), Command(spawn)}) {
         memory::setLimit(held());
         const auto refused = (*simulation)->apply(command);
