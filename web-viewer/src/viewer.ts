@@ -39,7 +39,7 @@ class Content {
 
   get changed(): boolean {
     if (this.kept.length !== this.length) return true;
-    for (let k = 0; k < this.length; k++) if (this.kept[k] !== this.next[k]) return true;
+    for (let k = 0; k < this.length; k++) if (!Object.is(this.kept[k], this.next[k])) return true;
     return false;
   }
 
