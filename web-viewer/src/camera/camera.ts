@@ -7,7 +7,16 @@ import { extentOf, tangentPerPixel, viewOf } from "./view";
 import type { Extent, Insets, View } from "./view";
 
 const orbitSpeed = 0.006; // radians per pixel
+const sides = ["top", "right", "bottom", "left"] as const;
 const ease = 70; // ms, time constant with which the pose approaches the goal
+
+interface Shown {
+  pose: Pose;
+  insets: Insets;
+  extent: Extent;
+  size: [number, number];
+  orthographic: boolean;
+}
 
 /** A camera whose movements set a goal pose, which the shown pose approaches smoothly. */
 export class Camera {
@@ -22,6 +31,7 @@ export class Camera {
   private insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
   private insetsGoal: Insets = this.insets;
   private jumps = true; // the next insets are taken at once
+  private shown: Shown | undefined; // the origin of `current`
   private current: View = viewOf(this.pose, this.extent, 1, 1, this.insets, 10);
 
   /** Takes the scene's camera, or one that sees all of its bounds. `stay`: keeps the present pose. */
@@ -76,17 +86,23 @@ export class Camera {
   /** Moves pose and insets by `elapsed` ms. `still`: to their goals at once. */
   advance(elapsed: number, still = false): void {
     const share = still ? 1 : 1 - Math.exp(-elapsed / ease);
-    this.insets = this.jumps ? this.insetsGoal : between(this.insets, this.insetsGoal, share);
+    if (this.jumps) this.insets = this.insetsGoal;
+    else if (this.insets !== this.insetsGoal) this.insets = between(this.insets, this.insetsGoal, share);
     this.jumps = false;
     if (this.pose !== this.goal) {
       this.pose = near(this.pose, this.goal) ? this.goal : approached(this.pose, this.goal, share);
     }
   }
 
+  /** The same object as before if nothing has changed. */
   view(): View {
+    const { pose, insets, extent, size, orthographic, shown } = this;
+    const isShown = shown?.pose === pose && shown.insets === insets && shown.extent === extent && shown.size === size;
+    if (isShown && shown.orthographic === orthographic) return this.current;
+    this.shown = { pose, insets, extent, size, orthographic };
     const reach = 3 * this.diagonal + Math.hypot(...this.pose.target.map((t, i) => t - (this.home.target[i] ?? 0)));
-    const [width, height] = this.size;
-    this.current = viewOf(this.pose, this.extent, width, height, this.insets, reach, this.orthographic);
+    const [width, height] = size;
+    this.current = viewOf(pose, extent, width, height, insets, reach, orthographic);
     return this.current;
   }
 
@@ -107,8 +123,9 @@ export class Camera {
   }
 }
 
-/** Insets on the way from one to another, by `share` in 0..1; the last half pixel is one step. */
+/** Insets on the way from one to another, by `share` in 0..1; the last half pixel is one step. `to` itself at the end. */
 function between(from: Insets, to: Insets, share: number): Insets {
+  if (sides.every((side) => Math.abs(to[side] - from[side]) < 0.5)) return to;
   const part = (side: keyof Insets): number =>
     Math.abs(to[side] - from[side]) < 0.5 ? to[side] : from[side] + share * (to[side] - from[side]);
   return { top: part("top"), right: part("right"), bottom: part("bottom"), left: part("left") };
