@@ -42,6 +42,13 @@ const poses = [
   ["f", "+", "+", "+"],
 ];
 
+/** Waits for this number of ticks of the page. */
+async function ticks(page, count) {
+  await page.evaluate(async (number) => {
+    for (let k = 0; k < number; k++) await new Promise(requestAnimationFrame);
+  }, count);
+}
+
 for (const [size, at] of [
   [0.002, 0], // radii from 0.1 to 1 mm
   [0.002, 1e6],
@@ -67,10 +74,11 @@ for (const [size, at] of [
     await page.keyboard.press(" ");
     await when(page, () => spherule.session.paused);
     await page.evaluate(() => (document.getElementById("page").style.display = "none")); // the picture has all the room
+    await settled(page);
     let [different, pixels, shown] = [0, 0, 0];
     for (const [pose, keys] of poses.entries()) {
       for (const key of keys) await page.keyboard.press(key);
-      await settled(page);
+      await ticks(page, 3); // with reduced motion, the next image has the pose
       const { camera, drawn } = await page.evaluate(() => ({ camera: spherule.camera, drawn: spherule.places }));
       const { differ, wrong } = compare(drawn, placesSeen(camera, spheres, drawn.width, drawn.height));
       assert.deepEqual(wrong, [], `pose ${pose}`);

@@ -123,7 +123,7 @@ export class Camera {
   }
 }
 
-/** Insets on the way from one to another, by `share` in 0..1; the last half pixel is one step. `to` itself at the end. */
+/** Insets on the way from one to another, by `share` in 0..1. The last half pixel is one step, to `to` itself. */
 function between(from: Insets, to: Insets, share: number): Insets {
   if (sides.every((side) => Math.abs(to[side] - from[side]) < 0.5)) return to;
   const part = (side: keyof Insets): number =>
