@@ -10,13 +10,13 @@ import { browserSuite } from "./support/suite.mjs";
 
 const suite = browserSuite();
 
-/** Spheres of very different sizes in a cube with sides of 2, which do not overlap. */
-function cluster() {
+/** Spheres in a cube with sides of 2, which do not overlap. */
+function cluster({ least, ratio, count }) {
   let state = 12345;
   const random = () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
   const spheres = [];
-  while (spheres.length < 40) {
-    const radius = 0.05 * 10 ** random();
+  while (spheres.length < count) {
+    const radius = least * ratio ** random();
     const position = [0, 1, 2].map(() => (1 - radius) * (2 * random() - 1));
     const isFree = spheres.every((other) => {
       return Math.hypot(...position.map((x, k) => x - other.position[k])) > radius + other.radius;
@@ -49,15 +49,23 @@ async function ticks(page, count) {
   }, count);
 }
 
-for (const [size, at] of [
-  [0.002, 0], // radii from 0.1 to 1 mm
-  [0.002, 1e6],
-  [1, 1e4],
-  [2000, 0], // radii from 100 to 1,000 m
-  [2000, 1e6],
+const mixed = { least: 0.05, ratio: 10, count: 40, share: 0.1 };
+const discs = { least: 0.03, ratio: 3, count: 300, share: 0.1 }; // of at most 12 px in most poses
+const points = { least: 0.002, ratio: 2, count: 300, share: 0.002 };
+
+for (const [kind, size, at] of [
+  [mixed, 0.002, 0], // radii from 0.1 to 1 mm
+  [mixed, 0.002, 1e6],
+  [mixed, 1, 1e4],
+  [mixed, 2000, 0], // radii from 100 to 1,000 m
+  [mixed, 2000, 1e6],
+  [discs, 1, 0],
+  [discs, 1, 1e6],
+  [points, 1, 0],
 ]) {
-  test(`spheres of ${0.05 * size} to ${0.5 * size} m are drawn in their places, ${at} m from the origin`, async () => {
-    const spheres = cluster().map(({ position, radius }) => ({
+  const [low, high] = [size * kind.least, size * kind.least * kind.ratio];
+  test(`spheres of ${low} to ${high} m are drawn in their places, ${at} m from the origin`, async () => {
+    const spheres = cluster(kind).map(({ position, radius }) => ({
       position: position.map((x) => at + size * x),
       radius: size * radius,
     }));
@@ -87,7 +95,7 @@ for (const [size, at] of [
       pixels += drawn.places.length;
     }
     assert.ok(different < 0.01 * pixels, `${different} of ${pixels} pixels differ, at edges`);
-    assert.ok(shown > 0.1 * pixels, `only ${shown} of ${pixels} pixels show a sphere`);
+    assert.ok(shown > kind.share * pixels, `only ${shown} of ${pixels} pixels show a sphere`);
     assert.deepEqual(page.faults, []);
     await page.close();
     await server.stop();

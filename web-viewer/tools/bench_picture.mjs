@@ -1,7 +1,7 @@
 // node tools/bench_picture.mjs [--counts 50000,200000] [--images 3] [--shots FOLDER]: times images of a pile of
 // spheres, drawn by this page's renderer and by three.js. That draws an InstancedMesh of 320 triangles per sphere, with
-// equal smoothing and shadows. Both run one after the other in one headless Chromium. Each figure is the median of three warmed runs. Requires the
-// packages of tests/browser.
+// equal smoothing and shadows. Both run one after the other in one headless Chromium. Each figure is the median of
+// three warmed runs. Requires the packages of tests/browser.
 import * as esbuild from "esbuild";
 import { writeFileSync } from "node:fs";
 import { createServer } from "node:http";
