@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import path from "node:path";
 import { test } from "node:test";
 import { axeFaults, faintParts } from "./support/axe.mjs";
-import { control, open, pause, visit, when } from "./support/browser.mjs";
+import { clickSphere, control, open, pause, visit, when } from "./support/browser.mjs";
 import { enter, prompt, tokens } from "./support/entrance.mjs";
 import { collisions, showPanel } from "./support/layout.mjs";
 import { play, serve, spherule } from "./support/server.mjs";
@@ -76,7 +76,7 @@ test("a selected sphere is accessible", async () => {
   await page.setViewportSize({ width: 1280, height: 720 });
   await page.click(control("home"));
   await page.waitForTimeout(1500); // the camera moves
-  await page.mouse.click(...(await page.evaluate(() => spherule.project(spherule.positions([2]).positions[0]))));
+  await clickSphere(page, 2);
   await page.waitForSelector(control("inspected"));
   await expectAccessible(page, () => showPanel(page, true));
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { chooseScene, control, open, pause, when } from "./support/browser.mjs";
+import { chooseScene, clickSphere, control, open, pause, when } from "./support/browser.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -116,9 +116,7 @@ test("a click in push mode moves the clicked sphere away from the eye", async ()
 });
 
 test("a click without push mode selects the sphere", async () => {
-  const { positions } = await queryServer(page);
-  const [x, y] = await page.evaluate((place) => spherule.project(place), positions[2]);
-  await page.mouse.click(x, y);
+  await clickSphere(page, 2);
   await when(page, () => document.querySelector('[data-testid="inspected"]').textContent === "Sphere 2");
 });
 

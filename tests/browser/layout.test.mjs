@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, pause, when } from "./support/browser.mjs";
+import { clickSphere, control, open, pause, when } from "./support/browser.mjs";
 import { collisions, coverings, galleryFaults, showPanel } from "./support/layout.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -47,8 +47,7 @@ async function sceneFile(name, content) {
 
 /** Clicks on sphere 0, and waits until the page shows its figures. */
 async function select(one) {
-  const [x, y] = await one.evaluate(() => spherule.project(spherule.positions([0]).positions[0]));
-  await one.mouse.click(x, y);
+  await clickSphere(one, 0);
   await one.waitForSelector(control("inspected"));
 }
 

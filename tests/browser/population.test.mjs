@@ -60,8 +60,8 @@ async function drawn() {
 /** Clicks on the sphere at x (m), and waits until it is selected. Returns its id. */
 async function select(x) {
   const [left, top] = await pointOf(x);
-  const id = await page.evaluate(([px, py]) => spherule.at(px, py), [left, top]);
-  assert.notEqual(id, undefined, `a sphere at ${x} m`);
+  await when(page, (at) => spherule.at(...at) !== undefined, [left, top]); // the image shows a sphere there
+  const id = await page.evaluate((at) => spherule.at(...at), [left, top]);
   await page.mouse.click(left, top);
   await when(page, (wanted) => spherule.selected === wanted, id);
   await says(page, "inspected", new RegExp(`^Sphere ${id}$`));

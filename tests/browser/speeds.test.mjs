@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, unfold, when } from "./support/browser.mjs";
+import { clickSphere, control, open, says, unfold, when } from "./support/browser.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -38,8 +38,7 @@ const suite = browserSuite(async (_, folder) => {
 
 /** Waits until the page shows the speed of a sphere, within 1 %. */
 async function expectSpeed(id, speed) {
-  const at = await page.evaluate((one) => spherule.project(spherule.positions([one]).positions[0]), id);
-  await page.mouse.click(...at);
+  await clickSphere(page, id);
   await says(page, "inspected", new RegExp(`^Sphere ${id}$`));
   const shown = ([selector, wanted]) => {
     const text = document.querySelector(selector).parentElement.parentElement.textContent;

@@ -98,3 +98,15 @@ export async function chooseScene(page, name) {
 export async function unfold(page, name) {
   await page.click(`.lil-title[aria-expanded="false"]:text-is("${name}")`);
 }
+
+/** Clicks on a sphere, as soon as the image shows it. */
+export async function clickSphere(page, id) {
+  const isDrawn = (one) => {
+    const [position] = spherule.positions([one])?.positions ?? [];
+    const at = position && spherule.project(position);
+    return at !== undefined && spherule.at(...at) === one;
+  };
+  await when(page, isDrawn, id);
+  const at = await page.evaluate((one) => spherule.project(spherule.positions([one]).positions[0]), id);
+  await page.mouse.click(...at);
+}
