@@ -125,6 +125,7 @@ export class Viewer {
         if (another) this.page.inspector.selection.clear();
         else this.page.inspector.selection.follow(facts.population);
         this.page.panel.setFacts(facts, another);
+        this.page.links.sceneShown(facts);
         this.drawn = "";
       },
       populationChanged: ({ population }, changed) => {

@@ -20,8 +20,9 @@ import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
+import { Links } from "./links";
 import { Notices, noticesFor, OutsideCount } from "./notices";
-import type { NoticeAction } from "./notices";
+import type { Notice, NoticeAction } from "./notices";
 import { Panel } from "./panel";
 import type { Choices, PanelActions } from "./panel";
 import { Playback } from "./playback";
@@ -33,7 +34,7 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends Omit<PanelActions, "showScenes"> {
+export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink"> {
   retry(): void;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
@@ -50,6 +51,7 @@ export class Page {
   readonly panel: Panel;
   readonly playback: Playback;
   readonly prompt: Prompt;
+  readonly links: Links;
   readonly steering: Steering;
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
@@ -92,8 +94,15 @@ export class Page {
     });
     this.gallery = new Gallery(session, commands);
     const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes });
+    const copyLink = (): void => void this.links.copy();
+    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink });
     this.inspector = new Inspector((id) => commands.remove(id));
+    this.links = new Links(session, this.toasts, {
+      camera: actions.camera,
+      selection: this.inspector.selection,
+      colour: () => choices.mode,
+      colourBy: (mode) => this.panel.colourBy(mode),
+    });
     this.header = new Header(session, actions.retry);
     this.legend = new Legend(ranges, () => {
       this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
@@ -131,7 +140,7 @@ export class Page {
     this.change = new ChangeLine(() => void commands.cancel());
     this.notices = new Notices((action, { id }) => {
       if (action === "retry" || action === "token") actions.retry();
-      else if (action === "dismiss") this.dismiss(id === "outside");
+      else if (action === "dismiss") this.dismiss(id);
       else this.act(action);
     });
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
@@ -196,13 +205,14 @@ export class Page {
   private showNotices(state: PageState, graphics: Graphics, now: number): void {
     const { refusal, farewell, status, divergence, facts } = this.session;
     const outside = this.playing ? 0 : this.outside.due(status?.outside ?? 0);
-    const more = { outside, diverged: divergence !== undefined, known: facts !== undefined };
+    const more = { outside, link: this.links.wanted, diverged: divergence !== undefined, known: facts !== undefined };
     const notices = noticesFor({ state, graphics, host: location.host, refusal, farewell, ...more });
     this.notices.update(notices, now, this.steering.blockedReason);
   }
 
-  private dismiss(outside: boolean): void {
-    if (outside) this.outside.dismiss(this.session.status?.outside ?? 0);
+  private dismiss(id: Notice["id"]): void {
+    if (id === "outside") this.outside.dismiss(this.session.status?.outside ?? 0);
+    else if (id === "link") this.links.dismiss();
     else this.session.divergence = undefined;
   }
 
@@ -210,6 +220,7 @@ export class Page {
     if (action === "reload") location.reload();
     if (action === "reset") void this.commands.reset();
     if (action === "drop") this.panel.dropNow();
+    if (action === "load") void this.commands.load(this.links.wanted?.name ?? "");
     if (action === "choose") this.gallery.show(this.steering.blockedReason);
   }
 

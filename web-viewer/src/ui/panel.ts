@@ -50,6 +50,7 @@ export interface PanelActions {
   viewRequested(view: ViewRequest): void;
   forgetToken(): void;
   showScenes(): void;
+  copyLink(): void;
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
@@ -100,6 +101,7 @@ export class Panel {
     this.element = this.gui.domElement;
     this.element.dataset.testid = "panel";
     this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
+    tag("copy-link", this.gui.add({ act: () => actions.copyLink() }, "act").name("Copy link"));
     this.addDrop();
     this.addPush();
     this.addGravity();
