@@ -33,8 +33,9 @@ async function sceneFile(name, content) {
   return file;
 }
 
-/** Clicks on sphere 0, and waits until the page shows its figures. */
+/** Clicks on sphere 0 when no message lies over it, and waits until the page shows its figures. */
 async function select() {
+  await when(page, () => document.querySelector(".toast") === null);
   const [x, y] = await page.evaluate(() => spherule.project(spherule.positions([0]).positions[0]));
   await page.mouse.click(x, y);
   await page.waitForSelector(control("inspected"));

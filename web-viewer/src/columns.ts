@@ -37,6 +37,9 @@ export type ColumnName = keyof typeof columnFormats;
 /** The columns of one state. They share one buffer, one after another. */
 export type Columns = { position: Column } & Partial<Record<ColumnName, Column>>;
 
+/** The columns of a state that is not shown. */
+export const noColumns: Columns = { position: { values: new Float32Array(0), quantum: 0 } };
+
 export const columnNames = Object.keys(columnFormats) as ColumnName[];
 
 export function bufferOf(columns: Columns): ArrayBuffer {

@@ -63,10 +63,14 @@ export class Viewer {
     this.commands = new Commands(
       this.link,
       (report) => this.report(report),
-      () => this.page.steering.blocked(),
+      (command) => this.session.isLocal(command),
+      (command) => this.page.steering.blocked(command),
     );
     this.page = new Page(container, this.session, this.commands, this.ranges, choices, {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
+      present: () => this.link.showPresent(),
+      save: () => this.link.save(),
+      play: (recording) => this.link.open(recording),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
       sendControl: (message) => this.link.sendControl(message),
@@ -138,6 +142,8 @@ export class Viewer {
       diagnosticsReceived: (diagnostics) => this.page.panel.setDiagnostics(diagnostics),
       recordingChanged: (recording, before) => this.page.recordingChanged(recording, before),
       eventReceived: (event) => this.page.eventReceived(event),
+      saved: (file, name) => this.page.saved(file, name),
+      told: (title, text) => this.page.toasts.show(title, text, "bad", { stay: longStay }),
       messageUnreadable: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
   }

@@ -1,7 +1,9 @@
 import { Decoder } from "../codec/decoder";
+import type { ChainState } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
 import { speedsOf } from "../codec/speeds";
-import { columnFormats, columnNames } from "../columns";
+import type { Turns } from "../codec/turns";
+import { columnFormats, columnNames, noColumns } from "../columns";
 import type { ColumnName, Columns, EncodedColumn } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
 import type { BufferPool } from "./buffer_pool";
@@ -13,7 +15,20 @@ import type { Periods } from "./periods";
  * The result of decoding a frame. `state`: its columns. `foreign`: the frame is of another epoch or order, and is
  * ignored. `behind`: the chain is lost, and decoding needs a keyframe.
  */
-export type Decoded = { kind: "state"; columns: Columns } | { kind: "foreign" } | { kind: "behind" };
+export type Decoded =
+  | { kind: "state"; keyframe: boolean; columns: Columns }
+  | { kind: "foreign" }
+  | { kind: "behind" };
+
+/** A moment of decoding, from which frames can be decoded later. Without `chain` the next frame is a keyframe. */
+export interface FramesState {
+  epoch: number;
+  count: number; // places
+  periods: Periods;
+  order: number;
+  ids: Uint32Array;
+  chain?: { name: string; quanta: [ColumnName, number][]; states: [ColumnName, ChainState][] };
+}
 
 /**
  * Decodes frames to columns, by place. Decodes one chain at a time; a keyframe starts a chain. A frame is a keyframe
@@ -27,6 +42,7 @@ export class Frames {
   private ids: Uint32Array = new Uint32Array(0);
   private readonly decoders = new Map<ColumnName, Decoder>();
   private chain: string | undefined; // undefined: lost, or not yet started
+  private quanta: [ColumnName, number][] = []; // of the newest frame's columns
 
   constructor(private readonly buffers: BufferPool) {}
 
@@ -54,13 +70,44 @@ export class Frames {
     this.order = order.number;
   }
 
-  /** Throws an Error that says what is wrong with a malformed frame; the chain is then lost. */
-  decode(frame: Frame): Decoded {
+  /** The present state, as a copy. `chain`: false leaves out what only delta frames need. */
+  save(chain: boolean): FramesState {
+    const { epoch, count, periods, order, ids } = this;
+    if (epoch === undefined || order === undefined) throw new Error("no scene or no order has come");
+    const start: FramesState = { epoch, count, periods, order, ids };
+    if (!chain || this.chain === undefined) return start;
+    const states = this.quanta.map(([name]): [ColumnName, ChainState] => [name, this.decoderOf(name).save()]);
+    return { ...start, chain: { name: this.chain, quanta: this.quanta, states } };
+  }
+
+  /** Continues from a saved state. */
+  restore({ epoch, count, periods, order, ids, chain }: FramesState): void {
+    Object.assign(this, { epoch, count, periods, order, ids, chain: chain?.name, quanta: chain?.quanta ?? [] });
+    for (const [name, state] of chain?.states ?? []) this.decoderOf(name).restore(state);
+  }
+
+  /** The positions of the newest frame, in grid units and the codec's order. */
+  get grid(): { newest: Int32Array; turns: Turns; quantum: number } {
+    const { newest, turns } = this.decoderOf("position");
+    return { newest, turns, quantum: this.quanta.find(([name]) => name === "position")?.[1] ?? NaN };
+  }
+
+  /** The columns of the newest frame; undefined if the chain is lost. */
+  get newest(): Columns | undefined {
+    return this.chain === undefined ? undefined : this.columnsOf();
+  }
+
+  /**
+   * Decodes a frame; `shown`: false leaves out the columns. Throws an Error that says what is wrong with a malformed
+   * frame; the chain is then lost.
+   */
+  decode(frame: Frame, shown = true): Decoded {
     if (frame.epoch !== this.epoch || frame.order !== this.order) return { kind: "foreign" };
     const encoded = encodedColumns(frame);
     const grids = encoded.map(({ name, quantum }) => `${name} ${quantum}`);
     const chain = [frame.epoch, frame.order, frame.tier, ...grids].join(" ");
-    if (chain !== this.chain && !encoded.every(({ spb }) => isKeyframe(spb))) {
+    const keyframe = encoded.every(({ spb }) => isKeyframe(spb));
+    if (chain !== this.chain && !keyframe) {
       this.chain = undefined;
       return { kind: "behind" };
     }
@@ -73,7 +120,8 @@ export class Frames {
     }
     for (const { name, spb } of encoded) this.decoderOf(name).apply(spb);
     this.chain = chain;
-    return { kind: "state", columns: this.columnsOf(encoded) };
+    this.quanta = encoded.map(({ name, quantum }) => [name, quantum]);
+    return { kind: "state", keyframe, columns: shown ? this.columnsOf() : noColumns };
   }
 
   private decoderOf(name: ColumnName): Decoder {
@@ -91,11 +139,11 @@ export class Frames {
   }
 
   /** The columns of the frame that has just been decoded. */
-  private columnsOf(encoded: NamedColumn[]): Columns {
-    const valuesPerSphere = encoded.reduce((sum, { name }) => sum + columnFormats[name].components, 0);
+  private columnsOf(): Columns {
+    const valuesPerSphere = this.quanta.reduce((sum, [name]) => sum + columnFormats[name].components, 0);
     const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * valuesPerSphere * this.count);
     let at = 0;
-    const filled = encoded.map(({ name, quantum }) => {
+    const filled = this.quanta.map(([name, quantum]) => {
       const { components } = columnFormats[name];
       const values = new Float32Array(buffer, at, components * this.count);
       const decoder = this.decoderOf(name);

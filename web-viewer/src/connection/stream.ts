@@ -8,7 +8,8 @@ import type { Received } from "./messages";
 
 export interface StreamEvents {
   ack(ack: MessageInitShape<typeof AckSchema>): void;
-  decoded(frame: Received): void;
+  /** `message`: that had the frame. */
+  decoded(state: Received, frame: Frame, message: Uint8Array, keyframe: boolean): void;
   /** A frame is malformed. Reported once each time that the chain is lost. */
   malformed(reason: string): void;
   /** Reports how many frames could not be decoded since the page was loaded. */
@@ -18,6 +19,7 @@ export interface StreamEvents {
 /** Receives frames: decodes them, acknowledges them, and requests a keyframe when the chain is lost. */
 export class Stream {
   drawRate = 0; // images per second; 0: unknown
+  shown = true; // false: states are not shown, and have no columns
   private lostFrames = 0;
   private reported = false; // the loss of this chain
   private readonly keyframe: KeyframeRequester;
@@ -36,18 +38,19 @@ export class Stream {
     this.keyframe.cancel();
   }
 
-  /** `arrival`: ms, as sharedNow() counts; `bytes`: size of the whole message. */
-  receive(frame: Frame, arrival: number, bytes: number): void {
+  /** `message`: that had the frame; `arrival`: ms, as sharedNow() counts. */
+  receive(frame: Frame, message: Uint8Array, arrival: number): void {
     const start = performance.now();
     let reason = "";
     try {
-      const decoded = this.frames.decode(frame);
+      const decoded = this.frames.decode(frame, this.shown);
       if (decoded.kind === "state") {
         const decodeMs = performance.now() - start;
         this.keyframe.cancel();
         this.reported = false;
         this.ack(frame.sequence, decodeMs, false);
-        this.events.decoded(received(frame, decoded.columns, arrival, bytes, decodeMs));
+        const cost = { arrival, bytes: message.byteLength, decodeMs };
+        this.events.decoded(received(frame, decoded.columns, cost), frame, message, decoded.keyframe);
         return;
       }
       // The server counts every frame without an ack as in flight, so ignored frames are acknowledged too.
@@ -71,12 +74,11 @@ export class Stream {
   }
 }
 
-function received(
+/** `cost`: of the frame. */
+export function received(
   frame: Frame,
   columns: Columns,
-  arrival: number,
-  bytes: number,
-  decodeMs: number,
+  cost: Pick<Received, "arrival" | "bytes" | "decodeMs">,
 ): Received {
   const { sequence, epoch, step, simTime, count, population, status, stampUs } = frame;
   return {
@@ -87,10 +89,8 @@ function received(
     count,
     population,
     columns,
-    arrival,
     ready: Number(stampUs) / 1000,
-    bytes,
-    decodeMs,
     status,
+    ...cost,
   };
 }

@@ -13,6 +13,7 @@ import type { ThemeName } from "../renderer/theme";
 import { announcementOf } from "./announcements";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
+import { Files } from "./files";
 import { Gallery } from "./gallery";
 import { Header } from "./header";
 import { Help } from "./help";
@@ -34,8 +35,11 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink"> {
+export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink" | "openFile"> {
   retry(): void;
+  present(): void; // shows the simulation as it is now
+  save(): void; // the last seconds, as a recording
+  play(recording: File): void;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
   camera: Camera;
@@ -52,6 +56,7 @@ export class Page {
   readonly playback: Playback;
   readonly prompt: Prompt;
   readonly links: Links;
+  readonly files: Files;
   readonly steering: Steering;
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
@@ -94,8 +99,10 @@ export class Page {
     });
     this.gallery = new Gallery(session, commands);
     const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
+    this.files = new Files({ ".sph": { what: "recordings", open: actions.play } }, this.toasts, container);
+    const openFile = (): void => this.files.choose();
     const copyLink = (): void => void this.links.copy();
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink });
+    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink, openFile });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.links = new Links(session, this.toasts, {
       camera: actions.camera,
@@ -103,14 +110,14 @@ export class Page {
       colour: () => choices.mode,
       colourBy: (mode) => this.panel.colourBy(mode),
     });
-    this.header = new Header(session, actions.retry);
+    this.header = new Header(session, () => (session.replay ? actions.present() : actions.retry()));
     this.legend = new Legend(ranges, () => {
       this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
     });
     this.status = new StatusLine(session);
     const shared = {
       toggle: () => this.toggle(),
-      step: (count: number) => void commands.step(count, session.timeline ? "frame" : "step"),
+      step: (count: number) => void commands.step(count, session.timeline || session.replay ? "frame" : "step"),
       reset: () => void commands.reset(session.timeline ? "Go to the beginning" : "Reset"),
       panel: () => this.showPanel(this.container.classList.contains("panel-closed")),
       help: () => this.help.toggle(),
@@ -118,6 +125,7 @@ export class Page {
     const keyActions: KeyActions = {
       ...shared,
       camera: actions.camera,
+      present: () => actions.present(),
       colour: (mode) => this.panel.colourBy(mode),
       push: () => {
         if (this.steering.blocked()) return;
@@ -144,7 +152,10 @@ export class Page {
       else this.act(action);
     });
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
-    this.playback = new Playback(session, commands, () => this.needsSpeeds);
+    this.playback = new Playback(session, commands, () => this.needsSpeeds, {
+      present: () => actions.present(),
+      save: () => actions.save(),
+    });
     const { header, legend, inspector, panel, status, toasts, help, steering } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
     const lines = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
@@ -178,7 +189,7 @@ export class Page {
     this.showNotices(state, graphics, now);
     this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
     this.change.update(this.session.change, blockedReason);
-    this.transport.update(this.session.paused, blockedReason);
+    this.transport.update(this.session.paused, this.session.replay !== undefined, blockedReason);
     this.playback.update(now, shown, blockedReason);
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.legend.update(this.choices.mode, this.session.facts);
@@ -194,6 +205,11 @@ export class Page {
   recordingChanged(recording: Recording, before: Recording | undefined): void {
     const end = recordingEnd(recording, before);
     if (end) this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay });
+  }
+
+  saved(file: Blob, name: string): void {
+    this.files.give(file, name);
+    this.toasts.show("Saved", `Open ${name} on this page, or play it with spherule play.`, "good", { stay: longStay });
   }
 
   eventReceived(event: Event): void {

@@ -25,6 +25,8 @@ export function createSession() {
     eventReceived: none,
     recordingChanged: none,
     messageUnreadable: (reason) => void faults.push(reason),
+    saved: none,
+    told: (_, text) => void faults.push(text),
   });
   let sequence = 0;
   return {
