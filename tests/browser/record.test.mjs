@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, says, unfold, when } from "./support/browser.mjs";
+import { control, open, says, visit, when } from "./support/browser.mjs";
 import { gasScene } from "./support/gas.mjs";
 import { collisions, showPanel } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
@@ -17,7 +17,7 @@ const spacing = 1 / 30; // s
 let file;
 let server;
 let page;
-browserSuite(async (browser, folder) => {
+const suite = browserSuite(async (browser, folder) => {
   file = path.join(folder, "gas.sph");
   const scene = await gasScene(folder);
   const options = ["--for", `${duration}s`, "--record", file, "--record-tier", "normal", "--device", "cpu"];
@@ -162,6 +162,43 @@ test("foreign and damaged files are refused with what is wrong and where, and th
   assert.equal(await page.evaluate(() => spherule.session.facts.name), "cradle");
 });
 
+test("a recording of the server can be downloaded and opened at its end, and nothing else can", async () => {
+  const tokens = { viewer: "only-for-watching-0123456789", controller: "to-steer-it-0123456789abcdef" };
+  const folder = path.dirname(file);
+  const guarded = await serve(path.join(folder, "gas.json"), { tokens, folder });
+  const live = await visit(suite.browser, guarded.url, { size: [1280, 720] });
+  await live.fill(control("token-field"), tokens.controller);
+  await live.click(control("token-connect"));
+  await when(live, () => spherule.session.frames > 0);
+  await live.click(control("record"));
+  await when(live, () => spherule.session.recording.active && spherule.session.recording.duration > 0.5);
+  await live.click(control("record"));
+  const [download] = await Promise.all([live.waitForEvent("download"), live.click(control("toast-download"))]);
+  const name = download.suggestedFilename();
+  assert.match(name, /^gas-\d{8}-\d{6}\.sph$/);
+  const written = await readFile(path.join(folder, "recordings", name));
+  assert.deepEqual(await readFile(await download.path()), written);
+  const get = async (target, token) => {
+    const headers = token ? { Authorization: `Bearer ${token}` } : {};
+    return (await fetch(new URL(target, guarded.url), { headers })).status;
+  };
+  const target = `recordings/${name}`;
+  const statuses = [get(target), get(target, "no-such-token-0123456789"), get(target, tokens.viewer)];
+  assert.deepEqual(await Promise.all(statuses), [401, 401, 200]);
+  await writeFile(path.join(folder, "recordings", "other.sph"), written); // not by this server
+  const others = ["recordings/other.sph", "recordings/..%2Fgas.json", `recordings/${name}x`, "recordings/"];
+  for (const other of others) assert.equal(await get(other, tokens.controller), 404, other);
+  await live.click(control("record"));
+  await when(live, () => spherule.session.recording.active && spherule.session.recording.duration > 0.5);
+  await live.click(control("record"));
+  await live.click(control("toast-open"));
+  await when(live, () => spherule.session.replay?.source === "file" && spherule.spheres === 24);
+  assert.match(await live.textContent(control("timeline-file")), /^gas-.*\.sph$/);
+  assert.deepEqual(live.faults, []);
+  await live.close();
+  await guarded.stop();
+});
+
 test("a file that was cut off plays up to the cut, and damage inside is told and left out", async () => {
   const whole = await readFile(file);
   await drop("cut.sph", whole.subarray(0, Math.floor(0.6 * whole.length)));
@@ -188,7 +225,6 @@ test("a file that was cut off plays up to the cut, and damage inside is told and
   await backToLive();
   const bad = path.join(path.dirname(file), "bad.sph");
   await writeFile(bad, damaged);
-  await unfold(page, "Stream").catch(() => {});
   await choose(bad);
   await plays("bad.sph");
   await backToLive();

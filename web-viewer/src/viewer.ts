@@ -5,6 +5,7 @@ import { DrawClock, sharedNow } from "./clock";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
 import type { PushRay, Report } from "./connection/commands";
+import { fetchRecording } from "./connection/download";
 import { Link } from "./connection/link";
 import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
@@ -70,6 +71,7 @@ export class Viewer {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
       present: () => this.link.showPresent(),
       save: () => this.link.save(),
+      fetchRecording: (name) => fetchRecording(name, this.admission.token),
       play: (recording) => this.link.open(recording),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),

@@ -2,6 +2,7 @@ import type { Camera } from "../camera/camera";
 import type { Box } from "../camera/free_part";
 import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
+import { sentence } from "../format";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
 import type { ColourRanges } from "../model/colour_ranges";
 import { modes } from "../model/quantities";
@@ -40,6 +41,7 @@ export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink
   present(): void; // shows the simulation as it is now
   save(): void; // the last seconds, as a recording
   play(recording: File): void;
+  fetchRecording(name: string): Promise<Blob>;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
   camera: Camera;
@@ -81,7 +83,7 @@ export class Page {
     private readonly commands: Commands,
     ranges: ColourRanges,
     private readonly choices: Choices,
-    actions: PageActions,
+    private readonly actions: PageActions,
   ) {
     const showTheme = (theme: ThemeName): void => {
       document.documentElement.dataset.theme = theme;
@@ -204,7 +206,22 @@ export class Page {
 
   recordingChanged(recording: Recording, before: Recording | undefined): void {
     const end = recordingEnd(recording, before);
-    if (end) this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay });
+    if (!end) return;
+    const fetched = (use: (file: Blob) => void): void => void this.fetchRecording(end.file, use);
+    const actions = {
+      Download: () => fetched((file) => this.files.give(file, end.file)),
+      Open: () => fetched((file) => this.actions.play(new File([file], end.file))),
+    };
+    this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay, actions });
+  }
+
+  /** `name`: of a recording that the server has written. */
+  private async fetchRecording(name: string, use: (file: Blob) => void): Promise<void> {
+    try {
+      use(await this.actions.fetchRecording(name));
+    } catch (error) {
+      this.toasts.show(name, sentence(error instanceof Error ? error.message : String(error)), "bad");
+    }
   }
 
   saved(file: Blob, name: string): void {
