@@ -45,8 +45,9 @@ async function sceneFile(name, content) {
   return file;
 }
 
-/** Clicks on sphere 0, and waits until the page shows its figures. */
+/** Clicks on sphere 0 when no message lies over it, and waits until the page shows its figures. */
 async function select(one) {
+  await when(one, () => document.querySelector(".toast") === null);
   const [x, y] = await one.evaluate(() => spherule.project(spherule.positions([0]).positions[0]));
   await one.mouse.click(x, y);
   await one.waitForSelector(control("inspected"));
