@@ -104,6 +104,7 @@ net::Handlers Host::handlers() {
         .refuses = [this](net::SessionId session, std::size_t cost) { return requests_.refuses(session, cost); },
         .ready = [this] { return opened(); },
         .file = [this](const std::string& path) { return routes_.file(path); },
+        .download = [this](const std::string& path) { return routes_.download(path); },
         .get = [this](const std::string& path, const net::Counters& counters) { return routes_.get(path, counters); }};
 }
 

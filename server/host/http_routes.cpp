@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
+
+#include "core/text.h"
 
 namespace spherule::host {
 
@@ -35,6 +39,19 @@ net::HttpAnswer readiness(const ServerStatus& status) {
 
 }  // namespace
 
+// The name is only compared with the names of known files, so no other file can be reached.
+std::optional<std::string> HttpRoutes::download(const std::string& path) const {
+    if (!path.starts_with(net::downloadsPath)) return std::nullopt;
+    const std::string name = path.substr(net::downloadsPath.size());
+    const ServerStatus status = board_.read();
+    for (const std::string& file : status.recordings) {
+        if (std::filesystem::path(file).filename() != name) continue;
+        const bool open = status.recording.active() && status.recording.file() == utf8(file);
+        return open ? std::nullopt : std::optional(file);
+    }
+    return std::nullopt;
+}
+
 net::HttpAnswer HttpRoutes::get(const std::string& path, const net::Counters& counters) {
     if (path == "/healthz") return health(watchdog_, board_.read().slow);
     if (path == "/readyz") return readiness(board_.read());
@@ -42,6 +59,8 @@ net::HttpAnswer HttpRoutes::get(const std::string& path, const net::Counters& co
         board_.noteRead();
         return {200, "text/plain; version=0.0.4", metrics_.text(board_.read(), counters)};
     }
+    if (path.starts_with(net::downloadsPath))
+        return {404, "text/plain; charset=utf-8", "This server has not written and finished such a recording.\n"};
     return {404, "text/plain; charset=utf-8", "There is nothing here. The page is at /.\n"};
 }
 

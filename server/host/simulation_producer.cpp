@@ -228,7 +228,10 @@ void SimulationProducer::reportRecording() {
     if (!recorder_.canRecord()) return;
     const auto state = recorder_.changedState(recording::LiveRecorder::Clock::now());
     if (!state) return;
-    board_.update([&](ServerStatus& current) { current.recording = *state; });
+    board_.update([&](ServerStatus& current) {
+        current.recording = *state;
+        current.recordings = recorder_.files();
+    });
     if (!state->failure().empty())
         notify(v1::Event::WARNING, fmt::format("The recording {} has ended: {}.", state->file(), state->failure()));
     v1::ServerMessage message;

@@ -30,6 +30,7 @@ struct ServerStatus {
     v1::Status status;
     std::optional<v1::Diagnostics> diagnostics;  // set while a viewer watches, or soon after a request for metrics
     v1::Recording recording;                     // the present recording, or the last one
+    std::vector<std::string> recordings;         // files in the folder of recordings that this server has begun
     std::uint64_t recordingFramesLost = 0;
     std::vector<double> passSeconds;  // device time since the start (s), by sim::Pass
 

@@ -7,6 +7,7 @@
 
 #include <boost/asio/dispatch.hpp>
 #include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/file_body.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/http/write.hpp>
@@ -142,12 +143,14 @@ void HttpConnection::onRead(ErrorCode error) {
     }
     if (!mayRead(request, path)) return;
     if (const StaticFile* const file = state_.handlers.file(path)) return answerFile(request, *file);
+    if (const auto file = state_.handlers.download(path)) return answerDownload(request, *file);
     answer(request, state_.handlers.get(path, state_.counters));
 }
 
-// Only the metrics need a token: the page and the health checks are public. Sends the refusal itself.
+// The metrics and downloads need a token: the page and the health checks are public. Sends the refusal itself.
 bool HttpConnection::mayRead(const Request& request, const std::string& path) {
-    if (path != figuresPath || state_.admission->roleOf(bearerOf(request))) return true;
+    const bool isPublic = path != figuresPath && !path.starts_with(downloadsPath);
+    if (isPublic || state_.admission->roleOf(bearerOf(request))) return true;
     if (bearerOf(request).empty())
         refuse(request, RejectReason::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");
     else
@@ -195,6 +198,46 @@ void HttpConnection::answerFile(const Request& request, const StaticFile& file) 
         return answer(request, {.status = 304, .contentType = "", .body = ""}, more);
     if (compressed) more.set(http::field::content_encoding, "gzip");
     answer(request, {.status = 200, .contentType = file.contentType, .body = std::string(form.bytes)}, more);
+}
+
+// A response whose body is read from the disk, part by part.
+struct HttpConnection::Download {
+    http::response<http::file_body> response;
+    std::optional<http::response_serializer<http::file_body>> serializer{};  // made when the file is open
+};
+
+void HttpConnection::answerDownload(const Request& request, const std::string& path) {
+    const std::string name = path.substr(path.rfind('/') + 1);
+    const auto download = std::make_shared<Download>();
+    auto& response = download->response;
+    ErrorCode error;
+    response.body().open(path.c_str(), beast::file_mode::scan, error);
+    if (error) {
+        const HttpAnswer gone{404, "text/plain; charset=utf-8", "This recording is not on the disk any more.\n"};
+        return answer(request, gone);
+    }
+    response.version(request.version());
+    response.keep_alive(request.keep_alive());
+    describe(response);
+    response.set(http::field::content_type, "application/octet-stream");
+    response.set(http::field::content_disposition, "attachment; filename=\"" + name + "\"");
+    response.prepare_payload();
+    download->serializer.emplace(response).split(request.method() == http::verb::head);
+    send(download);
+}
+
+// The deadline holds for a part, because a large file on a slow line takes long.
+void HttpConnection::send(const std::shared_ptr<Download>& download) {
+    tcp().expires_after(state_.options.progressTimeout);
+    const auto sent = [self = shared_from_this(), download](ErrorCode error, std::size_t) {
+        if (error) return;
+        auto& serializer = *download->serializer;
+        const bool ends = serializer.split() ? serializer.is_header_done() : serializer.is_done();
+        if (!ends) return self->send(download);
+        if (!download->response.keep_alive()) return self->shutdown();
+        self->read();
+    };
+    http::async_write_some(stream_, *download->serializer, sent);
 }
 
 // `more`: further headers.

@@ -36,6 +36,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     void onUpgrade(const Request& request);
     [[nodiscard]] bool mayRead(const Request& request, const std::string& path);
     void answerFile(const Request& request, const StaticFile& file);
+    void answerDownload(const Request& request, const std::string& path);
+    struct Download;
+    void send(const std::shared_ptr<Download>& download);
     void answer(const Request& request, HttpAnswer answer, const Fields& more = {});
     void refuse(const Request& request, RejectReason cause, int status, const std::string& text);
     void refuseLater(const Request& request);

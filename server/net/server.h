@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/result.h"
 #include "net/admission.h"
@@ -41,6 +42,9 @@ struct Options {
     std::chrono::milliseconds drainTimeout{10'000};
 };
 
+// Files below this path require a token, if the server has tokens.
+constexpr std::string_view downloadsPath = "/recordings/";
+
 struct HttpAnswer {
     int status = 200;
     std::string contentType;
@@ -59,6 +63,11 @@ struct Handlers {
     std::function<bool()> ready = [] { return true; };  // false: the stream is refused with 503
     // The file at `path`, which lives as long as the server. Null if there is none; `get` then answers.
     std::function<const StaticFile*(const std::string& path)> file = [](const std::string&) { return nullptr; };
+    // The file on the disk to send for a path below downloadsPath, which clients get as an attachment. nullopt if there
+    // is none; `get` then answers. Called only for clients that may watch.
+    std::function<std::optional<std::string>(const std::string& path)> download = [](const std::string&) {
+        return std::nullopt;
+    };
     // Answers GET. Status 404 if there is nothing at `path`. `counters`: of the server.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;
 };

@@ -55,7 +55,9 @@ Result<void> LiveRecorder::start() {
     if (!room) return tl::unexpected(room.error());
     const auto path = newPath();
     if (!path) return tl::unexpected(path.error());
-    return start(*path, false, *room);
+    if (auto started = start(*path, false, *room); !started) return started;
+    files_.push_back(*path);
+    return {};
 }
 
 Result<std::uint64_t> LiveRecorder::roomInFolder() const {

@@ -45,6 +45,8 @@ class LiveRecorder {
     [[nodiscard]] const codec::Rendition& rendition() const { return rendition_; }
     [[nodiscard]] bool startsAtOnce() const { return !options_.path.empty(); }
     [[nodiscard]] bool canRecord() const { return !options_.folder.empty() || !options_.path.empty(); }
+    // The files that start() has begun in the folder of the options.
+    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
     [[nodiscard]] std::uint64_t framesLost() const { return framesLost_; }
 
   private:
@@ -62,6 +64,7 @@ class LiveRecorder {
     codec::SharedMessage scene_, order_, settings_;  // the latest, for a recording that starts
     std::unique_ptr<BackgroundWriter> writer_;
     v1::Recording state_;
+    std::vector<std::string> files_;
     std::optional<std::uint32_t> number_;  // of the newest frame of the chain; nullopt: a keyframe is needed
     Clock::time_point keyframe_{};
     bool moved_ = false;    // since the last keyframe

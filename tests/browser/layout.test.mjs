@@ -45,8 +45,9 @@ async function sceneFile(name, content) {
   return file;
 }
 
-/** Clicks on sphere 0, and waits until the page shows its figures. */
+/** Clicks on sphere 0 when no message lies over it, and waits until the page shows its figures. */
 async function select(one) {
+  await when(one, () => document.querySelector(".toast") === null);
   await clickSphere(one, 0);
   await one.waitForSelector(control("inspected"));
 }

@@ -20,7 +20,8 @@ async function notices(page, ...ids) {
 /** The controls that look usable and send commands. */
 const usable = (page) =>
   page.evaluate(() => {
-    const local = ["scenes", "tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
+    const look = ["tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
+    const local = [...look, "scenes", "open-file", "copy-link", "timeline", "save"];
     const elements = document.querySelectorAll("#page :is(button, input, select)[data-testid]");
     return Array.from(elements)
       .filter((one) => one.offsetParent && !one.disabled && !one.closest("dialog, [data-notice], .legend"))

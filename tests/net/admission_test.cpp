@@ -178,6 +178,14 @@ TEST_F(Tokens, RequiresTokenForMetrics) {
     EXPECT_EQ(ask("GET /metrics?token=" + viewers + " HTTP/1.1\r\nHost: localhost\r\n").substr(9, 3), "401");
 }
 
+TEST_F(Tokens, RequiresTokenForDownloads) {
+    const std::string request = "GET /recordings/one.sph HTTP/1.1\r\nHost: localhost\r\n";
+    EXPECT_EQ(ask(request).substr(9, 3), "401");
+    EXPECT_EQ(ask(request + "Authorization: Bearer nonsense\r\n").substr(9, 3), "401");
+    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "200");
+    EXPECT_EQ(ask("GET /recordings/one.sph?token=" + viewers + " HTTP/1.1\r\nHost: localhost\r\n").substr(9, 3), "401");
+}
+
 TEST_F(Tokens, AppliesNewTokensToNewSessions) {
     const auto before = joinAs(viewers);
     Credentials credentials = options().credentials;

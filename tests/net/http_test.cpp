@@ -54,6 +54,34 @@ TEST_F(Http, FileIsSentCompressedToWhoAcceptsIt) {
     }
 }
 
+TEST_F(Http, DownloadIsSentAsAnAttachment) {
+    const auto answer = ask("GET /recordings/one.sph?x");
+    EXPECT_EQ(answer.substr(0, 15), "HTTP/1.1 200 OK") << answer.substr(0, 500);
+    for (const std::string header :
+         {"Content-Type: application/octet-stream", "Content-Disposition: attachment; filename=\"one.sph\"",
+          "Content-Length: 300000", "X-Content-Type-Options: nosniff", "Cache-Control: no-cache"})
+        EXPECT_TRUE(has(answer, "\r\n" + header + "\r\n")) << header << "\n" << answer.substr(0, 500);
+    EXPECT_EQ(answer.substr(answer.find("\r\n\r\n") + 4), std::string(300'000, 'r'));
+
+    const auto head = ask("HEAD /recordings/one.sph");
+    EXPECT_TRUE(has(head, "\r\nContent-Length: 300000\r\n")) << head;
+    EXPECT_TRUE(head.ends_with("\r\n\r\n")) << head;
+}
+
+TEST_F(Http, ConnectionGoesOnAfterADownload) {
+    const RawSocket socket(app_.server().port());
+    for (const std::string method : {"GET", "HEAD"})
+        socket.send(method + " /recordings/one.sph HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    EXPECT_TRUE(socket.readAll().ends_with("\r\n\r\nwell\n"));
+}
+
+TEST_F(Http, OtherDownloadsAreNotThere) {
+    for (const std::string path :
+         {"/recordings/", "/recordings/../one.sph", "/recordings/two.sph", "/recordings/gone.sph", "/recordings"})
+        EXPECT_EQ(ask("GET " + path).substr(9, 3), "404") << path;
+}
+
 TEST_F(Http, FileThatTheClientHasIs304WithoutBody) {
     for (const std::string method : {"GET", "HEAD"}) {
         for (const std::string tags :

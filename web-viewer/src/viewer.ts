@@ -5,6 +5,7 @@ import { DrawClock, sharedNow } from "./clock";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
 import type { PushRay, Report } from "./connection/commands";
+import { fetchRecording } from "./connection/download";
 import { Link } from "./connection/link";
 import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
@@ -95,10 +96,15 @@ export class Viewer {
     this.commands = new Commands(
       this.link,
       (report) => this.report(report),
-      () => this.page.steering.blocked(),
+      (command) => this.session.isLocal(command),
+      (command) => this.page.steering.blocked(command),
     );
     this.page = new Page(container, this.session, this.commands, this.ranges, choices, {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
+      present: () => this.link.showPresent(),
+      save: () => this.link.save(),
+      fetchRecording: (name) => fetchRecording(name, this.admission.token),
+      play: (recording) => this.link.open(recording),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
       sendControl: (message) => this.link.sendControl(message),
@@ -155,6 +161,7 @@ export class Viewer {
         if (another) this.page.inspector.selection.clear();
         else this.page.inspector.selection.follow(facts.population);
         this.page.panel.setFacts(facts, another);
+        this.page.links.sceneShown(facts);
         this.image.forget();
       },
       orderChanged: (order) => this.canvas.setOrder(order),
@@ -168,6 +175,8 @@ export class Viewer {
       diagnosticsReceived: (diagnostics) => this.page.panel.setDiagnostics(diagnostics),
       recordingChanged: (recording, before) => this.page.recordingChanged(recording, before),
       eventReceived: (event) => this.page.eventReceived(event),
+      saved: (file, name) => this.page.saved(file, name),
+      told: (title, text) => this.page.toasts.show(title, text, "bad", { stay: longStay }),
       messageUnreadable: (reason) => this.page.toasts.show("Unreadable message", reason, "bad"),
     });
   }

@@ -14,6 +14,7 @@ const allowed: Record<string, string[]> = {
   perf_marks: ["clock"],
   codec: [],
   connection: ["clock", "codec", "columns", "format", "gen"],
+  archive: ["codec", "connection", "gen"],
   colour: ["gen"],
   model: ["clock", "colour", "connection", "format", "gen", "perf_marks"],
   camera: ["model"],

@@ -12,7 +12,9 @@ function createCommands(applied = {}, blocked = false) {
   const reports: Report[] = [];
   const outcome: Outcome = { case: "applied", value: create(AppliedSchema, { step: 12n, ...applied }) };
   const link = { send: (kind: CommandKind) => (sent.push(kind), Promise.resolve(outcome)) };
-  const commands = new Commands(link as unknown as Link, (report) => void reports.push(report), () => blocked);
+  const local = (command?: string): boolean => command === "seek";
+  const report = (one: Report): void => void reports.push(one);
+  const commands = new Commands(link as unknown as Link, report, local, () => blocked);
   return { commands, sent, reports };
 }
 

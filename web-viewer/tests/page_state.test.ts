@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { pageStateOf } from "../src/model/page_state";
 import type { Circumstances, Situation } from "../src/model/page_state";
 import { noticesFor, OutsideCount } from "../src/ui/notices";
-import type { NoticeInfo } from "../src/ui/notices";
+import type { Notice, NoticeInfo } from "../src/ui/notices";
 
 const scene = (count: number): Circumstances["facts"] => ({ population: { count } });
 
@@ -51,7 +51,7 @@ test("figures are current, and commands can be sent, only while the server answe
 function notices(change: Partial<Circumstances>, more: Partial<NoticeInfo> = {}) {
   const state = pageStateOf({ ...good, ...change });
   const rest = { graphics: "ok", host: "here", refusal: "full", farewell: "bye", outside: 0, diverged: false } as const;
-  return noticesFor({ state, ...rest, known: state.situation !== "connecting", ...more });
+  return noticesFor({ state, ...rest, link: undefined, known: state.situation !== "connecting", ...more });
 }
 
 test("every state but the normal one has a notice, which says what to do", () => {
@@ -78,6 +78,14 @@ test("spheres outside and instability are reported only while figures are curren
   assert.deepEqual(ids({ connection: "silent" }), ["silent"]);
   const titles = [1, 2].map((outside) => notices({}, { outside })[0]?.title);
   assert.deepEqual(titles, ["1 sphere left the scene", "2 spheres left the scene"]);
+});
+
+test("a link to another scene is reported, and the scene can be loaded if the server has it", () => {
+  const notice = (loadable: boolean): Notice | undefined =>
+    notices({}, { link: { name: "bounce", shown: "pour", loadable } })[0];
+  assert.deepEqual([notice(true)?.actions, notice(false)?.actions], [["load", "dismiss"], ["dismiss"]]);
+  assert.match(`${notice(true)?.title}. ${notice(true)?.text}`, /^This link is for bounce\. The server shows pour\. /);
+  assert.equal(notice(false)?.text, "The server shows pour and does not have bounce.");
 });
 
 test("a page that cannot draw says so beside the state of the connection", () => {

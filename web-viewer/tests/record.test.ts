@@ -8,12 +8,13 @@ test("the end of a recording is reported once, with its file or the reason", () 
   const active = create(RecordingSchema, { active: true, file: "r/a.sph" });
   const done = { ...active, active: false };
   const text = "Play it with spherule play r/a.sph";
-  assert.deepEqual(recordingEnd(done, active), { title: "Recorded", text, failed: false });
+  assert.deepEqual(recordingEnd(done, active), { title: "Recorded", text, failed: false, file: "a.sph" });
   assert.equal(recordingEnd(done, done), undefined);
   assert.equal(recordingEnd(done, undefined), undefined); // it ended before the page connected
   assert.equal(recordingEnd(active, done), undefined);
   const full = { ...done, failure: "the disk is full" };
-  assert.deepEqual(recordingEnd(full, active), { title: "Recording ended", text: "the disk is full", failed: true });
+  const ended = { title: "Recording ended", text: "the disk is full", failed: true, file: "a.sph" };
+  assert.deepEqual(recordingEnd(full, active), ended);
   assert.equal(recordingEnd(full, full), undefined);
   assert.equal(recordingEnd(full, done)?.failed, true); // it ended right after its start
 });

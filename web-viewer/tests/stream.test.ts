@@ -30,8 +30,10 @@ function createStream() {
   });
   frames.setScene(3, 1);
   frames.setOrder(orderOf([0]));
-  const receive = (sequence: number, spb: Uint8Array, fields = {}): void =>
-    stream.receive(frameOf(spb, { sequence: BigInt(sequence), count: 1, stampUs: 5_000_000n, ...fields }), 1234, 99);
+  const receive = (sequence: number, spb: Uint8Array, fields = {}): void => {
+    const frame = frameOf(spb, { sequence: BigInt(sequence), count: 1, stampUs: 5_000_000n, ...fields });
+    stream.receive(frame, new Uint8Array(99), 1234);
+  };
   const requests = (): number[] => acks.filter((ack) => ack.lost).map((ack) => Number(ack.sequence));
   const close = (): void => stream.reset(); // cancels its timer
   return { acks, states, faults, frames, stream, receive, requests, close, lost: () => lost };

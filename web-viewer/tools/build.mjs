@@ -42,6 +42,7 @@ const { outputFiles, metafile } = await esbuild.build({
   entryPoints: {
     viewer: "src/main.ts",
     worker: "src/connection/worker.ts",
+    archive: "src/archive/worker.ts",
     style: "src/ui/style/style.css",
   },
   outdir: out,
@@ -70,7 +71,9 @@ const files = [
   })),
 ].map((file) => ({ ...file, compressed: gzipSync(file.bytes, { level: 9 }) }));
 
-const firstLoad = files.filter(({ name }) => !name.endsWith(".webp")); // the gallery loads pictures when it opens
+// The gallery loads pictures when it opens, and the page loads archive.js when it writes or reads a recording.
+const later = ({ name }) => name.endsWith(".webp") || name === "archive.js";
+const firstLoad = files.filter((file) => !later(file));
 const sum = firstLoad.reduce((total, { compressed }) => total + compressed.length, 0);
 for (const { name, compressed } of firstLoad) console.log(`${String(compressed.length).padStart(7)} ${name}.gz`);
 console.log(`${String(sum).padStart(7)} bytes together`);

@@ -66,6 +66,7 @@ bool eventually(const std::function<bool()>& condition) {
 }
 
 FakeApp::FakeApp(const Options& options) {
+    folder_.write("one.sph", std::string(300'000, 'r'));
     auto started = startServer(options, handlers());
     if (!started) throw std::runtime_error(started.error().text());
     server_ = std::move(*started);
@@ -145,6 +146,11 @@ Handlers FakeApp::handlers() {
                 return takesLong ? Handlers::Refusal() : Handlers::Refusal("the command queue is full");
             },
         .file = [](const std::string& path) { return path == "/file" ? &file : nullptr; },
+        .download = [this](const std::string& path) -> std::optional<std::string> {
+            if (path == "/recordings/one.sph" || path == "/recordings/gone.sph")
+                return folder_ / path.substr(downloadsPath.size());
+            return std::nullopt;
+        },
         .get =
             [this](const std::string& path, const Counters&) {
                 if (throws) throw std::bad_alloc();

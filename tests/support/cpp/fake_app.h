@@ -14,6 +14,7 @@
 
 #include "client/client.h"
 #include "net/server.h"
+#include "temporary_folder.h"
 
 namespace spherule::net {
 
@@ -36,7 +37,8 @@ codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1:
 // Waits until `condition` holds; returns false when `patience` has passed.
 bool eventually(const std::function<bool()>& condition);
 
-// A server on a free port, with an application that simulates nothing. It has one file, at /file.
+// A server on a free port, with an application that simulates nothing. It has one file, at /file, and one
+// download, at /recordings/one.sph. The file of /recordings/gone.sph has been deleted.
 class FakeApp {
   public:
     explicit FakeApp(const Options& options = quickOptions());
@@ -67,6 +69,7 @@ class FakeApp {
   private:
     Handlers handlers();
 
+    support::TemporaryFolder folder_;  // of one.sph
     std::unique_ptr<Server> server_;
     std::mutex mutex_;
     std::vector<v1::Command> commands_;

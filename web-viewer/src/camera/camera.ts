@@ -1,4 +1,4 @@
-import type { Facts } from "../model/facts";
+import type { Facts, Vec3 } from "../model/facts";
 import { freePart } from "./free_part";
 import type { Box } from "./free_part";
 import { approached, framing, near, orbited, panned, poseFrom, zoomed } from "./orbit";
@@ -53,6 +53,11 @@ export class Camera {
 
   reset(): void {
     this.goal = this.home;
+  }
+
+  /** Looks from one point at another (m). */
+  place(eye: Vec3, target: Vec3): void {
+    this.pose = this.goal = poseFrom(eye, target);
   }
 
   /** Looks in a direction (radians), from the present distance. */

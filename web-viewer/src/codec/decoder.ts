@@ -4,6 +4,16 @@ import { hashOf } from "./hash";
 import { headOf } from "./head";
 import type { FrameHead } from "./head";
 import { moveBack, noTurns, sameTurns, shortenSteps } from "./turns";
+import type { Turns } from "./turns";
+
+/** A moment of a chain: a decoder that has it can decode the next frame. */
+export interface ChainState {
+  newest: Int32Array;
+  before: Int32Array;
+  turns: Turns;
+  number: number; // of the newest frame
+  history: number; // known states, at most 2
+}
 
 /**
  * Decodes one chain of frames, after docs/codec.md. Frames may be hostile. The decoder allocates memory for its spheres
@@ -17,7 +27,7 @@ export class Decoder {
   newest: Int32Array;
   before: Int32Array;
   /** The turns of the newest frame. */
-  turns = noTurns;
+  turns: Turns = noTurns;
   private words = new Uint32Array(0); // the frame, and two more words
   private view = new DataView(this.words.buffer); // the same bytes
   private number = 0; // of the newest frame
@@ -35,6 +45,21 @@ export class Decoder {
   /** Whether the next frame must be a keyframe: there was none yet, or the last frame was refused. */
   get wantsKeyframe(): boolean {
     return this.history === 0;
+  }
+
+  /** Returns a copy of the present state. */
+  save(): ChainState {
+    const { newest, before, turns, number, history } = this;
+    return { newest: newest.slice(), before: before.slice(), turns, number, history };
+  }
+
+  /** Continues from a saved state of a decoder of as many spheres. */
+  restore({ newest, before, turns, number, history }: ChainState): void {
+    this.newest.set(newest);
+    this.before.set(before);
+    this.turns = turns;
+    this.number = number;
+    this.history = history;
   }
 
   /**

@@ -25,6 +25,11 @@ export class Admission {
     return this.store.token;
   }
 
+  /** Empty if there is none. */
+  get token(): string {
+    return this.store.token;
+  }
+
   linkChanged({ state, reason = "" }: Pick<LinkChange, "state" | "reason">): void {
     // The connection failed for a reason other than the token: the page retries with the token that it has.
     if (state === "waiting") this.events.tokenSettled();

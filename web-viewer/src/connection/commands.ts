@@ -2,6 +2,7 @@ import type { MessageInitShape } from "@bufbuild/protobuf";
 import type { SetSchema } from "../gen/spherule/v1/control_pb";
 import * as format from "../format";
 import type { CommandKind, Link, Outcome } from "./link";
+import type { CommandCase } from "./messages";
 
 /** The result of a command. */
 export interface Report {
@@ -25,12 +26,16 @@ export interface PushRay {
   direction: number[];
 }
 
-/** Sends commands. Each result is also passed to `report`. Sends nothing while `blocked` returns true. */
+/**
+ * Sends commands. Each result is also passed to `report`. `local`: whether the page carries out the command itself.
+ * Sends nothing else while `blocked` returns true.
+ */
 export class Commands {
   constructor(
     private readonly link: Link,
     private readonly report: (report: Report) => void,
-    private readonly blocked: () => boolean,
+    private readonly local: (command: CommandCase) => boolean,
+    private readonly blocked: (command: CommandCase) => boolean,
   ) {}
 
   pause(): Promise<Outcome> {
@@ -100,8 +105,9 @@ export class Commands {
   }
 
   private async send(name: string, kind: CommandKind, quiet = false): Promise<Outcome> {
-    if (this.blocked()) return { case: "lost" };
-    const outcome = await this.link.send(kind);
+    const local = this.local(kind.case);
+    if (!local && this.blocked(kind.case)) return { case: "lost" };
+    const outcome = await this.link.send(kind, local);
     this.report({ name, outcome, text: textFor(outcome), quiet });
     return outcome;
   }

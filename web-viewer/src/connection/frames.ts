@@ -1,6 +1,8 @@
 import { Decoder } from "../codec/decoder";
+import type { ChainState } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
 import { speedsOf } from "../codec/speeds";
+import type { Turns } from "../codec/turns";
 import { blockPlaces, columnFormats, columnNames } from "../columns";
 import type { ColumnName, Columns, EncodedColumn } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
@@ -10,13 +12,31 @@ import { boxesOf, idsOf, scatter } from "./order";
 import type { Quanta } from "./order";
 import type { Periods } from "./periods";
 
+/** The values of a state. */
+export type Content = Pick<State, "columns" | "order" | "boxes">;
+
+/** The content of a state that is not shown. */
+export const noContent: Content = {
+  columns: { position: { values: new Float32Array(0), quantum: 0 } },
+  order: -1,
+  boxes: new Float32Array(0),
+};
+
 /**
- * The result of decoding a frame. `state`: its columns. `foreign`: the frame is of another epoch or order, and is
+ * The result of decoding a frame. `state`: its content. `foreign`: the frame is of another epoch or order, and is
  * ignored. `behind`: the chain is lost, and decoding needs a keyframe.
  */
-export type Decoded = ({ kind: "state" } & DecodedState) | { kind: "foreign" } | { kind: "behind" };
+export type Decoded = { kind: "state"; keyframe: boolean; content: Content } | { kind: "foreign" } | { kind: "behind" };
 
-export type DecodedState = Pick<State, "columns" | "order" | "boxes">;
+/** A moment of decoding, from which frames can be decoded later. Without `chain` the next frame is a keyframe. */
+export interface FramesState {
+  epoch: number;
+  count: number; // places
+  periods: Periods;
+  order: number;
+  ids: Uint32Array;
+  chain?: { name: string; quanta: [ColumnName, number][]; states: [ColumnName, ChainState][] };
+}
 
 /**
  * Decodes frames to columns, by place. Decodes one chain at a time; a keyframe starts a chain. A frame is a keyframe
@@ -30,6 +50,7 @@ export class Frames {
   private ids: Uint32Array = new Uint32Array(0);
   private readonly decoders = new Map<ColumnName, Decoder>();
   private chain: string | undefined; // undefined: lost, or not yet started
+  private quanta: [ColumnName, number][] = []; // of the newest frame's columns
 
   constructor(private readonly buffers: BufferPool) {}
 
@@ -49,25 +70,57 @@ export class Frames {
     this.chain = undefined;
   }
 
-  /**
-   * Sets the order of the next frames; returns a copy. Undefined: it is of another epoch. Throws an Error if the order
-   * is no permutation of the scene's ids.
-   */
-  setOrder(order: Order): DrawOrder | undefined {
-    if (order.epoch !== this.epoch) return undefined;
+  /** Sets the order of the next frames. Throws an Error if the order is no permutation of the scene's ids. */
+  setOrder(order: Order): void {
+    if (order.epoch !== this.epoch) return;
     this.order = undefined;
     this.ids = idsOf(order.ids, this.count);
     this.order = order.number;
-    return { epoch: order.epoch, number: order.number, places: this.ids.slice() };
   }
 
-  /** Throws an Error that says what is wrong with a malformed frame; the chain is then lost. */
-  decode(frame: Frame): Decoded {
+  /** The order of the newest frame. The array is another one for another order. */
+  get drawOrder(): DrawOrder {
+    return { epoch: this.epoch ?? -1, number: this.order ?? -1, places: this.ids };
+  }
+
+  /** The present state, as a copy. `chain`: false leaves out what only delta frames need. */
+  save(chain: boolean): FramesState {
+    const { epoch, count, periods, order, ids } = this;
+    if (epoch === undefined || order === undefined) throw new Error("no scene or no order has come");
+    const start: FramesState = { epoch, count, periods, order, ids };
+    if (!chain || this.chain === undefined) return start;
+    const states = this.quanta.map(([name]): [ColumnName, ChainState] => [name, this.decoderOf(name).save()]);
+    return { ...start, chain: { name: this.chain, quanta: this.quanta, states } };
+  }
+
+  /** Continues from a saved state. */
+  restore({ epoch, count, periods, order, ids, chain }: FramesState): void {
+    Object.assign(this, { epoch, count, periods, order, ids, chain: chain?.name, quanta: chain?.quanta ?? [] });
+    for (const [name, state] of chain?.states ?? []) this.decoderOf(name).restore(state);
+  }
+
+  /** The positions of the newest frame, in grid units and the codec's order. */
+  get grid(): { newest: Int32Array; turns: Turns; quantum: number } {
+    const { newest, turns } = this.decoderOf("position");
+    return { newest, turns, quantum: this.quanta.find(([name]) => name === "position")?.[1] ?? NaN };
+  }
+
+  /** The content of the newest frame; undefined if the chain is lost. */
+  get newest(): Content | undefined {
+    return this.chain === undefined || this.order === undefined ? undefined : this.contentOf(this.order);
+  }
+
+  /**
+   * Decodes a frame; `shown`: false leaves out the content. Throws an Error that says what is wrong with a malformed
+   * frame; the chain is then lost.
+   */
+  decode(frame: Frame, shown = true): Decoded {
     if (frame.epoch !== this.epoch || frame.order !== this.order) return { kind: "foreign" };
     const encoded = encodedColumns(frame);
     const grids = encoded.map(({ name, quantum }) => `${name} ${quantum}`);
     const chain = [frame.epoch, frame.order, frame.tier, ...grids].join(" ");
-    if (chain !== this.chain && !encoded.every(({ spb }) => isKeyframe(spb))) {
+    const keyframe = encoded.every(({ spb }) => isKeyframe(spb));
+    if (chain !== this.chain && !keyframe) {
       this.chain = undefined;
       return { kind: "behind" };
     }
@@ -80,7 +133,8 @@ export class Frames {
     }
     for (const { name, spb } of encoded) this.decoderOf(name).apply(spb);
     this.chain = chain;
-    return { kind: "state", ...this.stateOf(encoded, frame.order) };
+    this.quanta = encoded.map(({ name, quantum }) => [name, quantum]);
+    return { kind: "state", keyframe, content: shown ? this.contentOf(frame.order) : noContent };
   }
 
   private decoderOf(name: ColumnName): Decoder {
@@ -97,14 +151,14 @@ export class Frames {
     return turns.map((each, axis) => (each > 0 ? (this.periods[axis] as number) / each : quantum)) as Quanta;
   }
 
-  /** The state of the frame that has just been decoded. */
-  private stateOf(encoded: NamedColumn[], order: number): DecodedState {
-    const valuesPerSphere = encoded.reduce((sum, { name }) => sum + columnFormats[name].components, 0);
+  /** The content of the newest frame. */
+  private contentOf(order: number): Content {
+    const valuesPerSphere = this.quanta.reduce((sum, [name]) => sum + columnFormats[name].components, 0);
     const boxFloats = 6 * Math.ceil(this.count / blockPlaces);
     const floats = valuesPerSphere * this.count + boxFloats;
     const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * floats);
     let at = 0;
-    const filled = encoded.map(({ name, quantum }) => {
+    const filled = this.quanta.map(([name, quantum]) => {
       const { components } = columnFormats[name];
       const values = new Float32Array(buffer, at, components * this.count);
       const decoder = this.decoderOf(name);
@@ -115,7 +169,7 @@ export class Frames {
     });
     const positions = this.decoderOf("position");
     const boxes = new Float32Array(buffer, at, boxFloats);
-    boxesOf(positions.newest, this.count, this.quantaOf(positions, encoded[0]?.quantum ?? 0), this.periods, boxes);
+    boxesOf(positions.newest, this.count, this.quantaOf(positions, this.grid.quantum), this.periods, boxes);
     return { columns: Object.fromEntries(filled) as Columns, order, boxes };
   }
 }

@@ -43,6 +43,21 @@ export class Link {
     this.post({ kind: "retry" });
   }
 
+  /** Shows the present again, after the past. */
+  showPresent(): void {
+    this.post({ kind: "present" });
+  }
+
+  /** Has the last seconds written as a recording. */
+  save(): void {
+    this.post({ kind: "save" });
+  }
+
+  /** Plays a recording in place of the server's frames. */
+  open(file: File): void {
+    this.post({ kind: "open", file });
+  }
+
   requestView(view: StreamRequest): void {
     this.post({ kind: "view", view });
   }
@@ -52,8 +67,9 @@ export class Link {
     this.post({ kind: "drawing", rate });
   }
 
-  send(kind: CommandKind): Promise<Outcome> {
-    if (this.state !== "open") return Promise.resolve({ case: "lost" });
+  /** `local`: the worker carries out the command, and needs no connection. */
+  send(kind: CommandKind, local = false): Promise<Outcome> {
+    if (this.state !== "open" && !local) return Promise.resolve({ case: "lost" });
     const id = ++this.lastId;
     this.post({ kind: "command", command: { id, kind } });
     return new Promise((resolve) => this.waiting.set(id, resolve));

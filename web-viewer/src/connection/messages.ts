@@ -24,6 +24,7 @@ import type { Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
  */
 
 export type CommandMessage = MessageInitShape<typeof CommandSchema>;
+export type CommandCase = NonNullable<CommandMessage["kind"]>["case"];
 
 /** `locked`: the server rejected the token, or requires one; the worker waits for another token. */
 export type LinkState = "connecting" | "open" | "waiting" | "locked";
@@ -56,6 +57,7 @@ export interface State {
   epoch: number;
   step: number;
   simTime: number; // s
+  at?: number; // s: time on the timeline; undefined: the simulated time
   count: number; // places
   columns: Columns;
   order: number; // of the order that `boxes` has
@@ -87,11 +89,39 @@ export interface StreamRequest extends ViewRequest {
   quantity: Quantity; // of each sphere, besides its position
 }
 
+/** The part of a live simulation that the page can show again; times on the timeline in s. */
+export interface PastRange {
+  begin: number;
+  end: number; // the present
+  frames: number;
+}
+
+/** The page shows frames that are not live: of the past of the simulation, or of a file. */
+export interface ReplayState {
+  source: "past" | "file";
+  paused: boolean;
+}
+
+const commandsOfPast: CommandCase[] = ["pause", "resume", "step", "seek"];
+
+/** Whether the worker carries out a command itself. It sends all others to the server. */
+export function isLocal(command: CommandCase, replay: ReplayState | undefined, past: PastRange | undefined): boolean {
+  if (!replay) return command === "seek" && past !== undefined;
+  return replay.source === "file" || commandsOfPast.includes(command);
+}
+
+/** Whether the page shows the present again after a command to the server. */
+export function endsReplay(command: CommandCase): boolean {
+  return command !== "startRecording" && command !== "stopRecording";
+}
+
 export type FromWorker =
   | ({ kind: "link" } & LinkChange)
   | { kind: "silent"; since: number | undefined } // time of the last message (ms); undefined: messages arrive again
   | { kind: "welcome"; welcome: Welcome }
-  | { kind: "scene"; facts: SceneFacts }
+  | { kind: "scene"; facts: SceneFacts; jump?: boolean } // jump: what follows does not continue what came before
+  | { kind: "past"; past: PastRange | undefined } // undefined: there is none
+  | { kind: "replay"; replay: ReplayState | undefined } // undefined: the present is shown
   | { kind: "population"; population: Population }
   | { kind: "settings"; settings: Settings }
   | { kind: "stream"; stream: Stream }
@@ -105,6 +135,8 @@ export type FromWorker =
   | { kind: "recording"; recording: Recording }
   | { kind: "control"; control: Control }
   | { kind: "change"; change: Change }
+  | { kind: "saved"; file: Blob; name: string }
+  | { kind: "told"; title: string; text: string } // something has failed, in words for the user
   | { kind: "lost"; count: number } // frames that could not be decoded since the page was loaded
   | { kind: "unreadable"; reason: string }; // a message or frame is malformed
 
@@ -116,4 +148,7 @@ export type ToWorker =
   | { kind: "drawing"; rate: number } // images per second; 0: unknown
   | { kind: "command"; command: CommandMessage }
   | { kind: "control"; message: ControlMessage }
+  | { kind: "present" } // show what the server sends again
+  | { kind: "save" } // the past that can be shown
+  | { kind: "open"; file: File } // a recording
   | { kind: "recycle"; buffer: ArrayBuffer };

@@ -14,8 +14,8 @@ export const refusals = [1008, 1013]; // close codes of a server that refuses th
 type Kind = ServerMessage["kind"];
 
 /** Parses one message of the server. Throws the error of protobuf on malformed bytes. */
-export function decode(data: ArrayBuffer): Kind {
-  return fromBinary(ServerMessageSchema, new Uint8Array(data)).kind;
+export function decode(message: Uint8Array): Kind {
+  return fromBinary(ServerMessageSchema, message).kind;
 }
 
 /** Converts a message that is passed to the page unchanged. Undefined for frames, orders and unknown kinds. */

@@ -41,6 +41,11 @@ export class Socket {
     return true;
   }
 
+  /** Closes the connection, until retry() or reconnect() is called. */
+  close(): void {
+    this.drop();
+  }
+
   /** Connects now if there is no connection, or if the server is silent. */
   retry(): void {
     if (!this.socket || this.watchdog.silent) this.reconnect();

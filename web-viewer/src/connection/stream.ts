@@ -1,13 +1,14 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import type { AckSchema } from "../gen/spherule/v1/control_pb";
 import type { Frame } from "../gen/spherule/v1/frame_pb";
-import type { DecodedState, Frames } from "./frames";
+import type { Content, Frames } from "./frames";
 import { KeyframeRequester } from "./keyframe_request";
 import type { Received } from "./messages";
 
 export interface StreamEvents {
   ack(ack: MessageInitShape<typeof AckSchema>): void;
-  decoded(frame: Received): void;
+  /** `message`: that had the frame. */
+  decoded(state: Received, frame: Frame, message: Uint8Array, keyframe: boolean): void;
   /** A frame is malformed. Reported once each time that the chain is lost. */
   malformed(reason: string): void;
   /** Reports how many frames could not be decoded since the page was loaded. */
@@ -17,6 +18,7 @@ export interface StreamEvents {
 /** Receives frames: decodes them, acknowledges them, and requests a keyframe when the chain is lost. */
 export class Stream {
   drawRate = 0; // images per second; 0: unknown
+  shown = true; // false: states are not shown, and have no content
   private lostFrames = 0;
   private reported = false; // the loss of this chain
   private readonly keyframe: KeyframeRequester;
@@ -35,18 +37,19 @@ export class Stream {
     this.keyframe.cancel();
   }
 
-  /** `arrival`: ms, as sharedNow() counts; `bytes`: size of the whole message. */
-  receive(frame: Frame, arrival: number, bytes: number): void {
+  /** `message`: that had the frame; `arrival`: ms, as sharedNow() counts. */
+  receive(frame: Frame, message: Uint8Array, arrival: number): void {
     const start = performance.now();
     let reason = "";
     try {
-      const decoded = this.frames.decode(frame);
+      const decoded = this.frames.decode(frame, this.shown);
       if (decoded.kind === "state") {
         const decodeMs = performance.now() - start;
         this.keyframe.cancel();
         this.reported = false;
         this.ack(frame.sequence, decodeMs, false);
-        this.events.decoded(received(frame, decoded, arrival, bytes, decodeMs));
+        const cost = { arrival, bytes: message.byteLength, decodeMs };
+        this.events.decoded(received(frame, decoded.content, cost), frame, message, decoded.keyframe);
         return;
       }
       // The server counts every frame without an ack as in flight, so ignored frames are acknowledged too.
@@ -70,12 +73,11 @@ export class Stream {
   }
 }
 
-function received(
+/** `cost`: of the frame. */
+export function received(
   frame: Frame,
-  { columns, order, boxes }: DecodedState,
-  arrival: number,
-  bytes: number,
-  decodeMs: number,
+  content: Content,
+  cost: Pick<Received, "arrival" | "bytes" | "decodeMs">,
 ): Received {
   const { sequence, epoch, step, simTime, count, population, status, stampUs } = frame;
   return {
@@ -85,13 +87,9 @@ function received(
     simTime,
     count,
     population,
-    columns,
-    order,
-    boxes,
-    arrival,
+    ...content,
     ready: Number(stampUs) / 1000,
-    bytes,
-    decodeMs,
     status,
+    ...cost,
   };
 }

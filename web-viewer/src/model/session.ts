@@ -1,5 +1,7 @@
 import { sharedNow } from "../clock";
-import type { DrawOrder, FromWorker, LinkChange, LinkState, Received } from "../connection/messages";
+import { isLocal } from "../connection/messages";
+import type { CommandCase, DrawOrder, FromWorker, LinkChange, LinkState } from "../connection/messages";
+import type { PastRange, Received, ReplayState } from "../connection/messages";
 import { Event_Kind } from "../gen/spherule/v1/control_pb";
 import type {
   Change,
@@ -29,6 +31,16 @@ import { Traffic } from "./traffic";
 const farewells = [Event_Kind.DRAINING, Event_Kind.DEVICE_LOST]; // the last events of a server
 const firstStateTimeout = 1000; // ms to wait for the first state of a scene before drawing without it
 
+/** The content of the timeline: a recording, or the last seconds of a simulation (`live`). Times in s. */
+export interface Track {
+  file: string;
+  begin: number;
+  end: number;
+  frames: number;
+  flaw: string; // why the recording ends early
+  live: boolean;
+}
+
 export interface SessionEvents {
   linkChanged(change: LinkChange): void;
   welcomed(welcome: Welcome): void;
@@ -43,6 +55,10 @@ export interface SessionEvents {
   eventReceived(event: Event): void;
   recordingChanged(recording: Recording, before: Recording | undefined): void;
   messageUnreadable(reason: string): void;
+  /** A recording of the past has been written. */
+  saved(file: Blob, name: string): void;
+  /** Something has failed. */
+  told(title: string, text: string): void;
 }
 
 /** The page's end of its session: all that it knows of the server and the simulation. */
@@ -67,6 +83,8 @@ export class Session {
   control: Control | undefined; // undefined: every client may send commands, or the holder is unknown
   recording: Recording | undefined; // of the server; undefined: it cannot record
   change: Change | undefined; // a long command in progress
+  past: PastRange | undefined; // that the page can show again; undefined: none
+  replay: ReplayState | undefined; // undefined: the page shows what the server sends
   frames = 0; // states received since the page was loaded
   lost = 0; // frames that could not be decoded since the page was loaded
   readonly traffic = new Traffic();
@@ -74,7 +92,7 @@ export class Session {
   readonly states: States;
   private lastArrival = 0; // ms, of a frame of this epoch
   private epochStart = 0; // ms: when the facts of this epoch arrived
-  private newConnection = true; // no scene has arrived since the connection opened
+  private restarts = true; // the next scene does not continue the present one: it is of another connection or time
   private pending = new PendingChanges(0); // of the population
 
   /** `drop` is given each state that will not be shown any more. */
@@ -103,6 +121,7 @@ export class Session {
         break;
       case "scene":
         markFirst("scene");
+        this.restarts ||= message.jump ?? false;
         this.sceneReceived(message.facts);
         break;
       case "population":
@@ -140,6 +159,13 @@ export class Session {
       case "lost":
         this.lost = message.count;
         break;
+      case "past":
+        this.past = message.past;
+        break;
+      case "replay":
+        if (this.replay?.source === "file" && !message.replay) this.timeline = undefined;
+        this.replay = message.replay;
+        break;
       case "dial":
         this.dial = message.dial;
         this.events.dialChanged(message.dial);
@@ -150,6 +176,12 @@ export class Session {
         break;
       case "event":
         this.eventReceived(message.event);
+        break;
+      case "saved":
+        this.events.saved(message.file, message.name);
+        break;
+      case "told":
+        this.events.told(message.title, message.text);
         break;
       case "unreadable":
         this.events.messageUnreadable(message.reason);
@@ -185,20 +217,32 @@ export class Session {
   }
 
   get paused(): boolean {
+    if (this.replay) return this.replay.paused;
     const setting = this.settings?.paused;
     return (this.timeline ? setting : (this.status?.paused ?? setting)) ?? false;
   }
 
-  /** Mean time between the frames of the recording that is played (s); 0 if none is. */
+  /** Undefined without a timeline. */
+  get track(): Track | undefined {
+    const { timeline, past } = this;
+    if (timeline) return { ...timeline, frames: Number(timeline.frames), live: false };
+    return past && { ...past, file: "", flaw: "", live: true };
+  }
+
+  /** Mean time on the timeline between two frames (s); 0 without a timeline. */
   get spacing(): number {
-    if (!this.timeline) return 0;
-    const { begin, end, frames } = this.timeline;
-    return (end - begin) / Math.max(1, Number(frames) - 1);
+    const { track } = this;
+    return track ? (track.end - track.begin) / Math.max(1, track.frames - 1) : 0;
+  }
+
+  /** Whether the page may carry out the command itself, whoever controls the simulation. */
+  isLocal(command: CommandCase): boolean {
+    return isLocal(command, this.replay, this.past);
   }
 
   /** How stale the image is: 0 for a live one, 1 for one that has not been refreshed for a while. `now`: ms. */
   staleness(now: number): number {
-    if (!this.facts) return 0;
+    if (!this.facts || this.replay) return 0;
     const age = now - this.lastArrival;
     const rests = this.paused || this.change !== undefined; // a long command may stop the world
     const grace = this.live ? (rests ? Infinity : 5000) : 400;
@@ -218,14 +262,14 @@ export class Session {
 
   private sceneReceived(scene: SceneFacts): void {
     const before = this.facts;
-    const again = !this.newConnection && scene.epoch === before?.epoch;
+    const again = !this.restarts && scene.epoch === before?.epoch;
     if (again && this.newest && scene.population > before.population.number) {
       return this.pending.replace(scene.population, () => this.replacePopulation(scene));
     }
     if (again) this.pending.replace(scene.population);
     else this.pending = new PendingChanges(scene.population);
-    if (this.newConnection) this.states.begin(-1); // another server may give the same number to another epoch
-    this.newConnection = false;
+    if (this.restarts) this.states.begin(-1); // another server may give the same number to another epoch
+    this.restarts = false;
     this.facts = factsOf(scene);
     const another = this.facts.name !== before?.name;
     if (another) this.divergence = undefined;
@@ -286,11 +330,14 @@ export class Session {
     if (change.state === "waiting") this.refusal = change.refused ? this.linkReason : "";
     if (change.state !== "open") this.stream = this.control = this.change = undefined;
     this.delay.reset();
-    this.newConnection ||= change.state === "open";
+    this.restarts ||= change.state === "open";
     this.events.linkChanged(change);
   }
 
   private get timeAdvance(): TimeAdvance {
-    return { speed: this.settings?.speed || Infinity, paused: this.paused, spacing: this.spacing };
+    const { settings, paused, timeline, replay } = this;
+    const speed = settings?.speed || Infinity;
+    const spacing = timeline || replay ? this.spacing * (timeline ? 1 : speed) : 0;
+    return { speed, paused, spacing };
   }
 }

@@ -18,6 +18,11 @@ export function timeOf({ from, to, mix }: Shown): number {
   return (1 - mix) * from.simTime + mix * to.simTime;
 }
 
+/** The time that is shown on the timeline (s). */
+export function placeOf({ from, to, mix }: Shown): number {
+  return (1 - mix) * (from.at ?? from.simTime) + mix * (to.at ?? to.simTime);
+}
+
 /** The newest states of one epoch. Frames of another epoch are ignored. */
 export class States {
   newest: State | undefined;

@@ -50,7 +50,7 @@ export class Header {
   /** `now`: ms, as sharedNow() counts. */
   update(now: number, control: ControlState, graphics: Graphics): void {
     const { session } = this;
-    const state = graphics === "lost" ? "lost" : session.connection;
+    const state = session.replay?.source ?? (graphics === "lost" ? "lost" : session.connection);
     this.link.dataset.state = state;
     this.link.title = titleFor(state, session);
     setText(this.text, this.textFor(state, now));
@@ -72,6 +72,10 @@ export class Header {
 
   private textFor(state: string, now: number): string {
     switch (state) {
+      case "past":
+        return "showing the past";
+      case "file":
+        return "showing a file";
       case "lost":
         return "graphics lost, waiting for the browser";
       case "open":
@@ -89,6 +93,7 @@ export class Header {
 }
 
 function titleFor(state: string, { linkReason: reason, welcome, control }: Session): string {
+  if (state === "past" || state === "file") return "The picture is not live; click to return to the present";
   if (state === "waiting") return `${reason}; click to try now`;
   if (state === "locked") return `${reason}; click to enter a token`;
   if (state === "open" && welcome && control) return `Other clients see this page as ${clientName} #${welcome.session}`;

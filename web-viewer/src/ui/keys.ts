@@ -83,6 +83,7 @@ export interface KeyActions {
   remove(): void;
   help(): void;
   deselect(): void;
+  present(): void;
   camera: Camera;
 }
 
@@ -116,6 +117,7 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     one("d", "drop spheres", actions.drop),
     one("p", "push mode", actions.push),
     one("Delete", "remove the selected sphere", actions.remove, "Del"),
+    one("End", "from the past back to live", actions.present, "End"),
   ];
   return [
     one(" ", "pause, resume", actions.toggle, "Space"),

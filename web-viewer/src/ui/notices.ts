@@ -1,12 +1,13 @@
 import type { Graphics, PageState, Situation } from "../model/page_state";
 import { count, sentence } from "../format";
 import { h, setText } from "./dom";
+import type { WantedScene } from "./links";
 
-export type NoticeAction = "retry" | "token" | "drop" | "choose" | "reload" | "reset" | "dismiss";
+export type NoticeAction = "retry" | "token" | "drop" | "choose" | "reload" | "reset" | "load" | "dismiss";
 
 /** A notice stays until its cause is gone or the user dismisses it. */
 export interface Notice {
-  id: Situation | "no-graphics" | "graphics-lost" | "outside" | "diverged";
+  id: Situation | "no-graphics" | "graphics-lost" | "outside" | "diverged" | "link";
   title: string;
   text: string;
   actions: NoticeAction[];
@@ -21,6 +22,7 @@ export interface NoticeInfo {
   refusal: string; // why the server refused this page
   farewell: string; // why the server ended
   outside: number; // spheres outside the bounds, if a notice is due
+  link: WantedScene | undefined; // the page was opened by a link to another scene
   diverged: boolean; // the simulation became non-finite, and a notice is due
   known: boolean; // a scene is shown, although it may be old
 }
@@ -28,6 +30,7 @@ export interface NoticeInfo {
 /** All notices for this state, most important first. */
 export function noticesFor(info: NoticeInfo): Notice[] {
   const notices = [situationNotice(info), graphicsNotice(info.graphics)];
+  if (info.state.current && info.link) notices.push(linkNotice(info.link));
   if (info.state.current && info.diverged) {
     notices.push({
       id: "diverged",
@@ -106,6 +109,16 @@ function situationNotice({ state, host, refusal, farewell, known }: NoticeInfo):
   }
 }
 
+function linkNotice({ name, shown, loadable }: WantedScene): Notice {
+  return {
+    id: "link",
+    title: `This link is for ${name}`,
+    text: `The server shows ${shown}${loadable ? ". Load it for all viewers?" : ` and does not have ${name}.`}`,
+    actions: loadable ? ["load", "dismiss"] : ["dismiss"],
+    patient: false,
+  };
+}
+
 function graphicsNotice(graphics: Graphics): Notice | undefined {
   switch (graphics) {
     case "none":
@@ -138,10 +151,11 @@ const actionNames: Record<NoticeAction, string> = {
   choose: "Choose a scene",
   reload: "Reload",
   reset: "Reset",
+  load: "Load it",
   dismiss: "Dismiss",
 };
 
-const needsConnection: NoticeAction[] = ["drop", "choose", "reset"];
+const needsConnection: NoticeAction[] = ["drop", "choose", "reset", "load"];
 const patience = 1000; // ms
 
 /** Shows the notices above the transport. */

@@ -2,6 +2,7 @@ import type { Camera } from "../camera/camera";
 import type { Box } from "../camera/free_part";
 import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
+import { sentence } from "../format";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
 import type { ColourRanges } from "../model/colour_ranges";
 import { modes } from "../model/quantities";
@@ -13,6 +14,7 @@ import type { ThemeName } from "../renderer/theme";
 import { announcementOf } from "./announcements";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
+import { Files } from "./files";
 import { Gallery } from "./gallery";
 import { Header } from "./header";
 import { Help } from "./help";
@@ -20,8 +22,9 @@ import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
+import { Links } from "./links";
 import { Notices, noticesFor, OutsideCount } from "./notices";
-import type { NoticeAction } from "./notices";
+import type { Notice, NoticeAction } from "./notices";
 import { Panel } from "./panel";
 import type { Choices, PanelActions } from "./panel";
 import { Playback } from "./playback";
@@ -33,8 +36,12 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends Omit<PanelActions, "showScenes"> {
+export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink" | "openFile"> {
   retry(): void;
+  present(): void; // shows the simulation as it is now
+  save(): void; // the last seconds, as a recording
+  play(recording: File): void;
+  fetchRecording(name: string): Promise<Blob>;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
   camera: Camera;
@@ -50,6 +57,8 @@ export class Page {
   readonly panel: Panel;
   readonly playback: Playback;
   readonly prompt: Prompt;
+  readonly links: Links;
+  readonly files: Files;
   readonly steering: Steering;
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
@@ -74,7 +83,7 @@ export class Page {
     private readonly commands: Commands,
     ranges: ColourRanges,
     private readonly choices: Choices,
-    actions: PageActions,
+    private readonly actions: PageActions,
   ) {
     const showTheme = (theme: ThemeName): void => {
       document.documentElement.dataset.theme = theme;
@@ -92,16 +101,25 @@ export class Page {
     });
     this.gallery = new Gallery(session, commands);
     const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes });
+    this.files = new Files({ ".sph": { what: "recordings", open: actions.play } }, this.toasts, container);
+    const openFile = (): void => this.files.choose();
+    const copyLink = (): void => void this.links.copy();
+    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink, openFile });
     this.inspector = new Inspector((id) => commands.remove(id));
-    this.header = new Header(session, actions.retry);
+    this.links = new Links(session, this.toasts, {
+      camera: actions.camera,
+      selection: this.inspector.selection,
+      colour: () => choices.mode,
+      colourBy: (mode) => this.panel.colourBy(mode),
+    });
+    this.header = new Header(session, () => (session.replay ? actions.present() : actions.retry()));
     this.legend = new Legend(ranges, () => {
       this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
     });
     this.status = new StatusLine(session);
     const shared = {
       toggle: () => this.toggle(),
-      step: (count: number) => void commands.step(count, session.timeline ? "frame" : "step"),
+      step: (count: number) => void commands.step(count, session.timeline || session.replay ? "frame" : "step"),
       reset: () => void commands.reset(session.timeline ? "Go to the beginning" : "Reset"),
       panel: () => this.showPanel(this.container.classList.contains("panel-closed")),
       help: () => this.help.toggle(),
@@ -109,6 +127,7 @@ export class Page {
     const keyActions: KeyActions = {
       ...shared,
       camera: actions.camera,
+      present: () => actions.present(),
       colour: (mode) => this.panel.colourBy(mode),
       push: () => {
         if (this.steering.blocked()) return;
@@ -131,11 +150,14 @@ export class Page {
     this.change = new ChangeLine(() => void commands.cancel());
     this.notices = new Notices((action, { id }) => {
       if (action === "retry" || action === "token") actions.retry();
-      else if (action === "dismiss") this.dismiss(id === "outside");
+      else if (action === "dismiss") this.dismiss(id);
       else this.act(action);
     });
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
-    this.playback = new Playback(session, commands, () => this.needsSpeeds);
+    this.playback = new Playback(session, commands, () => this.needsSpeeds, {
+      present: () => actions.present(),
+      save: () => actions.save(),
+    });
     const { header, legend, inspector, panel, status, toasts, help, steering } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
     const lines = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
@@ -169,7 +191,7 @@ export class Page {
     this.showNotices(state, graphics, now);
     this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
     this.change.update(this.session.change, blockedReason);
-    this.transport.update(this.session.paused, blockedReason);
+    this.transport.update(this.session.paused, this.session.replay !== undefined, blockedReason);
     this.playback.update(now, shown, blockedReason);
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.legend.update(this.choices.mode, this.session.facts);
@@ -184,7 +206,27 @@ export class Page {
 
   recordingChanged(recording: Recording, before: Recording | undefined): void {
     const end = recordingEnd(recording, before);
-    if (end) this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay });
+    if (!end) return;
+    const fetched = (use: (file: Blob) => void): void => void this.fetchRecording(end.file, use);
+    const actions = {
+      Download: () => fetched((file) => this.files.give(file, end.file)),
+      Open: () => fetched((file) => this.actions.play(new File([file], end.file))),
+    };
+    this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay, actions });
+  }
+
+  /** `name`: of a recording that the server has written. */
+  private async fetchRecording(name: string, use: (file: Blob) => void): Promise<void> {
+    try {
+      use(await this.actions.fetchRecording(name));
+    } catch (error) {
+      this.toasts.show(name, sentence(error instanceof Error ? error.message : String(error)), "bad");
+    }
+  }
+
+  saved(file: Blob, name: string): void {
+    this.files.give(file, name);
+    this.toasts.show("Saved", `Open ${name} on this page, or play it with spherule play.`, "good", { stay: longStay });
   }
 
   eventReceived(event: Event): void {
@@ -196,13 +238,14 @@ export class Page {
   private showNotices(state: PageState, graphics: Graphics, now: number): void {
     const { refusal, farewell, status, divergence, facts } = this.session;
     const outside = this.playing ? 0 : this.outside.due(status?.outside ?? 0);
-    const more = { outside, diverged: divergence !== undefined, known: facts !== undefined };
+    const more = { outside, link: this.links.wanted, diverged: divergence !== undefined, known: facts !== undefined };
     const notices = noticesFor({ state, graphics, host: location.host, refusal, farewell, ...more });
     this.notices.update(notices, now, this.steering.blockedReason);
   }
 
-  private dismiss(outside: boolean): void {
-    if (outside) this.outside.dismiss(this.session.status?.outside ?? 0);
+  private dismiss(id: Notice["id"]): void {
+    if (id === "outside") this.outside.dismiss(this.session.status?.outside ?? 0);
+    else if (id === "link") this.links.dismiss();
     else this.session.divergence = undefined;
   }
 
@@ -210,6 +253,7 @@ export class Page {
     if (action === "reload") location.reload();
     if (action === "reset") void this.commands.reset();
     if (action === "drop") this.panel.dropNow();
+    if (action === "load") void this.commands.load(this.links.wanted?.name ?? "");
     if (action === "choose") this.gallery.show(this.steering.blockedReason);
   }
 

@@ -50,6 +50,8 @@ export interface PanelActions {
   viewRequested(view: ViewRequest): void;
   forgetToken(): void;
   showScenes(): void;
+  copyLink(): void;
+  openFile(): void;
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
@@ -100,6 +102,10 @@ export class Panel {
     this.element = this.gui.domElement;
     this.element.dataset.testid = "panel";
     this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
+    const open = tag("open-file", this.gui.add({ act: () => actions.openFile() }, "act").name("Open…"));
+    open.domElement.title = "Plays a recording (.sph). It can also be dropped on the page";
+    const copy = tag("copy-link", this.gui.add({ act: () => actions.copyLink() }, "act").name("Copy link"));
+    copy.domElement.title = "Copies an address that opens this view";
     this.addDrop();
     this.addPush();
     this.addGravity();

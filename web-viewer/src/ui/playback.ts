@@ -2,13 +2,14 @@ import { sharedNow } from "../clock";
 import type { Commands } from "../connection/commands";
 import { Seeker } from "../connection/seeker";
 import type { Session } from "../model/session";
-import { timeOf } from "../model/states";
+import { placeOf } from "../model/states";
 import type { Shown } from "../model/states";
 import { Scrubber } from "./scrubber";
+import type { ScrubberActions } from "./scrubber";
 
 /**
- * The timeline of a server that plays a recording: shows the present position, and seeks when the user moves the
- * handle.
+ * The timeline of a recording, or of the last seconds of a simulation: shows the present position, and seeks when the
+ * user moves the handle.
  */
 export class Playback {
   private readonly seeker: Seeker;
@@ -20,30 +21,40 @@ export class Playback {
     private readonly session: Session,
     commands: Commands,
     needsSpeeds: () => boolean,
+    actions: Pick<ScrubberActions, "present" | "save">,
   ) {
     this.seeker = new Seeker((time) => commands.seek(time), sharedNow);
-    this.scrubber = new Scrubber(
-      (time, released) => {
-        const lead = released && session.paused && needsSpeeds();
-        this.seeker.seek(time, lead ? session.spacing : 0);
+    this.scrubber = new Scrubber({
+      ...actions,
+      present: () => {
+        this.seeker.reset();
+        actions.present();
       },
-      () => void commands.step(1),
-    );
+      seek: (time, released) => {
+        const { paused, spacing } = session;
+        this.seeker.seek(time, released && paused && needsSpeeds() ? spacing : 0);
+      },
+      step: () => void commands.step(1),
+    });
     this.element = this.scrubber.element;
   }
 
   /** `now`: ms, as sharedNow() counts; `blockedReason`: why the user may not seek; empty if they may. */
   update(now: number, shown: Shown | undefined, blockedReason: string): void {
     const { session, seeker, scrubber } = this;
-    if (scrubber.setTimeline(session.timeline)) seeker.reset();
-    if (!session.timeline) return;
-    const speed = session.paused ? 0 : (session.settings?.speed ?? 1);
-    const newest = session.newest?.simTime;
-    seeker.update({ now, newest, speed, spacing: session.spacing });
+    const { track, replay, paused, spacing } = session;
+    if (scrubber.setTrack(track)) seeker.reset();
+    if (!track) return;
+    const follows = track.live && !replay; // the handle follows the present
+    const speed = paused ? 0 : track.live ? 1 : (session.settings?.speed ?? 1);
+    const newest = follows ? undefined : (session.newest?.at ?? session.newest?.simTime);
+    seeker.update({ now, newest, speed, spacing });
     const { target } = seeker;
-    scrubber.enable(session.link === "open" && !blockedReason, blockedReason);
-    const still = target === undefined && session.paused;
-    scrubber.update(target ?? (shown && timeOf(shown)), target ?? newest, still);
+    const usable = session.isLocal("seek") || (session.link === "open" && !blockedReason);
+    scrubber.enable(usable, usable ? "" : blockedReason);
+    scrubber.setReplay(replay !== undefined);
+    const time = follows ? track.end : shown && placeOf(shown);
+    scrubber.update(target ?? time, target ?? newest ?? time, target === undefined && paused && !follows);
   }
 
   /** Whether a seek is in progress. */

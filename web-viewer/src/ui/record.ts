@@ -57,14 +57,17 @@ export interface RecordingEnd {
   title: string;
   text: string;
   failed: boolean;
+  file: string; // name of the recording in the folder of the server
 }
 
 /** Returns undefined if no recording has ended. */
 export function recordingEnd(recording: Recording, before: Recording | undefined): RecordingEnd | undefined {
   const { active, file, failure } = recording;
+  const name = file.split("/").at(-1) ?? file;
   if (!before || active) return undefined;
   if (failure && (before.active || failure !== before.failure)) {
-    return { title: "Recording ended", text: failure, failed: true };
+    return { title: "Recording ended", text: failure, failed: true, file: name };
   }
-  return before.active ? { title: "Recorded", text: `Play it with spherule play ${file}`, failed: false } : undefined;
+  const text = `Play it with spherule play ${file}`;
+  return before.active ? { title: "Recorded", text, failed: false, file: name } : undefined;
 }

@@ -1,4 +1,5 @@
-import type { ControlMessage } from "../connection/messages";
+import { endsReplay } from "../connection/messages";
+import type { CommandCase, ControlMessage } from "../connection/messages";
 import { blockedReasonOf, controlAnswer, controlStateOf } from "../model/control_state";
 import type { ControlInfo, ControlState } from "../model/control_state";
 import { pageStateOf } from "../model/page_state";
@@ -38,9 +39,12 @@ export class Steering {
   }
 
   /** Call before a command is sent. If this page may not send it, notifies the user and returns true. */
-  blocked(): boolean {
+  blocked(command?: CommandCase): boolean {
     this.update();
     if (this.blockedReason) this.toasts.once("Not sent", this.blockedReason, "plain");
+    else if (this.session.replay && command && endsReplay(command)) {
+      this.toasts.once("Live again", "Commands act on the present, which the page now shows.", "plain");
+    }
     return this.blockedReason !== "";
   }
 

@@ -36,6 +36,7 @@ export class Transport {
   private readonly unit: HTMLButtonElement;
   private playing = false; // a recording
   private paused = false;
+  private replay = false; // the page shows the past or a file: pause and steps act on that
   private blockedReason = ""; // why the user may not send commands; empty if they may
 
   constructor(record: HTMLElement, actions: TransportActions) {
@@ -75,31 +76,33 @@ export class Transport {
     this.describe();
   }
 
-  update(paused: boolean, blockedReason: string): void {
-    if (paused === this.paused && blockedReason === this.blockedReason) return;
+  /** `replay`: the page shows the past or a file, and pause and steps act on that. */
+  update(paused: boolean, replay: boolean, blockedReason: string): void {
+    if (paused === this.paused && replay === this.replay && blockedReason === this.blockedReason) return;
     this.paused = paused;
+    this.replay = replay;
     this.blockedReason = blockedReason;
     this.describe();
   }
 
   private describe(): void {
-    const { playing, paused, blockedReason } = this;
-    const unit = playing ? "frame" : "step";
+    const { playing, paused, replay, blockedReason } = this;
+    const unit = playing || replay ? "frame" : "step";
+    const reason = replay ? "" : blockedReason; // of pause and steps
     this.element.setAttribute("aria-label", playing ? "Playback" : "Simulation");
-    named(this.step, `One ${unit} (.)`, blockedReason);
-    this.steps.title = blockedReason || `Number of ${unit}s`;
+    named(this.step, `One ${unit} (.)`, reason);
+    this.steps.title = reason || `Number of ${unit}s`;
     this.steps.setAttribute("aria-label", `Number of ${unit}s`);
     this.unit.textContent = `${unit}s`;
-    this.unit.title = blockedReason;
+    this.unit.title = reason;
     named(this.reset, playing ? "Go to the beginning (R)" : "Reset the scene (R)", blockedReason);
     this.reset.replaceChildren(icon(playing ? icons.begin : icons.reset));
     this.reset.classList.toggle("filled", playing);
     this.pause.replaceChildren(icon(paused ? icons.play : icons.pause));
-    named(this.pause, paused ? "Resume (space)" : "Pause (space)", blockedReason);
+    named(this.pause, paused ? "Resume (space)" : "Pause (space)", reason);
     this.pause.dataset.paused = String(paused);
-    for (const control of [this.pause, this.step, this.steps, this.unit, this.reset]) {
-      control.disabled = blockedReason !== "";
-    }
+    for (const control of [this.pause, this.step, this.steps, this.unit]) control.disabled = reason !== "";
+    this.reset.disabled = blockedReason !== "";
   }
 }
 

@@ -38,3 +38,12 @@ export function orderOf(ids: number[], fields: MessageInitShape<typeof OrderSche
   const bytes = ids.flatMap((id) => [id & 255, (id >> 8) & 255, id >> 16]);
   return create(OrderSchema, { epoch: 3, number: 1, ids: Uint8Array.from(bytes), ...fields });
 }
+
+/** A delta frame, without turns, that moves each of up to 64 spheres by the same vector. */
+export function moved(number: number, spheres: number, by: Place): Uint8Array {
+  const base = by.map((q) => q & 0x3ff) as Place; // small steps only
+  const packed = base[0] | (base[1] << 10) | (base[2] << 20);
+  const units = [0x0003, 0, 0, 0, packed & 0xffff, packed >>> 16]; // runs with base, no widths, predictor previous
+  const words = [0, 2, 4].map((k) => (units[k] as number) | ((units[k + 1] as number) << 16));
+  return head(0, spheres, number, [1, ...words.map((word) => word >>> 0)]);
+}

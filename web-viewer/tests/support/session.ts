@@ -26,6 +26,8 @@ export function createSession() {
     recordingChanged: none,
     orderChanged: none,
     messageUnreadable: (reason) => void faults.push(reason),
+    saved: none,
+    told: (_, text) => void faults.push(text),
   });
   let sequence = 0;
   return {
