@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { create } from "@bufbuild/protobuf";
-import { DialSchema } from "../src/gen/spherule/v1/control_pb";
+import { DialSchema } from "../src/gen/spherule/v1/diagnostics_pb";
 import { AutoSchema, Model } from "../src/gen/spherule/v1/scene_pb";
 import { toAuto, fromAuto } from "../src/ui/auto_goal";
 import { costFigures, errorFigures, impactLabels, mergeImpacts, nearest, substepLabel } from "../src/ui/dial_labels";

@@ -6,8 +6,6 @@ import type {
   CommandResult,
   CommandSchema,
   Control,
-  Diagnostics,
-  Dial,
   Event,
   Recording,
   Settings,
@@ -15,6 +13,7 @@ import type {
   Timeline,
   Welcome,
 } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Dial } from "../gen/spherule/v1/diagnostics_pb";
 import type { Population, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
 

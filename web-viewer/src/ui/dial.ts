@@ -1,4 +1,5 @@
-import type { Dial as DialMessage, DialPosition, Settings } from "../gen/spherule/v1/control_pb";
+import type { Settings } from "../gen/spherule/v1/control_pb";
+import type { Dial as DialMessage, DialPosition } from "../gen/spherule/v1/diagnostics_pb";
 import { costFigures, errorFigures, modelName, models, nearest, substepLabel } from "./dial_labels";
 import { h, setText } from "./dom";
 import { Figures } from "./figures";

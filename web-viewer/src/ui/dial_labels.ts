@@ -1,4 +1,5 @@
-import type { Dial, DialPosition, Settings, Statistics } from "../gen/spherule/v1/control_pb";
+import type { Settings } from "../gen/spherule/v1/control_pb";
+import type { Dial, DialPosition, Statistics } from "../gen/spherule/v1/diagnostics_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure } from "../format";
 import type { Figure } from "./figures";

@@ -1,4 +1,5 @@
-import type { Diagnostics, Settings, Statistics } from "../gen/spherule/v1/control_pb";
+import type { Settings } from "../gen/spherule/v1/control_pb";
+import type { Diagnostics, Statistics } from "../gen/spherule/v1/diagnostics_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure, length, seconds, vector, withPrefix } from "../format";
 import { impactLabels, mergeImpacts } from "./dial_labels";
