@@ -1,3 +1,4 @@
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Facts, Vec3 } from "../model/facts";
 import { freePart } from "./free_part";
 import type { Box } from "./free_part";
@@ -32,7 +33,7 @@ export class Camera {
   private insetsGoal: Insets = this.insets;
   private jumps = true; // the next insets are taken at once
   private shown: Shown | undefined; // the origin of `current`
-  private current: View = viewOf(this.pose, this.extent, 1, 1, this.insets, 10);
+  private readonly current: View = viewOf(this.pose, this.extent, 1, 1, this.insets, 10);
 
   /** Takes the scene's camera, or one that sees all of its bounds. `stay`: keeps the present pose. */
   look(facts: Facts, stay: boolean): void {
@@ -99,15 +100,15 @@ export class Camera {
     }
   }
 
-  /** The same object as before if nothing has changed. */
+  /** The present view: one object, which the next call changes. */
   view(): View {
     const { pose, insets, extent, size, orthographic, shown } = this;
     const isShown = shown?.pose === pose && shown.insets === insets && shown.extent === extent && shown.size === size;
     if (isShown && shown.orthographic === orthographic) return this.current;
     this.shown = { pose, insets, extent, size, orthographic };
-    const reach = 3 * this.diagonal + Math.hypot(...this.pose.target.map((t, i) => t - (this.home.target[i] ?? 0)));
+    const reach = 3 * this.diagonal + vec3.distance(pose.target, this.home.target);
     const [width, height] = size;
-    this.current = viewOf(pose, extent, width, height, insets, reach, orthographic);
+    viewOf(pose, extent, width, height, insets, reach, orthographic, this.current);
     return this.current;
   }
 

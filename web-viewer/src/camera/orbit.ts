@@ -12,13 +12,13 @@ export interface Pose {
 
 const steepest = Math.PI / 2 - 0.01; // at 90 degrees the up direction is undefined
 
-export function eyeOf(pose: Pose): Vec3 {
-  const flat = pose.distance * Math.cos(pose.elevation);
-  return [
-    pose.target[0] + flat * Math.cos(pose.azimuth),
-    pose.target[1] + flat * Math.sin(pose.azimuth),
-    pose.target[2] + pose.distance * Math.sin(pose.elevation),
-  ];
+/** `into`: the point to change and return. */
+export function eyeOf({ target, distance, azimuth, elevation }: Pose, into: Vec3 = [0, 0, 0]): Vec3 {
+  const flat = distance * Math.cos(elevation);
+  into[0] = target[0] + flat * Math.cos(azimuth);
+  into[1] = target[1] + flat * Math.sin(azimuth);
+  into[2] = target[2] + distance * Math.sin(elevation);
+  return into;
 }
 
 export function poseFrom(eye: Vec3, target: Vec3): Pose {
@@ -93,10 +93,16 @@ export function near(a: Pose, b: Pose): boolean {
   );
 }
 
-/** The rotation from the axes of the scene to the ones of the view. */
-export function rotationOf(pose: Pose): mat4 {
-  const towards = eyeOf({ ...pose, target: [0, 0, 0], distance: -1 });
-  return mat4.lookAt(mat4.create(), [0, 0, 0], towards, [0, 0, 1]);
+const centre: Vec3 = [0, 0, 0];
+const upwards: Vec3 = [0, 0, 1];
+const direction: Vec3 = [0, 0, 0];
+
+/** The rotation from the axes of the scene to the ones of the view. `into`: the matrix to change and return. */
+export function rotationOf({ azimuth, elevation }: Pose, into: mat4 = mat4.create()): mat4 {
+  direction[0] = -Math.cos(elevation) * Math.cos(azimuth);
+  direction[1] = -Math.cos(elevation) * Math.sin(azimuth);
+  direction[2] = -Math.sin(elevation);
+  return mat4.lookAt(into, centre, direction, upwards);
 }
 
 function clampElevation(elevation: number): number {

@@ -44,7 +44,7 @@ const margin = 1.04;
 export function extentOf(pose: Pose, fieldOfView: number, min: Vec3, max: Vec3): Extent {
   const least = Math.tan((fieldOfView * Math.PI) / 360);
   const eye = eyeOf(pose);
-  const rotation = rotationOf(pose);
+  rotationOf(pose, rotation);
   let [horizontal, vertical] = [0, 0];
   for (let corner = 0; corner < 8; corner++) {
     const point: Vec3 = [(corner & 1 ? max : min)[0], (corner & 2 ? max : min)[1], (corner & 4 ? max : min)[2]];
@@ -67,9 +67,11 @@ export function tangentPerPixel({ horizontal, vertical, least }: Extent, width: 
   return 2 * Math.max(least / Math.min(width, height), horizontal / width, vertical / height);
 }
 
+const rotation = mat4.create(); // scratch: a view is computed for every image while the camera moves
+
 /**
  * Computes the matrices. The pose's target lies in the middle of the part of the canvas that is not covered, and this
- * part shows the extent. `reach`: m around the target that are visible.
+ * part shows the extent. `reach`: m around the target that are visible. `into`: the view to change and return.
  */
 export function viewOf(
   pose: Pose,
@@ -79,6 +81,7 @@ export function viewOf(
   insets: Insets,
   reach: number,
   orthographic = false,
+  into: View = emptyView(),
 ): View {
   const freeWidth = Math.max(1, width - insets.left - insets.right);
   const freeHeight = Math.max(1, height - insets.top - insets.bottom);
@@ -86,7 +89,7 @@ export function viewOf(
   const { distance } = pose;
   const near = orthographic ? distance - reach : Math.max(distance * 0.01, distance - reach);
   const far = distance + reach;
-  const projection = mat4.create();
+  const { projection, eye, forward } = into;
   const across = (insets.left - insets.right) / width;
   const up = (insets.bottom - insets.top) / height;
   if (orthographic) {
@@ -100,23 +103,33 @@ export function viewOf(
     projection[8] -= across;
     projection[9] -= up;
   }
-  const toClip = mat4.multiply(mat4.create(), projection, rotationOf(pose));
-  const fromClip = mat4.invert(mat4.create(), toClip) ?? mat4.create();
-  const eye = eyeOf(pose);
-  const forward = vec3.subtract([0, 0, 0], pose.target, eye) as Vec3;
-  vec3.normalize(forward, forward);
+  mat4.multiply(into.toClip, projection, rotationOf(pose, rotation));
+  if (!mat4.invert(into.fromClip, into.toClip)) mat4.identity(into.fromClip);
+  eyeOf(pose, eye);
+  vec3.normalize(forward, vec3.subtract(forward, pose.target, eye));
+  into.width = width;
+  into.height = height;
+  into.halfTangent = halfTangent;
+  into.near = near;
+  into.far = far;
+  into.orthographic = orthographic;
+  into.distance = distance;
+  return into;
+}
+
+function emptyView(): View {
   return {
-    eye,
-    projection,
-    toClip,
-    fromClip,
-    width,
-    height,
-    halfTangent,
-    near,
-    far,
-    forward,
-    orthographic,
-    distance,
+    eye: [0, 0, 0],
+    projection: mat4.create(),
+    toClip: mat4.create(),
+    fromClip: mat4.create(),
+    width: 1,
+    height: 1,
+    halfTangent: 1,
+    near: 0,
+    far: 1,
+    forward: [0, 0, 0],
+    orthographic: false,
+    distance: 1,
   };
 }

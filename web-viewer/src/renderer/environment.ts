@@ -20,9 +20,6 @@ export class Environment {
   readonly edges: Mesh; // lines
   ruler = 1; // m between the lines on the floor
   fade = 1; // m around the bounds over which the floor fades out
-  private facts: Facts | undefined;
-  private theme: Theme | undefined;
-  private away = -1; // bits of the faces that face away from the eye, for which the lines are built
 
   constructor(gl: WebGL2RenderingContext) {
     this.solids = new Mesh(gl);
@@ -33,8 +30,6 @@ export class Environment {
   }
 
   set(facts: Facts, theme: Theme): void {
-    this.facts = facts;
-    this.theme = theme;
     const { min, max } = facts;
     const wide = Math.max(max[0] - min[0], max[1] - min[1]);
     this.ruler = niceAbove(wide / 12);
@@ -60,31 +55,15 @@ export class Environment {
       return face !== Face.Z_MIN && isWall(facts, face) ? polygon([...points].reverse(), inward, wall) : [];
     });
     this.walls.set(walls, facts.origin);
-    this.away = -1;
+    this.buildEdges(facts, theme);
   }
 
-  /** Builds the lines again if the faces of the bounds that face away from the eye are other ones. */
-  face(eye: Vec3): void {
-    const { facts } = this;
-    if (!facts) return;
-    let away = 0;
-    for (let axis = 0; axis < 3; axis++) {
-      const at = eye[axis] as number;
-      if (at > (facts.min[axis] as number)) away |= 1 << (2 * axis);
-      if (at < (facts.max[axis] as number)) away |= 2 << (2 * axis);
-    }
-    if (away === this.away) return;
-    this.away = away;
-    this.buildEdges(facts);
-  }
-
-  private buildEdges(facts: Facts): void {
+  private buildEdges(facts: Facts, theme: Theme): void {
     const lines: Vertices = [];
     const lift = 1e-3 * (facts.max[2] - facts.min[2]); // keeps lines above the floor
-    const ink = hexToRgb(this.theme?.ink ?? "") ?? [0, 0, 0];
+    const ink = hexToRgb(theme.ink) ?? [0, 0, 0];
     faces(facts.min, facts.max).forEach(({ normal, points }, index) => {
-      const away = (this.away >> index) & 1;
-      const strength = (away ? 0.3 : 0.12) * (isWall(facts, (index + 1) as Face) ? 1 : 0.6);
+      const strength = isWall(facts, (index + 1) as Face) ? 1 : 0.6;
       const lifted = points.map(([x, y, z]): Vec3 => [x, y, Math.max(z, facts.min[2] + lift)]);
       lifted.forEach((point, i) => {
         const next = lifted[(i + 1) % lifted.length] ?? point;

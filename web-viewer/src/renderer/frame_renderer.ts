@@ -99,7 +99,6 @@ export class FrameRenderer {
     for (let axis = 0; axis < 3; axis++) eye[axis] = (view.eye[axis] as number) - (facts.origin[axis] as number);
     const pixel = pixelOf(view, target.height);
     this.uniforms.fill(view, eye, pixel);
-    environment.face(view.eye);
     shadow.bind();
     target.beginForward();
     scene.draw(facts, state, eye, environment);

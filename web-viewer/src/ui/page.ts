@@ -144,7 +144,8 @@ export class Page {
     };
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
     this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
-    this.keys = () => (this.prompt.open || this.gallery.open ? [] : keysFor(keyActions, this.playing));
+    const keys = { live: keysFor(keyActions, false), playing: keysFor(keyActions, true) };
+    this.keys = () => (this.prompt.open || this.gallery.open ? [] : this.playing ? keys.playing : keys.live);
     listenForKeys(() => this.keys(), this.characters);
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
