@@ -3,28 +3,12 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { open, settled, when } from "./support/browser.mjs";
-import { compare, placesSeen } from "./support/rays.mjs";
+import { open, settled, ticks, when } from "./support/browser.mjs";
+import { cluster, compare, placesSeen } from "./support/rays.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
 const suite = browserSuite();
-
-/** Spheres in a cube with sides of 2, which do not overlap. */
-function cluster({ least, ratio, count }) {
-  let state = 12345;
-  const random = () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
-  const spheres = [];
-  while (spheres.length < count) {
-    const radius = least * ratio ** random();
-    const position = [0, 1, 2].map(() => (1 - radius) * (2 * random() - 1));
-    const isFree = spheres.every((other) => {
-      return Math.hypot(...position.map((x, k) => x - other.position[k])) > radius + other.radius;
-    });
-    if (isFree) spheres.push({ position, radius });
-  }
-  return spheres;
-}
 
 // Keys that lead from one pose to the next, the first from the scene's own camera.
 const poses = [
@@ -41,13 +25,6 @@ const poses = [
   ["-", "-", "-", "-", "-", "-"],
   ["f", "+", "+", "+"],
 ];
-
-/** Waits for this number of ticks of the page. */
-async function ticks(page, count) {
-  await page.evaluate(async (number) => {
-    for (let k = 0; k < number; k++) await new Promise(requestAnimationFrame);
-  }, count);
-}
 
 const mixed = { least: 0.05, ratio: 10, count: 40, share: 0.1 };
 const discs = { least: 0.03, ratio: 3, count: 300, share: 0.1 }; // of at most 12 px in most poses

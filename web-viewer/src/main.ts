@@ -1,5 +1,6 @@
 import { withoutToken } from "./connection/admission";
 import { loadViewRequest } from "./connection/view_request";
+import { Cut } from "./model/cut";
 import { modes } from "./model/quantities";
 import { createTestApi } from "./test_api";
 import { showFailure, watchForFailures } from "./ui/failure";
@@ -29,6 +30,7 @@ function start(): void {
   const mode = chosen("colour", modes);
   const theme = chosen("theme", ["light", "dark"]);
   const choices: Choices = {
+    cut: new Cut(),
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",

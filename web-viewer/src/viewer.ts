@@ -11,6 +11,7 @@ import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
 import { ViewSubscription } from "./connection/view_subscription";
 import { sentence } from "./format";
+import { everything } from "./model/cut";
 import { ColourRanges } from "./model/colour_ranges";
 import { Session } from "./model/session";
 import { markFirst } from "./perf_marks";
@@ -71,6 +72,7 @@ export class Viewer {
   private readonly clock = new DrawClock();
   private readonly subscription: ViewSubscription;
   private tokenNote = ""; // message of the next token dialog
+  private cutVersion = 0; // of the hidden groups that the canvas leaves out
   private lastReport = 0; // ms: when the worker was last given the draw rate
   private readonly image = new Content(); // of the canvas
 
@@ -199,8 +201,15 @@ export class Viewer {
     this.ranges.update(this.session.facts, shown, now);
     camera.cover(this.page.covered);
     camera.advance(this.clock.elapsed, reducedMotion.matches);
+    if (choices.cut.version !== this.cutVersion) {
+      this.cutVersion = choices.cut.version;
+      this.canvas.hide(choices.cut.hidden);
+      this.image.forget();
+    }
+    const kept = session.facts ? choices.cut.halfSpace(session.facts) : everything;
     const state = {
       view: camera.view(),
+      kept,
       mode: choices.mode,
       range: this.ranges.of(choices.mode, session.facts),
       selected: this.page.inspector.selection.place,
@@ -211,6 +220,8 @@ export class Viewer {
     image.add(shown?.from.sequence).add(shown?.to.sequence).add(shown?.mix);
     for (const part of state.view.eye) image.add(part);
     for (const part of state.view.toClip) image.add(part);
+    for (const part of kept.normal) image.add(part);
+    image.add(kept.offset);
     image.add(state.mode).add(state.range[0]).add(state.range[1]).add(state.selected).add(state.dim);
     image.add(choices.theme).add(choices.quality);
     const draws = image.changed && !session.awaitsState(wall);

@@ -6,10 +6,13 @@ import type { View } from "../src/camera/view";
 import { blockPlaces } from "../src/columns";
 import { boxesOf } from "../src/connection/order";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
+import { everything } from "../src/model/cut";
+import type { HalfSpace } from "../src/model/cut";
 import { factsOf } from "../src/model/facts";
 import type { Vec3 } from "../src/model/facts";
 import type { Shown, State } from "../src/model/states";
 import { Detail, SphereBlocks } from "../src/renderer/blocks";
+import type { DrawState } from "../src/renderer/draw_state";
 import { pixelOf } from "../src/renderer/frame_uniforms";
 
 const places = 3 * blockPlaces - 100;
@@ -34,12 +37,16 @@ function viewFrom(orthographic = false): { view: View; eye: Vec3; pixel: number 
   return { view, eye: view.eye, pixel: pixelOf(view, 600) };
 }
 
+function drawn(view: View, kept = everything): DrawState {
+  return { view, kept, mode: "speed", range: [0, 1], selected: undefined, dim: 0 };
+}
+
 /** First block, number of spheres and detail of each run. */
-function found(shown: Shown, orthographic = false): [number, number, Detail][] {
+function found(shown: Shown, orthographic = false, kept = everything): [number, number, Detail][] {
   const blocks = new SphereBlocks();
   blocks.set(facts, order);
   const { view, eye, pixel } = viewFrom(orthographic);
-  blocks.find(shown, places, view, eye, pixel);
+  blocks.find(shown, places, drawn(view, kept), eye, pixel);
   return blocks.runs.slice(0, blocks.length).map(({ first, count, detail }) => [first / blockPlaces, count, detail]);
 }
 
@@ -70,8 +77,16 @@ test("near spheres are drawn round, and far ones as points", () => {
   const blocks = new SphereBlocks();
   blocks.set(small, order);
   const { view, eye, pixel } = viewFrom();
-  blocks.find(still(state(4, [0, 0, 0], [0, 0, 0], [0, 0, 0])), places, view, eye, pixel);
+  blocks.find(still(state(4, [0, 0, 0], [0, 0, 0], [0, 0, 0])), places, drawn(view), eye, pixel);
   assert.deepEqual([blocks.length, blocks.runs[0]?.detail], [1, Detail.Point]);
+});
+
+test("blocks beyond the plane of a cut are not drawn, and blocks that it meets are drawn round", () => {
+  const shown = still(state(4, [-10, 0, 0], [0, 0, 0], [10, 0, 0]));
+  const low: HalfSpace = { normal: [1, 0, 0], offset: 0.2 };
+  assert.deepEqual(found(shown, false, low), [[0, blockPlaces, Detail.Disc], [1, blockPlaces, Detail.Round]]);
+  const high: HalfSpace = { normal: [-1, 0, 0], offset: 9 };
+  assert.deepEqual(found(shown, false, high), [[0, blockPlaces, Detail.Round], [1, places - blockPlaces, Detail.Disc]]);
 });
 
 test("without boxes of the present order, all spheres are drawn round", () => {
@@ -86,7 +101,7 @@ test("one giant makes its own block round, not the others", () => {
   const blocks = new SphereBlocks();
   blocks.set(giant, order);
   const { view, eye, pixel } = viewFrom();
-  blocks.find(still(state(4, [0, 0, 0], [0, 0, 0], [0, 0, 0])), places, view, eye, pixel);
+  blocks.find(still(state(4, [0, 0, 0], [0, 0, 0], [0, 0, 0])), places, drawn(view), eye, pixel);
   const details = blocks.runs.slice(0, blocks.length).map(({ detail }) => detail);
   assert.deepEqual(details, [Detail.Disc, Detail.Round, Detail.Disc]);
 });

@@ -110,3 +110,10 @@ export async function clickSphere(page, id) {
   const at = await page.evaluate((one) => spherule.project(spherule.positions([one]).positions[0]), id);
   await page.mouse.click(...at);
 }
+
+/** Waits for this number of ticks of the page. */
+export async function ticks(page, count) {
+  await page.evaluate(async (number) => {
+    for (let k = 0; k < number; k++) await new Promise(requestAnimationFrame);
+  }, count);
+}

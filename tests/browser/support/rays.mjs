@@ -23,13 +23,16 @@ function unprojected(fromClip, x, y, z) {
   return [a / w, b / w, c / w];
 }
 
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 
 /**
  * Returns a function of a point of the image, in pixels from its upper left corner: the place of the nearest sphere
- * there; -1: none. Its property `centreOf` returns the point where a sphere's centre is.
+ * there; -1: none. Its property `centreOf` returns the point where a sphere's centre is. `kept`: the points p with
+ * normal · p ≤ offset (m) are shown; absent: all.
  */
-export function placesSeen({ eye, toClip }, spheres, width, height) {
+export function placesSeen({ eye, toClip }, spheres, width, height, kept = { normal: [0, 0, 0], offset: 0 }) {
+  const keptOffset = kept.offset - dot(kept.normal, eye); // relative to the eye
   const fromClip = inverse(toClip);
   const seen = spheres.map(({ position, radius }) => ({ to: minus(position, eye), square: radius * radius }));
   const centreOf = (place) => {
@@ -45,6 +48,10 @@ export function placesSeen({ eye, toClip }, spheres, width, height) {
     const along = minus(unprojected(fromClip, x, y, 1), near);
     const length = Math.hypot(...along);
     const direction = along.map((part) => part / length);
+    const steep = dot(kept.normal, direction);
+    const room = keptOffset - dot(kept.normal, near);
+    const begin = steep < 0 ? room / steep : -Infinity; // of the part of the ray that is shown
+    const end = steep > 0 ? room / steep : steep === 0 && room < 0 ? -Infinity : Infinity;
     let [found, nearest] = [-1, Infinity];
     for (let place = 0; place < seen.length; place++) {
       const { to, square } = seen[place];
@@ -52,8 +59,10 @@ export function placesSeen({ eye, toClip }, spheres, width, height) {
       const middle = x0 * direction[0] + y0 * direction[1] + z0 * direction[2];
       const depth2 = square - (x0 * x0 + y0 * y0 + z0 * z0 - middle * middle);
       if (depth2 < 0) continue;
-      const surface = middle - Math.sqrt(depth2);
-      if (surface > 0 && surface < nearest) [found, nearest] = [place, surface];
+      const surface = Math.max(middle - Math.sqrt(depth2), begin);
+      if (surface > 0 && surface <= Math.min(middle + Math.sqrt(depth2), end) && surface < nearest) {
+        [found, nearest] = [place, surface];
+      }
     }
     return found;
   };
@@ -79,4 +88,20 @@ export function compare({ width, height, places }, expected) {
     if (!isNear && !(Math.max(Math.abs(x - column), Math.abs(y - row)) <= 1)) wrong.push({ column, row, place });
   });
   return { differ, wrong };
+}
+
+/** Spheres in a cube with sides of 2, which do not overlap. */
+export function cluster({ least, ratio, count }) {
+  let state = 12345;
+  const random = () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
+  const spheres = [];
+  while (spheres.length < count) {
+    const radius = least * ratio ** random();
+    const position = [0, 1, 2].map(() => (1 - radius) * (2 * random() - 1));
+    const isFree = spheres.every((other) => {
+      return Math.hypot(...position.map((x, k) => x - other.position[k])) > radius + other.radius;
+    });
+    if (isFree) spheres.push({ position, radius });
+  }
+  return spheres;
 }

@@ -1,7 +1,9 @@
 import type { View } from "../camera/view";
 import { blockPlaces } from "../columns";
+import type { HalfSpace } from "../model/cut";
 import type { Facts, Vec3 } from "../model/facts";
 import type { DrawOrder, Shown, State } from "../model/states";
+import type { DrawState } from "./draw_state";
 
 /** How spheres are drawn, by their size in the image. */
 export const enum Detail {
@@ -59,7 +61,7 @@ export class SphereBlocks {
    * Finds the runs of `count` spheres in a view. `eye`: relative to the centre of the bounds (m); `pixel`: height of a
    * pixel (m) at a distance of 1 m, or at all distances if the view is orthographic.
    */
-  find(shown: Shown, count: number, view: View, eye: Vec3, pixel: number): void {
+  find(shown: Shown, count: number, { view, kept }: DrawState, eye: Vec3, pixel: number): void {
     this.length = 0;
     if (count === 0) return;
     this.takeBoxes(shown);
@@ -69,8 +71,11 @@ export class SphereBlocks {
     }
     this.takePlanes(view);
     for (let block = 0; block * blockPlaces < count; block++) {
-      const detail = this.detailOf(block, view, eye, pixel);
+      const side = this.sideOf(block, kept);
+      if (side === "beyond") continue;
+      let detail = this.detailOf(block, view, eye, pixel);
       if (detail === undefined) continue;
+      if (side === "both" && detail === Detail.Disc) detail = Detail.Round;
       const first = block * blockPlaces;
       this.add(first, Math.min(blockPlaces, count - first), detail);
     }
@@ -119,6 +124,21 @@ export class SphereBlocks {
       const scale = 1 / Math.sqrt(length || 1);
       for (let k = 0; k < 4; k++) this.planes[4 * plane + k] = (this.planes[4 * plane + k] as number) * scale;
     }
+  }
+
+  /** Where the spheres of a block are: in the half-space, beyond it, or possibly on both sides. */
+  private sideOf(block: number, { normal, offset }: HalfSpace): "within" | "beyond" | "both" {
+    const radius = this.radii[block] as number;
+    let [least, most] = [-radius, radius];
+    for (let axis = 0; axis < 3; axis++) {
+      const along = normal[axis] as number;
+      if (along === 0) continue; // the box may be infinite
+      const low = along * (this.boxes[6 * block + axis] as number);
+      const high = along * (this.boxes[6 * block + 3 + axis] as number);
+      least += Math.min(low, high);
+      most += Math.max(low, high);
+    }
+    return most <= offset ? "within" : least > offset ? "beyond" : "both";
   }
 
   /** Undefined: the block is outside of the view. */

@@ -18,6 +18,7 @@ export class Canvas {
   private readonly quality: RenderQualityControl;
   private facts: Facts | undefined;
   private order: DrawOrder | undefined;
+  private hidden: ReadonlySet<number> = new Set();
   private theme: ThemeName = "light";
   private size: [number, number] = [1, 1]; // CSS pixels
 
@@ -47,6 +48,7 @@ export class Canvas {
     element.addEventListener("webglcontextrestored", () => {
       this.renderer = new FrameRenderer(gl);
       this.graphics = "ok";
+      this.renderer.hide(this.hidden);
       if (this.facts) this.renderer.setFacts(this.facts, themes[this.theme], this.order);
       this.fit();
       restored();
@@ -70,6 +72,12 @@ export class Canvas {
   /** `changed`: the places whose sphere has changed. */
   updatePopulation(changed: readonly Run[]): void {
     this.renderer?.updatePopulation(changed);
+  }
+
+  /** `hidden`: numbers of the groups that images leave out. */
+  hide(hidden: ReadonlySet<number>): void {
+    this.hidden = hidden;
+    this.renderer?.hide(hidden);
   }
 
   setTheme(theme: ThemeName): void {

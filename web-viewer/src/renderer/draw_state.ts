@@ -1,4 +1,5 @@
 import type { View } from "../camera/view";
+import type { HalfSpace } from "../model/cut";
 import type { Mode, Range } from "../model/quantities";
 
 /** All that an image depends on, apart from the scene and its states. */
@@ -6,6 +7,7 @@ export interface DrawState {
   view: View;
   mode: Mode;
   range: Range; // of values that the mode's scale covers
+  kept: HalfSpace; // what is shown of space
   selected: number | undefined; // place of the selected sphere
   dim: number; // 0..1: how stale the image is
 }

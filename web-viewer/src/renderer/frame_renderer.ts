@@ -1,3 +1,4 @@
+import type { HalfSpace } from "../model/cut";
 import type { Facts, Vec3 } from "../model/facts";
 import type { Run } from "../model/population";
 import type { DrawOrder, Shown, State } from "../model/states";
@@ -14,6 +15,17 @@ import { ShadowMap } from "./shadow_map";
 import { SpherePass } from "./sphere_pass";
 import { SphereData } from "./spheres";
 import type { Theme } from "./theme";
+
+/** What the shadow map shows: the states as in Shown, and the half-space as in HalfSpace. */
+interface Cast {
+  from: State | undefined;
+  to: State | undefined;
+  mix: number;
+  x: number;
+  y: number;
+  z: number;
+  offset: number;
+}
 
 /**
  * Draws images in passes, which docs/architecture.md lists. It owns all resources of one WebGL context, and is created
@@ -34,7 +46,7 @@ export class FrameRenderer {
   private theme: Theme | undefined;
   private quality: RenderQuality | undefined;
   private readonly eye: Vec3 = [0, 0, 0]; // of the last image, relative to the centre of the bounds
-  private cast: { from: State | undefined; to: State | undefined; mix: number } | undefined; // in the shadow map
+  private cast: Cast | undefined; // in the shadow map; undefined: it must be drawn
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.uniforms = new FrameUniforms(gl);
@@ -69,6 +81,12 @@ export class FrameRenderer {
     this.cast = undefined;
   }
 
+  /** `hidden`: numbers of the groups that images leave out. */
+  hide(hidden: ReadonlySet<number>): void {
+    this.data.hide(hidden);
+    this.cast = undefined;
+  }
+
   /** Width and height in pixels of the canvas. */
   setQuality(quality: RenderQuality, width: number, height: number): void {
     const { gl } = this;
@@ -94,11 +112,11 @@ export class FrameRenderer {
     if (!facts || !light || !theme || !target || !scene || !spheres || !shadow || !post) return;
     if (shown) data.show(shown);
     else data.count = 0;
-    this.castShadows(shadow, light, shown);
-    const { view } = state;
+    const { view, kept } = state;
     for (let axis = 0; axis < 3; axis++) eye[axis] = (view.eye[axis] as number) - (facts.origin[axis] as number);
     const pixel = pixelOf(view, target.height);
-    this.uniforms.fill(view, eye, pixel);
+    this.uniforms.fill(view, eye, pixel, kept);
+    this.castShadows(shadow, light, shown, kept);
     shadow.bind();
     target.beginForward();
     scene.draw(facts, state, eye, environment);
@@ -121,11 +139,13 @@ export class FrameRenderer {
     return this.target?.codes(0, 0, this.target.width, this.target.height);
   }
 
-  private castShadows(shadow: ShadowMap, light: Light, shown: Shown | undefined): void {
+  private castShadows(shadow: ShadowMap, light: Light, shown: Shown | undefined, { normal, offset }: HalfSpace): void {
     const { cast } = this;
     const mix = shown?.mix ?? 0;
-    if (cast && cast.from === shown?.from && cast.to === shown?.to && cast.mix === mix) return;
+    const [x, y, z] = normal;
+    const isSameState = cast?.from === shown?.from && cast?.to === shown?.to && cast?.mix === mix;
+    if (isSameState && cast?.x === x && cast.y === y && cast.z === z && cast.offset === offset) return;
     shadow.draw(light, this.data, mix, this.environment);
-    this.cast = { from: shown?.from, to: shown?.to, mix };
+    this.cast = { from: shown?.from, to: shown?.to, mix, x, y, z, offset };
   }
 }

@@ -1,4 +1,5 @@
 import type { View } from "../camera/view";
+import type { HalfSpace } from "../model/cut";
 import type { Vec3 } from "../model/facts";
 import type { Light } from "./light";
 import { frameBinding } from "./program";
@@ -7,7 +8,7 @@ import type { Theme } from "./theme";
 
 const matrixFloats = 16;
 const vectorFloats = 4;
-const perImage = 3 * matrixFloats + 3 * vectorFloats; // floats that depend on the view
+const perImage = 3 * matrixFloats + 4 * vectorFloats; // floats that depend on the view
 const all = perImage + 9 * vectorFloats;
 
 /** The uniform block that all passes of an image share (shaders/frame.glsl). */
@@ -39,7 +40,7 @@ export class FrameUniforms {
   }
 
   /** `eye`: relative to the centre of the bounds (m). `pixel`: see pixelOf(). */
-  fill(view: View, eye: Vec3, pixel: number): void {
+  fill(view: View, eye: Vec3, pixel: number, kept: HalfSpace): void {
     const { gl, data } = this;
     data.set(view.toClip, 0);
     data.set(view.fromClip, matrixFloats);
@@ -52,6 +53,9 @@ export class FrameUniforms {
     at += vectorFloats;
     data[at] = view.near;
     data[at + 1] = view.far;
+    at += vectorFloats;
+    data.set(kept.normal, at);
+    data[at + 3] = kept.offset;
     gl.bindBuffer(gl.UNIFORM_BUFFER, this.buffer);
     gl.bufferSubData(gl.UNIFORM_BUFFER, 0, data);
     gl.bindBufferBase(gl.UNIFORM_BUFFER, frameBinding, this.buffer);

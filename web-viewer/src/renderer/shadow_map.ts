@@ -6,6 +6,7 @@ import type { SphereData } from "./spheres";
 import { placeParts } from "./sphere_pass";
 import { texture } from "./table";
 import emptyFragment from "./shaders/empty.frag.glsl";
+import frame from "./shaders/frame.glsl";
 import shadowFragment from "./shaders/shadow.frag.glsl";
 import shadowVertex from "./shaders/shadow.vert.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
@@ -21,8 +22,8 @@ export class ShadowMap {
     private readonly gl: WebGL2RenderingContext,
     private readonly size: number,
   ) {
-    this.spheres = program(gl, [...placeParts, shadowVertex], [shadowFragment]);
-    this.solids = program(gl, [solidVertex], [emptyFragment]);
+    this.spheres = program(gl, [frame, ...placeParts, shadowVertex], [shadowFragment]);
+    this.solids = program(gl, [solidVertex], [frame, emptyFragment]);
     this.texture = texture(gl, gl.DEPTH_COMPONENT24, size, size, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_FUNC, gl.LEQUAL);
@@ -31,6 +32,7 @@ export class ShadowMap {
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.texture, 0);
   }
 
+  /** The uniform block of the image must be filled. */
   draw(light: Light, data: SphereData, mix: number, environment: Environment): void {
     const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);

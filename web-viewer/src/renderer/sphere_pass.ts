@@ -67,7 +67,7 @@ export class SpherePass {
   /** Draws the codes to the target. `eye`: relative to the centre of the bounds (m); `pixel`: see FrameUniforms. */
   drawCodes(shown: Shown, data: SphereData, state: DrawState, eye: Vec3, pixel: number): void {
     const { blocks, programs } = this;
-    blocks.find(shown, data.count, state.view, eye, pixel);
+    blocks.find(shown, data.count, state, eye, pixel);
     for (const detail of [Detail.Round, Detail.Disc, Detail.Point]) {
       let prepared = false;
       for (let k = 0; k < blocks.length; k++) {

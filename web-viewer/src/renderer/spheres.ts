@@ -35,6 +35,8 @@ export class SphereData {
   private images: Image[] = [];
   private perLength: number[] = [0, 0, 0]; // 1/m
   private tabled = false; // the tables hold ids, and radii even if all are equal
+  private hidden: ReadonlySet<number> = new Set(); // numbers of groups
+  private shownRadii = new Float32Array(0); // m; 0 for hidden spheres; used if a group is hidden
   private idValues = new Float32Array(0); // ids as the device holds them
   private turn = 0;
 
@@ -58,6 +60,13 @@ export class SphereData {
     for (const table of [this.radii, this.ids, this.groups]) table.fit(population.places);
     this.uploadTables(population, { first: 0, count: population.places });
     this.uploadLooks(population);
+  }
+
+  /** Leaves out groups of these numbers. Their spheres have the radius 0 on the device. */
+  hide(hidden: ReadonlySet<number>): void {
+    this.hidden = hidden;
+    const { population } = this.facts ?? {};
+    if (population) this.uploadTables(population, { first: 0, count: population.places });
   }
 
   /** Uploads what has changed in the population. `changed`: the places whose sphere has changed. */
@@ -103,7 +112,8 @@ export class SphereData {
     const { gl, facts } = this;
     if (!facts) return;
     gl.uniform1f(program.at("u_mix"), mix);
-    gl.uniform1f(program.at("u_sameRadius"), this.tabled ? 0 : facts.population.radius);
+    const isSame = !this.tabled && this.hidden.size === 0;
+    gl.uniform1f(program.at("u_sameRadius"), isSame ? facts.population.radius : 0);
     gl.uniform1i(program.at("u_idsGiven"), this.tabled ? 1 : 0);
     gl.uniform3fv(program.at("u_period"), facts.periods);
     gl.uniform3fv(program.at("u_perLength"), this.perLength);
@@ -159,7 +169,9 @@ export class SphereData {
     table.upload(values, { first: 0, count });
   }
 
-  private uploadTables({ radii, ids, groupNumbers }: Population, run: Run): void {
+  private uploadTables(population: Population, run: Run): void {
+    const { ids, groupNumbers } = population;
+    const radii = this.hidden.size > 0 ? this.withoutHidden(population, run) : population.radii;
     if (radii) this.radii.upload(radii, run);
     if (ids) {
       if (this.idValues.length !== ids.length) this.idValues = new Float32Array(ids.length);
@@ -167,6 +179,16 @@ export class SphereData {
       this.ids.upload(this.idValues, run);
     }
     this.groups.upload(groupNumbers, run);
+  }
+
+  /** The radii (m) of a run of places, with 0 for hidden spheres. */
+  private withoutHidden(population: Population, { first, count }: Run): Float32Array {
+    if (this.shownRadii.length !== population.places) this.shownRadii = new Float32Array(population.places);
+    for (let place = first; place < first + count; place++) {
+      const isHidden = this.hidden.has(population.groupNumbers[place] as number);
+      this.shownRadii[place] = isHidden ? 0 : population.radiusOf(place);
+    }
+    return this.shownRadii;
   }
 
   /** Two texels per group: colour (sRGB) and roughness; metal. */

@@ -203,6 +203,7 @@ export class Page {
     this.header.update(now, this.steering.state, graphics);
     this.status.update(now, imagesPerSecond, state.current);
     this.panel.stream.update(this.session, now);
+    if (this.session.facts) this.panel.cut.update(this.session.facts);
   }
 
   recordingChanged(recording: Recording, before: Recording | undefined): void {

@@ -5,6 +5,7 @@ import type { Outcome } from "../connection/link";
 import type { ViewRequest } from "../connection/messages";
 import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Dial as DialMessage } from "../gen/spherule/v1/diagnostics_pb";
+import type { Cut } from "../model/cut";
 import type { Facts } from "../model/facts";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
@@ -13,6 +14,7 @@ import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
 import { nameFolders, Restriction, tag } from "./controllers";
+import { CutFolder } from "./cut_folder";
 import { Dial } from "./dial";
 import { Entry } from "./entry";
 import type { EntryRule } from "./entry";
@@ -43,6 +45,7 @@ export interface Choices {
   push: boolean;
   impulse: number; // N s
   view: ViewRequest;
+  cut: Cut;
 }
 
 export interface PanelActions {
@@ -66,6 +69,7 @@ const themeNames = { Light: "light", Dark: "dark" };
 export class Panel {
   readonly element: HTMLElement;
   readonly stream: StreamFolder;
+  readonly cut: CutFolder;
   private readonly gui: GUI;
   private readonly statistics = new StatisticsLists();
   private readonly world = {
@@ -113,6 +117,8 @@ export class Panel {
     this.addQuality();
     this.addWorld();
     this.addLook();
+    const cut = this.gui.addFolder("Show");
+    this.cut = new CutFolder(cut, choices.cut);
     const requested = (view: ViewRequest): void => actions.viewRequested(view);
     const stream = this.gui.addFolder("Stream");
     this.stream = new StreamFolder(stream, choices.view, requested);
@@ -124,7 +130,7 @@ export class Panel {
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
     nameFolders(this.gui);
-    rememberFolders(this.gui, [stream, now, statistics], () => localStorage);
+    rememberFolders(this.gui, [cut, stream, now, statistics], () => localStorage);
     this.restriction = new Restriction(this.steering.flatMap((folder) => folder.controllers));
   }
 
@@ -154,6 +160,7 @@ export class Panel {
   setFacts(facts: Facts, another: boolean): void {
     this.facts = facts;
     if (another) {
+      this.cut.reset();
       for (const entry of this.entries.values()) entry.restore();
       this.drop.radius = dropRadiusFor(facts);
       this.drop.count = dropCountFor(facts, this.drop.radius);

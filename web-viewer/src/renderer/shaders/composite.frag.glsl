@@ -35,8 +35,8 @@ float openness(float here) {
 float coverageOf(uint code) {
     int place = placeOf(code);
     vec3 to = imageOf(positionNow(place), axesOf(code)) - eye.xyz;
-    float outline = meet(rayAt(v_at), to, radiusOf(place)).outline;
-    return clamp(outline / pixelAt(length(to)) + 0.5, 0.0, 1.0);
+    Meeting found = meet(rayAt(v_at), to, radiusOf(place));
+    return found.visible ? clamp(found.outline / pixelAt(length(to)) + 0.5, 0.0, 1.0) : 0.0;
 }
 
 float brightness(vec3 colour) { return dot(colour, vec3(0.3, 0.59, 0.11)); }

@@ -1,1 +1,5 @@
-void main() {}
+in vec3 v_position;
+
+void main() {
+    if (isCut(v_position)) discard;
+}

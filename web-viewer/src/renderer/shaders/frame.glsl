@@ -7,6 +7,7 @@ layout(std140) uniform Frame {
     vec4 eye;           // m; w: height of a pixel (m) at a distance of 1 m, or at all distances if orthographic
     vec4 forward;       // direction of the view; w: 1 if orthographic, else 0
     vec4 planes;        // m: distances of the near and the far plane along the direction of the view
+    vec4 kept;          // the points p with dot(kept.xyz, p) <= kept.w are shown
     vec4 light;         // direction to the light; w: strength of shadows, 0..1
     vec4 key;           // linear light, as all colours below
     vec4 sky;
@@ -17,6 +18,8 @@ layout(std140) uniform Frame {
     vec4 surround;      // floor around the bounds
     vec4 ink;           // lines
 };
+
+bool isCut(vec3 position) { return dot(kept.xyz, position) > kept.w; }
 
 bool isOrthographic() { return forward.w > 0.5; }
 

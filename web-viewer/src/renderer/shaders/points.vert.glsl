@@ -12,6 +12,6 @@ void main() {
     vec3 position = positionNow(place);
     v_code = codeOf(place, u_imageBits);
     gl_PointSize = 1.0;
-    bool drawn = radius > 0.0 && isInside(position, radius, u_image);
+    bool drawn = radius > 0.0 && isInside(position, radius, u_image) && !isCut(imageOf(position, u_image));
     gl_Position = drawn ? toClip * vec4(imageOf(position, u_image) - eye.xyz, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

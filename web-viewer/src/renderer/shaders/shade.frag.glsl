@@ -24,7 +24,7 @@ void main() {
     vec3 near = ray.origin + found.along * ray.direction;
     gl_FragDepth = depthOf(near);
     vec3 position = eye.xyz + near;
-    vec3 normal = (found.within ? -1.0 : 1.0) * normalize(position - centre);
+    vec3 normal = found.open ? kept.xyz : (found.within ? -1.0 : 1.0) * normalize(position - centre);
     vec3 toEye = -ray.direction;
 
     Look look = lookOf(place);

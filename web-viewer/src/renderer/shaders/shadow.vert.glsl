@@ -14,7 +14,8 @@ void main() {
     int place = int(texelFetch(u_order, texelOf(u_first + gl_InstanceID), 0).r);
     float radius = radiusOf(place);
     vec3 position = positionNow(place);
-    bool drawn = radius > 0.0 && isInside(position, radius, u_image);
-    vec3 at = imageOf(position, u_image) + radius * (v_corner.x * u_right + v_corner.y * u_up);
+    vec3 image = imageOf(position, u_image);
+    bool drawn = radius > 0.0 && isInside(position, radius, u_image) && !isCut(image);
+    vec3 at = image + radius * (v_corner.x * u_right + v_corner.y * u_up);
     gl_Position = drawn ? u_light * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

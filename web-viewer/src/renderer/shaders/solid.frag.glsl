@@ -6,6 +6,7 @@ uniform float u_opacity;    // factor
 layout(location = 0) out vec4 o_colour;
 
 void main() {
+    if (isCut(v_position)) discard;
     vec3 toEye = -rayTo(v_position - eye.xyz).direction;
     vec3 normal = normalize(v_normal);
     float lift = 2.0 * pixelAt(length(v_position - eye.xyz));
