@@ -31,6 +31,7 @@ function start(): void {
   const theme = chosen("theme", ["light", "dark"]);
   const choices: Choices = {
     cut: new Cut(),
+    trace: true,
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",

@@ -14,6 +14,9 @@ import { sentence } from "./format";
 import { everything } from "./model/cut";
 import { ColourRanges } from "./model/colour_ranges";
 import { Session } from "./model/session";
+import { shownPosition } from "./model/positions";
+import type { Shown } from "./model/states";
+import { Trace } from "./model/trace";
 import { markFirst } from "./perf_marks";
 import { Canvas } from "./renderer/canvas";
 import { Page } from "./ui/page";
@@ -72,6 +75,8 @@ export class Viewer {
   private readonly clock = new DrawClock();
   private readonly subscription: ViewSubscription;
   private tokenNote = ""; // message of the next token dialog
+  private readonly trace = new Trace(); // of the selected sphere
+  private tracked: number | undefined; // id of the sphere that the camera was last given
   private cutVersion = 0; // of the hidden groups that the canvas leaves out
   private lastReport = 0; // ms: when the worker was last given the draw rate
   private readonly image = new Content(); // of the canvas
@@ -199,6 +204,7 @@ export class Viewer {
     if (session.facts) this.subscription.setSpeeds(this.page.needsSpeeds);
     const shown = session.states.shown(wall);
     this.ranges.update(this.session.facts, shown, now);
+    this.follow(shown);
     camera.cover(this.page.covered);
     camera.advance(this.clock.elapsed, reducedMotion.matches);
     if (choices.cut.version !== this.cutVersion) {
@@ -212,6 +218,7 @@ export class Viewer {
       kept,
       mode: choices.mode,
       range: this.ranges.of(choices.mode, session.facts),
+      trace: choices.trace ? this.trace : undefined,
       selected: this.page.inspector.selection.place,
       dim: session.staleness(wall),
     };
@@ -222,7 +229,7 @@ export class Viewer {
     for (const part of state.view.toClip) image.add(part);
     for (const part of kept.normal) image.add(part);
     image.add(kept.offset);
-    image.add(state.mode).add(state.range[0]).add(state.range[1]).add(state.selected).add(state.dim);
+    image.add(state.mode).add(state.range[0]).add(state.range[1]).add(state.selected).add(state.trace).add(state.dim);
     image.add(choices.theme).add(choices.quality);
     const draws = image.changed && !session.awaitsState(wall);
     if (draws && this.canvas.draw(shown, state, this.clock.sinceDrawn)) {
@@ -232,6 +239,18 @@ export class Viewer {
     }
     this.reportDrawRate(now);
     this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.graphics);
+  }
+
+  /** Follows the selected sphere with the camera, and notes its path. */
+  private follow(shown: Shown | undefined): void {
+    const { session, camera, trace } = this;
+    const { id, place, followed } = this.page.inspector.selection;
+    const { facts } = session;
+    trace.update(facts, shown, id, place);
+    if (id !== this.tracked || !followed) camera.track(undefined);
+    this.tracked = id;
+    if (!followed || !facts || !shown || place === undefined) return;
+    camera.track(shownPosition(facts, shown, place));
   }
 
   /** Call when the page is hidden or shown. */

@@ -192,3 +192,29 @@ test("an orthographic view shows the plane of the target as large as a perspecti
     }
   }
 });
+
+test("a tracked point comes to the middle, and stays there while it moves, also after a drag", () => {
+  const camera = new Camera();
+  camera.resize(1000, 600);
+  const placeOf = (point: Vec3): [number, number] | undefined => project(camera.view(), point);
+  camera.track([1, 0, 0]);
+  for (let k = 0; k < 200; k++) {
+    camera.track([1 + 0.01 * k, 0.3, 0]);
+    camera.advance(16);
+  }
+  close(placeOf([2.99, 0.3, 0]) ?? [], [500, 300], 1e-2);
+  camera.pan(100, 0);
+  camera.advance(16, true);
+  close(placeOf([2.99, 0.3, 0]) ?? [], [600, 300], 1);
+  const before = placeOf([2.99, 0.3, 0]) ?? [];
+  camera.track([-5, 1, 2]);
+  close(placeOf([-5, 1, 2]) ?? [], before, 1e-2);
+  camera.along(0, 0);
+  camera.advance(16, true);
+  assert.deepEqual(camera.pose.elevation, 0);
+  close(placeOf([-5, 1, 2]) ?? [], before, 40);
+  camera.track(undefined);
+  camera.reset();
+  camera.advance(16, true);
+  close(placeOf([0, 0, 0]) ?? [], [500, 300], 1e-2);
+});

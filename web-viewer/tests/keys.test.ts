@@ -5,7 +5,7 @@ import { keysFor } from "../src/ui/keys";
 
 test("for a recording, no key drops, pushes or removes spheres, and descriptions fit", () => {
   const none = (): void => undefined;
-  const buttons = { toggle: none, step: none, reset: none, panel: none, help: none };
+  const buttons = { toggle: none, step: none, reset: none, panel: none, help: none, home: none, follow: none };
   const others = { colour: none, push: none, lock: none, drop: none, remove: none, deselect: none, present: none };
   const actions = { ...buttons, ...others, camera: new Camera() };
   const textsFor = (playing: boolean): string[] => keysFor(actions, playing).map((key) => key.description);

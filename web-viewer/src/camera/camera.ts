@@ -32,6 +32,7 @@ export class Camera {
   private insets: Insets = { top: 0, right: 0, bottom: 0, left: 0 };
   private insetsGoal: Insets = this.insets;
   private jumps = true; // the next insets are taken at once
+  private tracked: Vec3 | undefined;
   private shown: Shown | undefined; // the origin of `current`
   private readonly current: View = viewOf(this.pose, this.extent, 1, 1, this.insets, 10);
 
@@ -63,7 +64,26 @@ export class Camera {
 
   /** Looks in a direction (radians), from the present distance. */
   along(azimuth: number, elevation: number): void {
-    this.goal = { ...this.home, distance: this.goal.distance, azimuth, elevation };
+    const target = this.tracked ? this.goal.target : this.home.target;
+    this.goal = { target, distance: this.goal.distance, azimuth, elevation };
+  }
+
+  /**
+   * Keeps a moving point (m) at its place in the image; undefined: no longer. The first point comes to the middle. Call
+   * it before each image.
+   */
+  track(point: Vec3 | undefined): void {
+    const before = this.tracked;
+    this.tracked = point;
+    if (!point) return;
+    if (!before) this.goal = { ...this.goal, target: [...point] };
+    else if (vec3.exactEquals(before, point)) this.tracked = before;
+    else {
+      const by = vec3.subtract([0, 0, 0], point, before) as Vec3;
+      const isThere = this.pose === this.goal;
+      this.goal = moved(this.goal, by);
+      this.pose = isThere ? this.goal : moved(this.pose, by);
+    }
   }
 
   resize(width: number, height: number): void {
@@ -127,6 +147,10 @@ export class Camera {
   private metresPerPixel(): number {
     return (2 * this.goal.distance * this.current.halfTangent) / this.size[1];
   }
+}
+
+function moved(pose: Pose, by: Vec3): Pose {
+  return { ...pose, target: vec3.add([0, 0, 0], pose.target, by) as Vec3 };
 }
 
 /** Insets on the way from one to another, by `share` in 0..1. The last half pixel is one step, to `to` itself. */

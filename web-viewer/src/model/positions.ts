@@ -16,14 +16,21 @@ function shortest(distance: number, period: number): number {
 
 /** The position at which a sphere is drawn (m). Along a periodic axis, it moves by the shortest way. */
 export function shownPosition(facts: Facts, shown: Shown, place: number): Vec3 {
-  const at = 3 * place;
-  const { values: from } = shown.from.columns.position;
-  const { values: to } = shown.to.columns.position;
-  return facts.origin.map((origin, axis) => {
-    const period = facts.periods[axis] ?? 0;
-    const begin = from[at + axis] ?? 0;
-    return origin + shortest(begin + shown.mix * shortest((to[at + axis] ?? 0) - begin, period), period);
-  }) as Vec3;
+  const at = writePosition([0, 0, 0], facts, shown, place, shown.mix);
+  for (let axis = 0; axis < 3; axis++) at[axis] = (at[axis] as number) + (facts.origin[axis] as number);
+  return at;
+}
+
+/** Writes the position between two states (m, relative to the centre of the bounds) to `into`; `mix`: as in Shown. */
+export function writePosition(into: Vec3, { periods }: Facts, { from, to }: Shown, place: number, mix: number): Vec3 {
+  const { values: a } = from.columns.position;
+  const { values: b } = to.columns.position;
+  for (let axis = 0; axis < 3; axis++) {
+    const period = periods[axis] as number;
+    const begin = a[3 * place + axis] ?? 0;
+    into[axis] = shortest(begin + mix * shortest((b[3 * place + axis] ?? 0) - begin, period), period);
+  }
+  return into;
 }
 
 /**

@@ -4,6 +4,7 @@ import type { Population } from "./population";
 export class Selection {
   id: number | undefined; // undefined: no sphere is selected
   place: number | undefined; // of the sphere in frames
+  followed = false; // the camera follows the sphere
 
   /** Selects the sphere at a place; deselects if there is none. */
   select(population: Population | undefined, place: number | undefined): void {
@@ -13,6 +14,7 @@ export class Selection {
 
   clear(): void {
     this.id = this.place = undefined;
+    this.followed = false;
   }
 
   /** Finds the sphere in a population that has changed; deselects it if it is gone. */

@@ -15,6 +15,7 @@ import { ShadowMap } from "./shadow_map";
 import { SpherePass } from "./sphere_pass";
 import { SphereData } from "./spheres";
 import type { Theme } from "./theme";
+import { TracePass } from "./trace_pass";
 
 /** What the shadow map shows: the states as in Shown, and the half-space as in HalfSpace. */
 interface Cast {
@@ -35,6 +36,7 @@ export class FrameRenderer {
   private readonly uniforms: FrameUniforms;
   private readonly data: SphereData;
   private readonly environment: Environment;
+  private readonly trace: TracePass;
   private scene: ScenePass | undefined;
   private spheres: SpherePass | undefined;
   private shadow: ShadowMap | undefined;
@@ -52,6 +54,7 @@ export class FrameRenderer {
     this.uniforms = new FrameUniforms(gl);
     this.data = new SphereData(gl);
     this.environment = new Environment(gl);
+    this.trace = new TracePass(gl);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
   }
@@ -123,6 +126,7 @@ export class FrameRenderer {
     target.beginCodes();
     if (shown) spheres.drawCodes(shown, data, state, eye, pixel);
     spheres.shade(facts, shown, state, data, target);
+    if (state.trace) this.trace.draw(state.trace, target.width / view.width);
     scene.drawOver(state, eye, environment);
     post.draw(state, facts, data, shown?.mix ?? 0, theme.haze);
   }

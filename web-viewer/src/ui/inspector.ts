@@ -13,6 +13,7 @@ export class Inspector {
   private readonly name = h("h2", { "data-testid": "inspected" });
   private readonly lines = h("div");
   private readonly removal: HTMLButtonElement;
+  private readonly following: HTMLButtonElement;
   private removing = false; // the command has no result yet
   readonly element: HTMLElement;
 
@@ -26,14 +27,22 @@ export class Inspector {
       click: () => this.selection.clear(),
     };
     const click = (): void => void this.removeSelected();
-    this.removal = h("button", { type: "button", class: "remove", "data-testid": "remove", click }, "Remove");
+    this.removal = h("button", { type: "button", "data-testid": "remove", click }, "Remove");
+    const follow = (): void => this.toggleFollowed();
+    this.following = h("button", { type: "button", "data-testid": "follow", click: follow }, "Follow");
+    this.following.title = "The camera follows the sphere (G)";
     this.element = h(
       "section",
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
       h("div", { class: "row" }, this.name, h("button", deselect, "×")),
       this.lines,
-      this.removal,
+      h("div", { class: "actions" }, this.following, this.removal),
     );
+  }
+
+  /** The camera follows the selected sphere, or no longer does. */
+  toggleFollowed(): void {
+    this.selection.followed = this.selection.id !== undefined && !this.selection.followed;
   }
 
   async removeSelected(): Promise<void> {
@@ -54,6 +63,7 @@ export class Inspector {
     const lines = modes.flatMap((mode) => quantityOf(mode).describe?.(facts, shown, place) ?? []);
     setText(this.name, `Sphere ${count(id)}`);
     this.show([`at ${vector(shownPosition(facts, shown, place), 3)} m`, ...lines]);
+    this.following.setAttribute("aria-pressed", String(this.selection.followed));
     this.removal.hidden = playing;
     this.removal.disabled = blockedReason !== "";
     this.removal.title = blockedReason || "Remove the sphere (Del)";

@@ -83,6 +83,8 @@ export interface KeyActions {
   remove(): void;
   help(): void;
   deselect(): void;
+  home(): void;
+  follow(): void;
   present(): void;
   camera: Camera;
 }
@@ -126,7 +128,8 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     ...(playing ? [] : simulated),
     ...each(`1 – ${modes.length}`, `colour by ${colourNames}`, colours, actions.colour),
     one("l", "lock the colour range", actions.lock),
-    one("f", "reset the view", () => camera.reset()),
+    one("f", "reset the view", actions.home),
+    one("g", "follow the selected sphere", actions.follow),
     one("o", "perspective or orthographic view", () => (camera.orthographic = !camera.orthographic)),
     one("x", "look along x", () => camera.along(0, 0)),
     one("y", "look along y", () => camera.along(-Math.PI / 2, 0)),

@@ -123,6 +123,10 @@ export class Page {
       reset: () => void commands.reset(session.timeline ? "Go to the beginning" : "Reset"),
       panel: () => this.showPanel(this.container.classList.contains("panel-closed")),
       help: () => this.help.toggle(),
+      home: () => {
+        this.inspector.selection.followed = false;
+        actions.camera.reset();
+      },
     };
     const keyActions: KeyActions = {
       ...shared,
@@ -136,6 +140,7 @@ export class Page {
       },
       lock: () => ranges.toggleLock(),
       drop: () => this.panel.dropNow(),
+      follow: () => this.inspector.toggleFollowed(),
       remove: () => void this.inspector.removeSelected(),
       deselect: () => {
         this.inspector.selection.clear();
@@ -154,7 +159,7 @@ export class Page {
       else if (action === "dismiss") this.dismiss(id);
       else this.act(action);
     });
-    this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
+    this.transport = new Transport(this.record.element, shared);
     this.playback = new Playback(session, commands, () => this.needsSpeeds, {
       present: () => actions.present(),
       save: () => actions.save(),

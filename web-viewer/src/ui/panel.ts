@@ -46,6 +46,7 @@ export interface Choices {
   impulse: number; // N s
   view: ViewRequest;
   cut: Cut;
+  trace: boolean; // the path of the selected sphere is shown
 }
 
 export interface PanelActions {
@@ -338,6 +339,8 @@ export class Panel {
     const names = Object.fromEntries(modes.map((mode) => [quantityOf(mode).label, mode]));
     const mode = tag("colour", folder.add(choices, "mode", names).name("Colour by"));
     mode.onChange((value: Mode) => this.colourBy(value));
+    const trace = tag("trace", folder.add(choices, "trace").name("Path"));
+    trace.domElement.title = "Shows the path of the selected sphere";
     const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
     const theme = tag("theme", folder.add(choices, "theme", themeNames).name("Theme"));
