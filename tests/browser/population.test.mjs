@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, pause, says, settled, when } from "./support/browser.mjs";
+import { cameraRests, control, open, pause, says, settled, when } from "./support/browser.mjs";
 import { pictureOf } from "./support/picture.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
@@ -59,6 +59,7 @@ async function drawn() {
 
 /** Clicks on the sphere at x (m), and waits until it is selected. Returns its id. */
 async function select(x) {
+  await cameraRests(page);
   const [left, top] = await pointOf(x);
   await when(page, (at) => spherule.at(...at) !== undefined, [left, top]); // the image shows a sphere there
   const id = await page.evaluate((at) => spherule.at(...at), [left, top]);

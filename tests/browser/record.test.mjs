@@ -193,7 +193,7 @@ test("a recording of the server can be downloaded and opened at its end, and not
   await live.click(control("record"));
   await live.click(control("toast-open"));
   await when(live, () => spherule.session.replay?.source === "file" && spherule.spheres === 24);
-  assert.match(await live.textContent(control("timeline-file")), /^gas-.*\.sph$/);
+  await says(live, "timeline-file", /^gas-.*\.sph$/);
   assert.deepEqual(live.faults, []);
   await live.close();
   await guarded.stop();

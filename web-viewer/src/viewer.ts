@@ -1,6 +1,7 @@
 import { Camera } from "./camera/camera";
 import { listen } from "./camera/gestures";
 import { rayThrough } from "./camera/ray";
+import type { View } from "./camera/view";
 import { DrawClock, sharedNow } from "./clock";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
@@ -19,12 +20,14 @@ import type { Shown } from "./model/states";
 import { Trace } from "./model/trace";
 import { markFirst } from "./perf_marks";
 import { Canvas } from "./renderer/canvas";
+import type { DrawState } from "./renderer/draw_state";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
 import { refusalText } from "./ui/refusals";
 import { longStay } from "./ui/toasts";
 
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
+const pictureHeight = 720; // CSS px: lines in saved pictures are as wide as in a page of this height
 const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
 /** The values that an image depends on, to find whether it would be another one. Allocates nothing per image. */
@@ -115,6 +118,7 @@ export class Viewer {
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
       sendControl: (message) => this.link.sendControl(message),
+      picture: (width, height, progress) => this.picture(width, height, progress),
       themeChanged: (theme) => this.canvas.setTheme(theme),
       qualityChanged: (quality) => this.canvas.choose(quality),
       viewRequested: (view) => {
@@ -212,23 +216,14 @@ export class Viewer {
       this.canvas.hide(choices.cut.hidden);
       this.image.forget();
     }
-    const kept = session.facts ? choices.cut.halfSpace(session.facts) : everything;
-    const state = {
-      view: camera.view(),
-      kept,
-      mode: choices.mode,
-      range: this.ranges.of(choices.mode, session.facts),
-      trace: choices.trace ? this.trace : undefined,
-      selected: this.page.inspector.selection.place,
-      dim: session.staleness(wall),
-    };
+    const state = this.stateOf(camera.view(), session.staleness(wall));
     const { image } = this;
     image.begin();
     image.add(shown?.from.sequence).add(shown?.to.sequence).add(shown?.mix);
     for (const part of state.view.eye) image.add(part);
     for (const part of state.view.toClip) image.add(part);
-    for (const part of kept.normal) image.add(part);
-    image.add(kept.offset);
+    for (const part of state.kept.normal) image.add(part);
+    image.add(state.kept.offset);
     image.add(state.mode).add(state.range[0]).add(state.range[1]).add(state.selected).add(state.trace).add(state.dim);
     image.add(choices.theme).add(choices.quality);
     const draws = image.changed && !session.awaitsState(wall);
@@ -239,6 +234,32 @@ export class Viewer {
     }
     this.reportDrawRate(now);
     this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.graphics);
+  }
+
+  private stateOf(view: View, dim: number): DrawState {
+    const { session, choices } = this;
+    return {
+      view,
+      kept: session.facts ? choices.cut.halfSpace(session.facts) : everything,
+      mode: choices.mode,
+      range: this.ranges.of(choices.mode, session.facts),
+      trace: choices.trace ? this.trace : undefined,
+      selected: this.page.inspector.selection.place,
+      dim,
+    };
+  }
+
+  /** Makes a picture of what the page shows (px), as PNG. See Canvas.picture(). */
+  private async picture(
+    width: number,
+    height: number,
+    progress: (share: number) => boolean,
+  ): Promise<Blob | undefined> {
+    const view = this.camera.viewFor((width * pictureHeight) / height, pictureHeight);
+    const shown = this.session.states.shown(sharedNow());
+    const picture = await this.canvas.picture(shown, this.stateOf(view, 0), width, height, progress);
+    this.image.forget();
+    return picture;
   }
 
   /** Follows the selected sphere with the camera, and notes its path. */

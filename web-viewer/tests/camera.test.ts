@@ -4,8 +4,9 @@ import { Camera } from "../src/camera/camera";
 import { approached, eyeOf, framing, orbited, panned, poseFrom, zoomed } from "../src/camera/orbit";
 import { project, rayThrough } from "../src/camera/ray";
 import { freePart } from "../src/camera/free_part";
-import { extentOf, tangentPerPixel, viewOf } from "../src/camera/view";
+import { extentOf, tangentPerPixel, viewOf, viewOfPart } from "../src/camera/view";
 import type { Vec3 } from "../src/model/facts";
+import { pixelOf } from "../src/renderer/frame_uniforms";
 
 const field = { horizontal: 0, vertical: 0, least: Math.tan(Math.PI / 8) }; // of view, 45 degrees
 const none = { top: 0, right: 0, bottom: 0, left: 0 };
@@ -217,4 +218,20 @@ test("a tracked point comes to the middle, and stays there while it moves, also 
   camera.reset();
   camera.advance(16, true);
   close(placeOf([0, 0, 0]) ?? [], [500, 300], 1e-2);
+});
+
+test("the views of parts of a picture show what the whole picture shows there", () => {
+  for (const orthographic of [false, true]) {
+    const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), field, 800, 500, none, 20, orthographic);
+    const part = { x: 0.25, y: 0.5, width: 0.5, height: 0.2 };
+    const seen = viewOfPart(view, part);
+    for (const point of [[0, 0, 1], [0.3, 0.1, 1.4], [-1, 2, 0.5]] as Vec3[]) {
+      const [x = 0, y = 0] = project(view, point) ?? [];
+      const [column = 0, row = 0] = project(seen, point) ?? [];
+      close([column, row], [x - 200, y - 500 * (1 - 0.7)], 1e-3);
+      const ray = rayThrough(seen, column, row);
+      close(ray.direction, rayThrough(view, x, y).direction, 1e-6);
+    }
+    close([pixelOf(seen, 100)], [pixelOf(view, 500)], 1e-12);
+  }
 });

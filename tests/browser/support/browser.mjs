@@ -99,8 +99,22 @@ export async function unfold(page, name) {
   await page.click(`.lil-title[aria-expanded="false"]:text-is("${name}")`);
 }
 
+/** Waits until the camera stands still, after parts of the page have appeared or gone. */
+export async function cameraRests(page) {
+  await page.evaluate(async () => {
+    let [before, same] = ["", 0];
+    while (same < 4) {
+      await new Promise(requestAnimationFrame);
+      const now = String(spherule.camera.toClip);
+      same = now === before ? same + 1 : 0;
+      before = now;
+    }
+  });
+}
+
 /** Clicks on a sphere, as soon as the image shows it. */
 export async function clickSphere(page, id) {
+  await cameraRests(page);
   const isDrawn = (one) => {
     const [position] = spherule.positions([one])?.positions ?? [];
     const at = position && spherule.project(position);

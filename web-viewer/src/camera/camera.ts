@@ -126,15 +126,25 @@ export class Camera {
     const isShown = shown?.pose === pose && shown.insets === insets && shown.extent === extent && shown.size === size;
     if (isShown && shown.orthographic === orthographic) return this.current;
     this.shown = { pose, insets, extent, size, orthographic };
-    const reach = 3 * this.diagonal + vec3.distance(pose.target, this.home.target);
     const [width, height] = size;
-    viewOf(pose, extent, width, height, insets, reach, orthographic, this.current);
+    viewOf(pose, extent, width, height, insets, this.reach, orthographic, this.current);
     return this.current;
+  }
+
+  /** The view of a picture of another shape, which shows at least as much of the scene. Sizes in CSS pixels. */
+  viewFor(width: number, height: number): View {
+    const { pose, extent, orthographic, reach } = this;
+    return viewOf(pose, extent, width, height, { top: 0, right: 0, bottom: 0, left: 0 }, reach, orthographic);
   }
 
   /** The view of the last image. */
   get last(): View {
     return this.current;
+  }
+
+  /** m around the target that are visible. */
+  private get reach(): number {
+    return 3 * this.diagonal + vec3.distance(this.pose.target, this.home.target);
   }
 
   /** `jumps`: the picture goes there at once. */

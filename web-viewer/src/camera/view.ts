@@ -25,7 +25,18 @@ export interface View {
   forward: Vec3; // direction of the view, unit length
   orthographic: boolean; // all rays are parallel
   distance: number; // m, from the eye to the target
+  part: Part; // of the whole picture
 }
+
+/** A rectangle of a picture, in shares of its width and height, from the lower left corner. */
+export interface Part {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+const whole: Part = { x: 0, y: 0, width: 1, height: 1 };
 
 /**
  * The least extent of the picture in the free part of the canvas: tangents of the angles at the eye between the view's
@@ -131,5 +142,24 @@ function emptyView(): View {
     forward: [0, 0, 0],
     orthographic: false,
     distance: 1,
+    part: whole,
+  };
+}
+
+/** The view of a part of a picture. */
+export function viewOfPart(view: View, part: Part): View {
+  const [x, y] = [2 * part.x + part.width - 1, 2 * part.y + part.height - 1]; // the middle in clip space
+  const toPart = mat4.fromScaling(mat4.create(), [1 / part.width, 1 / part.height, 1]);
+  mat4.translate(toPart, toPart, [-x, -y, 0]);
+  const toClip = mat4.multiply(mat4.create(), toPart, view.toClip);
+  return {
+    ...view,
+    projection: mat4.multiply(mat4.create(), toPart, view.projection),
+    toClip,
+    fromClip: mat4.invert(mat4.create(), toClip) ?? mat4.create(),
+    width: view.width * part.width,
+    height: view.height * part.height,
+    halfTangent: view.halfTangent * part.height,
+    part,
   };
 }

@@ -134,7 +134,7 @@ async function save(): Promise<void> {
   try {
     const segments = lookBack.history.all;
     const { file: written } = await askArchive({ kind: "write", segments, welcome }, "written");
-    port.post({ kind: "saved", file: written, name: fileNameOf(lookBack.facts?.name ?? "") });
+    port.post({ kind: "saved", file: written, name: fileNameOf(lookBack.facts?.name ?? "", ".sph") });
   } catch (error) {
     tell("Not saved", error);
   }

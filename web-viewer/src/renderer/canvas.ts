@@ -1,7 +1,9 @@
+import type { View } from "../camera/view";
 import type { DrawState } from "./draw_state";
 import { FrameRenderer } from "./frame_renderer";
 import { placeIn } from "./scene_target";
-import { RenderQualityControl } from "./render_quality";
+import { pictureOf } from "./picture";
+import { best, RenderQualityControl } from "./render_quality";
 import type { RenderQualityChoice } from "./render_quality";
 import { themes } from "./theme";
 import type { ThemeName } from "./theme";
@@ -18,6 +20,7 @@ export class Canvas {
   private readonly quality: RenderQualityControl;
   private facts: Facts | undefined;
   private order: DrawOrder | undefined;
+  private busy = false; // a picture is made
   private hidden: ReadonlySet<number> = new Set();
   private theme: ThemeName = "light";
   private size: [number, number] = [1, 1]; // CSS pixels
@@ -99,15 +102,41 @@ export class Canvas {
 
   /**
    * Draws an image. `elapsed`: ms since the last one if drawing is continuous, else undefined. Returns false if the
-   * page cannot draw.
+   * page cannot draw, or not now.
    */
   draw(shown: Shown | undefined, state: DrawState, elapsed: number | undefined): boolean {
-    if (!this.renderer) return false;
+    if (!this.renderer || this.busy) return false;
     if (elapsed !== undefined && this.quality.took(elapsed)) this.fit();
     this.renderer.draw(shown, state);
     this.element.classList.toggle("empty", !this.facts);
     this.drawn += 1;
     return true;
+  }
+
+  /**
+   * Draws a picture in full quality and returns it as PNG; undefined if `progress` has returned false. Meanwhile no
+   * images are drawn. `view`: of the whole picture. Rejects with an Error that tells the user what is wrong.
+   */
+  async picture(
+    shown: Shown | undefined,
+    state: DrawState,
+    width: number,
+    height: number,
+    progress: (share: number) => boolean,
+  ): Promise<Blob | undefined> {
+    const draw = (view: View, tileWidth: number, tileHeight: number): ImageData => {
+      const { renderer } = this;
+      if (!renderer) throw new Error("The browser has taken the graphics device away. Try again.");
+      renderer.setQuality(best, tileWidth, tileHeight);
+      return new ImageData(renderer.pixels(shown, { ...state, view }), tileWidth, tileHeight);
+    };
+    this.busy = true;
+    try {
+      return await pictureOf(state.view, width, height, draw, progress);
+    } finally {
+      this.busy = false;
+      this.fit();
+    }
   }
 
   /** The place of the sphere that the last image shows at a point (CSS pixels from the upper left corner). */
@@ -133,6 +162,7 @@ export class Canvas {
   }
 
   private fit(): void {
+    if (this.busy) return;
     const { quality } = this.quality;
     const scale = Math.min(window.devicePixelRatio, quality.scale);
     const [width, height] = this.size.map((side) => Math.max(1, Math.round(side * scale))) as [number, number];

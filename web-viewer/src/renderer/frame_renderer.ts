@@ -14,6 +14,7 @@ import { placeIn, SceneTarget } from "./scene_target";
 import { ShadowMap } from "./shadow_map";
 import { SpherePass } from "./sphere_pass";
 import { SphereData } from "./spheres";
+import { texture } from "./table";
 import type { Theme } from "./theme";
 import { TracePass } from "./trace_pass";
 
@@ -110,7 +111,8 @@ export class FrameRenderer {
     this.quality = quality;
   }
 
-  draw(shown: Shown | undefined, state: DrawState): void {
+  /** `output`: where to draw; null: the canvas. */
+  draw(shown: Shown | undefined, state: DrawState, output: WebGLFramebuffer | null = null): void {
     const { facts, light, theme, target, scene, spheres, shadow, post, data, environment, eye } = this;
     if (!facts || !light || !theme || !target || !scene || !spheres || !shadow || !post) return;
     if (shown) data.show(shown);
@@ -128,7 +130,28 @@ export class FrameRenderer {
     spheres.shade(facts, shown, state, data, target);
     if (state.trace) this.trace.draw(state.trace, target.width / view.width);
     scene.drawOver(state, eye, environment);
-    post.draw(state, facts, data, shown?.mix ?? 0, theme.haze);
+    post.draw(state, facts, data, shown?.mix ?? 0, theme.haze, output);
+  }
+
+  /** Draws an image, but not to the canvas, and returns its pixels as RGBA, row after row from the top. */
+  pixels(shown: Shown | undefined, state: DrawState): Uint8ClampedArray<ArrayBuffer> {
+    const { gl } = this;
+    const { width = 0, height = 0 } = this.target ?? {};
+    const image = texture(gl, gl.RGBA8, width, height, gl.NEAREST);
+    const output = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, output);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, image, 0);
+    this.draw(shown, state, output);
+    const rows = new Uint8Array(4 * width * height); // from the bottom
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, rows);
+    gl.deleteFramebuffer(output);
+    gl.deleteTexture(image);
+    const pixels = new Uint8ClampedArray(rows.length);
+    for (let row = 0; row < height; row++) {
+      const at = 4 * width * row;
+      pixels.set(rows.subarray(at, at + 4 * width), pixels.length - at - 4 * width);
+    }
+    return pixels;
   }
 
   /** The place of the sphere at a pixel of the last image, from the lower left corner. */

@@ -8,7 +8,7 @@ import type { Theme } from "./theme";
 
 const matrixFloats = 16;
 const vectorFloats = 4;
-const perImage = 3 * matrixFloats + 4 * vectorFloats; // floats that depend on the view
+const perImage = 3 * matrixFloats + 5 * vectorFloats; // floats that depend on the view
 const all = perImage + 9 * vectorFloats;
 
 /** The uniform block that all passes of an image share (shaders/frame.glsl). */
@@ -56,6 +56,11 @@ export class FrameUniforms {
     at += vectorFloats;
     data.set(kept.normal, at);
     data[at + 3] = kept.offset;
+    at += vectorFloats;
+    data[at] = view.part.x;
+    data[at + 1] = view.part.y;
+    data[at + 2] = view.part.width;
+    data[at + 3] = view.part.height;
     gl.bindBuffer(gl.UNIFORM_BUFFER, this.buffer);
     gl.bufferSubData(gl.UNIFORM_BUFFER, 0, data);
     gl.bindBufferBase(gl.UNIFORM_BUFFER, frameBinding, this.buffer);

@@ -38,15 +38,22 @@ export class PostPass {
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.openness, 0);
   }
 
-  /** `mix`: as in Shown; `haze`: grey over a stale image. */
-  draw(state: DrawState, facts: Facts, data: SphereData, mix: number, haze: number): void {
+  /** `mix`: as in Shown; `haze`: grey over a stale image; `output`: where to draw, null: the canvas. */
+  draw(
+    state: DrawState,
+    facts: Facts,
+    data: SphereData,
+    mix: number,
+    haze: number,
+    output: WebGLFramebuffer | null,
+  ): void {
     const { gl, target, composite } = this;
     const [smallest, largest] = facts.population.radiusRange;
     const radius = 0.5 * (smallest + largest);
     gl.disable(gl.DEPTH_TEST);
     bindTexture(gl, "u_depth", target.depth);
     this.drawOcclusion(state, 2.2 * radius);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, output);
     gl.viewport(0, 0, target.width, target.height);
     composite.use();
     bindTexture(gl, "u_scene", target.colour);

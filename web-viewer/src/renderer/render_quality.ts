@@ -8,6 +8,9 @@ export interface RenderQuality {
 const full: RenderQuality = { full: true, shadowSize: 2048, scale: 2 };
 const light: RenderQuality = { full: false, shadowSize: 1024, scale: 1 };
 
+/** For pictures that the user saves. */
+export const best: RenderQuality = { ...full, shadowSize: 4096 };
+
 /** From the best to the cheapest. */
 export const ladder: readonly RenderQuality[] = [
   full,

@@ -7,6 +7,7 @@ const deeds: Record<string, string> = {
   spawn: "Adding spheres",
   set: "Changing the settings",
   step: "Stepping",
+  picture: "Drawing the picture",
 };
 
 /** The command with its present work and the completed part of it, as in "Loading box-50k: placing spheres, 34 %". */
@@ -24,17 +25,18 @@ export class ChangeLine {
   private readonly cancel: HTMLButtonElement;
   readonly element: HTMLElement;
 
-  constructor(cancel: () => void) {
-    this.cancel = h("button", { type: "button", "data-testid": "change-cancel", click: cancel }, "Cancel");
+  /** `id`: for tests. */
+  constructor(cancel: () => void, id = "change") {
+    this.cancel = h("button", { type: "button", "data-testid": `${id}-cancel`, click: cancel }, "Cancel");
     this.element = h(
       "section",
-      { class: "steering", hidden: true, "aria-label": "Command in progress", "data-testid": "change" },
+      { class: "steering", hidden: true, "aria-label": "Command in progress", "data-testid": id },
       h("div", { class: "row" }, this.text, this.bar, this.cancel),
     );
   }
 
   /** `blockedReason`: why this page may not send commands; empty if it may. */
-  update(change: Change | undefined, blockedReason: string): void {
+  update(change: Pick<Change, "what" | "doing" | "share"> | undefined, blockedReason: string): void {
     this.element.hidden = change === undefined;
     if (!change) return;
     setText(this.text, changeText(change));

@@ -13,6 +13,7 @@ import type { Shown } from "../model/states";
 import type { ThemeName } from "../renderer/theme";
 import { announcementOf } from "./announcements";
 import { ChangeLine } from "./change_line";
+import { fileNameOf } from "../connection/file_name";
 import { h } from "./dom";
 import { Files } from "./files";
 import { Gallery } from "./gallery";
@@ -36,7 +37,7 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink" | "openFile"> {
+export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink" | "openFile" | "savePicture"> {
   retry(): void;
   present(): void; // shows the simulation as it is now
   save(): void; // the last seconds, as a recording
@@ -44,6 +45,8 @@ export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink
   fetchRecording(name: string): Promise<Blob>;
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
+  /** Makes a picture (px), as PNG; undefined if `progress` has returned false. */
+  picture(width: number, height: number, progress: (share: number) => boolean): Promise<Blob | undefined>;
   camera: Camera;
 }
 
@@ -64,6 +67,8 @@ export class Page {
   covered: readonly Box[] = [];
   private readonly header: Header;
   private readonly change: ChangeLine;
+  private readonly drawing: ChangeLine;
+  private picture: number | undefined; // completed share of the picture that is made
   private readonly notices: Notices;
   private readonly outside = new OutsideCount();
   private readonly record: RecordButton;
@@ -104,7 +109,9 @@ export class Page {
     this.files = new Files({ ".sph": { what: "recordings", open: actions.play } }, this.toasts, container);
     const openFile = (): void => this.files.choose();
     const copyLink = (): void => void this.links.copy();
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink, openFile });
+    const savePicture = (width: number, height: number): void => void this.savePicture(width, height);
+    const own = { themeChanged, showScenes, copyLink, openFile, savePicture };
+    this.panel = new Panel(commands, choices, { ...actions, ...own });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.links = new Links(session, this.toasts, {
       camera: actions.camera,
@@ -154,6 +161,7 @@ export class Page {
     listenForKeys(() => this.keys(), this.characters);
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
+    this.drawing = new ChangeLine(() => (this.picture = undefined), "drawing");
     this.notices = new Notices((action, { id }) => {
       if (action === "retry" || action === "token") actions.retry();
       else if (action === "dismiss") this.dismiss(id);
@@ -166,7 +174,7 @@ export class Page {
     });
     const { header, legend, inspector, panel, status, toasts, help, steering } = this;
     const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    const lines = [this.notices, this.change, steering, this.playback, this.transport].map(({ element }) => element);
+    const lines = [this.notices, this.change, this.drawing, steering, this.playback, this.transport].map(({ element }) => element);
     const controls = h("div", { class: "controls" }, ...lines);
     const deck = h("div", { class: "deck" }, controls);
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, deck));
@@ -197,6 +205,7 @@ export class Page {
     this.showNotices(state, graphics, now);
     this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
     this.change.update(this.session.change, blockedReason);
+    this.drawing.update(this.picture === undefined ? undefined : { what: "picture", doing: "", share: this.picture }, "");
     this.transport.update(this.session.paused, this.session.replay !== undefined, blockedReason);
     this.playback.update(now, shown, blockedReason);
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
@@ -229,6 +238,23 @@ export class Page {
     } catch (error) {
       this.toasts.show(name, sentence(error instanceof Error ? error.message : String(error)), "bad");
     }
+  }
+
+  private async savePicture(width: number, height: number): Promise<void> {
+    if (this.picture !== undefined) return; // one at a time
+    const { facts } = this.session;
+    this.picture = 0;
+    const progress = (share: number): boolean => {
+      if (this.picture !== undefined) this.picture = share;
+      return this.picture !== undefined;
+    };
+    try {
+      const file = await this.actions.picture(width, height, progress);
+      if (file) this.files.give(file, fileNameOf(facts?.name ?? "", ".png"));
+    } catch (error) {
+      this.toasts.show("Picture not saved", sentence(error instanceof Error ? error.message : String(error)), "bad");
+    }
+    this.picture = undefined;
   }
 
   saved(file: Blob, name: string): void {

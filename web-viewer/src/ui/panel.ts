@@ -9,6 +9,7 @@ import type { Cut } from "../model/cut";
 import type { Facts } from "../model/facts";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
+import { largestSide } from "../renderer/picture";
 import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
@@ -57,6 +58,7 @@ export interface PanelActions {
   showScenes(): void;
   copyLink(): void;
   openFile(): void;
+  savePicture(width: number, height: number): void; // px
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
@@ -84,6 +86,7 @@ export class Panel {
     auto: "off" as GoalName,
     goal: 0, // in the unit shown
   };
+  private readonly picture = { width: 3840, height: 2160 }; // px
   private readonly drop = { count: 200, radius: 0.05 };
   private readonly steering: GUI[] = []; // folders whose controls send commands
   private readonly simulated: GUI[] = []; // folders that are hidden for a recording
@@ -333,6 +336,11 @@ export class Panel {
     this.number("impulse", impulse, () => impulseRule(this.settings));
   }
 
+  private savePicture(): void {
+    const sizes = ["picture-width", "picture-height"].map((id) => this.entries.get(id));
+    if (sizes.every((size) => size?.check())) this.actions.savePicture(this.picture.width, this.picture.height);
+  }
+
   private addLook(): void {
     const { actions, choices } = this;
     const folder = this.gui.addFolder("Look");
@@ -343,6 +351,11 @@ export class Panel {
     trace.domElement.title = "Shows the path of the selected sphere";
     const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
+    const sizeRule: EntryRule = { unit: "px", whole: true, least: 16, most: largestSide };
+    this.number("picture-width", folder.add(this.picture, "width", 16).name("Picture width, px"), () => sizeRule);
+    this.number("picture-height", folder.add(this.picture, "height", 16).name("Picture height, px"), () => sizeRule);
+    const save = tag("save-picture", folder.add({ act: () => this.savePicture() }, "act").name("Save picture"));
+    save.domElement.title = "Saves what the page shows, without its controls, as a PNG file";
     const theme = tag("theme", folder.add(choices, "theme", themeNames).name("Theme"));
     theme.onChange((value: ThemeName) => actions.themeChanged(value));
   }

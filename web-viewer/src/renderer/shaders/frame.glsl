@@ -8,6 +8,7 @@ layout(std140) uniform Frame {
     vec4 forward;       // direction of the view; w: 1 if orthographic, else 0
     vec4 planes;        // m: distances of the near and the far plane along the direction of the view
     vec4 kept;          // the points p with dot(kept.xyz, p) <= kept.w are shown
+    vec4 part;          // of the whole picture: lower left corner and size, in shares
     vec4 light;         // direction to the light; w: strength of shadows, 0..1
     vec4 key;           // linear light, as all colours below
     vec4 sky;
