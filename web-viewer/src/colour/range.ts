@@ -6,6 +6,13 @@ export function niceAbove(value: number): number {
   return step * decade;
 }
 
+/** Rounds down to 1, 2 or 5 times a power of ten. */
+export function niceBelow(value: number): number {
+  if (!(value > 0)) return 0;
+  const decade = 10 ** Math.floor(Math.log10(value));
+  return decade * ([5, 2, 1].find((factor) => factor * decade <= value * (1 + 1e-9)) ?? 1);
+}
+
 /**
  * The upper end of a colour range that follows the values shown. It rises at once, falls only after `patience` ms of
  * smaller values, so that the legend stays readable, and does not change while locked.

@@ -18,6 +18,7 @@ import { h } from "./dom";
 import { Files } from "./files";
 import { Gallery } from "./gallery";
 import { Header } from "./header";
+import { Gauge } from "./gauge";
 import { Help } from "./help";
 import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
@@ -73,6 +74,7 @@ export class Page {
   private readonly outside = new OutsideCount();
   private readonly record: RecordButton;
   private readonly transport: Transport;
+  private readonly gauge = new Gauge();
   private readonly legend: Legend;
   private readonly status: StatusLine;
   private readonly characters = new CharacterKeys(() => localStorage);
@@ -173,8 +175,9 @@ export class Page {
       save: () => actions.save(),
     });
     const { header, legend, inspector, panel, status, toasts, help, steering } = this;
-    const facts = h("aside", { class: "facts" }, inspector.element, legend.element);
-    const lines = [this.notices, this.change, this.drawing, steering, this.playback, this.transport].map(({ element }) => element);
+    const facts = h("aside", { class: "facts" }, this.gauge.element, inspector.element, legend.element);
+    const parts = [this.notices, this.change, this.drawing, steering, this.playback, this.transport];
+    const lines = parts.map(({ element }) => element);
     const controls = h("div", { class: "controls" }, ...lines);
     const deck = h("div", { class: "deck" }, controls);
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, deck));
@@ -182,7 +185,7 @@ export class Page {
     container.append(header.element, foot, panel.element, status.element, toasts.element, ...dialogs);
     panel.element.setAttribute("role", "region");
     panel.element.setAttribute("aria-label", "Controls");
-    const covering = [header, inspector, legend, panel, status].map(({ element }) => element);
+    const covering = [header, this.gauge, inspector, legend, panel, status].map(({ element }) => element);
     this.observe([...covering, controls]);
     document.documentElement.dataset.theme = choices.theme;
     this.showPanel(!small.matches);
@@ -205,10 +208,12 @@ export class Page {
     this.showNotices(state, graphics, now);
     this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
     this.change.update(this.session.change, blockedReason);
-    this.drawing.update(this.picture === undefined ? undefined : { what: "picture", doing: "", share: this.picture }, "");
+    const { picture: share } = this;
+    this.drawing.update(share === undefined ? undefined : { what: "picture", doing: "", share }, "");
     this.transport.update(this.session.paused, this.session.replay !== undefined, blockedReason);
     this.playback.update(now, shown, blockedReason);
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
+    this.gauge.update(this.actions.camera, this.session.facts !== undefined);
     this.legend.update(this.choices.mode, this.session.facts);
     this.gallery.update(blockedReason);
     document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
