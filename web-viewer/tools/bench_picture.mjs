@@ -1,7 +1,8 @@
-// node tools/bench_picture.mjs [--counts 50000,200000] [--images 3] [--shots FOLDER]: times images of a pile of
-// spheres, drawn by this page's renderer and by three.js. That draws an InstancedMesh of 320 triangles per sphere, with
-// equal smoothing and shadows. Both run one after the other in one headless Chromium. Each figure is the median of
-// three warmed runs. Requires the packages of tests/browser.
+// node tools/bench_picture.mjs [--counts 50000,200000] [--images 3] [--shots FOLDER] [--pick COUNT]: times images of a
+// pile of spheres, drawn by this page's renderer and by three.js. That draws an InstancedMesh of 320 triangles per
+// sphere, with equal smoothing and shadows. Both run one after the other in one headless Chromium. Each figure is the
+// median of three warmed runs. With --pick it times instead how the sphere at a pixel is found, among COUNT: by the
+// image, and by the rays of all spheres. Requires the packages of tests/browser.
 import * as esbuild from "esbuild";
 import { writeFileSync } from "node:fs";
 import { createServer } from "node:http";
@@ -15,6 +16,7 @@ const { values } = parseArgs({
     counts: { type: "string", default: "50000,200000" },
     images: { type: "string", default: "3" },
     shots: { type: "string" },
+    pick: { type: "string" },
   },
 });
 
@@ -43,9 +45,17 @@ try {
   page.setDefaultTimeout(600_000);
   page.on("pageerror", (error) => console.error(error.message));
   await page.goto(`http://127.0.0.1:${server.address().port}/`);
+  if (values.pick) {
+    const tries = 31;
+    const given = [Number(values.pick), tries];
+    const { byImage, byRays, agree } = await page.evaluate((both) => window.pick(...both), given);
+    console.log(`${values.pick} spheres: ${byImage.toFixed(2)} ms by the image, ${byRays.toFixed(2)} ms by all rays;`);
+    console.log(`${(byRays / byImage).toFixed(0)} times faster, medians of ${tries}; ${agree} found the same sphere`);
+  }
   const triangles = await page.evaluate(() => window.triangles());
   console.log(`Chromium ${browser.version()}, 1280 x 720; three.js with ${triangles} triangles per sphere`);
-  for (const count of values.counts.split(",").map(Number)) {
+  const counts = values.pick ? [] : values.counts.split(",").map(Number);
+  for (const count of counts) {
     for (const full of [false, true]) {
       const times = { own: [], three: [] };
       for (let run = 0; run < 3; run++) {

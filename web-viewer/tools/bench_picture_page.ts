@@ -1,12 +1,18 @@
 // The page of bench_picture.mjs: draws the same spheres with this page's renderer, and with three.js.
 import { create } from "@bufbuild/protobuf";
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import * as THREE from "three";
 import { Camera } from "../src/camera/camera";
+import { rayThrough } from "../src/camera/ray";
+import type { Ray } from "../src/camera/ray";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { blockPlaces } from "../src/columns";
 import { boxesOf } from "../src/connection/order";
 import type { DrawState } from "../src/renderer/draw_state";
+import { everything } from "../src/model/cut";
 import { factsOf } from "../src/model/facts";
+import type { Facts } from "../src/model/facts";
+import { shownPosition } from "../src/model/positions";
 import type { Shown, State } from "../src/model/states";
 import { FrameRenderer } from "../src/renderer/frame_renderer";
 import { ladder } from "../src/renderer/render_quality";
@@ -50,6 +56,22 @@ interface Subject {
   gl: WebGL2RenderingContext | WebGLRenderingContext;
   draw(image: number): void;
   free(): void;
+  /** Two ways to find the sphere at a pixel (from the upper left corner): its place. */
+  picks?: Record<"byImage" | "byRays", (x: number, y: number) => number | undefined>;
+}
+
+/** The sphere that a ray meets first, found among all of them as the page did before it read the image. */
+function firstOnRay(facts: Facts, shown: Shown, { origin, direction }: Ray): number | undefined {
+  let [nearest, found]: [number, number | undefined] = [Infinity, undefined];
+  for (let place = 0; place < shown.to.count; place++) {
+    const to = vec3.subtract([0, 0, 0], shownPosition(facts, shown, place), origin);
+    const along = vec3.dot(to, direction);
+    const half = facts.population.radiusOf(place) ** 2 - (vec3.squaredLength(to) - along * along);
+    if (half < 0 || along < 0) continue;
+    const distance = along - Math.sqrt(half);
+    if (distance < nearest) [nearest, found] = [distance, place];
+  }
+  return found;
 }
 
 function own(count: number, full: boolean): Subject {
@@ -88,8 +110,16 @@ function own(count: number, full: boolean): Subject {
       camera.orbit(2, 0);
       camera.advance(1000, true);
       const shown: Shown = { from, to, mix: (image % 7) / 7, moving: true };
-      const drawn: DrawState = { view: camera.view(), mode: "id", range: [0, count], selected: undefined, dim: 0 };
+      const rest = { kept: everything, selected: undefined, trace: undefined, dim: 0 };
+      const drawn: DrawState = { view: camera.view(), mode: "id", range: [0, count], ...rest };
       renderer.draw(shown, drawn);
+    },
+    picks: {
+      byImage: (x, y) => renderer.placeAt(x, height - 1 - y),
+      byRays: (x, y) => {
+        const shown: Shown = { from, to, mix: 0, moving: true };
+        return firstOnRay(facts, shown, rayThrough(camera.last, x + 0.5, y + 0.5));
+      },
     },
     free: () => (element.remove(), gl.getExtension("WEBGL_lose_context")?.loseContext()),
   };
@@ -152,6 +182,27 @@ function time(subject: Subject, images: number): number {
 
 let present: Subject | undefined;
 
+/** Median times (ms) of finding the sphere at `tries` pixels, in both ways, and how often they agree. */
+function pick(count: number, tries: number): { byImage: number; byRays: number; agree: number } {
+  present?.free();
+  present = own(count, false);
+  time(present, 1);
+  const { picks } = present;
+  const times = { byImage: [] as number[], byRays: [] as number[] };
+  let agree = 0;
+  for (let k = 0; picks && k < tries; k++) {
+    const found = (["byImage", "byRays"] as const).map((way) => {
+      const begin = performance.now();
+      const place = picks[way]((k * 389) % width, 200 + ((k * 211) % (height - 300)));
+      times[way].push(performance.now() - begin);
+      return place;
+    });
+    if (found[0] === found[1]) agree += 1;
+  }
+  const median = (list: number[]): number => list.sort((a, b) => a - b)[list.length >> 1] ?? NaN;
+  return { byImage: median(times.byImage), byRays: median(times.byRays), agree };
+}
+
 Object.assign(window, {
   triangles: () => new THREE.IcosahedronGeometry(1, 3).attributes.position.count / 3,
   prepare(name: "own" | "three", count: number, full: boolean): void {
@@ -159,5 +210,6 @@ Object.assign(window, {
     present = (name === "own" ? own : three)(count, full);
     time(present, 1);
   },
+  pick,
   time: (images: number): number => (present ? time(present, images) : NaN),
 });
