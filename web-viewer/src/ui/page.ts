@@ -4,8 +4,10 @@ import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
 import { sentence } from "../format";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
+import { Quantity } from "../gen/spherule/v1/frame_pb";
 import type { ColourRanges } from "../model/colour_ranges";
-import { modes } from "../model/quantities";
+import { Inspection } from "../model/inspection";
+import { modes, quantityOf } from "../model/quantities";
 import { pageStateOf } from "../model/page_state";
 import type { Graphics, PageState } from "../model/page_state";
 import type { Session } from "../model/session";
@@ -63,6 +65,7 @@ export class Page {
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
   private readonly header: Header;
+  private readonly inspection: Inspection;
   private readonly change: ChangeLine;
   private readonly notices: Notices;
   private readonly outside = new OutsideCount();
@@ -106,6 +109,7 @@ export class Page {
     const copyLink = (): void => void this.links.copy();
     this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink, openFile });
     this.inspector = new Inspector((id) => commands.remove(id));
+    this.inspection = new Inspection(session, (id) => commands.inspect(id));
     this.links = new Links(session, this.toasts, {
       camera: actions.camera,
       selection: this.inspector.selection,
@@ -154,7 +158,7 @@ export class Page {
       else this.act(action);
     });
     this.transport = new Transport(this.record.element, { ...shared, home: () => actions.camera.reset() });
-    this.playback = new Playback(session, commands, () => this.needsSpeeds, {
+    this.playback = new Playback(session, commands, () => this.quantity !== Quantity.QUANTITY_UNSPECIFIED, {
       present: () => actions.present(),
       save: () => actions.save(),
     });
@@ -175,9 +179,10 @@ export class Page {
     this.help.describe(this.keys(), this.playing);
   }
 
-  /** Whether the page shows speeds. */
-  get needsSpeeds(): boolean {
-    return this.choices.mode === "speed" || this.inspector.selection.id !== undefined;
+  /** The quantity that the page needs in frames; unspecified: none. */
+  get quantity(): Quantity {
+    const { sent } = quantityOf(this.choices.mode);
+    return sent ?? (this.inspector.selection.id === undefined ? Quantity.QUANTITY_UNSPECIFIED : Quantity.SPEED);
   }
 
   /** Call at every tick. `now`: ms, as sharedNow() counts. */
@@ -189,7 +194,8 @@ export class Page {
     this.container.classList.toggle("old", !state.current);
     this.container.classList.toggle("no-graphics", graphics === "none");
     this.showNotices(state, graphics, now);
-    this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
+    const inspected = this.inspection.update(this.inspector.selection.id, now);
+    this.inspector.update(this.session.facts, shown, this.playing, blockedReason, inspected);
     this.change.update(this.session.change, blockedReason);
     this.transport.update(this.session.paused, this.session.replay !== undefined, blockedReason);
     this.playback.update(now, shown, blockedReason);
@@ -202,6 +208,7 @@ export class Page {
     this.header.update(now, this.steering.state, graphics);
     this.status.update(now, imagesPerSecond, state.current);
     this.panel.stream.update(this.session, now);
+    this.panel.charts.update(this.session.samples);
   }
 
   recordingChanged(recording: Recording, before: Recording | undefined): void {
