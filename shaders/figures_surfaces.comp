@@ -46,5 +46,5 @@ KERNEL(params.spheres) {
         visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(invocation, 0.0f) : NO_OBSTACLES);
     }
     touching[invocation] = touched;
-    deepest[invocation] = floatBitsToUint(depth / sphereRadius);
+    deepest[invocation] = depth > 0.0f ? floatBitsToUint(depth / sphereRadius) : 0u;  // not -0: its bits are large
 }

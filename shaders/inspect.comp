@@ -40,9 +40,9 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
 
 KERNEL(params.spheres) {
     vec4 own = position[phase];
-    bool fixed = HAS(FIXED) && isFixed(velocity[phase]);
+    bool still = HAS(FIXED) && isFixed(velocity[phase]);
     if (invocation == phase) {
-        if (fixed || !finite3(vec3(own))) return;
+        if (still || !finite3(vec3(own))) return;
         sphereRadius = radiusOf(own);
         spherePoint = wrapped(vec3(own));
         visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(invocation, 0.0f) : NO_OBSTACLES);
@@ -55,6 +55,6 @@ KERNEL(params.spheres) {
     float touch = reach * (1.0f + TOUCH_TOLERANCE);
     float squared = dot3(d, d);
     if (!(squared < touch * touch)) return;
-    if (fixed && isFixed(velocity[invocation])) return;
+    if (still && isFixed(velocity[invocation])) return;
     note(idOf(idAndMaterial[invocation]), (reach - sqrt(squared)) / smallerRadius(own, other));
 }

@@ -121,7 +121,7 @@ TEST_P(Bits, OfFiguresAreTheSameOnAllDevices) {
     for (const char* const choice : {"software", "cpu:1x1", "cpu:2x4", "cpu:8"}) {
         const auto device = compute::openDevice(choice).value();
         auto simulation = simulate(mixture(GetParam()), *device);
-        run(*simulation, 0.1);
+        run(*simulation, GetParam() == scene::Model::Accurate ? 0.15 : 0.4);
         ASSERT_TRUE(simulation->pipeline().figures());
         const auto found = simulation->pipeline().read<glm::vec4>(sim::figuresArray, simulation->count());
         if (!expected) expected = found;
