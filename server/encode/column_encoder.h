@@ -82,7 +82,7 @@ class ColumnEncoder {
         // lengths; 0 along the other axes. They are moved to their images inside the bounds.
         glm::dvec3 periods{};
         bool turns = false;  // the frames count modulo these lengths
-        // What the frames have of each row of the values: positions, or a quantity. For SPEED the rows are velocities
+        // The content of frames: positions, or a quantity of each row of the values. For SPEED the rows are velocities
         // (m/s), for other quantities rows of shaders/figures.comp. The quantum is the unit of docs/codec.md.
         v1::Quantity quantity = v1::QUANTITY_UNSPECIFIED;
     };

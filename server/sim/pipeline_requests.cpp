@@ -33,7 +33,6 @@ Result<compute::Buffer*> Pipeline::figures() {
 }
 
 Result<std::vector<std::uint32_t>> Pipeline::inspect(std::uint32_t handle) {
-    if (auto made = makeMissing(Array::Inspected, 1 + 2 * INSPECTED_MOST); !made) return tl::unexpected(made.error());
     if (auto ready = bindLate(plan_.inspection, inspection_); !ready) return tl::unexpected(ready.error());
     // A sphere finds the obstacles near it in the lists.
     if (listsPending_ && plan_.features.has(Feature::Contacts)) rebuildLists();

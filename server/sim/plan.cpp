@@ -211,7 +211,8 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
         plan.maxWallHistory = std::min(wallHistoryLimit, scene::surfacesOf(scene) - unused);
     }
     PlanBuilder builder(plan, scene);
-    builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});
+    builder.arrays(
+        {Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums, Array::Inspected});
     if (features.has(Feature::Contacts) || features.hasSurfaceFeature()) builder.arrays({touchingArray});
     if (!features.has(Feature::Balanced)) builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");
     builder.statisticsOfSpheres("statistics_spheres.comp", {{"touching", touchingArray}});

@@ -37,7 +37,7 @@
 #define CODEC_SIZE 1u
 #define CODEC_OFFSET 2u
 
-// What is coded. From CODEC_FIGURES on it is a component of the row: CODEC_FIGURES is x.
+// Values of `quantity`. From CODEC_FIGURES on a component of the row is coded: CODEC_FIGURES is x.
 #define CODEC_POSITIONS 0u
 #define CODEC_LENGTHS 1u        // of x, y, z
 #define CODEC_FIGURES 2u
@@ -49,7 +49,7 @@ struct Parameters {
     vec4 period;         // m: length of each periodic axis; 0: not periodic
     uvec4 turns;         // quanta in these lengths, modulo which positions are counted; 0: they are not
     uint head;           // words of the frame before the table of chunks
-    uint quantity;       // CODEC_POSITIONS, or what is coded of each row
+    uint quantity;       // the coded part of each row, such as CODEC_POSITIONS
     uint unusedUint1;
     uint unusedUint2;
     uint spheres;

@@ -1,4 +1,4 @@
-// The figures of each sphere that frames carry, and what is found when a sphere is inspected, against double precision.
+// The figures of each sphere that frames carry, and inspections of one sphere, against double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>

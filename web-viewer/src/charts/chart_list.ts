@@ -9,7 +9,7 @@ export interface Series {
 
 export interface ChartKind {
   name: string;
-  /** The series; they may depend on what the samples have. */
+  /** The series; they may depend on the newest sample. */
   series(newest: Sample | undefined): Series[];
   /** A value with its unit. */
   text(value: number): string;

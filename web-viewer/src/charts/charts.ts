@@ -110,7 +110,7 @@ export class Charts {
     const [first, last] = [list[0], list.at(-1)];
     const ends = [first, last].map((sample) => seconds(sample?.statistics.simTime ?? NaN));
     const span = `from ${ends.join(" to ")}`;
-    const none = this.series.length === 0 ? "not in this scene" : "no values yet";
+    const none = this.series.length === 0 ? "no values in this scene, or none yet" : "no values yet";
     this.host.setAttribute("aria-label", `${name}, ${last && this.series.length > 0 ? span : none}`);
     const valueText = (value = NaN): string => (Number.isFinite(value) ? text(value) : "–");
     const rows = this.series.map((one, k) => {

@@ -28,7 +28,7 @@ export const noContent: Content = {
  */
 export type Decoded = { kind: "state"; keyframe: boolean; content: Content } | { kind: "foreign" } | { kind: "behind" };
 
-/** What the numbers of a column mean. */
+/** The meaning of the numbers of a column. */
 type Grid = Omit<NamedColumn, "spb">;
 
 /** A moment of decoding, from which frames can be decoded later. Without `chain` the next frame is a keyframe. */

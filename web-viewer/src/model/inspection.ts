@@ -20,8 +20,8 @@ export class Inspection {
   ) {}
 
   /**
-   * Returns the state of a sphere as the server told it; undefined if it is not known now: no answer has come, the page
-   * shows another time, or the answer is old. Call at every tick. `now`: ms.
+   * Returns the state of a sphere as the server told it; undefined if it is not known now. Then no answer has come, the
+   * page shows another time, or the answer is old. Call at every tick. `now`: ms.
    */
   update(id: number | undefined, now: number): Inspected | undefined {
     const { session } = this;

@@ -10,7 +10,7 @@ import { h, setText, setTitle } from "./dom";
 
 const contactsShown = 6;
 
-/** Shows the selected sphere: its position, its quantities, and what the server tells about it. */
+/** Shows the selected sphere: its position, its quantities, and its state as the server tells it. */
 export class Inspector {
   readonly selection = new Selection();
   private readonly name = h("h2", { "data-testid": "inspected" });
