@@ -1,11 +1,11 @@
-// First pass of the codec, one invocation per block: quantises the values of a column, positions or speeds, and chooses
+// First pass of the codec, one invocation per block: quantises the values of a column, positions or a quantity, and chooses
 // predictor and mode. Leaves the new state in `before`, which the host then uses as `newest`. Leaves the packed block to the later passes.
 #include "shared/kernel.h"
 #include "shared/codec_layout.h"
 #include "shared/codec.h"
 PARAMETERS
 
-BUFFER(readonly, vec4, source)  // positions; for speeds: velocities
+BUFFER(readonly, vec4, source)  // positions; for speeds: velocities; for other quantities: figures
 BUFFER(readonly, uint, slotOf)
 BUFFER(readonly, uint, order)
 BUFFER(readonly, uint, newest)
@@ -96,18 +96,31 @@ void prefetchAhead(int first) {
     }
 }
 
-// The code of a speed (docs/codec.md): the exponent and the first bits of the mantissa of 1 + speed / unit.
-uint codeOfSpeed(vec4 v) {
-    precise float square = v.x * v.x + v.y * v.y + v.z * v.z;
-    precise float scaled = 1.0f + sqrt(square) * params.perQuantum.x;
-    return (floatBitsToUint(scaled) - floatBitsToUint(1.0f)) >> CODEC_SPEED_SHIFT;
+// The code of a value (docs/codec.md): the exponent and the first bits of the mantissa of 1 + value / unit.
+uint codeOf(float value) {
+    precise float scaled = 1.0f + value * params.perQuantum.x;
+    return (floatBitsToUint(scaled) - floatBitsToUint(1.0f)) >> CODEC_VALUE_SHIFT;
 }
 
-void takeSpeeds(int first) {
+uint codeOfLength(vec4 v) {
+    precise float square = v.x * v.x + v.y * v.y + v.z * v.z;
+    return codeOf(sqrt(square));
+}
+
+uint codeOfFigure(vec4 row) {
+    return codeOf(params.quantity == CODEC_FIGURES ? row.x : params.quantity == CODEC_FIGURES + 1u ? row.y : row.z);
+}
+
+void takeValues(int first) {
     takeSlots(first);
     for (int k = 64; k < 192; ++k) change[k] = 0u;
-    for (int run = 0; run < 8; ++run)
-        for (int k = 0; k < 8; ++k) change[8 * k + run] = codeOfSpeed(source[step[8 * run + k]]);
+    if (params.quantity == CODEC_LENGTHS) {
+        for (int run = 0; run < 8; ++run)
+            for (int k = 0; k < 8; ++k) change[8 * k + run] = codeOfLength(source[step[8 * run + k]]);
+    } else {
+        for (int run = 0; run < 8; ++run)
+            for (int k = 0; k < 8; ++k) change[8 * k + run] = codeOfFigure(source[step[8 * run + k]]);
+    }
 }
 
 void takePositions(int first) {
@@ -279,8 +292,8 @@ KERNEL(params.blocks) {
         for (int k = 0; k < 192; ++k) change[k] = newest[first + k];
         for (int k = 0; k < 192; ++k) step[k] = 0u;
     } else {
-        if (params.speeds != 0u)
-            takeSpeeds(int(invocation * CODEC_BLOCK));
+        if (params.quantity != CODEC_POSITIONS)
+            takeValues(int(invocation * CODEC_BLOCK));
         else
             takePositions(int(invocation * CODEC_BLOCK));
         takeState(first, alone ? 0u : 0xffffffffu);

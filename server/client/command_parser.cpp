@@ -86,6 +86,10 @@ Result<void> readField(const std::string& word, pb::Message& message, const pb::
         const auto value = number<std::uint32_t>(word);
         if (!value) return tl::unexpected(value.error());
         fields.SetUInt32(&message, &field, *value);
+    } else if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_UINT64) {
+        const auto value = number<std::uint64_t>(word);
+        if (!value) return tl::unexpected(value.error());
+        fields.SetUInt64(&message, &field, *value);
     } else if (field.cpp_type() == pb::FieldDescriptor::CPPTYPE_ENUM) {
         const auto* const value = field.enum_type()->FindValueByName(upper(word));
         if (value == nullptr || value->number() == 0) return refuse("'" + word + "' is no " + field.name());

@@ -12,13 +12,13 @@ namespace spherule::client {
 
 namespace {
 
-// JSON with one statistic per line, named as in `spherule run --json`.
-std::string figures(const v1::Statistics& statistics) {
+// JSON with one field per line; statistics are named as in `spherule run --json`.
+std::string figures(const google::protobuf::Message& message) {
     google::protobuf::util::JsonPrintOptions options;
     options.add_whitespace = true;
     options.always_print_primitive_fields = true;
     std::string text;
-    const auto status = google::protobuf::util::MessageToJsonString(statistics, &text, options);
+    const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
     return status.ok() ? text : status.ToString();
 }
 
@@ -137,6 +137,7 @@ std::string resultText(const v1::CommandResult& result) {
     }
     const v1::Applied& applied = result.applied();
     if (applied.has_statistics()) return figures(applied.statistics());
+    if (applied.has_inspected()) return figures(applied.inspected());
     std::string text = fmt::format("applied at step {}", applied.step());
     if (applied.has_sphere()) text += fmt::format(", hit sphere {}", applied.sphere());
     return text;

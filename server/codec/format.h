@@ -22,7 +22,7 @@ constexpr std::uint32_t hashedFlag = 0x02000000;
 constexpr std::uint32_t turnsFlag = 0x04000000;
 constexpr std::size_t turnsHeadWords = 7;  // of a frame with turns
 constexpr std::uint32_t mostTurns = 1U << 30U;
-constexpr std::uint32_t speedShift = 17;  // bits of a float that the code of a speed leaves out
+constexpr std::uint32_t valueShift = 17;  // bits of a float that the code of a value leaves out
 
 enum class Mode : std::uint8_t { Plain, Mask, Runs, RunsWithBase };
 enum class Predictor : std::uint8_t { Previous, Linear, Half, None };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numbers>
 
 #include "codec/format.h"
 
@@ -18,14 +20,28 @@ double quantumOf(v1::Tier tier, double smallestRadius) {
     return 2 * smallestRadius / errors;
 }
 
-double unitOfSpeed(double smallestRadius) {
-    constexpr double radiiPerSecond = 0.01;
-    return radiiPerSecond * smallestRadius;
+double unitOf(v1::Quantity quantity, double smallestRadius) {
+    constexpr double smallestUnit = 1e-30;  // within float32
+    constexpr double speed = 0.01;          // radii per second
+    constexpr double density = 1000;        // kg/m^3
+    switch (quantity) {
+        case v1::SPEED:
+            return speed * smallestRadius;
+        case v1::OVERLAP:
+            return 1e-4;
+        case v1::ENERGY: {
+            // The energy of the smallest sphere, made of water, at 10 units of speed.
+            const double mass = 4.0 / 3 * std::numbers::pi * density * std::pow(smallestRadius, 3);
+            return std::max(0.5 * mass * std::pow(10 * speed * smallestRadius, 2), smallestUnit);
+        }
+        default:
+            return 1;  // a number
+    }
 }
 
-double speedOf(std::uint32_t code, double unit) {
+double valueOf(std::uint32_t code, double unit) {
     if (code == 0) return 0;
-    const std::uint32_t middle = (code << speedShift) + (1U << (speedShift - 1));
+    const std::uint32_t middle = (code << valueShift) + (1U << (valueShift - 1));
     return unit * (static_cast<double>(std::bit_cast<float>(std::bit_cast<std::uint32_t>(1.0F) + middle)) - 1);
 }
 

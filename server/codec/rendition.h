@@ -34,11 +34,11 @@ std::uint32_t rateFor(std::uint32_t asked);
 // Returns the grid spacing of encoded positions (m) for a smallest radius (m). The largest error is half of it.
 double quantumOf(v1::Tier tier, double smallestRadius);
 
-// Returns the unit of the codes of a speed (m/s) for a smallest radius (m), see docs/codec.md.
-double unitOfSpeed(double smallestRadius);
+// Returns the unit of the codes of a quantity for a smallest radius (m), see docs/codec.md.
+double unitOf(v1::Quantity quantity, double smallestRadius);
 
-// Returns the speed (m/s) of a code: in the middle of the speeds that have it; 0 for code 0.
-double speedOf(std::uint32_t code, double unit);
+// Returns the value of a code: in the middle of the values that have it; 0 for code 0.
+double valueOf(std::uint32_t code, double unit);
 
 // A frame of a chain.
 struct EncodedFrame {

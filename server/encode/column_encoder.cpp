@@ -19,7 +19,9 @@ namespace {
 
 constexpr std::size_t word = 4;
 
-static_assert(CODEC_SPEED_SHIFT == codec::speedShift);
+static_assert(CODEC_VALUE_SHIFT == codec::valueShift);
+static_assert(CODEC_LENGTHS == v1::SPEED && CODEC_FIGURES == v1::CONTACTS && v1::OVERLAP == v1::CONTACTS + 1 &&
+              v1::ENERGY == v1::CONTACTS + 2);
 
 constexpr std::array kernelFiles =
     std::to_array<std::string_view>({"codec_choose.comp", "codec_sum.comp", "scan_reduce.comp", "scan_top.comp",
@@ -183,7 +185,7 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
         parameters.perQuantum[axis] = static_cast<float>(turns > 0 ? turns / grid_.periods[axis] : 1 / grid_.quantum);
     }
     parameters.head = headWords();
-    parameters.speeds = grid_.speeds ? 1 : 0;
+    parameters.quantity = static_cast<std::uint32_t>(grid_.quantity);
     parameters.spheres = context_.spheres_;
     parameters.blocks = context_.blocks_;
     parameters.groups = context_.groups_;

@@ -16,6 +16,7 @@
 #include "core/memory.h"
 #include "core/result.h"
 #include "encode/codec_layout.h"
+#include "spherule/v1/frame.pb.h"
 
 // The encoder of docs/codec.md on a device. Used by the thread that owns the device.
 namespace spherule::encode {
@@ -63,7 +64,7 @@ class EncoderContext {
     std::unique_ptr<compute::Buffer> order_, blockWords_, scratch_, groupWords_, sums_, parameters_;
 };
 
-// A buffer with the values of a column: vec4, of which the codec takes x, y and z, or the length of x y z. slotOf: slot
+// A buffer with the values of a column: vec4, of which the codec takes what Grid::quantity says. slotOf: slot
 // by id; null, or ignored, if the context was created without slots.
 struct ColumnSource {
     compute::Buffer* values = nullptr;
@@ -81,8 +82,9 @@ class ColumnEncoder {
         // lengths; 0 along the other axes. They are moved to their images inside the bounds.
         glm::dvec3 periods{};
         bool turns = false;  // the frames count modulo these lengths
-        // The values are velocities (m/s), and the frames have their speeds. The quantum is the unit of docs/codec.md.
-        bool speeds = false;
+        // The content of frames: positions, or a quantity of each row of the values. For SPEED the rows are velocities
+        // (m/s), for other quantities rows of shaders/figures.comp. The quantum is the unit of docs/codec.md.
+        v1::Quantity quantity = v1::QUANTITY_UNSPECIFIED;
     };
 
     // `context` must outlive the encoder. Refused if there is no room.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,8 +21,10 @@ namespace spherule::encode {
 // The buffers with the values of all columns. slotOf: as in ColumnSource.
 struct FrameSource {
     codec::PerColumn<compute::Buffer*> columns{};
-    compute::Buffer* velocity = nullptr;  // null: unknown
     compute::Buffer* slotOf = nullptr;
+    // Returns the rows from which a quantity is coded (ColumnEncoder::Grid), computed for the present state if need be;
+    // null if they cannot be computed. Empty: the source has no quantities.
+    std::function<compute::Buffer*(v1::Quantity)> quantity{};
 };
 
 // Returns the arrays of a simulation. Valid until its next command.
@@ -32,11 +35,10 @@ FrameSource sourceOf(sim::Simulation& simulation);
 class FrameEncoder {
   public:
     // `context` must outlive the encoder. `smallestRadius` in m. `periods`, `turns`: of positions, see
-    // ColumnEncoder::Grid. `speeds`: frames have the speeds; their sources must have velocities. Refused if there is no
-    // room.
+    // ColumnEncoder::Grid. `quantity`: that frames have too, unless a source has none. Refused if there is no room.
     static Result<std::unique_ptr<FrameEncoder>> create(EncoderContext& context, v1::Tier tier, double smallestRadius,
                                                         const glm::dvec3& periods = {}, bool turns = false,
-                                                        bool speeds = false);
+                                                        v1::Quantity quantity = v1::QUANTITY_UNSPECIFIED);
 
     // See ColumnEncoder.
     void encodeKeyframe(const FrameSource& source, bool hash);
@@ -52,15 +54,17 @@ class FrameEncoder {
 
   private:
     FrameEncoder() = default;
+    compute::Buffer* valuesIn(const FrameSource& source);
     void forget();
     void write(v1::Frame& frame);
 
     codec::PerColumn<std::unique_ptr<ColumnEncoder>> encoders_;
     codec::PerColumn<double> quanta_{};
     codec::PerColumn<std::optional<std::string>> arrived_;
-    std::unique_ptr<ColumnEncoder> speeds_;  // null: frames have no speeds
-    double unitOfSpeed_ = 0;
-    std::optional<std::string> arrivedSpeeds_;
+    std::unique_ptr<ColumnEncoder> values_;  // of the quantity; null: frames have none
+    v1::Quantity quantity_ = v1::QUANTITY_UNSPECIFIED;
+    double unit_ = 0;
+    std::optional<std::string> arrivedValues_;
 };
 
 }  // namespace spherule::encode

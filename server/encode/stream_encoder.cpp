@@ -101,9 +101,8 @@ Result<StreamEncoder::Chain*> StreamEncoder::chainOf(const codec::Rendition& ren
     if (const auto known = chains_.find(rendition); known != chains_.end()) return &known->second;
     if (input.epoch != epoch_)
         if (auto done = prepare(input); !done) return tl::unexpected(done.error());
-    const bool speeds = rendition.quantity == v1::SPEED && input.source.velocity != nullptr;
-    auto encoder =
-        FrameEncoder::create(*context_, rendition.tier, input.smallestRadius, input.periods, rendition.turns, speeds);
+    auto encoder = FrameEncoder::create(*context_, rendition.tier, input.smallestRadius, input.periods, rendition.turns,
+                                        input.source.quantity ? rendition.quantity : v1::QUANTITY_UNSPECIFIED);
     if (!encoder) return tl::unexpected(encoder.error());
     Chain& chain = chains_[rendition];
     chain.encoder = std::move(*encoder);

@@ -23,6 +23,9 @@ constexpr auto longestHold = 500ms;   // longest wait of a command for a change 
 constexpr std::size_t mostHeldBytes = std::size_t{32} << 20U;  // of the commands that wait for it
 constexpr std::size_t mostStepCommands = 64;
 constexpr std::size_t mostHashQueries = 64;
+constexpr std::size_t mostInspections = 64;
+constexpr std::ptrdiff_t inspectionsPerSession = 4;
+constexpr int restPerInspection = 19;  // times the time of an inspection: all take 5 % of the time at most
 
 constexpr const char* noMemory = "there is not enough memory for this";
 
@@ -54,6 +57,7 @@ void CommandExecutor::refuseAll(const std::string& reason, Cause cause) {
     while (!held_.empty()) refuse(takeHeld(), reason, cause);
     refuseSteps(reason, cause);
     refuseHashQueries(reason, cause);
+    for (const Request& inspection : std::exchange(inspections_, {})) refuse(inspection, reason, cause);
 }
 
 // Removes and returns the first command that waits for a change.
@@ -190,6 +194,18 @@ void CommandExecutor::advanceChange(Clock::duration slice) {
 
 void CommandExecutor::answerQueries() {
     auto queries = requests_.takeQueries();
+    const auto inspections =
+        std::ranges::stable_partition(queries, [](const Request& query) { return query.command.has_query(); });
+    for (Request& inspection : inspections) {
+        const auto own = std::ranges::count(inspections_, inspection.session, &Request::session);
+        if (inspections_.size() < mostInspections && own < inspectionsPerSession)
+            inspections_.push_back(std::move(inspection));
+        else
+            refuse(inspection, "as many inspections wait as may: send the next when one has been answered",
+                   Cause::TooManyCommands);
+    }
+    queries.erase(inspections.begin(), inspections.end());
+    answerInspections();
     const auto withHash =
         std::ranges::stable_partition(queries, [](const Request& query) { return !query.command.query().hash(); });
     for (Request& query : withHash) {
@@ -208,6 +224,27 @@ void CommandExecutor::answerQueries() {
         answered_ = now;
     }
     for (const Request& query : queries) publisher_.reply(query.session, resultOf(query.command, answer_));
+}
+
+// Looks at one sphere after the other, and answers all that ask for it.
+void CommandExecutor::answerInspections() {
+    while (!inspections_.empty() && Clock::now() >= nextInspection_) {
+        const auto begin = Clock::now();
+        const std::uint64_t sphere = inspections_.front().command.inspect().sphere();
+        const Result<sim::Applied> seen = *apply(inspections_.front().command);
+        std::erase_if(inspections_, [&](const Request& one) {
+            if (one.command.inspect().sphere() != sphere) return false;
+            publisher_.reply(one.session, resultOf(one.command, seen));
+            return true;
+        });
+        const auto end = Clock::now();
+        nextInspection_ = end + restPerInspection * (end - begin);
+    }
+}
+
+std::optional<CommandExecutor::Clock::time_point> CommandExecutor::due() const {
+    if (inspections_.empty()) return std::nullopt;
+    return nextInspection_;
 }
 
 void CommandExecutor::answerHashQueries() {

@@ -46,10 +46,12 @@ class CommandExecutor : private ProducerCommands {
     void serveWaiting();
     // Waits up to `timeout` for a command, and carries it out.
     void serveNext(Clock::duration timeout);
-    // Answers the waiting queries. Those without a hash get the same answer. Every answer includes every applied
-    // command and every completed step command. A hash takes a thread of its own: the world goes on, and the answer
-    // comes in a later call.
+    // Answers the waiting queries and inspections. Inspections take a small part of the time. Queries without a hash
+    // get the same answer. Every answer includes every applied command and every completed step command. A hash takes a
+    // thread of its own: the world goes on, and the answer comes in a later call.
     void answerQueries();
+    // When to call answerQueries() again for the inspections that wait; nullopt if there are none.
+    [[nodiscard]] std::optional<Clock::time_point> due() const;
     // The next query needs a new answer. Call after each change of the state that is not a step.
     void discardAnswer() { answered_.reset(); }
 
@@ -90,6 +92,7 @@ class CommandExecutor : private ProducerCommands {
         std::future<std::uint64_t> hash;
     };
 
+    void answerInspections();
     void answerHashQueries();
     Result<HashQueries> beginHash();
     void refuseHashQueries(const std::string& reason, Cause cause);
@@ -116,8 +119,10 @@ class CommandExecutor : private ProducerCommands {
     std::deque<Steps> steps_;                    // step commands with steps left, in order
     Result<sim::Applied> answer_;                // to queries; reused while nothing newer is needed
     std::optional<Clock::time_point> answered_;  // time of answer_; nullopt: a newer one is needed
-    std::vector<Request> hashQueries_;           // queries for a hash that wait for the one under way
-    std::optional<HashQueries> hashing_;         // under way
+    std::deque<Request> inspections_;            // that wait for their time
+    Clock::time_point nextInspection_{};
+    std::vector<Request> hashQueries_;    // queries for a hash that wait for the one under way
+    std::optional<HashQueries> hashing_;  // under way
 };
 
 }  // namespace spherule::host

@@ -68,6 +68,8 @@ Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerComma
             return push(command.push(), host);
         case v1::Command::kQuery:
             return host.query();
+        case v1::Command::kInspect:
+            return host.inspect(command.inspect().sphere());
         case v1::Command::kSeek:
             return fail(ErrorKind::Refused, "", "a simulation has no other time than now: record it, and play that",
                         Cause::Unfit);

@@ -6,7 +6,7 @@ namespace spherule::host {
 
 Requests::Refusal Requests::push(Request request) {
     const std::lock_guard lock(mutex_);
-    if (request.command.has_query()) {
+    if (request.command.has_query() || request.command.has_inspect()) {
         std::size_t& waiting = queriesOf_[request.session];
         if (waiting >= limits_.queriesPerSession)
             return "as many queries of this client wait as may: send the next when one has been answered";

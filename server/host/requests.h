@@ -22,8 +22,8 @@ struct Request {
 };
 
 // Commands and queries of sessions for the simulation thread. Commands wait in one queue per session. They are taken
-// from the sessions in turn, and in order within a session. Queries change nothing and wait in a separate list, from
-// which all are taken at once. Any thread.
+// from the sessions in turn, and in order within a session. Queries and inspections change nothing and wait in a
+// separate list, from which all are taken at once. Any thread.
 class Requests {
   public:
     struct Limits {

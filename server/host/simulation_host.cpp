@@ -106,6 +106,15 @@ sim::Applied SimulationHost::query() {
     return result;
 }
 
+Result<sim::Applied> SimulationHost::inspect(std::uint64_t sphere) {
+    auto seen = sim::inspect(*simulation_, sphere, "sphere");
+    if (!seen) return tl::unexpected(seen.error());
+    if (auto alive = device_->status(); !alive) return tl::unexpected(alive.error());
+    sim::Applied result = applied();
+    result.inspected = std::move(*seen);
+    return result;
+}
+
 std::optional<Result<sim::Applied>> SimulationHost::advanceChange(Clock::duration slice) {
     const auto end = Clock::now() + slice;
     for (;;) {

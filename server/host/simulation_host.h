@@ -35,6 +35,7 @@ class SimulationHost {
     void pause() { paused_ = true, pendingSteps_ = 0; }
     void resume();
     sim::Applied query();
+    Result<sim::Applied> inspect(std::uint64_t sphere);
     // The result of a command that takes effect now.
     [[nodiscard]] sim::Applied applied() const { return {.step = simulation_->steps()}; }
 

@@ -85,6 +85,7 @@ bool SimulationProducer::advance(Result<void>& done) {
 SimulationProducer::Clock::duration SimulationProducer::waitTime(Clock::time_point now) const {
     Clock::duration wait = longestWait;
     if (host_.running()) wait = std::min(wait, host_.scheduler().untilDue(now));
+    if (const auto due = commands_.due()) wait = std::min(wait, std::max(*due - now, Clock::duration{}));
     if (const auto due = streams_.due()) wait = std::min(wait, std::max(*due - now, Clock::duration{}));
     return wait;
 }

@@ -80,9 +80,22 @@ std::optional<StateStreams::Clock::time_point> StateStreams::due() const {
     return one && other ? std::min(*one, *other) : one ? one : other;
 }
 
+// All chains of a state share its figures.
+encode::FrameSource StateStreams::sourceAt(const Moment& moment) {
+    encode::FrameSource source = encode::sourceOf(host_.simulation());
+    const State state{moment.version, host_.simulation().time()};
+    source.quantity = [this, state, compute = std::move(source.quantity)](v1::Quantity quantity) {
+        if (quantity == v1::SPEED) return compute(quantity);
+        if (figuresOf_ != state) figures_ = compute(quantity);
+        figuresOf_ = state;
+        return figures_;
+    };
+    return source;
+}
+
 encode::EncoderInput StateStreams::inputOfOthers(const Moment& moment) {
     sim::Simulation& simulation = host_.simulation();
-    return {.source = encode::sourceOf(simulation),
+    return {.source = sourceAt(moment),
             .spheres = simulation.count(),
             .smallestRadius = simulation.radii().smallest,
             .periods = simulation.scene().bounds.periods(),

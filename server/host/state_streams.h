@@ -45,7 +45,15 @@ class StateStreams {
     [[nodiscard]] std::uint64_t framesMade() const { return framesMade_; }
 
   private:
+    // Identifies a state of the world: its version, and the simulated time (s), which changes within a step too.
+    struct State {
+        std::uint64_t version = 0;
+        double time = 0;
+        bool operator==(const State&) const = default;
+    };
+
     void publish(const codec::EncodedFrame& encoded);
+    encode::FrameSource sourceAt(const Moment& moment);
     encode::EncoderInput inputOfOthers(const Moment& moment);
     encode::EncoderInput inputOfFollowers(const Moment& moment);
     void renewOthers();
@@ -59,6 +67,8 @@ class StateStreams {
     std::uint64_t framesMade_ = 0;
     encode::StreamEncoder others_;
     encode::StreamEncoder followers_;
+    std::optional<State> figuresOf_;  // the state whose figures are in figures_
+    compute::Buffer* figures_ = nullptr;
     std::uint32_t lastEpoch_ = 0;  // of all that clients have seen
     std::uint32_t othersEpoch_ = 0;
     std::uint64_t othersVersion_ = 0;  // of the population, in this epoch

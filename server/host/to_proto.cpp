@@ -12,6 +12,7 @@
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
 #include "scene/shapes.h"
+#include "scene/view.h"
 
 namespace spherule::host {
 
@@ -77,6 +78,7 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
     scene::setVector(*facts.mutable_camera()->mutable_eye(), scene.camera.eye);
     scene::setVector(*facts.mutable_camera()->mutable_target(), scene.camera.target);
     facts.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
+    if (scene.light) *facts.mutable_light() = scene::messageOf(*scene.light);
     facts.set_cell_size(static_cast<double>(plan.grid.coarsest().cellSize));
     if (plan.features.has(sim::Feature::Contacts))
         for (int axis = 0; axis < 3; ++axis) facts.add_cells(plan.grid.coarsest().cells[axis]);
@@ -231,12 +233,35 @@ v1::Statistics statisticsMessage(const sim::Statistics& s) {
 
 namespace {
 
+v1::Inspected inspectedMessage(const sim::Inspection& seen) {
+    v1::Inspected message;
+    message.set_sphere(seen.sphere);
+    message.set_sim_time(seen.time);
+    scene::setVector(*message.mutable_position(), seen.position);
+    scene::setVector(*message.mutable_velocity(), seen.velocity);
+    scene::setVector(*message.mutable_spin(), seen.spin);
+    if (seen.mass) message.set_mass(*seen.mass);
+    message.set_radius(seen.radius);
+    message.set_material(utf8(seen.material));
+    message.set_contact_count(seen.touches);
+    for (const sim::TouchedBody& touched : seen.contacts) {
+        v1::Contact& contact = *message.add_contacts();
+        if (const auto* const sphere = std::get_if<std::uint64_t>(&touched.body))
+            contact.set_sphere(*sphere);
+        else
+            contact.set_surface(std::get<std::string>(touched.body));
+        contact.set_overlap(touched.overlap);
+    }
+    return message;
+}
+
 v1::Applied appliedMessage(const sim::Applied& applied) {
     v1::Applied message;
     message.set_step(applied.step);
     if (applied.sphere) message.set_sphere(*applied.sphere);
     if (applied.removed) message.set_removed(*applied.removed);
     if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
+    if (applied.inspected) *message.mutable_inspected() = inspectedMessage(*applied.inspected);
     return message;
 }
 

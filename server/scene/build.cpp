@@ -114,6 +114,7 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");
     scene.obstacles = readObstacles(check, message.obstacles(), scene.materials);
     if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
+    if (message.has_light()) scene.light = readLight(check, message.light());
     if (check.ok()) readGroups(check, message, directory, overrides, scene);
     if (check.ok() && !scene.spheres.empty()) {
         checkResolution(check, scene, smallestRadiusOf(scene.spheres), "bounds");

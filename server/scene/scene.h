@@ -138,6 +138,14 @@ struct Camera {
     double fieldOfView = 30;  // degrees, vertical
 };
 
+// The light in pictures.
+struct Light {
+    std::optional<glm::dvec3> direction{};  // to the light, of unit length; nullopt: the viewer chooses
+    double strength = 1;                    // 0 to 10
+    std::string colour{};                   // "#rrggbb"; empty: the viewer chooses
+    double sky = 1;                         // strength of the light from all sides, 0 to 10
+};
+
 struct Sleep {
     bool enabled = true;
     double speed = 0.02;  // m/s
@@ -157,6 +165,7 @@ struct Scene {
     double step = 1.0 / 60;  // s
     Quality quality;
     Camera camera;
+    std::optional<Light> light;  // nullopt: the viewer chooses
     Sleep sleep;
     std::vector<Box> sinks;  // spheres whose centre is inside at the end of a step are removed
     bool sphereContacts = true;

@@ -41,4 +41,27 @@ Camera readCamera(Check& check, const v1::Camera& message, const Bounds& bounds)
     return camera;
 }
 
+Light readLight(Check& check, const v1::Light& message) {
+    constexpr double strongest = 10;
+    Light light;
+    if (!message.direction().empty()) {
+        const glm::dvec3 direction = check.vector(message.direction(), "light.direction");
+        if (check.ok() && direction == glm::dvec3(0)) check.refuse("light.direction", "has no length");
+        if (check.ok()) light.direction = glm::normalize(direction);
+    }
+    if (message.has_strength()) light.strength = check.within(message.strength(), 0, strongest, "light.strength");
+    light.colour = check.colour(message.colour(), "light.colour");
+    if (message.has_sky()) light.sky = check.within(message.sky(), 0, strongest, "light.sky");
+    return light;
+}
+
+v1::Light messageOf(const Light& light) {
+    v1::Light message;
+    if (light.direction) setVector(*message.mutable_direction(), *light.direction);
+    message.set_strength(light.strength);
+    message.set_colour(light.colour);
+    message.set_sky(light.sky);
+    return message;
+}
+
 }  // namespace spherule::scene

@@ -12,4 +12,8 @@ Camera framing(const Bounds& bounds, double fieldOfView);
 // Reads the camera. If eye and target are absent, it is framing().
 Camera readCamera(Check& check, const v1::Camera& message, const Bounds& bounds);
 
+Light readLight(Check& check, const v1::Light& message);
+// Returns the light as scenes and facts have it.
+v1::Light messageOf(const Light& light);
+
 }  // namespace spherule::scene

@@ -41,6 +41,7 @@ enum class Extent : std::uint8_t {
     Counter,
     StatisticBlock,
     SurfaceSumWord,  // SURFACE_SUM_WORDS for each copy of each surface
+    InspectedWord,   // of one sphere: see layout.h
 };
 
 struct ArrayType {

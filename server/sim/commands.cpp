@@ -139,7 +139,6 @@ class Simulation::CommandHandler {
   private:
     // Ranks, see Population.
     Result<std::uint32_t> targetOf(const Push& push);
-    Result<std::uint32_t> rankOf(std::uint64_t id, std::string_view field);
     Result<std::vector<std::uint32_t>> ranksOf(const Remove& remove);
     Result<void> checkPush(std::uint32_t rank, const glm::dvec3& impulse);
 
@@ -237,19 +236,10 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& p
     return Outcome{.applied = {.sphere = id}};
 }
 
-Result<std::uint32_t> Simulation::CommandHandler::rankOf(std::uint64_t id, std::string_view field) {
-    const Population& population = simulation_.population_;
-    if (const auto rank = population.rankOf(id)) return *rank;
-    return fail(ErrorKind::Refused, std::string(field),
-                population.wasBorn(id) ? fmt::format("is {}, a sphere that was removed", id)
-                                       : fmt::format("is {}, the scene has {} spheres", id, population.count()),
-                Cause::NoSuchSphere);
-}
-
 Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Remove& remove) {
     std::vector<std::uint32_t> ranks;
     for (std::size_t k = 0; k < remove.spheres.size(); ++k) {
-        const auto rank = rankOf(remove.spheres[k], "spheres");
+        const auto rank = rankOf(simulation_.population_, remove.spheres[k], "spheres");
         if (!rank)
             return fail(ErrorKind::Refused, fmt::format("spheres[{}]", k), rank.error().message, Cause::NoSuchSphere);
         ranks.push_back(*rank);
@@ -291,7 +281,7 @@ Result<std::uint32_t> Simulation::CommandHandler::targetOf(const Push& push) {
         if (!hit) return fail(ErrorKind::Refused, "ray", "meets no sphere", Cause::NoHit);
         return *hit;
     }
-    return rankOf(std::get<std::uint64_t>(push.target), "sphere");
+    return rankOf(simulation_.population_, std::get<std::uint64_t>(push.target), "sphere");
 }
 
 // The speed (m/s) up to which the motion of a sphere of this radius can be limited to a safe one.

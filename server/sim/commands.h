@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "scene/scene.h"
+#include "sim/inspection.h"
 #include "sim/statistics.h"
 
 // The commands that a simulation carries out, as plain values.
@@ -63,6 +64,7 @@ struct Applied {
     std::optional<std::uint64_t> sphere{};   // the sphere that a push hit
     std::optional<std::uint32_t> removed{};  // spheres that a Remove removed
     std::optional<Statistics> statistics{};  // of a query
+    std::optional<Inspection> inspected{};   // of an inspection
 };
 
 // Returns the scene with the settings, and with the substeps that they require. Refused if a setting is out of range;

@@ -176,13 +176,19 @@ Result<void> Pipeline::bindAll() {
                                           {&plan_.statistics, &statistics_},
                                           {&plan_.stepEnd, &stepEnd_}})
         for (const LaunchSpec& spec : *launches) {
-            const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
-            const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
-            auto arrays = arraysFor(spec, kernel);
-            if (!arrays) return tl::unexpected(arrays.error());
-            bound->push_back({.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)});
+            auto one = bind(spec);
+            if (!one) return tl::unexpected(one.error());
+            bound->push_back(std::move(*one));
         }
     return {};
+}
+
+Result<Pipeline::BoundLaunch> Pipeline::bind(const LaunchSpec& spec) {
+    const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
+    const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
+    auto arrays = arraysFor(spec, kernel);
+    if (!arrays) return tl::unexpected(arrays.error());
+    return BoundLaunch{.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)};
 }
 
 void Pipeline::setParameters(layout::Parameters parameters) {

@@ -74,6 +74,21 @@ class Pipeline {
     // of 1e-4 of the sum of the radii, or of 2e-4 of the radius at walls and obstacles. Waits for the device.
     std::vector<std::uint32_t> contactCounts();
 
+    // Computes the contacts, the overlap and the energy of each sphere in the present state, see figures.comp. Returns
+    // the array with them, by slot; it is valid until anything else is done. The first call makes what is needed for
+    // it.
+    Result<compute::Buffer*> figures();
+    // Returns what the sphere touches, as the array Inspected has it. Waits for the device. Likewise.
+    Result<std::vector<std::uint32_t>> inspect(std::uint32_t handle);
+    // Returns the row of a sphere in a column; zero if the plan has no such column. Waits for the device.
+    template <class T>
+    T rowOf(std::uint32_t handle, Array column) {
+        T row{};
+        if (plan_.has(column))
+            device_.download(buffer(column), slotOf(handle) * sizeof row, std::as_writable_bytes(std::span(&row, 1)));
+        return row;
+    }
+
     // Returns an array as elements of T, at most the first `most`. Empty if the plan has no such array. Waits for the
     // device.
     template <class T>
@@ -119,6 +134,7 @@ class Pipeline {
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
     Result<void> makeSlotOf();
+    Result<void> makeMissing(Array array, std::uint64_t elements);
     void moveLastInto(std::vector<std::uint32_t> slots);
     [[nodiscard]] std::size_t rowBytes(Array array) const;
     void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
@@ -128,7 +144,9 @@ class Pipeline {
         const compute::Kernel* kernel = nullptr;
         std::vector<Array> arrays;
     };
+    Result<BoundLaunch> bind(const LaunchSpec& spec);
     Result<void> bindAll();
+    Result<void> bindLate(const std::vector<LaunchSpec>& launches, std::vector<BoundLaunch>& bound);
     enum class LaunchSet : std::uint8_t { Substep, ObservedSubstep, Rebuild, Waking };
     void run(const std::vector<BoundLaunch>& launches, LaunchSet set);
 
@@ -145,7 +163,8 @@ class Pipeline {
     std::unique_ptr<compute::Buffer> parameters_;
     std::vector<std::unique_ptr<compute::Kernel>> kernels_;
     std::vector<BoundLaunch> substep_, newSubstep_, statistics_, stepEnd_;
-    float substepLength_ = 0;  // s; 0: none yet
+    std::vector<BoundLaunch> figures_, inspection_;  // empty until they are first needed
+    float substepLength_ = 0;                        // s; 0: none yet
 };
 
 }  // namespace spherule::sim

@@ -118,11 +118,16 @@ Result<void> Pipeline::remove(std::span<const std::uint32_t> handles) {
 
 // Makes the array SlotOf: in scenes without contacts, slots are handles until a sphere is removed.
 Result<void> Pipeline::makeSlotOf() {
-    if (plan_.has(Array::SlotOf)) return {};
-    const ArraySpec spec{Array::SlotOf, std::uint64_t{plan_.room} * typeOf(Array::SlotOf).elementBytes};
-    auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
+    return makeMissing(Array::SlotOf, plan_.room);
+}
+
+// Makes an array unless the plan has it.
+Result<void> Pipeline::makeMissing(Array array, std::uint64_t elements) {
+    if (plan_.has(array)) return {};
+    const ArraySpec spec{array, elements * typeOf(array).elementBytes};
+    auto made = device_.createBuffer(nameOf(array), spec.bytes, typeOf(array).words);
     if (!made) return tl::unexpected(made.error());
-    setBuffer(spec.array, std::move(*made));
+    setBuffer(array, std::move(*made));
     plan_.arrays.push_back(spec);
     return {};
 }
@@ -174,10 +179,7 @@ std::uint32_t Pipeline::slotOf(std::uint32_t handle) {
 }
 
 glm::vec4 Pipeline::velocityOf(std::uint32_t handle) {
-    glm::vec4 velocity;
-    device_.download(buffer(Array::Velocity), slotOf(handle) * sizeof velocity,
-                     std::as_writable_bytes(std::span(&velocity, 1)));
-    return velocity;
+    return rowOf<glm::vec4>(handle, Array::Velocity);
 }
 
 void Pipeline::applyImpulse(std::uint32_t handle, glm::vec3 impulse) {

@@ -87,6 +87,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
             return blocksOf(plan.room, STATISTIC_BLOCK);
         case Extent::SurfaceSumWord:
             return std::uint64_t{scene::surfacesOf(scene)} * SURFACE_SUM_COPIES * SURFACE_SUM_WORDS;
+        case Extent::InspectedWord:
+            return 1 + 2 * std::uint64_t{INSPECTED_MOST};
     }
     return 0;
 }
@@ -128,11 +130,29 @@ std::vector<std::uint32_t> launchTable(const Plan& plan) {
 }
 
 void updateLaunches(Plan& plan) {
-    for (auto* launches : {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd})
+    for (auto* launches :
+         {&plan.substep, &plan.newSubstep, &plan.statistics, &plan.stepEnd, &plan.figures, &plan.inspection})
         for (LaunchSpec& launch : *launches) {
             if (launch.launchRow) launch.count = plan.dispatchSizes.at(*launch.launchRow);
             if (launch.over != Varying::Nothing) launch.count = invocationsOver(launch.over, plan);
         }
+}
+
+// Adds the launches that only viewers ask for.
+void addRequests(Plan& plan) {
+    const std::vector<Alias> aliases{{"touching", touchingArray}, {"deepest", deepestArray}};
+    const auto over = [](Varying what, std::string_view kernel, std::vector<Alias> bound) {
+        return LaunchSpec{.pass = Pass::Statistics, .kernel = kernel, .over = what, .aliases = std::move(bound)};
+    };
+    plan.figures.push_back(over(Varying::Spheres, "figures_surfaces.comp", aliases));
+    if (plan.features.has(Feature::Contacts)) {
+        plan.figures.push_back(over(Varying::Nothing, "figures_contacts.comp", aliases));
+        plan.figures.back().count = plan.grid.bundles();
+    }
+    plan.figures.push_back(over(Varying::Spheres, "figures.comp", aliases));
+    plan.figures.back().aliases.push_back({"figures", figuresArray});
+    plan.inspection.push_back(over(Varying::Spheres, "inspect.comp", {}));
+    updateLaunches(plan);
 }
 
 }  // namespace
@@ -191,13 +211,15 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
         plan.maxWallHistory = std::min(wallHistoryLimit, scene::surfacesOf(scene) - unused);
     }
     PlanBuilder builder(plan, scene);
-    builder.arrays({Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums});
+    builder.arrays(
+        {Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters, Array::SphereSums, Array::Inspected});
     if (features.has(Feature::Contacts) || features.hasSurfaceFeature()) builder.arrays({touchingArray});
     if (!features.has(Feature::Balanced)) builder.overSpheres(Stage::Integrate, Pass::Integrate, "integrate.comp");
     builder.statisticsOfSpheres("statistics_spheres.comp", {{"touching", touchingArray}});
     for (const Module* module : modules())
         if (module->declare != nullptr && plan.features.has(module->feature)) module->declare(builder);
     builder.finish();
+    addRequests(plan);
     return plan;
 }
 

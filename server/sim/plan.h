@@ -35,6 +35,10 @@ struct Alias {
 // Nothing else uses this array between two rebuilds: statistics count in it what each sphere touches.
 constexpr Array touchingArray = Array::SortScratchWords;
 
+// The same holds for these two, with the figures that frames carry: the overlap while it is found, then all figures.
+constexpr Array deepestArray = Array::RankInCell;
+constexpr Array figuresArray = Array::SortScratch;
+
 // Things of which a simulation may get more or fewer.
 enum class Varying : std::uint8_t { Nothing, Spheres, StatisticBlocks, PairsTwice };
 
@@ -67,6 +71,8 @@ struct Plan {
     std::vector<LaunchSpec> newSubstep;        // when the length of the substep has changed
     std::vector<LaunchSpec> statistics;        // on demand
     std::vector<LaunchSpec> stepEnd;           // at the end of a step
+    std::vector<LaunchSpec> figures;           // when viewers ask for them: the figures of each sphere
+    std::vector<LaunchSpec> inspection;        // likewise: what one sphere touches
     std::vector<std::uint32_t> dispatchSizes;  // invocations per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;

@@ -49,15 +49,25 @@ double volumeOf(const scene::Bounds& bounds) {
 
 }  // namespace
 
-std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene& scene) {
+std::string surfaceName(const scene::Scene& scene, std::uint32_t surface) {
     constexpr std::array<const char*, scene::faceCount> faceNames = {"X_MIN", "X_MAX", "Y_MIN",
                                                                      "Y_MAX", "Z_MIN", "Z_MAX"};
+    if (surface < faceNames.size()) return faceNames[surface];
+    std::size_t obstacle = 0;
+    for (std::size_t end = scene::faceCount; obstacle < scene.obstacles.size(); ++obstacle) {
+        end += scene.obstacles[obstacle].shape->parts();
+        if (surface < end) break;
+    }
+    return fmt::format("obstacles[{}]", obstacle);
+}
+
+std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene& scene) {
     std::vector<SurfaceForce> forces;
     if (sums.loads.empty() || !(sums.seconds > 0)) return forces;
-    for (std::size_t face = 0; face < faceNames.size(); ++face)
+    for (std::uint32_t face = 0; face < scene::faceCount; ++face)
         if (scene.bounds.walled(face))
-            forces.push_back(
-                {faceNames[face], sums.loads[face].impulse / sums.seconds, sums.loads[face].moment / sums.seconds});
+            forces.push_back({surfaceName(scene, face), sums.loads[face].impulse / sums.seconds,
+                              sums.loads[face].moment / sums.seconds});
     std::size_t surface = scene::faceCount;
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
         SurfaceForce sum{.surface = fmt::format("obstacles[{}]", k)};

@@ -76,6 +76,9 @@ struct Statistics {
     [[nodiscard]] double deepest() const { return std::max(overlapMax, wallOverlapMax); }
 };
 
+// Returns the name of a surface as in SurfaceForce. `surface`: its number through faces and parts of obstacles.
+std::string surfaceName(const scene::Scene& scene, std::uint32_t surface);
+
 // Returns the mean forces on the closed faces and on the obstacles over the time of `sums`, in the order of the scene.
 // An obstacle bears the loads of all its surfaces. Without any time, or without surfaces, there are none.
 std::vector<SurfaceForce> meanForces(const ContactSums& sums, const scene::Scene& scene);

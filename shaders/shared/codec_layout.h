@@ -10,7 +10,7 @@
 #define CODEC_TURNS_HEAD 7u     // the same with turns
 #define CODEC_MOST_WORDS 197u   // of a block
 #define CODEC_PACKED 208u       // words from one packed block to the next before they are placed: whole cache lines
-#define CODEC_SPEED_SHIFT 17u   // bits of a float that the code of a speed leaves out: 64 codes per power of two
+#define CODEC_VALUE_SHIFT 17u   // bits of a float that the code of a value leaves out: 64 codes per power of two
 #define CODEC_MASK_WIDTHS 12u   // no mask is tried if x, y and z together have more bits
 
 #define CODEC_MAGIC 0x00015053u
@@ -37,14 +37,19 @@
 #define CODEC_SIZE 1u
 #define CODEC_OFFSET 2u
 
+// Values of `quantity`. From CODEC_FIGURES on a component of the row is coded: CODEC_FIGURES is x.
+#define CODEC_POSITIONS 0u
+#define CODEC_LENGTHS 1u        // of x, y, z
+#define CODEC_FIGURES 2u
+
 // The uniform block, std140.
 struct Parameters {
     vec4 origin;         // m
-    vec4 perQuantum;     // 1/m: 1 / quantum of each axis; for speeds x: s/m, 1 / unit
+    vec4 perQuantum;     // 1/m: 1 / quantum of each axis; for quantities x: 1 / unit
     vec4 period;         // m: length of each periodic axis; 0: not periodic
     uvec4 turns;         // quanta in these lengths, modulo which positions are counted; 0: they are not
     uint head;           // words of the frame before the table of chunks
-    uint speeds;         // not 0: the values are speeds
+    uint quantity;       // the coded part of each row, such as CODEC_POSITIONS
     uint unusedUint1;
     uint unusedUint2;
     uint spheres;

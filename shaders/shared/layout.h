@@ -112,6 +112,12 @@ struct SphereStatistics {
 // Once in this number of substeps, all spheres that can fall asleep do so together.
 #define SLEEP_INTERVAL 32u
 
+// The contacts of an inspected sphere, in the buffer `inspected`: their number, then two words for each of the first
+// INSPECTED_MOST. The first word is the id of a sphere, or INSPECTED_SURFACE and the number of a surface. The second word
+// is the overlap over the smaller radius, as bits of a float.
+#define INSPECTED_MOST 1024u
+#define INSPECTED_SURFACE 0x80000000u
+
 // Words of the `counters` buffer.
 #define COUNTER_REBUILD 0u      // lists are to be rebuilt
 #define COUNTER_PAIRS 1u        // listed, with the space between bundles

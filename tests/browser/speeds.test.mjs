@@ -81,8 +81,8 @@ test("the legend of speeds spans the speeds, and the stream has none while none 
   await says(page, "legend", /3 m\/s/);
   await page.keyboard.press("Escape"); // deselects
   await page.selectOption(control("colour"), { label: "Id" });
-  await when(page, () => spherule.session.newest?.columns.speed === undefined);
+  await when(page, () => spherule.session.newest?.columns.value === undefined);
   await page.selectOption(control("colour"), { label: "Speed" });
-  await when(page, () => spherule.session.newest?.columns.speed !== undefined);
+  await when(page, () => spherule.session.newest?.columns.value !== undefined);
   assert.deepEqual(page.faults, []);
 });

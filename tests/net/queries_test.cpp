@@ -35,10 +35,24 @@ std::unique_ptr<host::Host> serve() {
     return std::move(*server);
 }
 
+v1::ClientMessage statisticsQuery(std::uint64_t /*number*/) {
+    v1::ClientMessage query;
+    query.mutable_command()->mutable_query();
+    return query;
+}
+
+// Another sphere each time.
+v1::ClientMessage inspection(std::uint64_t number) {
+    v1::ClientMessage inspect;
+    inspect.mutable_command()->mutable_inspect()->set_sphere(number * 37 % 4000);
+    return inspect;
+}
+
 // Each viewer sends a query every 10 ms, the command limit of one session, while `run` is true.
 class Viewers {
   public:
-    Viewers(std::uint16_t port, int count) {
+    using Query = v1::ClientMessage (*)(std::uint64_t number);
+    Viewers(std::uint16_t port, int count, Query query) : query_(query) {
         for (int k = 0; k < count; ++k) {
             sockets_.push_back(std::make_unique<RawSocket>(port));
             EXPECT_EQ(sockets_.back()->openStream().substr(0, 12), "HTTP/1.1 101");
@@ -51,19 +65,19 @@ class Viewers {
 
   private:
     void work(const std::stop_token& stop) {
-        v1::ClientMessage query;
-        query.mutable_command()->mutable_query();
-        query.mutable_command()->set_id(1);
-        const std::string bytes = query.SerializeAsString();
         while (!stop.stop_requested()) {
             for (const auto& socket : sockets_) {
-                if (asking_) socket->sendFrame(binaryFrame, bytes);
+                v1::ClientMessage query = query_(++asked_);
+                query.mutable_command()->set_id(1);
+                if (asking_) socket->sendFrame(binaryFrame, query.SerializeAsString());
                 socket->drain();
             }
             std::this_thread::sleep_for(10ms);
         }
     }
 
+    const Query query_;
+    std::uint64_t asked_ = 0;
     std::atomic<bool> asking_ = false;
     std::vector<std::unique_ptr<RawSocket>> sockets_;
     std::jthread thread_;
@@ -108,10 +122,12 @@ T medianOf(std::vector<T> values) {
     return *middle;
 }
 
+class FromFortyViewers : public testing::TestWithParam<Viewers::Query> {};
+
 // The simulation runs without pauses, so an answer takes about one step, with or without queries.
-TEST(Queries, FromFortyViewersDoNotDelayCommands) {
+TEST_P(FromFortyViewers, DoNotDelayCommands) {
     const auto host = serve();
-    Viewers viewers(host->port(), 40);
+    Viewers viewers(host->port(), 40, GetParam());
     Controller controller(host->port());
     (void)controller.give(R"("set":{"speed":100,"substeps":400})");
     // Short turns, so that a change of the machine's load affects both sides of most ratios.
@@ -128,6 +144,9 @@ TEST(Queries, FromFortyViewersDoNotDelayCommands) {
     EXPECT_LE(medianOf(ratios), 1.5) << testing::PrintToString(ratios);
     EXPECT_TRUE(host->drain());
 }
+
+INSTANTIATE_TEST_SUITE_P(Queries, FromFortyViewers, testing::Values(statisticsQuery, inspection),
+                         [](const auto& parameter) { return parameter.index == 0 ? "ForStatistics" : "ForSpheres"; });
 
 TEST(Queries, SeeEarlierCommands) {
     const auto host = serve();

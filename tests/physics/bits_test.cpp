@@ -115,6 +115,21 @@ TEST_P(Bits, OfAMixtureAreTheSameOnAllDevices) {
     expectTheSameBits(mixture(GetParam()), GetParam() == scene::Model::Accurate ? 0.15 : 0.6);
 }
 
+// The figures that frames carry.
+TEST_P(Bits, OfFiguresAreTheSameOnAllDevices) {
+    std::optional<std::vector<glm::vec4>> expected;
+    for (const char* const choice : {"software", "cpu:1x1", "cpu:2x4", "cpu:8"}) {
+        const auto device = compute::openDevice(choice).value();
+        auto simulation = simulate(mixture(GetParam()), *device);
+        run(*simulation, GetParam() == scene::Model::Accurate ? 0.15 : 0.4);
+        ASSERT_TRUE(simulation->pipeline().figures());
+        const auto found = simulation->pipeline().read<glm::vec4>(sim::figuresArray, simulation->count());
+        if (!expected) expected = found;
+        EXPECT_EQ(found, *expected) << choice;
+        EXPECT_GT(std::ranges::max(found, {}, &glm::vec4::x).x, 0) << choice;
+    }
+}
+
 TEST_P(Bits, OfAMixtureInFieldsAreTheSameOnAllDevices) {
     scene::Scene scene = mixture(GetParam());
     scene.forces.fields = {scene::Drag{.density = 100}, scene::Attraction{{0.1, 0.2, -0.3}, 0.5, 0.1}};

@@ -110,8 +110,8 @@ TEST(Plan, WithoutFrictionHasNoRotation) {
     }
 }
 
-const std::vector<Array> arraysOfEveryPlan = {Array::Position, Array::Velocity, Array::IdAndMaterial, Array::Counters,
-                                              Array::SphereSums};
+const std::vector<Array> arraysOfEveryPlan = {Array::Position, Array::Velocity,   Array::IdAndMaterial,
+                                              Array::Counters, Array::SphereSums, Array::Inspected};
 
 TEST(Plan, WithoutContactsAndForcesOnlyMoves) {
     for (const auto& [model, passes] : passesByModel) {

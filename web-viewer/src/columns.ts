@@ -6,12 +6,14 @@ import type { Frame } from "./gen/spherule/v1/frame_pb";
 /** The values of all spheres in one state. */
 export interface Column {
   values: Float32Array; // `components` per sphere, by place
-  quantum: number; // a position is off by at most half of it; for speeds: their unit
+  quantum: number; // a position is off by at most half of it; for a quantity: its unit
+  quantity?: Quantity | undefined; // that the values are; undefined: positions
 }
 
 export interface EncodedColumn {
   quantum: number;
   spb: Uint8Array;
+  quantity?: Quantity | undefined;
 }
 
 interface ColumnFormat {
@@ -21,14 +23,14 @@ interface ColumnFormat {
 }
 
 /** A column of this name has tables in the shaders: u_<name>From and u_<name>To (renderer/program.ts). */
-export const columnFormats: { position: ColumnFormat; speed: ColumnFormat } = {
+export const columnFormats: { position: ColumnFormat; value: ColumnFormat } = {
   // x y z (m), relative to the centre of the bounds
-  position: { components: 3, encoded: (frame) => frame },
-  // m/s; within 1 %
-  speed: {
+  position: { components: 3, encoded: ({ quantum, spb }) => ({ quantum, spb }) },
+  // a quantity; within 1 %
+  value: {
     components: 1,
     encoded: ({ quantity, unit, values }) =>
-      quantity === Quantity.SPEED ? { quantum: unit, spb: values } : undefined,
+      quantity === Quantity.QUANTITY_UNSPECIFIED ? undefined : { quantum: unit, spb: values, quantity },
   },
 };
 

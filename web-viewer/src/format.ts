@@ -48,6 +48,11 @@ export function withPrefix(value: number, unit: string): string {
   return `${figure(rounded / fitting[0])} ${fitting[1]}${unit}`;
 }
 
+/** A share, as in 2.5 %. */
+export function percent(share: number): string {
+  return `${figure(100 * share)} %`;
+}
+
 /** A length in km, m, cm, mm or µm. */
 export function length(metres: number): string {
   if (!Number.isFinite(metres)) return absent;

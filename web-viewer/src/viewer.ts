@@ -205,7 +205,7 @@ export class Viewer {
     const { session, camera, choices } = this;
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
-    if (session.facts) this.subscription.setSpeeds(this.page.needsSpeeds);
+    if (session.facts) this.subscription.setQuantity(this.page.quantity);
     const shown = session.states.shown(wall);
     this.ranges.update(this.session.facts, shown, now);
     this.follow(shown);

@@ -2,9 +2,11 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { groupColour } from "../src/colour/groups";
 import { AutoRange, niceAbove } from "../src/colour/range";
+import * as ramps from "../src/colour/ramp";
 import { rampColour, speedRamp } from "../src/colour/ramp";
 import { css, hexToRgb } from "../src/colour/rgb";
-import { defaultMode } from "../src/model/quantities";
+import type { Rgb } from "../src/colour/rgb";
+import { defaultMode, modes, quantityOf } from "../src/model/quantities";
 
 test("values are rounded up to 1, 2, 3 or 5 times a power of ten", () => {
   const cases = [[0.9, 1], [1, 1], [1.1, 2], [2.5, 3], [4, 5], [7, 10], [0.031, 0.05], [1234, 2000]] as const;
@@ -52,6 +54,38 @@ test("a ramp interpolates between its stops, and is constant beyond its ends", (
   assert.equal(css(rampColour(speedRamp, 7)), css(speedRamp[5]));
   const between = rampColour(speedRamp, 0.1);
   assert.ok(Math.abs(between[0] - (speedRamp[0][0] + speedRamp[1][0]) / 2) < 1e-9);
+});
+
+// How people see linear RGB (Machado, Oliveira and Fernandes 2009, complete deficiency).
+const vision = {
+  "full colour vision": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+  protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+  deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+};
+
+/** The lightness L* of a colour, from 0 to 100. */
+function lightness(colour: Rgb, seen: number[][]): number {
+  const linear = colour.map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+  const [r = 0, g = 0, b = 0] = seen.map((row) => row.reduce((sum, weight, k) => sum + weight * (linear[k] ?? 0), 0));
+  const luminance = Math.max(0, 0.2126 * r + 0.7152 * g + 0.0722 * b);
+  return luminance > 0.008856 ? 116 * Math.cbrt(luminance) - 16 : 903.3 * luminance;
+}
+
+test("the lightness of every ramp rises clearly from stop to stop, for colour-blind people too", () => {
+  const used = modes.flatMap((mode) => quantityOf(mode).scale?.ramp ?? []);
+  const all = Object.entries(ramps).filter(([name]) => name.endsWith("Ramp"));
+  assert.equal(used.length / 6, all.length);
+  for (const [name, stops] of all as [string, ramps.Ramp][]) {
+    for (const [kind, seen] of Object.entries(vision)) {
+      const steps = Array.from({ length: 21 }, (_, k) => lightness(rampColour(stops, k / 20), seen));
+      for (let k = 4; k <= 20; k += 4) {
+        const rise = (steps[k] ?? 0) - (steps[k - 4] ?? 0);
+        assert.ok(rise >= 6, `${name}, ${kind}: rises by ${rise.toFixed(1)} before stop ${k / 4}`);
+      }
+      const falls = steps.findIndex((step, k) => k > 0 && step <= (steps[k - 1] ?? 0));
+      assert.equal(falls, -1, `${name}, ${kind}: falls at ${falls / 20}`);
+    }
+  }
 });
 
 test("colours are parsed from six hexadecimal digits only", () => {

@@ -47,16 +47,20 @@ test("speeds are decoded from their codes, in id order, and end with the chain t
   const frames = begun();
   const decoded = frames.decode(first({ ...speeds, values: keyframe(1, codes) }));
   assert.ok(decoded.kind === "state");
-  const found = [...(decoded.content.columns.speed?.values ?? [])];
+  const found = [...(decoded.content.columns.value?.values ?? [])];
   const expected = [0.01 * (1.5 / 64), 0.01 * (1024 * (1 + 0.5 / 64) - 1), 0];
   assert.deepEqual(found, expected.map(Math.fround));
   const after = frames.decode(next(2, { ...speeds, values: still(2, 3) }));
   assert.ok(after.kind === "state");
-  assert.deepEqual([...(after.content.columns.speed?.values ?? [])], found);
+  assert.deepEqual([...(after.content.columns.value?.values ?? [])], found);
+  assert.equal(after.content.columns.value?.quantity, Quantity.SPEED);
+  const energies = { ...speeds, quantity: Quantity.ENERGY, values: still(3, 3) };
+  assert.equal(frames.decode(next(3, energies)).kind, "behind", "another quantity begins with a keyframe");
+  frames.decode(first({ ...speeds, values: keyframe(1, codes) }));
   assert.equal(frames.decode(next(3)).kind, "behind", "another chain begins with a keyframe");
   const without = frames.decode(first());
   assert.ok(without.kind === "state");
-  assert.equal(without.content.columns.speed, undefined);
+  assert.equal(without.content.columns.value, undefined);
   assert.equal(frames.decode(next(2, { ...speeds, values: still(2, 3) })).kind, "behind");
 });
 

@@ -2,10 +2,11 @@ import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
+import { Quantity } from "../src/gen/spherule/v1/frame_pb";
 import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
-import { positionOf, shownPosition, shownSpeed, speedOf } from "../src/model/positions";
+import { positionOf, sentValue, shownPosition, shownSpeed, speedOf } from "../src/model/positions";
 import type { Shown, State } from "../src/model/states";
 
 const facts = factsOf(
@@ -50,12 +51,27 @@ test("without speeds of the server, a speed is the distance between two states o
 test("speeds of the server are shown, also of a single state", () => {
   const withSpeeds = (simTime: number, speeds: number[]): State => {
     const one = state(simTime, [0, 0, 0, 0, 0, 0]);
-    return { ...one, columns: { ...one.columns, speed: { values: Float32Array.from(speeds), quantum: 0.001 } } };
+    const value = { values: Float32Array.from(speeds), quantum: 0.001, quantity: Quantity.SPEED };
+    return { ...one, columns: { ...one.columns, value } };
   };
   const from = withSpeeds(2, [0, 1]);
   assert.deepEqual(shownSpeed(facts, between(from, withSpeeds(4, [0, 3]), 0.25), 1), { speed: 1.5, error: 0 });
   assert.deepEqual(shownSpeed(facts, between(from, from), 1), { speed: 1, error: 0 });
   assert.equal(shownSpeed(facts, between(from, state(4, [0, 0, 0, 3, 4, 0])), 1)?.speed, 2.5, "one state has none");
+});
+
+test("a quantity of the server is known only if both states have it", () => {
+  const having = (quantity: Quantity, values: number[]): State => {
+    const one = state(2, [0, 0, 0, 0, 0, 0]);
+    return { ...one, columns: { ...one.columns, value: { values: Float32Array.from(values), quantum: 1, quantity } } };
+  };
+  const from = having(Quantity.CONTACTS, [4, 8]);
+  assert.equal(sentValue(Quantity.CONTACTS, between(from, having(Quantity.CONTACTS, [6, 9]), 0.5), 0), 5);
+  assert.ok(Number.isNaN(sentValue(Quantity.CONTACTS, between(from, having(Quantity.OVERLAP, [6, 9])), 0)));
+  assert.ok(Number.isNaN(sentValue(Quantity.OVERLAP, between(from, from), 0)));
+  assert.ok(Number.isNaN(sentValue(Quantity.CONTACTS, between(from, state(4, [0, 0, 0])), 0)));
+  const still = between(from, from);
+  assert.equal(shownSpeed(facts, still, 0), undefined, "numbers of contacts are no speeds");
 });
 
 test("the high speed ignores the fastest spheres", () => {

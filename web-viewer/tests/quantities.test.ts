@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { radiusRamp, speedRamp } from "../src/colour/ramp";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
+import { Quantity } from "../src/gen/spherule/v1/frame_pb";
 import { ColourRanges } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
 import type { Facts } from "../src/model/facts";
@@ -26,9 +27,10 @@ function state(sequence: number, simTime: number, x: number): State {
   return { sequence, epoch: 1, step: sequence, simTime, count: 1, columns: { position }, ...drawing };
 }
 
-test("only the range of speeds is automatic", () => {
+test("the ranges of what changes with time are automatic", () => {
   const ranges = new ColourRanges();
-  assert.deepEqual(modes.filter((mode) => ranges.isAutomatic(mode)), ["speed"]);
+  const automatic = modes.filter((mode) => ranges.isAutomatic(mode));
+  assert.deepEqual(automatic, ["speed", "contacts", "overlap", "energy"]);
   assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
   assert.deepEqual(ranges.of("id", facts()), [0, 7]);
 });
@@ -44,6 +46,31 @@ test("automatic ranges follow the values shown, unless they are locked", () => {
   assert.deepEqual([ranges.locked, ranges.of("speed", undefined)], [false, [0, 5]]);
   ranges.reset();
   assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
+});
+
+test("ends that the user gives replace the automatic ones until another scene comes", () => {
+  const ranges = new ColourRanges();
+  ranges.give("speed", { low: 0.02 });
+  assert.deepEqual(ranges.of("speed", undefined), [0.02, 0.1]);
+  ranges.give("radius", { high: 7 });
+  assert.deepEqual(ranges.of("radius", facts()), [0.25, 7]);
+  assert.deepEqual(ranges.automaticOf("radius", facts()), [0.25, 0.25]);
+  ranges.give("radius", {});
+  assert.deepEqual(ranges.of("radius", facts()), [0.25, 0.25]);
+  ranges.reset();
+  assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
+});
+
+test("each mode with a quantity of the server asks for it, and its legend has the unit", () => {
+  const asked = modes.flatMap((mode) => quantityOf(mode).sent ?? []);
+  assert.deepEqual(asked, [Quantity.SPEED, Quantity.CONTACTS, Quantity.OVERLAP, Quantity.ENERGY]);
+  const ends = (mode: Mode, high: number): string[] => {
+    const legend = quantityOf(mode).legend(facts(), [0, high]);
+    return "bar" in legend ? [legend.low, legend.high] : [];
+  };
+  assert.deepEqual(ends("contacts", 12), ["0", "12 bodies"]);
+  assert.deepEqual(ends("overlap", 0.05), ["0 %", "5 % of the radius"]);
+  assert.deepEqual(ends("energy", 0.002), ["0 J", "2 mJ"]);
 });
 
 test("a speed is shown with what is known of it", () => {

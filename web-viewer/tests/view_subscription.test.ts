@@ -25,20 +25,23 @@ test("a hidden page requests no frames after a while, and its own rate again whe
   timers.reset();
 });
 
-test("speeds are requested at once, and given up after a while", () => {
+test("a quantity is requested at once, and given up after a while", () => {
   timers.enable();
   const requested: Quantity[] = [];
   const subscription = new ViewSubscription(defaults, (view) => void requested.push(view.quantity));
   assert.equal(subscription.view.quantity, Quantity.QUANTITY_UNSPECIFIED);
-  for (let tick = 0; tick < 3; tick++) subscription.setSpeeds(true);
+  for (let tick = 0; tick < 3; tick++) subscription.setQuantity(Quantity.SPEED);
   assert.deepEqual(requested, [Quantity.SPEED]);
-  subscription.setSpeeds(false);
+  subscription.setQuantity(Quantity.QUANTITY_UNSPECIFIED);
   timers.tick(1000);
-  subscription.setSpeeds(true);
+  subscription.setQuantity(Quantity.SPEED);
   timers.tick(10_000);
   assert.deepEqual(requested, [Quantity.SPEED], "the need has returned");
-  subscription.setSpeeds(false);
+  subscription.setQuantity(Quantity.QUANTITY_UNSPECIFIED);
   timers.tick(10_000);
   assert.deepEqual(requested, [Quantity.SPEED, Quantity.QUANTITY_UNSPECIFIED]);
+  subscription.setQuantity(Quantity.CONTACTS);
+  subscription.setQuantity(Quantity.ENERGY);
+  assert.deepEqual(requested.slice(2), [Quantity.CONTACTS, Quantity.ENERGY], "another quantity replaces it at once");
   timers.reset();
 });

@@ -35,44 +35,60 @@ const shortShaders = {
   },
 };
 
+/** The page loads charts.js when it needs it. */
+const chartsLater = {
+  name: "charts later",
+  setup(build) {
+    const later = ({ kind }) => (kind === "dynamic-import" ? { path: "./charts.js", external: true } : undefined);
+    build.onResolve({ filter: /\/charts\/charts$/ }, later);
+  },
+};
+
 const { out, protoc, debug } = options();
 generate(protoc);
-const { outputFiles, metafile } = await esbuild.build({
+const shared = {
   absWorkingDir: root,
+  outdir: out,
+  write: false,
+  bundle: true,
+  target: "es2022",
+  minify: !debug,
+  sourcemap: debug ? "inline" : false,
+  legalComments: "none",
+  logLevel: "warning",
+};
+const { outputFiles, metafile } = await esbuild.build({
+  ...shared,
   entryPoints: {
     viewer: "src/main.ts",
     worker: "src/connection/worker.ts",
     archive: "src/archive/worker.ts",
     style: "src/ui/style/style.css",
   },
-  outdir: out,
-  write: false,
   metafile: true,
-  bundle: true,
   format: "iife",
-  target: "es2022",
-  minify: !debug,
-  sourcemap: debug ? "inline" : false,
-  legalComments: "none",
-  plugins: [withoutFont, shortShaders],
-  logLevel: "warning",
+  plugins: [withoutFont, shortShaders, chartsLater],
 });
+const charts = await esbuild.build({ ...shared, entryPoints: { charts: "src/charts/charts.ts" }, format: "esm" });
+const chartStyle = await esbuild.build({ ...shared, entryPoints: { charts: "src/charts/charts.css" } });
 const viewer = Object.values(metafile.outputs).find(({ entryPoint }) => entryPoint === "src/main.ts");
 const library = Object.entries(viewer.inputs).find(([file, used]) => used.bytesInOutput && file.includes("@bufbuild/"));
 if (library) throw new Error(`viewer.js contains ${library[0]}: only the worker may encode and decode messages`);
 
 const pages = path.join(root, "src/page");
 const pageFiles = readdirSync(pages, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
+const built = [outputFiles, charts.outputFiles, chartStyle.outputFiles].flat();
 const files = [
-  ...outputFiles.map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
+  ...built.map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
   ...pageFiles.map(({ path: folder, name }) => ({
     name: path.relative(pages, path.join(folder, name)),
     bytes: readFileSync(path.join(folder, name)),
   })),
 ].map((file) => ({ ...file, compressed: gzipSync(file.bytes, { level: 9 }) }));
 
-// The gallery loads pictures when it opens, and the page loads archive.js when it writes or reads a recording.
-const later = ({ name }) => name.endsWith(".webp") || name === "archive.js";
+// The gallery loads pictures when it opens. The page loads archive.js when it writes or reads a recording, and charts.*
+// when the folder of the charts is opened.
+const later = ({ name }) => name.endsWith(".webp") || name === "archive.js" || name.startsWith("charts.");
 const firstLoad = files.filter((file) => !later(file));
 const sum = firstLoad.reduce((total, { compressed }) => total + compressed.length, 0);
 for (const { name, compressed } of firstLoad) console.log(`${String(compressed.length).padStart(7)} ${name}.gz`);

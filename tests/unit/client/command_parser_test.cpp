@@ -26,6 +26,7 @@ TEST(CommandParser, ParsesEveryCommand) {
     EXPECT_EQ(parsed({"query", "hash"}), "query { hash: true }");
     EXPECT_EQ(parsed({"cancel"}), "cancel { }");
     EXPECT_EQ(parsed({"seek", "12.5"}), "seek { time: 12.5 }");
+    EXPECT_EQ(parsed({"inspect", "12"}), "inspect { sphere: 12 }");
     EXPECT_EQ(parsed({"record"}), "start_recording { }");
     EXPECT_EQ(parsed({"record", "stop"}), "stop_recording { }");
     EXPECT_EQ(parsed({"step"}), "step { count: 1 }");
@@ -74,6 +75,9 @@ TEST(CommandParser, ReportsAcceptedForms) {
         {"seek"},
         {"seek", "soon"},
         {"seek", "1", "2"},
+        {"inspect"},
+        {"inspect", "-1"},
+        {"inspect", "12", "13"},
         {"start_recording"},
         {"step", "many"},
         {"set", "auto", "16"},

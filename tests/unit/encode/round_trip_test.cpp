@@ -114,7 +114,7 @@ TEST(Codec, AppliesOriginAndQuantum) {
 TEST(Codec, SpeedsAreWithinOnePercent) {
     constexpr double unit = 0.0005;  // m/s
     constexpr std::uint32_t spheres = 4000;
-    Encoder encoder("cpu:1", spheres, {.quantum = unit, .speeds = true});
+    Encoder encoder("cpu:1", spheres, {.quantum = unit, .quantity = v1::SPEED});
     Decoder decoder(spheres);
     std::mt19937 random(4);
     std::uniform_real_distribution<double> exponent(-6, 12);
@@ -138,7 +138,7 @@ TEST(Codec, SpeedsAreWithinOnePercent) {
         for (std::uint32_t k = 0; k < spheres; ++k) {
             EXPECT_EQ(codes[k].y, 0);
             EXPECT_EQ(codes[k].z, 0);
-            const double found = speedOf(static_cast<std::uint32_t>(codes[k].x), unit);
+            const double found = valueOf(static_cast<std::uint32_t>(codes[k].x), unit);
             EXPECT_NEAR(found, speeds[k], 0.008 * speeds[k] + unit / 64) << k;
         }
         EXPECT_EQ(codes[7].x, 0);
@@ -146,7 +146,41 @@ TEST(Codec, SpeedsAreWithinOnePercent) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     for (auto& v : velocities) v = glm::vec4(nan, 0, 0, 1);
     EXPECT_FALSE(
-        std::isfinite(speedOf(static_cast<std::uint32_t>(decoded(decoder, encoder.next(velocities))[0].x), unit)));
+        std::isfinite(valueOf(static_cast<std::uint32_t>(decoded(decoder, encoder.next(velocities))[0].x), unit)));
+}
+
+TEST(Codec, NumbersOfContactsAreExact) {
+    constexpr std::uint32_t spheres = 62;
+    const double unit = unitOf(v1::CONTACTS, 0.05);
+    Encoder encoder("cpu:1", spheres, {.quantum = unit, .quantity = v1::CONTACTS});
+    Decoder decoder(spheres);
+    Positions rows(spheres);
+    for (std::uint32_t k = 0; k < spheres; ++k) rows[k] = glm::vec4(k, 0.5, 7, 0);
+    const auto codes = decoded(decoder, encoder.begin(rows));
+    for (std::uint32_t k = 0; k < spheres; ++k)
+        EXPECT_EQ(std::lround(valueOf(static_cast<std::uint32_t>(codes[k].x), unit)), k);
+}
+
+// The other components of a row. Energies reach far below the square root of the smallest float.
+TEST(Codec, OverlapsAndEnergiesAreWithinOnePercent) {
+    constexpr std::uint32_t spheres = 2000;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> exponent(-6, 3);
+    for (const auto& [quantity, radius] : {std::pair(v1::OVERLAP, 0.05), {v1::ENERGY, 0.05}, {v1::ENERGY, 1e-6}}) {
+        const double unit = unitOf(quantity, radius);
+        Encoder encoder("cpu:1", spheres, {.quantum = unit, .quantity = quantity});
+        Decoder decoder(spheres);
+        Positions rows(spheres);
+        for (glm::vec4& row : rows) {
+            row = glm::vec4(3);
+            row[quantity == v1::OVERLAP ? 1 : 2] = static_cast<float>(unit * std::pow(10, exponent(random)));
+        }
+        const auto codes = decoded(decoder, encoder.begin(rows));
+        for (std::uint32_t k = 0; k < spheres; ++k) {
+            const auto value = static_cast<double>(rows[k][quantity == v1::OVERLAP ? 1 : 2]);
+            EXPECT_NEAR(valueOf(static_cast<std::uint32_t>(codes[k].x), unit), value, 0.008 * value + unit / 64);
+        }
+    }
 }
 
 TEST(Codec, KeepsTheOrderOfSpheres) {

@@ -193,6 +193,38 @@ TEST(SimulationProducer, PauseOrResumeEndsStepsThatWaitForAChange) {
     }
 }
 
+TEST(SimulationProducer, TellsTheStateOfASphere) {
+    TestSessions sessions("billiards");
+    sessions.give(R"({"pause":{}})");
+    const auto seen = sessions.give(R"({"inspect":{"sphere":3}})", 2);
+    const auto same = sessions.give(R"({"inspect":{"sphere":3}})", 3);
+    const auto other = sessions.give(R"({"inspect":{"sphere":0}})", 2);
+    const auto none = sessions.give(R"({"inspect":{"sphere":1000}})", 2);
+    sessions.run();
+    const v1::Inspected& found = sessions.answer(seen).applied().inspected();
+    EXPECT_EQ(found.sphere(), 3U);
+    EXPECT_EQ(found.position_size(), 3);
+    EXPECT_GT(found.mass(), 0);
+    EXPECT_GE(found.contact_count(), 1U);
+    EXPECT_EQ(static_cast<std::uint32_t>(found.contacts_size()), found.contact_count());
+    EXPECT_EQ(sessions.answer(same).applied().inspected().SerializeAsString(), found.SerializeAsString());
+    EXPECT_EQ(sessions.answer(other).applied().inspected().sphere(), 0U);
+    EXPECT_EQ(sessions.answer(none).refused().cause(), v1::Refused::NO_SUCH_SPHERE);
+    EXPECT_EQ(sessions.answer(none).refused().field(), "inspect.sphere");
+    EXPECT_TRUE(sessions.told.size() == 1) << "an inspection is nothing that others are told of";
+}
+
+// One session cannot keep others from asking.
+TEST(SimulationProducer, LimitsTheInspectionsOfASession) {
+    TestSessions sessions;
+    for (int k = 0; k < 8; ++k) sessions.give(R"({"inspect":{"sphere":0}})", 5);
+    const auto other = sessions.give(R"({"inspect":{"sphere":1}})", 6);
+    sessions.run();
+    EXPECT_TRUE(sessions.answer(other).has_applied());
+    EXPECT_TRUE(sessions.answer(4).has_applied());
+    EXPECT_EQ(sessions.answer(5).refused().cause(), v1::Refused::TOO_MANY_COMMANDS);
+}
+
 TEST(SimulationProducer, OthersAreToldOfCommandsThatChangeTheWorld) {
     TestSessions sessions("billiards");
     sessions.give(R"({"pause":{}})", 4);

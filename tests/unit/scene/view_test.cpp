@@ -89,5 +89,31 @@ TEST(SceneView, ExampleScenesAreFullyVisible) {
     }
 }
 
+TEST(SceneView, LightIsReadAndPassedOn) {
+    EXPECT_FALSE(sceneWith("").light);
+    const auto light =
+        sceneWith(R"("light": {"direction": [0, 3, 4], "strength": 2, "colour": "#ffeedd", "sky": 0})").light;
+    ASSERT_TRUE(light);
+    EXPECT_LT(glm::distance(*light->direction, glm::dvec3(0, 0.6, 0.8)), 1e-12);
+    const v1::Light message = messageOf(*light);
+    EXPECT_NEAR(message.direction(2), 0.8, 1e-12);
+    EXPECT_EQ(message.strength(), 2);
+    EXPECT_EQ(message.colour(), "#ffeedd");
+    EXPECT_EQ(message.sky(), 0);
+    const v1::Light usual = messageOf(*sceneWith(R"("light": {})").light);
+    EXPECT_EQ(usual.direction_size(), 0);
+    EXPECT_EQ(usual.strength(), 1);
+    EXPECT_EQ(usual.sky(), 1);
+}
+
+TEST(SceneView, LightIsInItsRanges) {
+    EXPECT_EQ(refusalOf(R"("light": {"direction": [0, 0, 0]})"), "light.direction: has no length");
+    EXPECT_EQ(refusalOf(R"("light": {"direction": [1, 0]})"),
+              "light.direction: has 2 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusalOf(R"("light": {"strength": 11})"), "light.strength: is 11, must be 0 to 10");
+    EXPECT_EQ(refusalOf(R"("light": {"sky": -1})"), "light.sky: is -1, must be 0 to 10");
+    EXPECT_EQ(refusalOf(R"("light": {"colour": "white"})"), R"(light.colour: is "white", must be #rrggbb in hexadecimal)");
+}
+
 }  // namespace
 }  // namespace spherule::scene::testing

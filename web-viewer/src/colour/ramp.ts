@@ -8,12 +8,21 @@ function ramp(...hex: [string, string, string, string, string, string]): Ramp {
   return hex.map((stop) => hexToRgb(stop) ?? [0, 0, 0]) as unknown as Ramp;
 }
 
-/** From rest to high speed: light slate blue, sea green, sand, coral. Lightness rises as far as the sand. */
-export const speedRamp = ramp("#6d98c4", "#60adbd", "#8cc7a6", "#e3db8c", "#f2ab63", "#df5f49");
+// The lightness of every ramp rises from stop to stop, also for people who see no difference of red and green
+// (tests/colour.test.ts).
+
+/** From rest to high speed: blue, sea green, sand. */
+export const speedRamp = ramp("#3f5a9b", "#3f7fae", "#56a3a8", "#8bc193", "#cbd880", "#f7efb2");
 /** Small to large. */
 export const radiusRamp = ramp("#8a5a83", "#b06a7c", "#cf8470", "#dfa66e", "#e3cb88", "#dfe6b4");
 /** First to last. */
-export const idRamp = ramp("#4b5d9a", "#5a8fb4", "#6db5a6", "#a9c47f", "#e0b56a", "#d4796a");
+export const idRamp = ramp("#4a4587", "#5c6cb3", "#6f95c6", "#8cbbcb", "#b5d9cc", "#e9f3da");
+/** From none to many contacts. */
+export const contactsRamp = ramp("#53407f", "#86498b", "#b85a80", "#dd7c70", "#f0aa6c", "#f7dc92");
+/** From none to deep. */
+export const overlapRamp = ramp("#44546a", "#6f6378", "#a0707a", "#cc8472", "#e8a979", "#f6dca6");
+/** From rest to high energy. */
+export const energyRamp = ramp("#6b3a4f", "#9c4a49", "#c66645", "#dd8d4b", "#e9b966", "#f3e5a5");
 
 export function rampColour(stops: Ramp, at: number): Rgb {
   const scaled = Math.min(1, Math.max(0, at)) * (stops.length - 1);

@@ -95,6 +95,11 @@ export class Commands {
     return this.send(`Remove sphere ${format.count(sphere)}`, { case: "remove", value: { spheres: [BigInt(sphere)] } });
   }
 
+  /** Asks for the state of a sphere. It is not reported. `sphere`: id. */
+  inspect(sphere: number): Promise<Outcome> {
+    return this.link.send({ case: "inspect", value: { sphere: BigInt(sphere) } });
+  }
+
   /** Pushes a sphere along the ray. If its id is undefined, the server picks the first sphere that the ray meets. */
   push(ray: PushRay, sphere: number | undefined, newtonSeconds: number): Promise<Outcome> {
     const impulse = ray.direction.map((part) => part * newtonSeconds);

@@ -1,7 +1,7 @@
 import { Decoder } from "../codec/decoder";
 import type { ChainState } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
-import { speedsOf } from "../codec/speeds";
+import { valuesOf } from "../codec/quantity_values";
 import type { Turns } from "../codec/turns";
 import { blockPlaces, columnFormats, columnNames } from "../columns";
 import type { ColumnName, Columns, EncodedColumn } from "../columns";
@@ -28,6 +28,9 @@ export const noContent: Content = {
  */
 export type Decoded = { kind: "state"; keyframe: boolean; content: Content } | { kind: "foreign" } | { kind: "behind" };
 
+/** The meaning of the numbers of a column. */
+type Grid = Omit<NamedColumn, "spb">;
+
 /** A moment of decoding, from which frames can be decoded later. Without `chain` the next frame is a keyframe. */
 export interface FramesState {
   epoch: number;
@@ -35,7 +38,7 @@ export interface FramesState {
   periods: Periods;
   order: number;
   ids: Uint32Array;
-  chain?: { name: string; quanta: [ColumnName, number][]; states: [ColumnName, ChainState][] };
+  chain?: { name: string; grids: Grid[]; states: [ColumnName, ChainState][] };
 }
 
 /**
@@ -50,7 +53,7 @@ export class Frames {
   private ids: Uint32Array = new Uint32Array(0);
   private readonly decoders = new Map<ColumnName, Decoder>();
   private chain: string | undefined; // undefined: lost, or not yet started
-  private quanta: [ColumnName, number][] = []; // of the newest frame's columns
+  private grids: Grid[] = []; // of the newest frame's columns
 
   constructor(private readonly buffers: BufferPool) {}
 
@@ -89,20 +92,20 @@ export class Frames {
     if (epoch === undefined || order === undefined) throw new Error("no scene or no order has come");
     const start: FramesState = { epoch, count, periods, order, ids };
     if (!chain || this.chain === undefined) return start;
-    const states = this.quanta.map(([name]): [ColumnName, ChainState] => [name, this.decoderOf(name).save()]);
-    return { ...start, chain: { name: this.chain, quanta: this.quanta, states } };
+    const states = this.grids.map(({ name }): [ColumnName, ChainState] => [name, this.decoderOf(name).save()]);
+    return { ...start, chain: { name: this.chain, grids: this.grids, states } };
   }
 
   /** Continues from a saved state. */
   restore({ epoch, count, periods, order, ids, chain }: FramesState): void {
-    Object.assign(this, { epoch, count, periods, order, ids, chain: chain?.name, quanta: chain?.quanta ?? [] });
+    Object.assign(this, { epoch, count, periods, order, ids, chain: chain?.name, grids: chain?.grids ?? [] });
     for (const [name, state] of chain?.states ?? []) this.decoderOf(name).restore(state);
   }
 
   /** The positions of the newest frame, in grid units and the codec's order. */
   get grid(): { newest: Int32Array; turns: Turns; quantum: number } {
     const { newest, turns } = this.decoderOf("position");
-    return { newest, turns, quantum: this.quanta.find(([name]) => name === "position")?.[1] ?? NaN };
+    return { newest, turns, quantum: this.grids.find(({ name }) => name === "position")?.quantum ?? NaN };
   }
 
   /** The content of the newest frame; undefined if the chain is lost. */
@@ -117,7 +120,7 @@ export class Frames {
   decode(frame: Frame, shown = true): Decoded {
     if (frame.epoch !== this.epoch || frame.order !== this.order) return { kind: "foreign" };
     const encoded = encodedColumns(frame);
-    const grids = encoded.map(({ name, quantum }) => `${name} ${quantum}`);
+    const grids = encoded.map(({ name, quantum, quantity }) => `${name} ${quantity ?? ""} ${quantum}`);
     const chain = [frame.epoch, frame.order, frame.tier, ...grids].join(" ");
     const keyframe = encoded.every(({ spb }) => isKeyframe(spb));
     if (chain !== this.chain && !keyframe) {
@@ -133,7 +136,7 @@ export class Frames {
     }
     for (const { name, spb } of encoded) this.decoderOf(name).apply(spb);
     this.chain = chain;
-    this.quanta = encoded.map(({ name, quantum }) => [name, quantum]);
+    this.grids = encoded.map(({ name, quantum, quantity }) => ({ name, quantum, quantity }));
     return { kind: "state", keyframe, content: shown ? this.contentOf(frame.order) : noContent };
   }
 
@@ -153,19 +156,19 @@ export class Frames {
 
   /** The content of the newest frame. */
   private contentOf(order: number): Content {
-    const valuesPerSphere = this.quanta.reduce((sum, [name]) => sum + columnFormats[name].components, 0);
+    const valuesPerSphere = this.grids.reduce((sum, { name }) => sum + columnFormats[name].components, 0);
     const boxFloats = 6 * Math.ceil(this.count / blockPlaces);
     const floats = valuesPerSphere * this.count + boxFloats;
     const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * floats);
     let at = 0;
-    const filled = this.quanta.map(([name, quantum]) => {
+    const filled = this.grids.map(({ name, quantum, quantity }) => {
       const { components } = columnFormats[name];
       const values = new Float32Array(buffer, at, components * this.count);
       const decoder = this.decoderOf(name);
-      if (name === "speed") speedsOf(decoder.newest, this.ids, quantum, values);
+      if (name === "value") valuesOf(decoder.newest, this.ids, quantum, values);
       else scatter(decoder.newest, this.ids, components, this.quantaOf(decoder, quantum), values);
       at += values.byteLength;
-      return [name, { values, quantum }];
+      return [name, { values, quantum, quantity }];
     });
     const positions = this.decoderOf("position");
     const boxes = new Float32Array(buffer, at, boxFloats);
@@ -180,6 +183,6 @@ type NamedColumn = EncodedColumn & { name: ColumnName };
 function encodedColumns(frame: Frame): NamedColumn[] {
   return columnNames.flatMap((name) => {
     const encoded = columnFormats[name].encoded(frame);
-    return encoded ? [{ name, quantum: encoded.quantum, spb: encoded.spb }] : [];
+    return encoded ? [{ name, ...encoded }] : [];
   });
 }

@@ -111,7 +111,7 @@ export function isLocal(command: CommandCase, replay: ReplayState | undefined, p
 
 /** Whether the page shows the present again after a command to the server. */
 export function endsReplay(command: CommandCase): boolean {
-  return command !== "startRecording" && command !== "stopRecording";
+  return command !== "startRecording" && command !== "stopRecording" && command !== "inspect";
 }
 
 export type FromWorker =

@@ -3,13 +3,13 @@ import type { StreamRequest, ViewRequest } from "./messages";
 
 const grace = 3000; // ms: a need that returns sooner keeps its stream, and needs no new keyframe
 
-/** Requests the stream that the user has chosen, but no frames while the page is hidden, and speeds when needed. */
+/** Requests the stream that the user has chosen, but no frames while the page is hidden, and a quantity when needed. */
 export class ViewSubscription {
   private hidden = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private needsSpeeds = false;
-  private hasSpeeds = false;
-  private speedTimer: ReturnType<typeof setTimeout> | undefined;
+  private needed = Quantity.QUANTITY_UNSPECIFIED;
+  private requested = Quantity.QUANTITY_UNSPECIFIED;
+  private quantityTimer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     private choice: ViewRequest,
@@ -18,16 +18,16 @@ export class ViewSubscription {
 
   get view(): StreamRequest {
     const rate = this.hidden ? 0 : this.choice.rate;
-    return { ...this.choice, rate, quantity: this.hasSpeeds ? Quantity.SPEED : Quantity.QUANTITY_UNSPECIFIED };
+    return { ...this.choice, rate, quantity: this.requested };
   }
 
-  /** Call whenever the page may begin or end to show speeds. */
-  setSpeeds(needed: boolean): void {
-    if (needed === this.needsSpeeds) return;
-    this.needsSpeeds = needed;
-    clearTimeout(this.speedTimer);
-    if (needed) this.setHasSpeeds(true);
-    else this.speedTimer = setTimeout(() => this.setHasSpeeds(false), grace);
+  /** Call whenever the page may show another quantity, or none (unspecified). */
+  setQuantity(needed: Quantity): void {
+    if (needed === this.needed) return;
+    this.needed = needed;
+    clearTimeout(this.quantityTimer);
+    if (needed !== Quantity.QUANTITY_UNSPECIFIED) this.requestQuantity(needed);
+    else this.quantityTimer = setTimeout(() => this.requestQuantity(needed), grace);
   }
 
   request(choice: ViewRequest): void {
@@ -43,9 +43,9 @@ export class ViewSubscription {
     else this.timer = setTimeout(() => this.setHidden(true), grace);
   }
 
-  private setHasSpeeds(hasSpeeds: boolean): void {
-    if (hasSpeeds === this.hasSpeeds) return;
-    this.hasSpeeds = hasSpeeds;
+  private requestQuantity(quantity: Quantity): void {
+    if (quantity === this.requested) return;
+    this.requested = quantity;
     this.send(this.view);
   }
 

@@ -9,8 +9,15 @@ interface Automatic {
   value(facts: Facts, shown: Shown, place: number): number;
 }
 
+/** Ends of a scale that the user has given; undefined: automatic. */
+export interface GivenRange {
+  low?: number | undefined;
+  high?: number | undefined;
+}
+
 /** The range of values that the scale of each mode covers. */
 export class ColourRanges {
+  private readonly given = new Map<Mode, GivenRange>();
   private readonly automatic = new Map<Mode, Automatic>();
   private measured = -1; // sequence number of the newest state whose values the automatic ranges know
 
@@ -27,8 +34,24 @@ export class ColourRanges {
     return this.automatic.has(mode);
   }
 
-  /** The range of a mode; 0 to 1 if there is no scale, or no scene yet. */
+  /** The ends that the user has given. */
+  givenOf(mode: Mode): GivenRange {
+    return this.given.get(mode) ?? {};
+  }
+
+  give(mode: Mode, range: GivenRange): void {
+    this.given.set(mode, range);
+  }
+
+  /** The range of a mode. */
   of(mode: Mode, facts: Facts | undefined): Range {
+    const [low, high] = this.automaticOf(mode, facts);
+    const given = this.givenOf(mode);
+    return [given.low ?? low, given.high ?? high];
+  }
+
+  /** The range of a mode if the user gives none; 0 to 1 if there is no scale, or no scene yet. */
+  automaticOf(mode: Mode, facts: Facts | undefined): Range {
     const { scale } = quantityOf(mode);
     if (facts && scale && "range" in scale) return scale.range(facts);
     return [0, this.automatic.get(mode)?.range.high ?? 1];
@@ -46,8 +69,9 @@ export class ColourRanges {
     }
   }
 
-  /** Resets the automatic ranges for another scene. */
+  /** Resets the ranges for another scene, unless they are locked. */
   reset(): void {
+    if (!this.locked) this.given.clear();
     for (const { range } of this.automatic.values()) range.reset();
   }
 

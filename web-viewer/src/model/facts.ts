@@ -1,7 +1,7 @@
 import { periodsOf } from "../connection/periods";
 import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
-import type { Obstacle as Message } from "../gen/spherule/v1/scene_pb";
+import type { Light as LightMessage, Obstacle as Message } from "../gen/spherule/v1/scene_pb";
 import { hexToRgb } from "../colour/rgb";
 import type { Rgb } from "../colour/rgb";
 import { Population } from "./population";
@@ -11,6 +11,14 @@ export type Vec3 = [number, number, number];
 export interface Obstacle {
   shape: Message["shape"]; // as in scene.proto
   colour: Rgb | undefined;
+}
+
+/** The light that the scene asks for; what is undefined is the page's choice. */
+export interface Light {
+  direction: Vec3 | undefined; // to the light, of unit length
+  strength: number; // relative to the usual light
+  colour: Rgb | undefined;
+  sky: number; // strength of the light from all sides, relative to the usual one
 }
 
 /** The facts of a scene: constant within an epoch, except for the population. Lengths are in m. */
@@ -31,6 +39,7 @@ export interface Facts {
   eye: Vec3 | undefined;
   target: Vec3 | undefined;
   fieldOfView: number; // degrees, vertical
+  light: Light | undefined; // undefined: the page's choice
 }
 
 export function factsOf(scene: SceneFacts): Facts {
@@ -55,6 +64,16 @@ export function factsOf(scene: SceneFacts): Facts {
     eye: scene.camera?.eye.length === 3 ? vec3(scene.camera.eye) : undefined,
     target: scene.camera?.target.length === 3 ? vec3(scene.camera.target) : undefined,
     fieldOfView: scene.camera?.fieldOfView ?? 30,
+    light: scene.light && lightOf(scene.light),
+  };
+}
+
+function lightOf({ direction, strength, colour, sky }: LightMessage): Light {
+  return {
+    direction: direction.length === 3 ? vec3(direction) : undefined,
+    strength: strength ?? 1,
+    colour: hexToRgb(colour),
+    sky: sky ?? 1,
   };
 }
 

@@ -1,3 +1,4 @@
+import { Quantity } from "../gen/spherule/v1/frame_pb";
 import type { Facts, Vec3 } from "./facts";
 import type { Shown, State } from "./states";
 
@@ -33,14 +34,27 @@ export function writePosition(into: Vec3, { periods }: Facts, { from, to }: Show
   return into;
 }
 
+/** Whether the server sent this quantity in both states. */
+export function isSent(quantity: Quantity, { from, to }: Shown): boolean {
+  return from.columns.value?.quantity === quantity && to.columns.value?.quantity === quantity;
+}
+
+/** A quantity of a sphere that the server sent; NaN: it sent none. It allocates nothing. */
+export function sentValue(quantity: Quantity, shown: Shown, place: number): number {
+  if (!isSent(quantity, shown)) return NaN;
+  const before = shown.from.columns.value?.values[place] ?? NaN;
+  const after = shown.to.columns.value?.values[place] ?? NaN;
+  return before + shown.mix * (after - before);
+}
+
 /**
  * The speed of a sphere (m/s): the one that the server sent, or the mean between the two states. NaN: unknown. It
  * allocates nothing.
  */
-export function speedOf(facts: Facts, { from, to, mix }: Shown, place: number): number {
-  const before = from.columns.speed?.values[place];
-  const after = to.columns.speed?.values[place];
-  if (before !== undefined && after !== undefined) return before + mix * (after - before);
+export function speedOf(facts: Facts, shown: Shown, place: number): number {
+  const sent = sentValue(Quantity.SPEED, shown, place);
+  if (!Number.isNaN(sent)) return sent;
+  const { from, to } = shown;
   const time = to.simTime - from.simTime;
   if (!(time > 0)) return NaN;
   const at = 3 * place;
@@ -65,7 +79,7 @@ export function shownSpeed(
   const speed = speedOf(facts, shown, place);
   if (Number.isNaN(speed)) return undefined;
   const { from, to } = shown;
-  if (from.columns.speed && to.columns.speed) return { speed, error: 0 };
+  if (isSent(Quantity.SPEED, shown)) return { speed, error: 0 };
   const quanta = from.columns.position.quantum + to.columns.position.quantum;
   return { speed, error: (Math.sqrt(3) / 2) * (quanta / (to.simTime - from.simTime)) };
 }

@@ -1,18 +1,20 @@
-import { idRamp, radiusRamp, speedRamp } from "../colour/ramp";
+import { contactsRamp, energyRamp, idRamp, overlapRamp, radiusRamp, speedRamp } from "../colour/ramp";
 import type { Ramp } from "../colour/ramp";
 import type { Rgb } from "../colour/rgb";
-import { count, figure, length } from "../format";
+import { count, figure, length, percent, withPrefix } from "../format";
+import { Quantity as Sent } from "../gen/spherule/v1/frame_pb";
 import type { Facts } from "./facts";
-import { shownSpeed, speedOf } from "./positions";
+import { sentValue, shownSpeed, speedOf } from "./positions";
 import type { Shown } from "./states";
 
 export type Range = [number, number];
 
 /**
  * A colour scale. Its range is constant in a scene, or automatic: then it begins at 0, and its end follows the values
- * that are shown, but is at least `least`. A value that is NaN is unknown.
+ * that are shown, but is at least `least`. A value that is NaN is unknown. `unit`: in which users give the ends.
+ * `size`: the size of this unit, if it is not 1.
  */
-export type Scale = { ramp: Ramp } & (
+export type Scale = { ramp: Ramp; unit: string; size?: number } & (
   | { range(facts: Facts): Range }
   | { value(facts: Facts, shown: Shown, place: number): number; least: number }
 );
@@ -29,9 +31,9 @@ export type LegendContent = { bar: Ramp; low: string; high: string } | { swatche
 /** A per-sphere quantity that the page shows: by a colour mode with its legend, and in the inspector. */
 export interface Quantity {
   label: string; // of the colour mode
-  /** GLSL expression: the value (float) if there is a scale, else the colour (vec3, sRGB). See shaders/colour.glsl. */
-  glsl: string;
+  glsl: string; // expression: the colour (vec3, sRGB), see shaders/colour.glsl
   scale?: Scale;
+  sent?: Sent; // the quantity of frames that the mode needs
   legend(facts: Facts, range: Range): LegendContent;
   /** A line of the inspector. */
   describe?(facts: Facts, shown: Shown, place: number): string;
@@ -40,13 +42,19 @@ export interface Quantity {
 const groupsShown = 6; // in the legend
 const negligible = 0.01; // error of a speed, as a share of it
 
+/** The values of a quantity that the server sends, for a scale. */
+function sent(quantity: Sent): (facts: Facts, shown: Shown, place: number) => number {
+  return (_, shown, place) => sentValue(quantity, shown, place);
+}
+
 /** All quantities, in the order of the colour modes and of the inspector's lines. */
 export const quantities = {
   speed: {
     label: "Speed",
-    glsl: "speedNow(place)",
-    scale: { ramp: speedRamp, value: speedOf, least: 0.1 },
-    legend: (_, [, high]) => ({ bar: speedRamp, low: "0", high: `${figure(high)} m/s` }),
+    glsl: "colourOf(speedNow(place))",
+    scale: { ramp: speedRamp, unit: "m/s", value: speedOf, least: 0.1 },
+    sent: Sent.SPEED,
+    legend: (_, [low, high]) => ({ bar: speedRamp, low: figure(low), high: `${figure(high)} m/s` }),
     describe: (facts, shown, place) => {
       const known = shownSpeed(facts, shown, place);
       if (!known) return "speed unknown";
@@ -56,10 +64,31 @@ export const quantities = {
       return `${figure(speed - error)} to ${figure(speed + error)} m/s`;
     },
   },
+  contacts: {
+    label: "Contacts",
+    glsl: "sentColour(place)",
+    scale: { ramp: contactsRamp, unit: "", value: sent(Sent.CONTACTS), least: 5 },
+    sent: Sent.CONTACTS,
+    legend: (_, [low, high]) => ({ bar: contactsRamp, low: figure(low), high: `${figure(high)} bodies` }),
+  },
+  overlap: {
+    label: "Overlap",
+    glsl: "sentColour(place)",
+    scale: { ramp: overlapRamp, unit: "%", size: 0.01, value: sent(Sent.OVERLAP), least: 0.001 },
+    sent: Sent.OVERLAP,
+    legend: (_, [low, high]) => ({ bar: overlapRamp, low: percent(low), high: `${percent(high)} of the radius` }),
+  },
+  energy: {
+    label: "Energy",
+    glsl: "sentColour(place)",
+    scale: { ramp: energyRamp, unit: "J", value: sent(Sent.ENERGY), least: 1e-12 },
+    sent: Sent.ENERGY,
+    legend: (_, [low, high]) => ({ bar: energyRamp, low: withPrefix(low, "J"), high: withPrefix(high, "J") }),
+  },
   radius: {
     label: "Radius",
-    glsl: "radiusOf(place)",
-    scale: { ramp: radiusRamp, range: ({ population }) => population.radiusRange },
+    glsl: "colourOf(radiusOf(place))",
+    scale: { ramp: radiusRamp, unit: "m", range: ({ population }) => population.radiusRange },
     legend: (_, [low, high]) => {
       if (low < high) return { bar: radiusRamp, low: length(low), high: length(high) };
       return { swatches: [{ colour: radiusRamp[0], name: `all ${length(low)}`, figure: "" }], notes: [] };
@@ -71,8 +100,8 @@ export const quantities = {
   },
   id: {
     label: "Id",
-    glsl: "idOf(place)",
-    scale: { ramp: idRamp, range: ({ population }) => population.idRange },
+    glsl: "colourOf(idOf(place))",
+    scale: { ramp: idRamp, unit: "", range: ({ population }) => population.idRange },
     legend: (_, [low, high]) => ({ bar: idRamp, low: count(low), high: count(high) }),
   },
   cell: {

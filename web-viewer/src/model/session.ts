@@ -23,6 +23,7 @@ import type { Facts } from "./facts";
 import type { TimeAdvance } from "./playout";
 import { differences, PendingChanges, Population } from "./population";
 import type { Run } from "./population";
+import { Samples } from "./samples";
 import { States } from "./states";
 import type { State } from "./states";
 import { Traffic } from "./traffic";
@@ -88,6 +89,7 @@ export class Session {
   lost = 0; // frames that could not be decoded since the page was loaded
   readonly traffic = new Traffic();
   readonly delay = new DelayMeter();
+  readonly samples = new Samples(); // of the present run
   readonly states: States;
   private lastArrival = 0; // ms, of a frame of this epoch
   private epochStart = 0; // ms: when the facts of this epoch arrived
@@ -171,6 +173,7 @@ export class Session {
         break;
       case "diagnostics":
         this.diagnostics = message.diagnostics;
+        this.samples.add(message.diagnostics, this.status?.realTimeFactor, this.delay.newest);
         this.events.diagnosticsReceived(message.diagnostics);
         break;
       case "event":
@@ -272,6 +275,7 @@ export class Session {
     this.facts = factsOf(scene);
     const another = this.facts.name !== before?.name;
     if (another) this.divergence = undefined;
+    if (another) this.samples.clear();
     if (this.states.epoch !== this.facts.epoch) this.epochStart = sharedNow();
     this.states.begin(this.facts.epoch);
     this.events.sceneChanged(this.facts, another);

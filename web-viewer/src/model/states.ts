@@ -61,9 +61,10 @@ export class States {
   carryBack(frame: State, places: readonly Run[]): void {
     for (const state of this.byKey.values()) {
       growBoxes(state, frame);
-      for (const [name, { values }] of Object.entries(frame.columns)) {
-        const earlier = state.columns[name as keyof State["columns"]]?.values;
-        if (!earlier) continue;
+      for (const [name, { values, quantity }] of Object.entries(frame.columns)) {
+        const column = state.columns[name as keyof State["columns"]];
+        if (!column || column.quantity !== quantity) continue;
+        const earlier = column.values;
         const components = values.length / frame.count;
         for (const { first, count } of places) {
           const begin = components * first;

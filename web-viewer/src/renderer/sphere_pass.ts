@@ -1,4 +1,5 @@
 import type { Facts, Vec3 } from "../model/facts";
+import { isSent } from "../model/positions";
 import { modes, quantityOf } from "../model/quantities";
 import type { DrawOrder, Shown } from "../model/states";
 import { Detail, SphereBlocks } from "./blocks";
@@ -27,10 +28,7 @@ export const placeParts = [spheres, columnDeclarations, place];
 const colourNow = [
   "vec3 colourNow(int place, vec3 position) {",
   "switch (u_mode) {",
-  ...modes.map((mode, index) => {
-    const { glsl, scale } = quantityOf(mode);
-    return `case ${index}: return ${scale ? `colourOf(${glsl})` : glsl};`;
-  }),
+  ...modes.map((mode, index) => `case ${index}: return ${quantityOf(mode).glsl};`),
   "}",
   "return vec3(0.0);",
   "}",
@@ -96,7 +94,8 @@ export class SpherePass {
       data.prepare(shading, shown.mix);
       const time = shown.to.simTime - shown.from.simTime;
       gl.uniform1f(shading.at("u_inverseTime"), time > 0 ? 1 / time : 0);
-      gl.uniform1i(shading.at("u_speedsSent"), shown.from.columns.speed && shown.to.columns.speed ? 1 : 0);
+      const { sent } = quantityOf(state.mode);
+      gl.uniform1i(shading.at("u_valuesSent"), sent && isSent(sent, shown) ? 1 : 0);
     }
     const ramp = this.ramps.get(state.mode);
     gl.uniform1i(shading.at("u_mode"), modes.indexOf(state.mode));

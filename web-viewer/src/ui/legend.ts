@@ -5,13 +5,16 @@ import type { Facts } from "../model/facts";
 import { quantityOf } from "../model/quantities";
 import type { LegendContent, Mode, Swatch } from "../model/quantities";
 import { h, setText } from "./dom";
+import { RangeEntry } from "./range_entry";
+import type { End } from "./range_entry";
 
 /** Explains the colours. */
 export class Legend {
   private readonly title = h("span", { "data-testid": "legend-title" });
   private readonly body = h("div", { class: "scale" });
-  private readonly low = h("span", { "data-testid": "legend-low" });
-  private readonly high = h("span", { "data-testid": "legend-high" });
+  private readonly low = this.end("low", "Set the lowest value");
+  private readonly high = this.end("high", "Set the highest value");
+  private readonly entry: RangeEntry;
   private readonly lock: HTMLButtonElement;
   private readonly head: HTMLElement;
   readonly element: HTMLElement;
@@ -21,6 +24,7 @@ export class Legend {
     private readonly ranges: ColourRanges,
     next: () => void,
   ) {
+    this.entry = new RangeEntry(ranges);
     const toggle = (): void => this.ranges.toggleLock();
     this.lock = h("button", { type: "button", class: "lock", "data-testid": "legend-lock", click: toggle }, "auto");
     this.head = h(
@@ -39,6 +43,7 @@ export class Legend {
       { class: "legend", "data-testid": "legend", "aria-label": "Colours" },
       h("div", { class: "row" }, h("h2", {}, this.head), this.lock),
       this.body,
+      this.entry.element,
     );
   }
 
@@ -46,6 +51,7 @@ export class Legend {
     this.element.hidden = !facts;
     if (!facts) return;
     const { ranges } = this;
+    this.entry.update(mode, facts);
     const range = ranges.of(mode, facts);
     const key = [mode, facts.epoch, facts.population.number, ...range].join(" ");
     if (key !== this.shown) {
@@ -58,6 +64,12 @@ export class Legend {
     setText(this.lock, ranges.locked ? "locked" : "auto");
     this.lock.title = ranges.locked ? "Unlock the colour range (L)" : "Lock the colour range (L)";
     this.lock.setAttribute("aria-pressed", String(ranges.locked));
+  }
+
+  /** The text of an end of the scale, which opens the fields for both ends. */
+  private end(end: End, title: string): HTMLElement {
+    const click = (): void => this.entry.toggle(end);
+    return h("button", { type: "button", class: "end", title, "data-testid": `legend-${end}`, click });
   }
 
   private bodyOf(content: LegendContent): HTMLElement[] {

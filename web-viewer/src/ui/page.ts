@@ -4,8 +4,10 @@ import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
 import { sentence } from "../format";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
+import { Quantity } from "../gen/spherule/v1/frame_pb";
 import type { ColourRanges } from "../model/colour_ranges";
-import { modes } from "../model/quantities";
+import { Inspection } from "../model/inspection";
+import { modes, quantityOf } from "../model/quantities";
 import { pageStateOf } from "../model/page_state";
 import type { Graphics, PageState } from "../model/page_state";
 import type { Session } from "../model/session";
@@ -67,6 +69,7 @@ export class Page {
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
   private readonly header: Header;
+  private readonly inspection: Inspection;
   private readonly change: ChangeLine;
   private readonly drawing: ChangeLine;
   private picture: number | undefined; // completed share of the picture that is made
@@ -115,6 +118,7 @@ export class Page {
     const own = { themeChanged, showScenes, copyLink, openFile, savePicture };
     this.panel = new Panel(commands, choices, { ...actions, ...own });
     this.inspector = new Inspector((id) => commands.remove(id));
+    this.inspection = new Inspection(session, (id) => commands.inspect(id));
     this.links = new Links(session, this.toasts, {
       camera: actions.camera,
       selection: this.inspector.selection,
@@ -170,7 +174,7 @@ export class Page {
       else this.act(action);
     });
     this.transport = new Transport(this.record.element, shared);
-    this.playback = new Playback(session, commands, () => this.needsSpeeds, {
+    this.playback = new Playback(session, commands, () => this.quantity !== Quantity.QUANTITY_UNSPECIFIED, {
       present: () => actions.present(),
       save: () => actions.save(),
     });
@@ -192,9 +196,10 @@ export class Page {
     this.help.describe(this.keys(), this.playing);
   }
 
-  /** Whether the page shows speeds. */
-  get needsSpeeds(): boolean {
-    return this.choices.mode === "speed" || this.inspector.selection.id !== undefined;
+  /** The quantity that the page needs in frames; unspecified: none. */
+  get quantity(): Quantity {
+    const { sent } = quantityOf(this.choices.mode);
+    return sent ?? (this.inspector.selection.id === undefined ? Quantity.QUANTITY_UNSPECIFIED : Quantity.SPEED);
   }
 
   /** Call at every tick. `now`: ms, as sharedNow() counts. */
@@ -206,7 +211,8 @@ export class Page {
     this.container.classList.toggle("old", !state.current);
     this.container.classList.toggle("no-graphics", graphics === "none");
     this.showNotices(state, graphics, now);
-    this.inspector.update(this.session.facts, shown, this.playing, blockedReason);
+    const inspected = this.inspection.update(this.inspector.selection.id, now);
+    this.inspector.update(this.session.facts, shown, this.playing, blockedReason, inspected);
     this.change.update(this.session.change, blockedReason);
     const { picture: share } = this;
     this.drawing.update(share === undefined ? undefined : { what: "picture", doing: "", share }, "");
@@ -223,6 +229,7 @@ export class Page {
     this.status.update(now, imagesPerSecond, state.current);
     this.panel.stream.update(this.session, now);
     if (this.session.facts) this.panel.cut.update(this.session.facts);
+    this.panel.charts.update(this.session.samples);
   }
 
   recordingChanged(recording: Recording, before: Recording | undefined): void {

@@ -14,6 +14,7 @@ import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
+import { ChartFolder } from "./chart_folder";
 import { nameFolders, Restriction, tag } from "./controllers";
 import { CutFolder } from "./cut_folder";
 import { Dial } from "./dial";
@@ -73,6 +74,7 @@ export class Panel {
   readonly element: HTMLElement;
   readonly stream: StreamFolder;
   readonly cut: CutFolder;
+  readonly charts: ChartFolder;
   private readonly gui: GUI;
   private readonly statistics = new StatisticsLists();
   private readonly world = {
@@ -130,11 +132,13 @@ export class Panel {
     now.$children.append(this.statistics.quality.element);
     const statistics = this.addSimulated("Statistics");
     statistics.$children.append(this.statistics.rest.element);
+    const charts = this.gui.addFolder("Charts");
+    this.charts = new ChartFolder(charts);
     this.access = this.gui.addFolder("Access").hide();
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
     nameFolders(this.gui);
-    rememberFolders(this.gui, [cut, stream, now, statistics], () => localStorage);
+    rememberFolders(this.gui, [cut, stream, now, statistics, charts], () => localStorage);
     this.restriction = new Restriction(this.steering.flatMap((folder) => folder.controllers));
   }
 

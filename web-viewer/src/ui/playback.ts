@@ -16,11 +16,11 @@ export class Playback {
   private readonly scrubber: Scrubber;
   readonly element: HTMLElement;
 
-  /** `needsSpeeds`: returns true if the page shows speeds, which needs two states. */
+  /** `needsTwo`: returns true if the page shows a quantity, which needs two states. */
   constructor(
     private readonly session: Session,
     commands: Commands,
-    needsSpeeds: () => boolean,
+    needsTwo: () => boolean,
     actions: Pick<ScrubberActions, "present" | "save">,
   ) {
     this.seeker = new Seeker((time) => commands.seek(time), sharedNow);
@@ -32,7 +32,7 @@ export class Playback {
       },
       seek: (time, released) => {
         const { paused, spacing } = session;
-        this.seeker.seek(time, released && paused && needsSpeeds() ? spacing : 0);
+        this.seeker.seek(time, released && paused && needsTwo() ? spacing : 0);
       },
       step: () => void commands.step(1),
     });

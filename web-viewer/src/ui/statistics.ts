@@ -1,7 +1,7 @@
 import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Statistics } from "../gen/spherule/v1/diagnostics_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
-import { count, figure, length, seconds, vector, withPrefix } from "../format";
+import { count, figure, length, percent, seconds, vector, withPrefix } from "../format";
 import { impactLabels, mergeImpacts } from "./dial_labels";
 import type { Impacts } from "./dial_labels";
 import { Figures } from "./figures";
@@ -25,10 +25,6 @@ export class StatisticsLists {
     this.quality.show(qualityFigures(now, s, this.impacts, settings));
     this.rest.show([...motion(s), ...turnover(s), ...sums(s), ...progress(s)]);
   }
-}
-
-function percent(share: number): string {
-  return `${figure(100 * share)} %`;
 }
 
 function joules(energy: number): string {

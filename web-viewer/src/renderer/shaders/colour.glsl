@@ -8,7 +8,7 @@ uniform highp sampler2D u_looks;      // two texels per group: colour (sRGB) and
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
-uniform bool u_speedsSent;      // the two states have speeds
+uniform bool u_valuesSent;      // the two states have the quantity of the mode
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
 uniform vec3 u_cellSize;        // m, per axis; 0: no grid
 uniform ivec3 u_cells;
@@ -44,9 +44,15 @@ uint scrambled(uint x) {
 
 float idOf(int place) { return u_idsGiven ? texelFetch(u_id, texelOf(place), 0).r : float(place); }
 
+// The colour of a quantity that the server sends.
+vec3 sentColour(int place) {
+    if (!u_valuesSent) return vec3(0.62, 0.66, 0.70);
+    return colourOf(mix(valueFrom(place), valueTo(place), u_mix));
+}
+
 // m/s; 0 if it is unknown. See shownSpeed() of model/positions.ts.
 float speedNow(int place) {
-    if (u_speedsSent) return mix(speedFrom(place), speedTo(place), u_mix);
+    if (u_valuesSent) return mix(valueFrom(place), valueTo(place), u_mix);
     return length(shortest(positionTo(place) - positionFrom(place))) * u_inverseTime;
 }
 
