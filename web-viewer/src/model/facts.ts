@@ -15,7 +15,7 @@ export interface Obstacle {
 
 /** The light that the scene asks for; what is undefined is the page's choice. */
 export interface Light {
-  direction: Vec3 | undefined; // to the light, of unit length
+  direction: Vec3 | undefined; // to the light; any length
   strength: number; // relative to the usual light
   colour: Rgb | undefined;
   sky: number; // strength of the light from all sides, relative to the usual one

@@ -64,7 +64,7 @@ export class FrameRenderer {
   setFacts(facts: Facts, theme: Theme, order: DrawOrder | undefined): void {
     this.facts = facts;
     this.theme = theme;
-    this.light = lightFor(facts);
+    this.light = lightFor(facts, theme);
     this.uniforms.setLight(this.light, theme);
     this.data.setFacts(facts);
     this.environment.set(facts, theme);

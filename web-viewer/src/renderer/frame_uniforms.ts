@@ -27,9 +27,9 @@ export class FrameUniforms {
     data.set(light.map, 2 * matrixFloats);
     const vectors = [
       [...light.direction, theme.shadow],
-      theme.key,
-      theme.sky,
-      theme.ground,
+      light.key,
+      light.sky,
+      light.ground,
       linear(theme.backgroundTop),
       linear(theme.backgroundBottom),
       linear(theme.tile),

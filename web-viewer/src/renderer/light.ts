@@ -1,9 +1,13 @@
 import * as mat4 from "gl-matrix/esm/mat4.js";
 import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Facts, Vec3 } from "../model/facts";
+import type { Theme } from "./theme";
 
 export interface Light {
   direction: Vec3; // to the light, unit length
+  key: number[]; // linear light, of this direction
+  sky: number[]; // linear light, from above
+  ground: number[]; // linear light, from below
   right: Vec3; // across the shadow map
   up: Vec3;
   // Positions are relative to the centre of the bounds.
@@ -14,12 +18,15 @@ export interface Light {
 const height = 0.95; // radians above the horizon
 const aside = 0.85; // radians to the left of the scene's camera
 
-/** A directional light from the left of the scene's camera, with a shadow map that covers the bounds. */
-export function lightFor(facts: Facts): Light {
-  const azimuth = cameraAzimuth(facts) - aside;
-  const across = Math.cos(height);
-  const direction: Vec3 = [Math.cos(azimuth) * across, Math.sin(azimuth) * across, Math.sin(height)];
-  const right = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], [0, 0, 1], direction)) as Vec3;
+/**
+ * The light that the scene asks for, with a shadow map that covers the bounds. By default it comes from the left of the
+ * scene's camera, with the strengths and colours of the theme.
+ */
+export function lightFor(facts: Facts, theme: Theme): Light {
+  const { light } = facts;
+  const direction = vec3.normalize([0, 0, 0], light?.direction ?? usualDirection(facts)) as Vec3;
+  const upright: Vec3 = Math.abs(direction[2]) < 0.999 ? [0, 0, 1] : [0, 1, 0];
+  const right = vec3.normalize([0, 0, 0], vec3.cross([0, 0, 0], upright, direction)) as Vec3;
   const up = vec3.cross([0, 0, 0], direction, right) as Vec3;
   const half = [0, 0, 0];
   for (const corner of corners(facts)) {
@@ -34,7 +41,17 @@ export function lightFor(facts: Facts): Light {
   const map = mat4.fromTranslation(mat4.create(), [0.5, 0.5, 0.5]);
   mat4.scale(map, map, [0.5, 0.5, 0.5]);
   mat4.multiply(map, map, clip);
-  return { direction, right, up, clip, map };
+  const strength = light?.strength ?? 1;
+  const white = Math.max(...theme.key);
+  const key = (light?.colour ? light.colour.map((part) => part * part * white) : theme.key).map((x) => x * strength);
+  const [sky, ground] = [theme.sky, theme.ground].map((colour) => colour.map((part) => part * (light?.sky ?? 1)));
+  return { direction, key, sky: sky ?? [], ground: ground ?? [], right, up, clip, map };
+}
+
+function usualDirection(facts: Facts): Vec3 {
+  const azimuth = cameraAzimuth(facts) - aside;
+  const across = Math.cos(height);
+  return [Math.cos(azimuth) * across, Math.sin(azimuth) * across, Math.sin(height)];
 }
 
 function cameraAzimuth(facts: Facts): number {
