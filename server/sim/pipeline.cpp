@@ -170,17 +170,23 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
     return {};
 }
 
+Result<Pipeline::BoundLaunch> Pipeline::bind(const LaunchSpec& spec) {
+    const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
+    const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
+    auto arrays = arraysFor(spec, kernel);
+    if (!arrays) return tl::unexpected(arrays.error());
+    return BoundLaunch{.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)};
+}
+
 Result<void> Pipeline::bindAll() {
     for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_),
                                           {&plan_.newSubstep, &newSubstep_},
                                           {&plan_.statistics, &statistics_},
                                           {&plan_.stepEnd, &stepEnd_}})
         for (const LaunchSpec& spec : *launches) {
-            const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
-            const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
-            auto arrays = arraysFor(spec, kernel);
-            if (!arrays) return tl::unexpected(arrays.error());
-            bound->push_back({.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)});
+            auto one = bind(spec);
+            if (!one) return tl::unexpected(one.error());
+            bound->push_back(std::move(*one));
         }
     return {};
 }
@@ -314,6 +320,7 @@ void Pipeline::rebuildLists() {
 }
 
 void Pipeline::substep(bool observed) {
+    if (pulling_) run(pulls_, LaunchSet::Substep);
     run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);
     listsPending_ = false;
     impactsPending_ = impactsPending_ || observed;

@@ -96,6 +96,11 @@ class Pipeline {
     void applyImpulse(std::uint32_t handle, glm::vec3 impulse);
     [[nodiscard]] glm::vec4 velocityOf(std::uint32_t handle);  // waits for the device
 
+    // Sets the springs that pull spheres in each substep, at most MOST_PULLS. Refused if there is no memory for it.
+    Result<void> setPulls(std::span<const layout::PullSpring> springs);
+    // Position (m, relative to the centre of the bounds) and radius of a sphere. Waits for the device.
+    [[nodiscard]] glm::vec4 positionOf(std::uint32_t handle);
+
     // Wakes all spheres. Waits for the device.
     void wakeAll();
 
@@ -119,6 +124,7 @@ class Pipeline {
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
     Result<void> makeSlotOf();
+    Result<void> makePulls();
     void moveLastInto(std::vector<std::uint32_t> slots);
     [[nodiscard]] std::size_t rowBytes(Array array) const;
     void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
@@ -128,6 +134,7 @@ class Pipeline {
         const compute::Kernel* kernel = nullptr;
         std::vector<Array> arrays;
     };
+    Result<BoundLaunch> bind(const LaunchSpec& spec);
     Result<void> bindAll();
     enum class LaunchSet : std::uint8_t { Substep, ObservedSubstep, Rebuild, Waking };
     void run(const std::vector<BoundLaunch>& launches, LaunchSet set);
@@ -145,6 +152,9 @@ class Pipeline {
     std::unique_ptr<compute::Buffer> parameters_;
     std::vector<std::unique_ptr<compute::Kernel>> kernels_;
     std::vector<BoundLaunch> substep_, newSubstep_, statistics_, stepEnd_;
+    const LaunchSpec pullSpec_{.pass = Pass::Integrate, .kernel = "pull.comp", .count = MOST_PULLS};
+    std::vector<BoundLaunch> pulls_;  // empty until a sphere is pulled
+    bool pulling_ = false;
     float substepLength_ = 0;  // s; 0: none yet
 };
 

@@ -20,6 +20,8 @@ const allowed: Record<string, string[]> = {
   camera: ["model"],
   renderer: ["camera", "colour", "columns", "gen", "model"],
   ui: ["camera", "clock", "colour", "connection", "format", "gen", "model", "renderer"],
+  tools: ["camera", "connection", "format", "model", "ui"],
+  editor: ["format", "gen", "ui"],
   viewer: ["camera", "clock", "connection", "format", "model", "perf_marks", "renderer", "ui"],
   test_api: ["camera", "clock", "connection", "model", "viewer"],
   main: ["connection", "model", "test_api", "ui", "viewer"],

@@ -37,26 +37,32 @@ const shortShaders = {
 
 const { out, protoc, debug } = options();
 generate(protoc);
-const { outputFiles, metafile } = await esbuild.build({
+const common = {
   absWorkingDir: root,
+  outdir: out,
+  write: false,
+  bundle: true,
+  target: "es2022",
+  minify: !debug,
+  sourcemap: debug ? "inline" : false,
+  legalComments: "none",
+  logLevel: "warning",
+};
+const { outputFiles, metafile } = await esbuild.build({
+  ...common,
   entryPoints: {
     viewer: "src/main.ts",
     worker: "src/connection/worker.ts",
     archive: "src/archive/worker.ts",
     style: "src/ui/style/style.css",
   },
-  outdir: out,
-  write: false,
   metafile: true,
-  bundle: true,
   format: "iife",
-  target: "es2022",
-  minify: !debug,
-  sourcemap: debug ? "inline" : false,
-  legalComments: "none",
   plugins: [withoutFont, shortShaders],
-  logLevel: "warning",
 });
+// Parts of the page that it loads later: see src/ui/lazy.ts.
+const parts = { tools: "src/tools/tools.ts", editor: "src/editor/editor.ts" };
+const lazy = await esbuild.build({ ...common, entryPoints: parts, format: "esm", loader: { ".css": "text" } });
 const viewer = Object.values(metafile.outputs).find(({ entryPoint }) => entryPoint === "src/main.ts");
 const library = Object.entries(viewer.inputs).find(([file, used]) => used.bytesInOutput && file.includes("@bufbuild/"));
 if (library) throw new Error(`viewer.js contains ${library[0]}: only the worker may encode and decode messages`);
@@ -64,7 +70,7 @@ if (library) throw new Error(`viewer.js contains ${library[0]}: only the worker 
 const pages = path.join(root, "src/page");
 const pageFiles = readdirSync(pages, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
 const files = [
-  ...outputFiles.map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
+  ...[...outputFiles, ...lazy.outputFiles].map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
   ...pageFiles.map(({ path: folder, name }) => ({
     name: path.relative(pages, path.join(folder, name)),
     bytes: readFileSync(path.join(folder, name)),
@@ -72,7 +78,8 @@ const files = [
 ].map((file) => ({ ...file, compressed: gzipSync(file.bytes, { level: 9 }) }));
 
 // The gallery loads pictures when it opens, and the page loads archive.js when it writes or reads a recording.
-const later = ({ name }) => name.endsWith(".webp") || name === "archive.js";
+const loadedLater = ["archive.js", ...Object.keys(parts).map((part) => `${part}.js`)];
+const later = ({ name }) => name.endsWith(".webp") || loadedLater.includes(name);
 const firstLoad = files.filter((file) => !later(file));
 const sum = firstLoad.reduce((total, { compressed }) => total + compressed.length, 0);
 for (const { name, compressed } of firstLoad) console.log(`${String(compressed.length).padStart(7)} ${name}.gz`);

@@ -22,6 +22,7 @@ import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
+import { Lazy } from "./lazy";
 import { Links } from "./links";
 import { Notices, noticesFor, OutsideCount } from "./notices";
 import type { Notice, NoticeAction } from "./notices";
@@ -36,12 +37,15 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink" | "openFile"> {
+type OwnActions = "showScenes" | "copyLink" | "openFile" | "saveScene" | "editScene";
+
+export interface PageActions extends Omit<PanelActions, OwnActions> {
   retry(): void;
   present(): void; // shows the simulation as it is now
   save(): void; // the last seconds, as a recording
   play(recording: File): void;
-  fetchRecording(name: string): Promise<Blob>;
+  fetchFile(path: string): Promise<Blob>; // from the server
+  click(x: number, y: number): void; // on the canvas
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
   camera: Camera;
@@ -60,6 +64,7 @@ export class Page {
   readonly links: Links;
   readonly files: Files;
   readonly steering: Steering;
+  readonly lazy: Lazy;
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
   private readonly header: Header;
@@ -101,10 +106,22 @@ export class Page {
     });
     this.gallery = new Gallery(session, commands);
     const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
-    this.files = new Files({ ".sph": { what: "recordings", open: actions.play } }, this.toasts, container);
+    const editScene = (text?: Promise<string>): void => {
+      if (!this.steering.blocked("load")) void this.lazy.editScene(text);
+    };
+    const openers = {
+      ".sph": { what: "recordings", open: actions.play },
+      ".json": { what: "scenes", open: (file: File) => editScene(file.text()) },
+    };
+    this.files = new Files(openers, this.toasts, container);
+    const saveScene = (): void => {
+      const name = `${session.facts?.name || "scene"}.json`;
+      void this.fetchFile("scene.json", name, (file) => this.files.give(file, name));
+    };
     const openFile = (): void => this.files.choose();
     const copyLink = (): void => void this.links.copy();
-    this.panel = new Panel(commands, choices, { ...actions, themeChanged, showScenes, copyLink, openFile });
+    const own = { showScenes, copyLink, openFile, saveScene, editScene: () => editScene() };
+    this.panel = new Panel(commands, choices, { ...actions, ...own, themeChanged });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.links = new Links(session, this.toasts, {
       camera: actions.camera,
@@ -131,21 +148,39 @@ export class Page {
       colour: (mode) => this.panel.colourBy(mode),
       push: () => {
         if (this.steering.blocked()) return;
-        choices.push = !choices.push;
+        choices.tool = choices.tool === "push" ? "select" : "push";
         this.panel.refresh();
       },
+      middle: () => {
+        const { width, height } = actions.camera.last;
+        actions.click(width / 2, height / 2);
+      },
+      move: (across, up, away) => this.lazy.tools?.move(across, up, away) ?? false,
       lock: () => ranges.toggleLock(),
       drop: () => this.panel.dropNow(),
       remove: () => void this.inspector.removeSelected(),
       deselect: () => {
+        if (this.lazy.tools?.letGo()) return;
         this.inspector.selection.clear();
         this.help.element.close();
       },
     };
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
     this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
-    this.keys = () => (this.prompt.open || this.gallery.open ? [] : keysFor(keyActions, this.playing));
+    const typing = (): boolean => this.prompt.open || this.gallery.open || this.lazy.editing;
+    this.keys = () => (typing() ? [] : keysFor(keyActions, this.playing));
     listenForKeys(() => this.keys(), this.characters);
+    this.lazy = new Lazy({
+      container,
+      session,
+      commands,
+      choices,
+      camera: actions.camera,
+      panel: this.panel,
+      selection: this.inspector.selection,
+      toasts: this.toasts,
+      blocked: () => this.steering.blocked(),
+    });
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
     this.notices = new Notices((action, { id }) => {
@@ -196,7 +231,7 @@ export class Page {
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.legend.update(this.choices.mode, this.session.facts);
     this.gallery.update(blockedReason);
-    document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
+    document.getElementById("picture")?.classList.toggle("aiming", this.choices.tool !== "select");
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
     this.header.update(now, this.steering.state, graphics);
@@ -207,7 +242,8 @@ export class Page {
   recordingChanged(recording: Recording, before: Recording | undefined): void {
     const end = recordingEnd(recording, before);
     if (!end) return;
-    const fetched = (use: (file: Blob) => void): void => void this.fetchRecording(end.file, use);
+    const path = `recordings/${encodeURIComponent(end.file)}`;
+    const fetched = (use: (file: Blob) => void): void => void this.fetchFile(path, end.file, use);
     const actions = {
       Download: () => fetched((file) => this.files.give(file, end.file)),
       Open: () => fetched((file) => this.actions.play(new File([file], end.file))),
@@ -215,10 +251,10 @@ export class Page {
     this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay, actions });
   }
 
-  /** `name`: of a recording that the server has written. */
-  private async fetchRecording(name: string, use: (file: Blob) => void): Promise<void> {
+  /** Fetches a file of the server. `name`: for the user. */
+  private async fetchFile(path: string, name: string, use: (file: Blob) => void): Promise<void> {
     try {
-      use(await this.actions.fetchRecording(name));
+      use(await this.actions.fetchFile(path));
     } catch (error) {
       this.toasts.show(name, sentence(error instanceof Error ? error.message : String(error)), "bad");
     }

@@ -1,11 +1,12 @@
 import GUI from "lil-gui";
 import type { Controller, NumberController } from "lil-gui";
-import type { Commands } from "../connection/commands";
+import type { Commands, Drop } from "../connection/commands";
 import type { Outcome } from "../connection/link";
 import type { ViewRequest } from "../connection/messages";
 import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Dial as DialMessage } from "../gen/spherule/v1/diagnostics_pb";
 import type { Facts } from "../model/facts";
+import type { Tool } from "../model/tool";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
 import type { RenderQualityChoice } from "../renderer/render_quality";
@@ -40,7 +41,7 @@ export interface Choices {
   quality: RenderQualityChoice;
   theme: ThemeName;
   themeChosen: boolean; // false: the system determines the theme
-  push: boolean;
+  tool: Tool;
   impulse: number; // N s
   view: ViewRequest;
 }
@@ -53,11 +54,14 @@ export interface PanelActions {
   showScenes(): void;
   copyLink(): void;
   openFile(): void;
+  saveScene(): void;
+  editScene(): void;
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
 const gravityRule: EntryRule = { unit: "m/s²", least: -1e6, most: 1e6 };
 const capital = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
+const toolNames = { Select: "select", Push: "push", Pull: "pull", Drop: "drop" };
 const themeNames = { Light: "light", Dark: "dark" };
 
 /**
@@ -86,6 +90,9 @@ export class Panel {
   private readonly access: GUI; // hidden while there is no token
   private readonly restriction: Restriction;
   private readonly scenes: Controller;
+  private readonly save: Controller;
+  private readonly edit: Controller;
+  gravity!: GUI; // its folder
   private readonly dial = new Dial(
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
@@ -104,9 +111,12 @@ export class Panel {
     this.element.dataset.testid = "panel";
     this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
     const open = tag("open-file", this.gui.add({ act: () => actions.openFile() }, "act").name("Open…"));
-    open.domElement.title = "Plays a recording (.sph). It can also be dropped on the page";
+    open.domElement.title = "Plays a recording (.sph) or loads a scene (.json). Both can also be dropped on the page";
     const copy = tag("copy-link", this.gui.add({ act: () => actions.copyLink() }, "act").name("Copy link"));
     copy.domElement.title = "Copies an address that opens this view";
+    this.save = tag("save-scene", this.gui.add({ act: () => actions.saveScene() }, "act").name("Save scene"));
+    this.save.domElement.title = "Saves the spheres as they are now, as a scene file (.json)";
+    this.edit = tag("edit-scene", this.gui.add({ act: () => actions.editScene() }, "act").name("Write a scene…"));
     this.addDrop();
     this.addPush();
     this.addGravity();
@@ -130,7 +140,7 @@ export class Panel {
 
   /** Disables all controls that send commands; an empty reason enables them. */
   restrict(blockedReason: string): void {
-    if (blockedReason) this.choices.push = false;
+    if (blockedReason) this.choices.tool = "select";
     this.restriction.set(blockedReason);
     this.dial.restrict(blockedReason);
     this.refresh();
@@ -142,8 +152,8 @@ export class Panel {
 
   /** `playing`: the server plays a recording. Hides the controls that then have no effect. */
   setPlaying(playing: boolean): void {
-    if (playing) this.choices.push = false;
-    this.scenes.show(!playing);
+    if (playing) this.choices.tool = "select";
+    for (const scene of [this.scenes, this.save, this.edit]) scene.show(!playing);
     for (const folder of this.simulated) folder.show(!playing);
     for (const controller of this.playback.controllers) controller.show(!playing || controller.property === "speed");
     this.playback.title(playing ? "Recording" : "World");
@@ -212,10 +222,11 @@ export class Panel {
     this.entries.get("impulse")?.refuse(refusalText(outcome.value));
   }
 
-  private async dropSpheres(): Promise<void> {
+  /** Drops spheres in the region that `place` returns for their number and radius. */
+  async dropSpheres(place: (facts: Facts, count: number, radius: number) => Drop = dropFor): Promise<void> {
     const [count, radius] = [this.entries.get("drop-count"), this.entries.get("drop-radius")];
     if (!this.facts || !count?.check() || !radius?.check()) return;
-    const outcome = await this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
+    const outcome = await this.commands.drop(place(this.facts, this.drop.count, this.drop.radius));
     if (outcome.case === "applied") count.restore();
     if (outcome.case !== "refused" || !outcome.value.field) return;
     const ofCount = outcome.value.field.endsWith(".count");
@@ -252,7 +263,7 @@ export class Panel {
 
   private addGravity(): void {
     const { world } = this;
-    const folder = this.addSimulated("Gravity");
+    const folder = (this.gravity = this.addSimulated("Gravity"));
     this.steering.push(folder);
     const setGravity = (entry?: string): void =>
       void this.change("Gravity", { gravity: [world.x, world.y, world.z] }, entry);
@@ -317,10 +328,11 @@ export class Panel {
   }
 
   private addPush(): void {
-    const folder = this.addSimulated("Push");
+    const folder = this.addSimulated("Click and drag");
     this.steering.push(folder);
-    tag("push", folder.add(this.choices, "push").name("Push on click"));
-    const impulse = folder.add(this.choices, "impulse").min(0).name("Impulse, N s");
+    const tool = tag("tool", folder.add(this.choices, "tool", toolNames).name("Tool"));
+    tool.domElement.title = "Select a sphere, push it, drag it by a spring, or drop spheres at the place of a click";
+    const impulse = folder.add(this.choices, "impulse").min(0).name("Push, N s");
     impulse.domElement.title = impulseNote;
     this.number("impulse", impulse, () => impulseRule(this.settings));
   }
