@@ -176,7 +176,9 @@ TEST_P(Pulls, HaveLimits) {
         EXPECT_LE(fastest, scene::safeMotion * radius * scene.quality.substeps / scene.step);
         const double atWall = 0.5 * (scene.bounds.max.x - scene.bounds.min.x) - radius;
         EXPECT_LT(positionOf(state, 0).x, atWall + 0.5 * radius) << stiffness;
-        if (stiffness < 1e4) EXPECT_GT(positionOf(state, 0).x, atWall - 0.5 * radius);
+        if (stiffness < 1e4) {
+            EXPECT_GT(positionOf(state, 0).x, atWall - 0.5 * radius);
+        }
     }
 }
 

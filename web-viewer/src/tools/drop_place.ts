@@ -90,7 +90,7 @@ export function dropAbove(
   const strength = Math.hypot(...gravity);
   const up = [0, 1, 2].map((k) => (strength > 0 ? -(gravity[k] ?? 0) / strength : Number(k === 2)));
   const volume = (count * (4 / 3) * Math.PI * radius ** 3) / fill;
-  const side = Math.max(2.2 * radius, Math.cbrt(volume));
+  const side = 2.2 * radius + (count > 1 ? Math.cbrt(volume) : 0); // centres keep a radius from its faces
   // The axis that is nearest to the direction upwards: the region is a box along the axes.
   const axis = up.reduce((best, part, k) => (Math.abs(part) > Math.abs(up[best] ?? 0) ? k : best), 0);
   const low: number[] = [];
