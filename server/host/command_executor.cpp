@@ -80,7 +80,7 @@ void CommandExecutor::serve(Request request) {
 
 void CommandExecutor::execute(Request request) {
     const v1::Command& command = request.command;
-    const auto applied = apply(command);
+    const auto applied = apply(request);
     if (!applied) {
         if (change_)
             refuseChange(fmt::format("session {} has asked for {}", request.session, wordsFor(command)), Cause::Ended);
@@ -102,7 +102,7 @@ void CommandExecutor::finish(const Request& request, const Result<sim::Applied>&
     if (applied && rules.changes_world()) effects_.worldChanged();
     if (applied && rules.ends_steps()) refuseSteps("came before all its steps were done", Cause::Ended);
     if (applied) effects_.publishChanges();
-    publisher_.reply(request.session, resultOf(request.command, applied));
+    if (request.answered) publisher_.reply(request.session, resultOf(request.command, applied));
     if (applied && rules.announced())
         publisher_.announce(request.session, eventOf(request.command, *applied, spheresOf(request.command, *applied)));
 }
@@ -114,12 +114,12 @@ std::uint64_t CommandExecutor::spheresOf(const v1::Command& command, const sim::
 }
 
 // Returns nullopt when a change has begun; its result comes later.
-std::optional<Result<sim::Applied>> CommandExecutor::apply(const v1::Command& command) {
-    if (command.has_step() && steps_.size() >= mostStepCommands)
+std::optional<Result<sim::Applied>> CommandExecutor::apply(const Request& request) {
+    if (request.command.has_step() && steps_.size() >= mostStepCommands)
         return fail(ErrorKind::Refused, "", fmt::format("{} commands to step are not done yet", steps_.size()),
                     Cause::TooManyCommands);
     try {
-        return dispatch(command, host_, *this);
+        return dispatch(request, host_, *this);
     } catch (const std::bad_alloc&) {
         return fail(ErrorKind::Refused, "", noMemory, Cause::NoMemory);
     } catch (const std::exception& error) {
@@ -141,6 +141,8 @@ Result<void> CommandExecutor::cancel() {
 }
 
 void CommandExecutor::refuse(const Request& request, const std::string& reason, Cause cause) {
+    // Nothing else would end the pull of a session that has ended.
+    if (!request.answered) return host_.simulation().release(request.session);
     publisher_.reply(request.session, resultOf(request.command, fail(ErrorKind::Refused, "", reason, cause)));
 }
 
@@ -220,7 +222,7 @@ void CommandExecutor::answerQueries() {
     if (queries.empty()) return;
     const auto now = Clock::now();
     if (!answered_ || now - *answered_ > oldestAnswer) {
-        answer_ = *apply(queries.front().command);
+        answer_ = *apply(queries.front());
         answered_ = now;
     }
     for (const Request& query : queries) publisher_.reply(query.session, resultOf(query.command, answer_));

@@ -100,7 +100,7 @@ class CommandExecutor : private ProducerCommands {
     void execute(Request request);
     [[nodiscard]] std::uint64_t spheresOf(const v1::Command& command, const sim::Applied& applied) const;
     void finish(const Request& request, const Result<sim::Applied>& applied);
-    std::optional<Result<sim::Applied>> apply(const v1::Command& command);
+    std::optional<Result<sim::Applied>> apply(const Request& request);
     Request takeHeld();
     void refuse(const Request& request, const std::string& reason, Cause cause);
     void refuseChange(const std::string& reason, Cause cause);

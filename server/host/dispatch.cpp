@@ -24,6 +24,12 @@ Outcome push(const v1::Push& message, SimulationHost& host) {
     return host.change(*push);
 }
 
+Outcome pull(const v1::Pull& message, std::uint64_t session, SimulationHost& host) {
+    auto pull = pullOf(message, session);
+    if (!pull) return tl::unexpected(pull.error());
+    return host.change(*pull);
+}
+
 Outcome remove(const v1::Remove& message, SimulationHost& host) {
     auto remove = removeOf(message);
     if (!remove) return tl::unexpected(remove.error());
@@ -44,7 +50,8 @@ Outcome at(const SimulationHost& host, const Result<void>& done = {}) {
 
 }  // namespace
 
-Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerCommands& producer) {
+Outcome dispatch(const Request& request, SimulationHost& host, ProducerCommands& producer) {
+    const v1::Command& command = request.command;
     switch (command.kind_case()) {
         case v1::Command::kPause:
             host.pause();
@@ -66,6 +73,10 @@ Outcome dispatch(const v1::Command& command, SimulationHost& host, ProducerComma
             return remove(command.remove(), host);
         case v1::Command::kPush:
             return push(command.push(), host);
+        case v1::Command::kPull:
+            return pull(command.pull(), request.session, host);
+        case v1::Command::kRelease:
+            return host.change(sim::Release{request.session});
         case v1::Command::kQuery:
             return host.query();
         case v1::Command::kInspect:

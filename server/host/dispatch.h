@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/result.h"
+#include "host/requests.h"
 #include "host/simulation_host.h"
 #include "sim/commands.h"
 #include "spherule/v1/control.pb.h"
@@ -26,7 +27,6 @@ class ProducerCommands {
 // Carries out a command, or refuses it and changes nothing. Returns nullopt when a change of the world has begun;
 // SimulationHost::advanceChange() gives the result. While a change is under way, only commands that do not wait for
 // changes (see control.proto) may come. A new change replaces the present one.
-std::optional<Result<sim::Applied>> dispatch(const v1::Command& command, SimulationHost& host,
-                                             ProducerCommands& producer);
+std::optional<Result<sim::Applied>> dispatch(const Request& request, SimulationHost& host, ProducerCommands& producer);
 
 }  // namespace spherule::host

@@ -6,16 +6,19 @@
 
 #include "core/result.h"
 #include "host/requests.h"
+#include "host/scene_saver.h"
 #include "host/status_board.h"
 #include "net/publisher.h"
 
 namespace spherule::host {
 
-// Inputs and outputs of a producer: requests to it, its status, and the sessions. All outlive the producer.
+// Inputs and outputs of a producer: requests to it, its status, the sessions, and the scenes to save. All outlive the
+// producer.
 struct ProducerIo {
     Requests& requests;
     StatusBoard& board;
     net::Publisher& publisher;
+    SceneSaver& saver;
 };
 
 // Produces the frames of a simulation or of a recording. Created, used and destroyed by one thread.

@@ -88,6 +88,14 @@ Result<sim::Push> pushOf(const v1::Push& message) {
     return push;
 }
 
+Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session) {
+    const auto point = scene::vectorOf(message.point(), "point");
+    if (!point) return tl::unexpected(point.error());
+    sim::Pull pull{.session = session, .sphere = message.sphere(), .point = *point};
+    if (message.has_stiffness()) pull.stiffness = message.stiffness();
+    return pull;
+}
+
 Result<MakeScene> makeSceneOf(const v1::LoadScene& message, const std::string& deviceKind,
                               const scene::Overrides& overrides) {
     if (message.has_scene())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -18,6 +19,7 @@ Result<sim::Set> setOf(const v1::Set& message);  // without the speed
 sim::Spawn spawnOf(const v1::Spawn& message);
 Result<sim::Remove> removeOf(const v1::Remove& message);
 Result<sim::Push> pushOf(const v1::Push& message);
+Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session);
 
 // Reads and builds a scene. May run on any thread.
 using MakeScene = std::function<Result<scene::Scene>(Progress&)>;

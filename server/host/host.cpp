@@ -61,7 +61,7 @@ void Host::runThread(const std::stop_token& stop, const ProducerFactory& create)
 }
 
 Result<void> Host::run(const std::stop_token& stop, const ProducerFactory& create) {
-    auto producer = create({requests_, board_, *server_});
+    auto producer = create({requests_, board_, *server_, saver_});
     if (!producer) return tl::unexpected(producer.error());
     producer_ = std::move(*producer);
     board_.update([](ServerStatus& current) { current.setState("running"); });
@@ -101,10 +101,12 @@ net::Handlers Host::handlers() {
             [this](net::SessionId session, v1::Command command, std::size_t cost) {
                 return requests_.push({.session = session, .command = std::move(command), .bytes = cost});
             },
+        .mayNotCommand = [this](net::SessionId session) { requests_.release(session); },
         .refuses = [this](net::SessionId session, std::size_t cost) { return requests_.refuses(session, cost); },
         .ready = [this] { return opened(); },
         .file = [this](const std::string& path) { return routes_.file(path); },
         .download = [this](const std::string& path) { return routes_.download(path); },
+        .saveScene = [this](SceneSaver::Made made) { saver_.ask(std::move(made)); },
         .get = [this](const std::string& path, const net::Counters& counters) { return routes_.get(path, counters); }};
 }
 

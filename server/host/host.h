@@ -60,6 +60,7 @@ class Host {
 
     StatusBoard board_;
     Requests requests_;
+    SceneSaver saver_;
     std::unique_ptr<FrameProducer> producer_;  // used by thread_
     mutable std::mutex mutex_;                 // guards the next three
     bool opened_ = false;

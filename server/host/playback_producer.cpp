@@ -60,7 +60,7 @@ encode::StreamEncoder::Clock::duration PlaybackProducer::waitTime(encode::Stream
 
 void PlaybackProducer::serve(const Request& request) {
     const auto applied = player_.apply(request.command, Player::Clock::now());
-    publisher_.reply(request.session, resultOf(request.command, applied));
+    if (request.answered) publisher_.reply(request.session, resultOf(request.command, applied));
     if (applied && net::rulesOf(request.command).announced())
         publisher_.announce(request.session, eventOf(request.command, *applied, 0));
 }

@@ -14,14 +14,30 @@ Requests::Refusal Requests::push(Request request) {
         queries_.push_back(std::move(request));
     } else {
         if (auto reason = refusesLocked(request.session, request.bytes)) return reason;
-        Row& row = rows_[request.session];
-        ++commands_;
-        bytes_ += request.bytes;
-        row.bytes += request.bytes;
-        row.waiting.push_back(std::move(request));
+        if (request.command.has_pull()) pulling_.insert(request.session);
+        addLocked(std::move(request));
     }
     ready_.notify_one();
     return std::nullopt;
+}
+
+void Requests::addLocked(Request request) {
+    Row& row = rows_[request.session];
+    ++commands_;
+    bytes_ += request.bytes;
+    row.bytes += request.bytes;
+    row.waiting.push_back(std::move(request));
+}
+
+void Requests::release(std::uint64_t session) {
+    const std::lock_guard lock(mutex_);
+    if (pulling_.erase(session) == 0) return;
+    Request request;
+    request.session = session;
+    request.answered = false;
+    request.command.mutable_release();
+    addLocked(std::move(request));
+    ready_.notify_one();
 }
 
 Requests::Refusal Requests::refuses(std::uint64_t session, std::size_t bytes) const {

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Request {
     std::uint64_t session = 0;
     v1::Command command;
     std::size_t bytes = 0;  // memory, as estimated before parsing
+    bool answered = true;   // false: the server itself asks, and nobody waits for the result
 };
 
 // Commands and queries of sessions for the simulation thread. Commands wait in one queue per session. They are taken
@@ -43,6 +45,9 @@ class Requests {
     // Returns the reason if push() would refuse a command of this size now. The command has not been parsed yet.
     [[nodiscard]] Refusal refuses(std::uint64_t session, std::size_t bytes) const;
 
+    // The session has ended or has lost control: its pull, if it has one, ends after its commands that wait.
+    void release(std::uint64_t session);
+
     // Returns the next command; nullopt if there is none.
     std::optional<Request> tryPop();
     // Waits up to `timeout` for a command. Returns early when a query waits.
@@ -58,12 +63,14 @@ class Requests {
 
     [[nodiscard]] Refusal refusesLocked(std::uint64_t session, std::size_t bytes) const;
     std::optional<Request> popLocked();
+    void addLocked(Request request);
 
     const Limits limits_{};
     mutable std::mutex mutex_;
     std::condition_variable ready_;
     std::map<std::uint64_t, Row> rows_;  // by session; no row is empty
     std::uint64_t last_ = 0;             // session of the last command taken
+    std::set<std::uint64_t> pulling_;    // sessions that may have a pull
     std::size_t commands_ = 0;
     std::size_t bytes_ = 0;
     std::vector<Request> queries_;

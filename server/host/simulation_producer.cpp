@@ -35,6 +35,7 @@ SimulationProducer::SimulationProducer(std::unique_ptr<SimulationHost> host, con
       host_(*owned_),
       board_(io.board),
       publisher_(io.publisher),
+      saver_(io.saver),
       recorder_(std::move(recordings), welcomeOf(host_.device().info())),
       streams_(
           host_, publisher_, recorder_, [this] { frameRate_.add(version_, Clock::now()); },
@@ -47,7 +48,9 @@ Result<void> SimulationProducer::run(const std::stop_token& stop) {
     if (recorder_.startsAtOnce())
         if (auto room = reserveEncoder(); !room) return room;
     if (auto done = recorder_.startFromOptions(); !done) return done;
+    saver_.open();
     const Result<void> done = simulate(stop);
+    saver_.close();
     const Result<void> finished = finishRecording();
     return done ? finished : done;
 }
@@ -60,6 +63,7 @@ Result<void> SimulationProducer::simulate(const std::stop_token& stop) {
         const bool worked = advance(done);
         if (!done) break;
         commands_.answerQueries();
+        saver_.serve(host_.simulation());
         reportChange();
         reportWhenStopped();
         done = report();
@@ -132,6 +136,7 @@ Result<void> SimulationProducer::advanceStep(Clock::time_point now) {
     // Sinks have taken energy with the spheres.
     const std::uint64_t population = host_.simulation().population().version();
     if (population != std::exchange(population_, population)) sampler_.invalidateBaseline();
+    if (host_.simulation().pulling()) sampler_.invalidateBaseline();
     if (host_.paused()) commands_.discardAnswer();
     reportNotices();
     stopAtNonFinite();

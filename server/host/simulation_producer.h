@@ -65,6 +65,7 @@ class SimulationProducer : public FrameProducer, private CommandExecutor::Effect
     SimulationHost& host_;
     StatusBoard& board_;
     net::Publisher& publisher_;
+    SceneSaver& saver_;
     recording::LiveRecorder recorder_;
     StateStreams streams_;
     RateMeter frameRate_;

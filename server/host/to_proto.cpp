@@ -260,6 +260,7 @@ v1::Applied appliedMessage(const sim::Applied& applied) {
     message.set_step(applied.step);
     if (applied.sphere) message.set_sphere(*applied.sphere);
     if (applied.removed) message.set_removed(*applied.removed);
+    if (applied.force) scene::setVector(*message.mutable_force(), *applied.force);
     if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
     if (applied.inspected) *message.mutable_inspected() = inspectedMessage(*applied.inspected);
     return message;

@@ -69,7 +69,14 @@ bool hasKnownEnd(const http::request<http::string_body>& request) {
     return encodings == 0 || (encodings == 1 && beast::iequals(request[http::field::transfer_encoding], "chunked"));
 }
 
-void describe(http::fields& answer) {
+bool asksForSubprotocol(const http::request<http::string_body>& request) {
+    const http::token_list wanted(request[http::field::sec_websocket_protocol]);
+    return std::any_of(wanted.begin(), wanted.end(), [](const auto& token) { return token == subprotocol; });
+}
+
+}  // namespace
+
+void HttpConnection::describe(Fields& answer) {
     answer.set(http::field::server, "spherule/" SPHERULE_VERSION);
     answer.set("Content-Security-Policy", contentPolicy);
     answer.set("X-Content-Type-Options", "nosniff");
@@ -78,13 +85,6 @@ void describe(http::fields& answer) {
     answer.set("Cross-Origin-Resource-Policy", "same-origin");
     answer.set(http::field::cache_control, "no-cache");
 }
-
-bool asksForSubprotocol(const http::request<http::string_body>& request) {
-    const http::token_list wanted(request[http::field::sec_websocket_protocol]);
-    return std::any_of(wanted.begin(), wanted.end(), [](const auto& token) { return token == subprotocol; });
-}
-
-}  // namespace
 
 HttpConnection::HttpConnection(Transport stream, std::unique_ptr<ConnectionLimiter::Permit> permit, std::string peer,
                                ServerState& state)
@@ -142,14 +142,18 @@ void HttpConnection::onRead(ErrorCode error) {
         return refuse(request, RejectReason::BadRequest, 400, "the target must be a path");
     }
     if (!mayRead(request, path)) return;
+    if (path == scenePath && request.method() == http::verb::head)
+        return answer(request, {.status = 200, .contentType = "application/json", .body = ""});
+    if (path == scenePath) return answerDocument(request);
     if (const StaticFile* const file = state_.handlers.file(path)) return answerFile(request, *file);
     if (const auto file = state_.handlers.download(path)) return answerDownload(request, *file);
     answer(request, state_.handlers.get(path, state_.counters));
 }
 
-// The metrics and downloads need a token: the page and the health checks are public. Sends the refusal itself.
+// The metrics, downloads and the scene need a token: the page and the health checks are public. Sends the refusal
+// itself.
 bool HttpConnection::mayRead(const Request& request, const std::string& path) {
-    const bool isPublic = path != figuresPath && !path.starts_with(downloadsPath);
+    const bool isPublic = path != figuresPath && path != scenePath && !path.starts_with(downloadsPath);
     if (isPublic || state_.admission->roleOf(bearerOf(request))) return true;
     if (bearerOf(request).empty())
         refuse(request, RejectReason::NoToken, 401, "this server asks for a token: send Authorization: Bearer TOKEN");

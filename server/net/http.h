@@ -30,6 +30,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
     using Request = Parser::value_type;
 
+    static void describe(Fields& answer);  // adds the headers of every answer
     void shakeHands();
     void read();
     void onRead(ErrorCode error);
@@ -39,6 +40,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     void answerDownload(const Request& request, const std::string& path);
     struct Download;
     void send(const std::shared_ptr<Download>& download);
+    // A response whose body is made while it is sent: in http_document.cpp.
+    void answerDocument(const Request& request);
+    struct Sending;
+    void sendPart(const std::shared_ptr<Sending>& sending);
+    void endDocument(const std::shared_ptr<Sending>& sending);
     void answer(const Request& request, HttpAnswer answer, const Fields& more = {});
     void refuse(const Request& request, RejectReason cause, int status, const std::string& text);
     void refuseLater(const Request& request);

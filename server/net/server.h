@@ -44,11 +44,24 @@ struct Options {
 
 // Files below this path require a token, if the server has tokens.
 constexpr std::string_view downloadsPath = "/recordings/";
+// The present state as a scene file. Requires a token, as recordings do.
+constexpr std::string_view scenePath = "/scene.json";
 
 struct HttpAnswer {
     int status = 200;
     std::string contentType;
     std::string body;
+};
+
+// A text that is made part by part, while it is sent. Used on the io thread.
+class Document {
+  public:
+    Document() = default;
+    virtual ~Document() = default;
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
+
+    virtual std::string next() = 0;  // the next part; empty at the end
 };
 
 // Callbacks into the application. Called on the io thread; must not block. An exception ends the session or the
@@ -58,6 +71,8 @@ struct Handlers {
     using Refusal = std::optional<std::string>;  // the reason; nullopt if accepted
     // Queues a command. `cost`: memory (bytes), estimated by previewOf().
     std::function<Refusal(SessionId, v1::Command, std::size_t cost)> submit;
+    // A session that has sent commands has ended, or another one has control now.
+    std::function<void(SessionId)> mayNotCommand = [](SessionId) {};
     // Tells whether a command of this cost would be refused now. Called before a long command is parsed.
     std::function<Refusal(SessionId, std::size_t cost)> refuses = [](SessionId, std::size_t) { return Refusal(); };
     std::function<bool()> ready = [] { return true; };  // false: the stream is refused with 503
@@ -67,6 +82,12 @@ struct Handlers {
     // is none; `get` then answers. Called only for clients that may watch.
     std::function<std::optional<std::string>(const std::string& path)> download = [](const std::string&) {
         return std::nullopt;
+    };
+    // Makes the document at scenePath, and passes it to `made`, later and on any thread. `made` gets a refusal if there
+    // is none. Called only for clients that may watch.
+    using Made = std::function<void(std::shared_ptr<Document>, HttpAnswer refusal)>;
+    std::function<void(Made made)> saveScene = [](const Made& made) {
+        made(nullptr, {404, "text/plain; charset=utf-8", "This server has no scene.\n"});
     };
     // Answers GET. Status 404 if there is nothing at `path`. `counters`: of the server.
     std::function<HttpAnswer(const std::string& path, const Counters& counters)> get;

@@ -213,6 +213,7 @@ void Session::finish(CloseCause cause) {
     permit_.reset();
     state_.hub.remove(id_);
     state_.controlLock.onSessionEnded(id_);
+    state_.handlers.mayNotCommand(id_);
     state_.rejectionLog.ended(cause, description());
 }
 

@@ -155,7 +155,7 @@ std::vector<Sphere> readGroup(Check& check, const v1::Group& message, const Scen
     }
     if (message.fixed()) checkAtRest(check, message, source, spheres);
     if (check.ok()) checkWork(check, scene, source, context.taken.size() + spheres.size());
-    if (check.ok()) checkPlaces(check, message, scene, source, spheres);
+    if (check.ok() && !message.list().saved()) checkPlaces(check, message, scene, source, spheres);
     return spheres;
 }
 

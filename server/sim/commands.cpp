@@ -135,10 +135,13 @@ class Simulation::CommandHandler {
     Result<Outcome> operator()(const Spawn& spawn);
     Result<Outcome> operator()(const Remove& remove);
     Result<Outcome> operator()(const Push& push);
+    Result<Outcome> operator()(const Pull& pull);
+    Result<Outcome> operator()(const Release& release);
 
   private:
     // Ranks, see Population.
     Result<std::uint32_t> targetOf(const Push& push);
+    Result<void> checkMoves(std::uint32_t rank);
     Result<std::vector<std::uint32_t>> ranksOf(const Remove& remove);
     Result<void> checkPush(std::uint32_t rank, const glm::dvec3& impulse);
 
@@ -223,9 +226,7 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& p
     const scene::Scene& scene = simulation_.scene_;
     const scene::Sphere& sphere = scene.spheres[*rank];
     const std::uint64_t id = simulation_.population_.idAt(*rank);
-    if (sphere.fixed)
-        return fail(ErrorKind::Refused, "", fmt::format("sphere {} is fixed: nothing moves it", id),
-                    Cause::FixedSphere);
+    if (auto moves = checkMoves(*rank); !moves) return tl::unexpected(moves.error());
     if (auto slow = checkPush(*rank, push.impulse); !slow) return tl::unexpected(slow.error());
     Pipeline& pipeline = *simulation_.pipeline_;
     const std::uint32_t handle = simulation_.population_.handleAt(*rank);
@@ -234,6 +235,30 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& p
     const double moved = speed * scene.step / simulation_.substeps_ / static_cast<double>(sphere.radius);
     if (moved > static_cast<double>(SAFE_MOTION)) simulation_.limitMotionPerSubstep(moved);
     return Outcome{.applied = {.sphere = id}};
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Pull& pull) {
+    const auto rank = rankOf(simulation_.population_, pull.sphere, "sphere");
+    if (!rank) return tl::unexpected(rank.error());
+    if (auto moves = checkMoves(*rank); !moves) return tl::unexpected(moves.error());
+    if (!(glm::length(pull.point) <= maxDistance))
+        return fail(ErrorKind::Refused, "point", fmt::format("is farther than {:g} m from the origin", maxDistance),
+                    Cause::Range, {.least = {}, .most = maxDistance});
+    const auto force = simulation_.pull(pull, *rank);
+    if (!force) return tl::unexpected(force.error());
+    return Outcome{.applied = {.sphere = pull.sphere, .force = *force}};
+}
+
+Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Release& release) {
+    simulation_.release(release.session);
+    return Outcome{};
+}
+
+Result<void> Simulation::CommandHandler::checkMoves(std::uint32_t rank) {
+    if (!simulation_.scene_.spheres[rank].fixed) return {};
+    return fail(ErrorKind::Refused, "",
+                fmt::format("sphere {} is fixed: nothing moves it", simulation_.population_.idAt(rank)),
+                Cause::FixedSphere);
 }
 
 Result<std::vector<std::uint32_t>> Simulation::CommandHandler::ranksOf(const Remove& remove) {

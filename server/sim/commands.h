@@ -56,7 +56,20 @@ struct Push {
     glm::dvec3 impulse{};                       // N s
 };
 
-using Command = std::variant<Set, Reset, Spawn, Remove, Push>;
+// Pulls a sphere to a point by a spring with critical damping, in every substep. Each session has one spring at most.
+struct Pull {
+    std::uint64_t session = 0;
+    std::uint64_t sphere = 0;           // id
+    glm::dvec3 point{};                 // m
+    std::optional<double> stiffness{};  // N/m
+};
+
+// Ends the pull of the session.
+struct Release {
+    std::uint64_t session = 0;
+};
+
+using Command = std::variant<Set, Reset, Spawn, Remove, Push, Pull, Release>;
 
 // The result of a command.
 struct Applied {
@@ -65,6 +78,7 @@ struct Applied {
     std::optional<std::uint32_t> removed{};  // spheres that a Remove removed
     std::optional<Statistics> statistics{};  // of a query
     std::optional<Inspection> inspected{};   // of an inspection
+    std::optional<glm::dvec3> force{};       // of the spring of a Pull (N)
 };
 
 // Returns the scene with the settings, and with the substeps that they require. Refused if a setting is out of range;

@@ -170,6 +170,14 @@ Result<void> Pipeline::makeKernel(std::string_view file) {
     return {};
 }
 
+Result<Pipeline::BoundLaunch> Pipeline::bind(const LaunchSpec& spec) {
+    const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
+    const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
+    auto arrays = arraysFor(spec, kernel);
+    if (!arrays) return tl::unexpected(arrays.error());
+    return BoundLaunch{.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)};
+}
+
 Result<void> Pipeline::bindAll() {
     for (const auto& [launches, bound] : {std::pair(&plan_.substep, &substep_),
                                           {&plan_.newSubstep, &newSubstep_},
@@ -320,6 +328,7 @@ void Pipeline::rebuildLists() {
 }
 
 void Pipeline::substep(bool observed) {
+    if (pulling_) run(pulls_, LaunchSet::Substep);
     run(substep_, observed ? LaunchSet::ObservedSubstep : LaunchSet::Substep);
     listsPending_ = false;
     impactsPending_ = impactsPending_ || observed;

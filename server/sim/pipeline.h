@@ -111,6 +111,11 @@ class Pipeline {
     void applyImpulse(std::uint32_t handle, glm::vec3 impulse);
     [[nodiscard]] glm::vec4 velocityOf(std::uint32_t handle);  // waits for the device
 
+    // Sets the springs that pull spheres in each substep, at most MOST_PULLS. Refused if there is no memory for it.
+    Result<void> setPulls(std::span<const layout::PullSpring> springs);
+    // Position (m, relative to the centre of the bounds) and radius of a sphere. Waits for the device.
+    [[nodiscard]] glm::vec4 positionOf(std::uint32_t handle);
+
     // Wakes all spheres. Waits for the device.
     void wakeAll();
 
@@ -135,6 +140,7 @@ class Pipeline {
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);
     Result<void> makeSlotOf();
     Result<void> makeMissing(Array array, std::uint64_t elements);
+    Result<void> makePulls();
     void moveLastInto(std::vector<std::uint32_t> slots);
     [[nodiscard]] std::size_t rowBytes(Array array) const;
     void setBuffer(Array array, std::unique_ptr<compute::Buffer> made);
@@ -164,7 +170,10 @@ class Pipeline {
     std::vector<std::unique_ptr<compute::Kernel>> kernels_;
     std::vector<BoundLaunch> substep_, newSubstep_, statistics_, stepEnd_;
     std::vector<BoundLaunch> figures_, inspection_;  // empty until they are first needed
-    float substepLength_ = 0;                        // s; 0: none yet
+    const LaunchSpec pullSpec_{.pass = Pass::Integrate, .kernel = "pull.comp", .count = MOST_PULLS};
+    std::vector<BoundLaunch> pulls_;  // empty until a sphere is pulled
+    bool pulling_ = false;
+    float substepLength_ = 0;  // s; 0: none yet
 };
 
 }  // namespace spherule::sim

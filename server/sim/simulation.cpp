@@ -140,8 +140,8 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     bool newHandles = false;
     if (resetScope_ == ResetScope::World) {
         steps_ = 0;
-        remainderBegin_ = 0;
-        substepsLeft_ = 0;
+        remainderBegin_ = substepsLeft_ = 0;
+        pulls_.clear();
         population_ = Population(spheres);
     } else {
         newHandles = !population_.plain();
@@ -167,6 +167,7 @@ void Simulation::uploadParameters() {
     parameters.perImpulseUnit = static_cast<float>(1 / loadUnits_.impulse);
     parameters.perMomentUnit = static_cast<float>(1 / loadUnits_.moment);
     pipeline_->setParameters(parameters);
+    keepPulls();
 }
 
 // A step under way is completed with substeps of the new length, or a little shorter.
@@ -291,8 +292,7 @@ std::string Simulation::divergence() const {
 }
 
 void Simulation::rollback() {
-    remainderBegin_ = 0;
-    substepsLeft_ = 0;
+    remainderBegin_ = substepsLeft_ = 0;
     if (lastFiniteSpheres_) {
         const std::uint64_t next = population_.nextId();
         population_ = std::move(lastFiniteSpheres_->population);

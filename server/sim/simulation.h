@@ -104,6 +104,9 @@ class Simulation {
     // The impulse (N s) that would give a sphere of the largest radius and the largest density the largest speed that
     // the scene can compute. A push with a larger one is refused for every sphere at rest.
     [[nodiscard]] double maxImpulse() const;
+    // Ends the pull of the session, if it has one.
+    void release(std::uint64_t session);
+    [[nodiscard]] bool pulling() const { return !pulls_.empty(); }
     [[nodiscard]] const Plan& plan() const { return pipeline_->plan(); }
     [[nodiscard]] Pipeline& pipeline() { return *pipeline_; }
     [[nodiscard]] std::uint32_t count() const { return population_.count(); }
@@ -139,6 +142,22 @@ class Simulation {
     void growPairs();
     void uploadParameters();
     [[nodiscard]] double maxSpeed(double radius) const;
+    // A spring between a sphere and a point, which a session holds.
+    struct PullSpring {
+        std::uint64_t session = 0;
+        std::uint64_t sphere = 0;  // id
+        glm::dvec3 point{};        // m
+        double rate = 0;           // 1/s: the square root of stiffness over mass
+    };
+    Result<glm::dvec3> pull(const Pull& pull, std::uint32_t rank);
+    Result<void> writePulls();
+    void keepPulls();
+    struct PullLimits {
+        double speed = 0;         // m/s
+        double acceleration = 0;  // m/s^2
+    };
+    [[nodiscard]] PullLimits pullLimits(double radius) const;
+    [[nodiscard]] glm::dvec3 forceOf(const PullSpring& spring, std::uint32_t rank);
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
     void saveLastFinite();
@@ -176,6 +195,7 @@ class Simulation {
     std::uint32_t quietSteps_ = 0;   // steps since a sphere moved too far
     std::uint32_t backoff_ = 0;      // quiet steps before substeps are lowered
     bool lowered_ = false;           // since a sphere last moved too far
+    std::vector<PullSpring> pulls_;
     std::vector<std::string> notices_;
     SlotState lastFinite_;  // the last state that was found finite
     std::uint64_t lastFiniteStep_ = 0;

@@ -86,6 +86,16 @@ struct Obstacle {
 #define ALL_OBSTACLES 1u
 #define END_OF_LIST 0xffffffffu
 
+// Springs that pull spheres.
+#define MOST_PULLS 64u
+struct PullSpring {
+    vec4 point;          // m; w: the square root of stiffness over mass (1/s), 0: there is no spring
+    float mostPull;      // m/s^2: the spring gives no larger acceleration
+    float mostSpeed;     // m/s: it makes the sphere no faster
+    uint sphere;         // handle
+    uint unusedUint;
+};
+
 // Sums over a block of spheres.
 struct SphereStatistics {
     vec4 weighted;          // sum of m x, x without wrapping; w: sum of m

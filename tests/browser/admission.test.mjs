@@ -147,7 +147,7 @@ test("for a viewer, controls that send commands are disabled with a reason, and 
   assert.equal(await page.isVisible(control("role")), true);
   assert.equal(await page.isVisible(control("control")), false);
   const buttons = ["pause", "step", "step-count", "step-many", "reset", "record"];
-  for (const id of [...buttons, "dial", "gravity-preset", "restitution", "drop", "push"]) {
+  for (const id of [...buttons, "dial", "gravity-preset", "restitution", "drop", "tool"]) {
     assert.equal(await page.isDisabled(control(id)), true, id);
     const title = await page.locator(control(id)).evaluate((element) => element.closest("[title]").title);
     assert.match(title, /watch but not control/, id);

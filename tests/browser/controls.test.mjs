@@ -97,7 +97,7 @@ test("a click in push mode moves the clicked sphere away from the eye", async ()
   await page.click(control("reset"));
   await outcomeOf("Reset");
   await pause(page);
-  await page.check(control("push"));
+  await page.selectOption(control("tool"), "Push");
   const before = await queryServer(page);
   const id = 4;
   await page.waitForTimeout(1500);
@@ -112,7 +112,7 @@ test("a click in push mode moves the clicked sphere away from the eye", async ()
   const eye = await page.evaluate(() => spherule.camera.eye);
   const away = (place) => Math.hypot(...place.map((value, axis) => value - eye[axis]));
   assert.ok(away(after.positions[id]) > away(before.positions[id]) + 0.05);
-  await page.uncheck(control("push"));
+  await page.selectOption(control("tool"), "Select");
 });
 
 test("a click without push mode selects the sphere", async () => {

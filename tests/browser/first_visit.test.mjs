@@ -75,7 +75,8 @@ test("a visitor pours spheres", async () => {
 
 test("a visitor pushes a sphere", async () => {
   assert.ok((await distance()) < 0.02);
-  await press("push");
+  await page.selectOption(control("tool"), "Push");
+  actions += 1;
   await click(await page.evaluate(() => spherule.project([0, 0, 0.3])), "canvas");
   await applied("Push");
   await page.waitForTimeout(500);
@@ -92,7 +93,7 @@ test("a visitor resets the scene", async () => {
 });
 
 test("pause, drop, push, gravity and quality need no scrolling", async () => {
-  const wanted = ["pause", "step", "drop-count", "drop-radius", "push", "impulse", "gravity-preset", "dial"];
+  const wanted = ["pause", "step", "drop-count", "drop-radius", "tool", "impulse", "gravity-preset", "dial"];
   const outOfSight = await page.evaluate((ids) => {
     const isVisible = (id) => {
       const element = document.querySelector(`[data-testid="${id}"]`);

@@ -87,7 +87,7 @@ test("the page shows the recording, and hides controls without effect", async ()
   for (const id of ["pause", "step", "step-many", "reset", "speed", "colour", "tier", "rate", "timeline"]) {
     assert.equal(await page.isVisible(control(id)), true, id);
   }
-  const world = ["scenes", "dial", "auto", "gravity-preset", "restitution", "friction", "drop", "push"];
+  const world = ["scenes", "dial", "auto", "gravity-preset", "restitution", "friction", "drop", "tool"];
   for (const id of [...world, "record", "timeline-flaw"]) assert.equal(await page.isVisible(control(id)), false, id);
   assert.match(await page.textContent(control("help-overlay")), /to the beginning/);
   assert.doesNotMatch(await page.textContent(control("help-overlay")), /drop|push/);

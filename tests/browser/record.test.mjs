@@ -121,7 +121,7 @@ test("pause, steps, keys, speed and the end of the file work as in a server's re
   await page.focus(control("picture"));
   await page.keyboard.press("r");
   await when(page, () => spherule.session.newest.simTime === 0);
-  const ofSimulations = ["scenes", "drop", "push", "record", "save"];
+  const ofSimulations = ["scenes", "save-scene", "edit-scene", "drop", "tool", "record", "save"];
   for (const id of ofSimulations) assert.equal(await page.isVisible(control(id)), false, id);
   await page.fill(control("speed"), "4");
   await page.press(control("speed"), "Enter");

@@ -127,7 +127,7 @@ test("a browser without WebGL shows what to do, and figures and controls work", 
   await when(page, () => /\d/.test(document.querySelector('[data-testid="statistics-kinetic"]')?.textContent));
   await page.click(control("pause"));
   await when(page, () => spherule.session.paused);
-  for (const id of ["legend", "home", "colour", "push"]) assert.equal(await page.isVisible(control(id)), false, id);
+  for (const id of ["legend", "home", "colour", "tool"]) assert.equal(await page.isVisible(control(id)), false, id);
   await page.close();
   await server.stop();
 });

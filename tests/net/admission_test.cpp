@@ -186,6 +186,12 @@ TEST_F(Tokens, RequiresTokenForDownloads) {
     EXPECT_EQ(ask("GET /recordings/one.sph?token=" + viewers + " HTTP/1.1\r\nHost: localhost\r\n").substr(9, 3), "401");
 }
 
+TEST_F(Tokens, RequiresTokenForTheScene) {
+    const std::string request = "GET /scene.json HTTP/1.1\r\nHost: localhost\r\n";
+    EXPECT_EQ(ask(request).substr(9, 3), "401");
+    EXPECT_EQ(ask(request + "Authorization: Bearer " + viewers + "\r\n").substr(9, 3), "200");
+}
+
 TEST_F(Tokens, AppliesNewTokensToNewSessions) {
     const auto before = joinAs(viewers);
     Credentials credentials = options().credentials;
@@ -210,6 +216,29 @@ TEST(Exposure, RefusesPublicAddressWithoutTokens) {
     EXPECT_NE(refused.error().text().find("--open"), std::string::npos);
     options.open = true;
     EXPECT_NO_THROW(FakeApp{options});
+}
+
+// The application ends the pull of a session that may not command any more.
+TEST(Exposure, ReportsTheLossOfControlAndTheEndOfASession) {
+    Options options = quickOptions();
+    options.open = true;
+    FakeApp app(options);
+    auto first = join(app, 0);
+    auto second = join(app, 0);
+    v1::ClientMessage message;
+    message.mutable_ask_control();
+    ASSERT_TRUE(first->send(message));
+    ASSERT_TRUE(eventually([&] { return next(*first).has_control(); }));
+    ASSERT_TRUE(second->send(message));
+    while (next(*first).control().asking_size() == 0) {
+    }
+    EXPECT_TRUE(app.silenced().empty());
+    message.mutable_yield_control();
+    ASSERT_TRUE(first->send(message));
+    EXPECT_TRUE(eventually([&] { return app.silenced() == std::vector<SessionId>{1}; }));
+    second.reset();
+    EXPECT_TRUE(eventually([&] { return app.silenced().size() >= 2; }));
+    EXPECT_EQ(app.silenced()[1], 2U);
 }
 
 TEST(Exposure, LimitsSessions) {

@@ -76,6 +76,30 @@ TEST_F(Http, ConnectionGoesOnAfterADownload) {
     EXPECT_TRUE(socket.readAll().ends_with("\r\n\r\nwell\n"));
 }
 
+TEST_F(Http, SceneIsSentPartByPart) {
+    const auto answer = ask("GET /scene.json");
+    EXPECT_EQ(answer.substr(0, 15), "HTTP/1.1 200 OK") << answer;
+    for (const std::string header :
+         {"Content-Type: application/json", "Content-Disposition: attachment; filename=\"scene.json\"",
+          "Transfer-Encoding: chunked", "X-Content-Type-Options: nosniff"})
+        EXPECT_TRUE(has(answer, "\r\n" + header + "\r\n")) << header << "\n" << answer;
+    EXPECT_TRUE(answer.ends_with("\r\n\r\n7\r\npart 1\n\r\n7\r\npart 2\n\r\n7\r\npart 3\n\r\n0\r\n\r\n")) << answer;
+    const RawSocket old(app_.server().port());
+    old.send("GET /scene.json HTTP/1.0\r\nHost: localhost\r\n\r\n");
+    const std::string plain = old.readAll();
+    EXPECT_TRUE(plain.ends_with("\r\n\r\npart 1\npart 2\npart 3\n")) << plain;
+    // The connection goes on.
+    const RawSocket socket(app_.server().port());
+    for (const std::string method : {"GET", "HEAD"})
+        socket.send(method + " /scene.json HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    socket.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    EXPECT_TRUE(socket.readAll().ends_with("\r\n\r\nwell\n"));
+    app_.takesCommands = false;
+    const auto busy = ask("GET /scene.json");
+    EXPECT_EQ(busy.substr(9, 3), "503") << busy;
+    EXPECT_TRUE(has(busy, "\r\nRetry-After: ")) << busy;
+}
+
 TEST_F(Http, OtherDownloadsAreNotThere) {
     for (const std::string path :
          {"/recordings/", "/recordings/../one.sph", "/recordings/two.sph", "/recordings/gone.sph", "/recordings"})

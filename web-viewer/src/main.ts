@@ -37,7 +37,7 @@ function start(): void {
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
     theme: theme ?? systemTheme(),
     themeChosen: theme !== undefined,
-    push: false,
+    tool: "select",
     impulse: 1,
     view: loadViewRequest(new URLSearchParams(location.search), () => localStorage),
   };

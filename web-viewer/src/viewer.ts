@@ -6,7 +6,7 @@ import { DrawClock, sharedNow } from "./clock";
 import { Admission } from "./connection/admission";
 import { Commands, ReportLog } from "./connection/commands";
 import type { PushRay, Report } from "./connection/commands";
-import { fetchRecording } from "./connection/download";
+import { fetchFile } from "./connection/download";
 import { Link } from "./connection/link";
 import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
@@ -113,7 +113,8 @@ export class Viewer {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
       present: () => this.link.showPresent(),
       save: () => this.link.save(),
-      fetchRecording: (name) => fetchRecording(name, this.admission.token),
+      fetchFile: (path) => fetchFile(path, this.admission.token),
+      click: (x, y) => this.click(x, y),
       play: (recording) => this.link.open(recording),
       submitToken: (text) => this.admission.submit(text),
       forgetToken: () => this.admission.forget(),
@@ -232,6 +233,7 @@ export class Viewer {
       this.clock.drew();
       if (shown) markFirst("drawn");
     }
+    this.page.lazy.tools?.update(state.view, shown);
     this.reportDrawRate(now);
     this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.graphics);
   }
@@ -293,18 +295,26 @@ export class Viewer {
   }
 
   private listenToGestures(element: HTMLCanvasElement): void {
-    const { camera, choices } = this;
+    const { camera } = this;
     listen(element, {
       orbit: (dx, dy) => camera.orbit(dx, dy),
       pan: (dx, dy) => camera.pan(dx, dy),
       zoom: (factor, x, y) => camera.zoom(factor, x, y),
-      click: (x, y) => {
-        const place = this.placeAt(x, y);
-        const population = this.session.facts?.population;
-        const sphere = place === undefined ? undefined : population?.idOf(place);
-        if (choices.push) void this.push(rayThrough(camera.last, x, y), sphere);
-        else this.page.inspector.selection.select(population, place);
-      },
+      click: (x, y) => this.click(x, y),
+      grab: (x, y) => this.page.lazy.tools?.grab(x, y, this.placeAt(x, y)) ?? false,
+      drag: (x, y) => this.page.lazy.tools?.drag(x, y),
+      letGo: () => this.page.lazy.tools?.letGo(),
     });
+  }
+
+  /** `x`, `y`: CSS pixels on the canvas. */
+  private click(x: number, y: number): void {
+    const place = this.placeAt(x, y);
+    const population = this.session.facts?.population;
+    const ray = rayThrough(this.camera.last, x, y);
+    const { tool } = this.choices;
+    if (tool === "push") void this.push(ray, place === undefined ? undefined : population?.idOf(place));
+    else if (tool === "drop") this.page.lazy.tools?.drop(ray, place);
+    else this.page.inspector.selection.select(population, place);
   }
 }

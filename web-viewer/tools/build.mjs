@@ -23,6 +23,19 @@ const withoutFont = {
   },
 };
 
+/** Removes the copy of lil-gui's style sheet from its code: the page has the sheet in style.css. */
+const withoutSheet = {
+  name: "without sheet",
+  setup(build) {
+    build.onLoad({ filter: /lil-gui\.esm\.js$/ }, ({ path: file }) => {
+      const whole = readFileSync(file, "utf8");
+      const contents = whole.replace(/(stylesheet = )`[^`]*`/, '$1""');
+      if (contents === whole) throw new Error("the code of lil-gui has no style sheet any more: remove this plugin");
+      return { contents, loader: "js" };
+    });
+  },
+};
+
 /** Removes comments and indentation from shaders. */
 const shortShaders = {
   name: "short shaders",
@@ -35,18 +48,9 @@ const shortShaders = {
   },
 };
 
-/** The page loads charts.js when it needs it. */
-const chartsLater = {
-  name: "charts later",
-  setup(build) {
-    const later = ({ kind }) => (kind === "dynamic-import" ? { path: "./charts.js", external: true } : undefined);
-    build.onResolve({ filter: /\/charts\/charts$/ }, later);
-  },
-};
-
 const { out, protoc, debug } = options();
 generate(protoc);
-const shared = {
+const common = {
   absWorkingDir: root,
   outdir: out,
   write: false,
@@ -58,7 +62,7 @@ const shared = {
   logLevel: "warning",
 };
 const { outputFiles, metafile } = await esbuild.build({
-  ...shared,
+  ...common,
   entryPoints: {
     viewer: "src/main.ts",
     worker: "src/connection/worker.ts",
@@ -67,28 +71,29 @@ const { outputFiles, metafile } = await esbuild.build({
   },
   metafile: true,
   format: "iife",
-  plugins: [withoutFont, shortShaders, chartsLater],
+  plugins: [withoutFont, withoutSheet, shortShaders],
 });
-const charts = await esbuild.build({ ...shared, entryPoints: { charts: "src/charts/charts.ts" }, format: "esm" });
-const chartStyle = await esbuild.build({ ...shared, entryPoints: { charts: "src/charts/charts.css" } });
+// Parts of the page that it loads when it needs them: see src/ui/parts.ts.
+const names = ["charts", "editor", "gallery", "statistics", "tools"];
+const parts = Object.fromEntries(names.map((name) => [name, `src/${name}/${name}.ts`]));
+const lazy = await esbuild.build({ ...common, entryPoints: parts, format: "esm", loader: { ".css": "text" } });
 const viewer = Object.values(metafile.outputs).find(({ entryPoint }) => entryPoint === "src/main.ts");
 const library = Object.entries(viewer.inputs).find(([file, used]) => used.bytesInOutput && file.includes("@bufbuild/"));
 if (library) throw new Error(`viewer.js contains ${library[0]}: only the worker may encode and decode messages`);
 
 const pages = path.join(root, "src/page");
 const pageFiles = readdirSync(pages, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());
-const built = [outputFiles, charts.outputFiles, chartStyle.outputFiles].flat();
 const files = [
-  ...built.map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
+  ...[...outputFiles, ...lazy.outputFiles].map((file) => ({ name: path.basename(file.path), bytes: file.contents })),
   ...pageFiles.map(({ path: folder, name }) => ({
     name: path.relative(pages, path.join(folder, name)),
     bytes: readFileSync(path.join(folder, name)),
   })),
 ].map((file) => ({ ...file, compressed: gzipSync(file.bytes, { level: 9 }) }));
 
-// The gallery loads pictures when it opens. The page loads archive.js when it writes or reads a recording, and charts.*
-// when the folder of the charts is opened.
-const later = ({ name }) => name.endsWith(".webp") || name === "archive.js" || name.startsWith("charts.");
+// The gallery loads pictures when it opens, and the page loads archive.js when it writes or reads a recording.
+const loadedLater = ["archive.js", ...names.map((part) => `${part}.js`)];
+const later = ({ name }) => name.endsWith(".webp") || loadedLater.includes(name);
 const firstLoad = files.filter((file) => !later(file));
 const sum = firstLoad.reduce((total, { compressed }) => total + compressed.length, 0);
 for (const { name, compressed } of firstLoad) console.log(`${String(compressed.length).padStart(7)} ${name}.gz`);

@@ -119,6 +119,23 @@ std::vector<v1::Command> FakeApp::commands() {
     return commands_;
 }
 
+std::vector<SessionId> FakeApp::silenced() {
+    const std::lock_guard lock(mutex_);
+    return silenced_;
+}
+
+namespace {
+
+class ThreeParts : public Document {
+  public:
+    std::string next() override { return part_ == 3 ? "" : "part " + std::to_string(++part_) + "\n"; }
+
+  private:
+    int part_ = 0;
+};
+
+}  // namespace
+
 Handlers FakeApp::handlers() {
     return {
         .welcome =
@@ -141,6 +158,11 @@ Handlers FakeApp::handlers() {
             server_->reply(session, std::move(result));
             return std::nullopt;
         },
+        .mayNotCommand =
+            [this](SessionId session) {
+                const std::lock_guard lock(mutex_);
+                silenced_.push_back(session);
+            },
         .refuses =
             [this](SessionId, std::size_t) {
                 return takesLong ? Handlers::Refusal() : Handlers::Refusal("the command queue is full");
@@ -151,6 +173,11 @@ Handlers FakeApp::handlers() {
                 return folder_ / path.substr(downloadsPath.size());
             return std::nullopt;
         },
+        .saveScene =
+            [this](const Handlers::Made& made) {
+                if (takesCommands) return made(std::make_shared<ThreeParts>(), {});
+                made(nullptr, {503, "text/plain; charset=utf-8", "another scene is being saved\n"});
+            },
         .get =
             [this](const std::string& path, const Counters&) {
                 if (throws) throw std::bad_alloc();

@@ -38,7 +38,7 @@ codec::SharedMessage eventOf(const std::string& text, v1::Event::Kind kind = v1:
 bool eventually(const std::function<bool()>& condition);
 
 // A server on a free port, with an application that simulates nothing. It has one file, at /file, and one
-// download, at /recordings/one.sph. The file of /recordings/gone.sph has been deleted.
+// download, at /recordings/one.sph, and a scene of three parts. The file of /recordings/gone.sph has been deleted.
 class FakeApp {
   public:
     explicit FakeApp(const Options& options = quickOptions());
@@ -62,6 +62,7 @@ class FakeApp {
     std::atomic<bool> takesLong = true;      // false: refuses() refuses
     std::atomic<bool> throws = false;        // submit() and get() throw std::bad_alloc
     std::vector<v1::Command> commands();
+    std::vector<SessionId> silenced();  // sessions that may not command any more
     // While true, the next command blocks the io thread; `held` is true then.
     std::atomic<bool> hold = false;
     std::atomic<bool> held = false;
@@ -73,6 +74,7 @@ class FakeApp {
     std::unique_ptr<Server> server_;
     std::mutex mutex_;
     std::vector<v1::Command> commands_;
+    std::vector<SessionId> silenced_;
     std::atomic<std::uint32_t> epoch_ = 1;
     std::atomic<std::uint32_t> number_ = 0;
     std::jthread publisher_;

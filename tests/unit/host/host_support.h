@@ -16,7 +16,7 @@ class NoProducerCommands : public ProducerCommands {
 // Applies a command to a simulation without recordings.
 inline std::optional<Result<sim::Applied>> give(SimulationHost& host, const v1::Command& command) {
     NoProducerCommands commands;
-    return dispatch(command, host, commands);
+    return dispatch({.session = 1, .command = command}, host, commands);
 }
 
 }  // namespace spherule::host

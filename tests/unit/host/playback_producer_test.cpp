@@ -56,7 +56,7 @@ class Playback : private FakePublisher {
         changes_ = changes;
         Player player(std::move(*recording::Recording::open(path)), "film.sph", true, Player::Clock::now());
         PlaybackProducer producer(std::move(*compute::openDevice("cpu:1")), std::move(player),
-                                  {requests_, board_, *this});
+                                  {requests_, board_, *this, saver_});
         EXPECT_TRUE(producer.run(stop_.get_token()));
     }
 
@@ -73,6 +73,7 @@ class Playback : private FakePublisher {
 
     std::size_t changes_ = 0;
     Requests requests_;
+    SceneSaver saver_;
     StatusBoard board_;
     std::stop_source stop_;
 };

@@ -44,6 +44,27 @@ TEST(Requests, AreTakenInOrderAndFromSessionsInTurn) {
     EXPECT_EQ(popAll(requests), "3:1 7:1 9:1 7:2 9:2 7:3 7:4 ");
 }
 
+// The pull of a session that has ended must end after all its commands.
+TEST(Requests, ReleaseComesAfterThePullsOfASession) {
+    Requests requests({.commands = 10, .commandsPerSession = 2});
+    requests.release(4);
+    EXPECT_EQ(popAll(requests), "") << "it has pulled nothing";
+    for (std::uint64_t id = 1; id <= 2; ++id) {
+        Request pull = pauseOf(4, id);
+        pull.command.mutable_pull()->set_sphere(3);
+        EXPECT_FALSE(requests.push(std::move(pull)));
+    }
+    requests.release(4);
+    requests.release(4);
+    for (int k = 0; k < 2; ++k) EXPECT_TRUE(requests.tryPop()->answered);
+    const auto release = requests.tryPop();
+    ASSERT_TRUE(release);
+    EXPECT_TRUE(release->command.has_release());
+    EXPECT_EQ(release->session, 4U);
+    EXPECT_FALSE(release->answered);
+    EXPECT_FALSE(requests.tryPop());
+}
+
 TEST(Requests, AreLimitedPerSessionAndInTotal) {
     Requests requests({.commands = 10, .commandsPerSession = 4});
     for (std::uint64_t id = 1; id <= 4; ++id) EXPECT_FALSE(requests.push(pauseOf(1, id)));

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 class TestSessions : private FakePublisher {
   public:
     explicit TestSessions(const std::string& scene = "two-spheres")
-        : producer_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, *this},
+        : producer_(std::move(*SimulationHost::open("cpu:1", scene, {})), {requests_, board_, *this, saver_},
                     diagnostics::ownTable(), recording::LiveOptions()) {}
 
     // Queues a command; returns its id, which counts from 1.
@@ -83,6 +83,7 @@ class TestSessions : private FakePublisher {
     }
 
     Requests requests_;
+    SceneSaver saver_;
     StatusBoard board_;
     std::stop_source stop_;
     std::function<bool()> enough_;
@@ -270,7 +271,8 @@ class PausedSimulation : public testing::Test, private FakePublisher {
             "groups": [{"list": {"spheres": [{"position": [0.5, 0.5, 0.05]}]}, "radius": {"constant": 0.05}}]})");
         thread_ = std::jthread([this](const std::stop_token& stop) {
             SimulationProducer producer(SimulationHost::open("cpu:1", folder_ / "one.json", {}).value(),
-                                        {requests_, board_, *this}, diagnostics::ownTable(), recording::LiveOptions());
+                                        {requests_, board_, *this, saver_}, diagnostics::ownTable(),
+                                        recording::LiveOptions());
             EXPECT_TRUE(producer.run(stop));
         });
     }
@@ -309,6 +311,7 @@ class PausedSimulation : public testing::Test, private FakePublisher {
 
     recording::TemporaryFolder folder_;
     Requests requests_;
+    SceneSaver saver_;
     StatusBoard board_;
     std::mutex mutex_;
     std::condition_variable changed_;

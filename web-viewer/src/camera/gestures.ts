@@ -4,6 +4,9 @@ export interface Gestures {
   pan(dx: number, dy: number): void;
   zoom(factor: number, x: number, y: number): void;
   click(x: number, y: number): void;
+  grab(x: number, y: number): boolean; // whether the drag that begins here moves something else than the view
+  drag(x: number, y: number): void; // while something is grabbed
+  letGo(): void;
 }
 
 interface Finger {
@@ -23,6 +26,11 @@ export function listen(element: HTMLElement, gestures: Gestures): void {
   let pans = false;
   let moved = 0; // px
   let several = false;
+  let grabs = false;
+  const letGo = (): void => {
+    if (grabs) gestures.letGo();
+    grabs = false;
+  };
 
   element.addEventListener("pointerdown", (event) => {
     element.setPointerCapture(event.pointerId);
@@ -32,6 +40,8 @@ export function listen(element: HTMLElement, gestures: Gestures): void {
     }
     fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
     several ||= fingers.size > 1;
+    letGo();
+    grabs = !several && event.button === 0 && !event.shiftKey && gestures.grab(event.offsetX, event.offsetY);
     pans = event.button === 1 || event.button === 2 || event.shiftKey;
     element.focus({ preventScroll: true });
   });
@@ -49,13 +59,15 @@ export function listen(element: HTMLElement, gestures: Gestures): void {
       gestures.pan(after.x - before.x, after.y - before.y);
       if (before.size > 0 && after.size > 0) gestures.zoom(before.size / after.size, after.x, after.y);
     } else if (moved > slack) {
-      if (pans) gestures.pan(dx, dy);
+      if (grabs) gestures.drag(finger.x, finger.y);
+      else if (pans) gestures.pan(dx, dy);
       else gestures.orbit(dx, dy);
     }
   });
 
   const lift = (event: PointerEvent): void => {
     if (!fingers.delete(event.pointerId)) return;
+    letGo();
     const clicked = event.type === "pointerup" && event.button === 0 && moved <= slack && !several;
     if (clicked) gestures.click(event.offsetX, event.offsetY);
   };

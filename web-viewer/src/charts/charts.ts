@@ -1,6 +1,9 @@
 import uPlot from "uplot";
+import plotStyle from "uplot/dist/uPlot.min.css";
 import { figure, seconds } from "../format";
 import type { Sample, Samples } from "../model/samples";
+import { adoptStyle } from "../ui/parts";
+import style from "./charts.css";
 import { chartKinds } from "./chart_list";
 import type { ChartKind, Series } from "./chart_list";
 
@@ -28,10 +31,7 @@ export class Charts {
 
   /** `parent`: the element to fill. */
   constructor(private readonly parent: HTMLElement) {
-    const style = element("link");
-    style.rel = "stylesheet";
-    style.href = "charts.css";
-    document.head.append(style);
+    for (const sheet of [plotStyle, style]) adoptStyle(sheet);
     parent.classList.add("charts");
     this.select.setAttribute("aria-label", "Chart");
     this.select.dataset.testid = "chart";

@@ -1,5 +1,6 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import type { SetSchema } from "../gen/spherule/v1/control_pb";
+import type { SceneSchema } from "../gen/spherule/v1/scene_pb";
 import * as format from "../format";
 import type { CommandKind, Link, Outcome } from "./link";
 import type { CommandCase } from "./messages";
@@ -76,8 +77,22 @@ export class Commands {
     return this.send(`Scene ${name}`, { case: "load", value: { source: { case: "name", value: name } } });
   }
 
-  set(name: string, settings: MessageInitShape<typeof SetSchema>): Promise<Outcome> {
-    return this.send(name, { case: "set", value: settings });
+  /** `scene`: a message that another part of the page has read. */
+  loadScene(name: string, scene: MessageInitShape<typeof SceneSchema>): Promise<Outcome> {
+    return this.send(name, { case: "load", value: { source: { case: "scene", value: scene } } }, true);
+  }
+
+  set(name: string, settings: MessageInitShape<typeof SetSchema>, quiet = false): Promise<Outcome> {
+    return this.send(name, { case: "set", value: settings }, quiet);
+  }
+
+  /** Pulls a sphere to a point (m). */
+  pull(sphere: number, point: readonly number[]): Promise<Outcome> {
+    return this.send("Pull", { case: "pull", value: { sphere: BigInt(sphere), point: [...point] } }, true);
+  }
+
+  release(): Promise<Outcome> {
+    return this.send("Release", { case: "release", value: {} }, true);
   }
 
   drop({ min, max, count, radius }: Drop): Promise<Outcome> {

@@ -2,6 +2,7 @@ import type GUI from "lil-gui";
 import type { Charts } from "../charts/charts";
 import type { Samples } from "../model/samples";
 import { h } from "./dom";
+import type { LoadPart } from "./parts";
 
 /** The folder of the panel for charts. It loads them when it is first open, and does nothing while it is closed. */
 export class ChartFolder {
@@ -9,7 +10,10 @@ export class ChartFolder {
   private charts: Charts | undefined;
   private loading = false;
 
-  constructor(private readonly folder: GUI) {
+  constructor(
+    private readonly folder: GUI,
+    private readonly load: LoadPart,
+  ) {
     folder.$children.append(this.host);
     folder.onOpenClose(() => (this.loading = false)); // tries again after a failure
   }
@@ -18,18 +22,12 @@ export class ChartFolder {
   update(samples: Samples): void {
     if (this.folder._closed || document.hidden) return;
     if (this.charts) this.charts.update(samples);
-    else if (!this.loading) void this.load();
+    else if (!this.loading) void this.begin();
   }
 
-  private async load(): Promise<void> {
+  private async begin(): Promise<void> {
     this.loading = true;
-    try {
-      const { Charts } = await import("../charts/charts");
-      this.host.replaceChildren();
-      this.charts = new Charts(this.host);
-    } catch {
-      const text = "The charts could not be loaded. Close this folder and open it again.";
-      this.host.replaceChildren(h("p", { class: "note" }, text));
-    }
+    const part = await this.load<{ Charts: new (host: HTMLElement) => Charts }>("charts");
+    if (part) this.charts = new part.Charts(this.host);
   }
 }

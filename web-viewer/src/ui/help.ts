@@ -5,7 +5,7 @@ const gestures = (playing: boolean): [string, string][] => [
   ["drag · one finger", "orbit"],
   ["right or shift + drag · two fingers", "pan"],
   ["wheel · pinch", "zoom to the pointer"],
-  ["click · tap", playing ? "select a sphere" : "select a sphere, or push it in push mode"],
+  ["click · tap", playing ? "select a sphere" : "select a sphere, or use the chosen tool"],
 ];
 
 const onTimeline: [string, string] = ["Timeline", "← → one frame, ↑ ↓ one second, Home, End"];

@@ -86,6 +86,9 @@ export interface KeyActions {
   home(): void;
   follow(): void;
   present(): void;
+  middle(): void; // clicks in the middle of the picture
+  /** Moves the pulled sphere, in steps in the picture; returns false if there is none. */
+  move(across: number, up: number, away: number): boolean;
   camera: Camera;
 }
 
@@ -119,6 +122,9 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     one("d", "drop spheres", actions.drop),
     one("p", "push mode", actions.push),
     one("Delete", "remove the selected sphere", actions.remove, "Del"),
+    ...each("PgUp  PgDn", "move the pulled sphere away, nearer", { PageUp: 1, PageDown: -1 }, (away) => {
+      actions.move(0, 0, away);
+    }),
     one("End", "from the past back to live", actions.present, "End"),
   ];
   return [
@@ -134,10 +140,13 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     one("x", "look along x", () => camera.along(0, 0)),
     one("y", "look along y", () => camera.along(-Math.PI / 2, 0)),
     one("z", "look down", () => camera.along(-Math.PI / 2, Math.PI / 2 - 0.02)),
-    ...each("Arrows", "orbit", arrows, ([dx, dy]) => camera.orbit(dx, dy)),
+    ...each("Arrows", playing ? "orbit" : "orbit, or move the pulled sphere", arrows, ([dx, dy]) => {
+      if (!actions.move(-dx / nudge, dy / nudge, 0)) camera.orbit(dx, dy);
+    }),
+    one("Enter", "click in the middle of the picture", actions.middle, "Enter"),
     ...each("+  −", "zoom", { "+": 0.8, "=": 0.8, "-": 1.25 }, (factor) => camera.zoom(factor)),
     one("c", "show or hide the controls", actions.panel),
     one("?", "this help", actions.help),
-    one("Escape", "close, deselect", actions.deselect, "Esc"),
+    one("Escape", "release, close, deselect", actions.deselect, "Esc"),
   ];
 }

@@ -18,7 +18,6 @@ import { ChangeLine } from "./change_line";
 import { fileNameOf } from "../connection/file_name";
 import { h } from "./dom";
 import { Files } from "./files";
-import { Gallery } from "./gallery";
 import { Header } from "./header";
 import { Gauge } from "./gauge";
 import { Help } from "./help";
@@ -26,10 +25,13 @@ import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
 import { Legend } from "./legend";
+import { Lazy } from "./lazy";
 import { Links } from "./links";
 import { Notices, noticesFor, OutsideCount } from "./notices";
 import type { Notice, NoticeAction } from "./notices";
 import { Panel } from "./panel";
+import { loadPart } from "./parts";
+import type { LoadPart } from "./parts";
 import type { Choices, PanelActions } from "./panel";
 import { Playback } from "./playback";
 import { Prompt } from "./prompt";
@@ -40,12 +42,15 @@ import { whenSystemThemeChanges } from "./system_theme";
 import { longStay, Toasts } from "./toasts";
 import { Transport } from "./transport";
 
-export interface PageActions extends Omit<PanelActions, "showScenes" | "copyLink" | "openFile" | "savePicture"> {
+type OwnActions = "showScenes" | "copyLink" | "openFile" | "saveScene" | "editScene" | "savePicture" | "loadPart";
+
+export interface PageActions extends Omit<PanelActions, OwnActions> {
   retry(): void;
   present(): void; // shows the simulation as it is now
   save(): void; // the last seconds, as a recording
   play(recording: File): void;
-  fetchRecording(name: string): Promise<Blob>;
+  fetchFile(path: string): Promise<Blob>; // from the server
+  click(x: number, y: number): void; // on the canvas
   submitToken(text: string): boolean;
   sendControl(message: ControlMessage): void;
   /** Makes a picture (px), as PNG; undefined if `progress` has returned false. */
@@ -66,6 +71,7 @@ export class Page {
   readonly links: Links;
   readonly files: Files;
   readonly steering: Steering;
+  readonly lazy: Lazy;
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
   private readonly header: Header;
@@ -82,7 +88,6 @@ export class Page {
   private readonly status: StatusLine;
   private readonly characters = new CharacterKeys(() => localStorage);
   private readonly help = new Help(this.characters);
-  private readonly gallery: Gallery;
   private readonly keys: () => Key[];
   private playing = false; // the server plays a recording
   private lastFigures = 0; // ms
@@ -109,14 +114,26 @@ export class Page {
       showTheme(theme);
       this.panel.refresh();
     });
-    this.gallery = new Gallery(session, commands);
-    const showScenes = (): void => this.gallery.show(this.steering.blockedReason);
-    this.files = new Files({ ".sph": { what: "recordings", open: actions.play } }, this.toasts, container);
+    const showScenes = (): void => void this.lazy.showGallery(this.steering.blockedReason);
+    const editScene = (text?: Promise<string>): void => {
+      if (!this.steering.blocked("load")) void this.lazy.editScene(text);
+    };
+    const openers = {
+      ".sph": { what: "recordings", open: actions.play },
+      ".json": { what: "scenes", open: (file: File) => editScene(file.text()) },
+    };
+    this.files = new Files(openers, this.toasts, container);
+    const saveScene = (): void => {
+      const name = `${session.facts?.name || "scene"}.json`;
+      void this.fetchFile("scene.json", name, (file) => this.files.give(file, name));
+    };
     const openFile = (): void => this.files.choose();
     const copyLink = (): void => void this.links.copy();
+    const load: LoadPart = (name) => loadPart(name, this.toasts);
     const savePicture = (width: number, height: number): void => void this.savePicture(width, height);
-    const own = { themeChanged, showScenes, copyLink, openFile, savePicture };
-    this.panel = new Panel(commands, choices, { ...actions, ...own });
+    const files = { openFile, saveScene, editScene: () => editScene(), savePicture };
+    const own = { themeChanged, showScenes, copyLink, loadPart: load };
+    this.panel = new Panel(commands, choices, { ...actions, ...files, ...own });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.inspection = new Inspection(session, (id) => commands.inspect(id));
     this.links = new Links(session, this.toasts, {
@@ -148,14 +165,20 @@ export class Page {
       colour: (mode) => this.panel.colourBy(mode),
       push: () => {
         if (this.steering.blocked()) return;
-        choices.push = !choices.push;
+        choices.tool = choices.tool === "push" ? "select" : "push";
         this.panel.refresh();
       },
+      middle: () => {
+        const { width, height } = actions.camera.last;
+        actions.click(width / 2, height / 2);
+      },
+      move: (across, up, away) => this.lazy.tools?.move(across, up, away) ?? false,
       lock: () => ranges.toggleLock(),
       drop: () => this.panel.dropNow(),
       follow: () => this.inspector.toggleFollowed(),
       remove: () => void this.inspector.removeSelected(),
       deselect: () => {
+        if (this.lazy.tools?.letGo()) return;
         this.inspector.selection.clear();
         this.help.element.close();
       },
@@ -163,8 +186,20 @@ export class Page {
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
     this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
     const keys = { live: keysFor(keyActions, false), playing: keysFor(keyActions, true) };
-    this.keys = () => (this.prompt.open || this.gallery.open ? [] : this.playing ? keys.playing : keys.live);
+    const typing = (): boolean => this.prompt.open || this.lazy.dialog;
+    this.keys = () => (typing() ? [] : this.playing ? keys.playing : keys.live);
     listenForKeys(() => this.keys(), this.characters);
+    this.lazy = new Lazy({
+      container,
+      session,
+      commands,
+      choices,
+      camera: actions.camera,
+      panel: this.panel,
+      selection: this.inspector.selection,
+      toasts: this.toasts,
+      blocked: () => this.steering.blocked(),
+    });
     this.record = new RecordButton(commands);
     this.change = new ChangeLine(() => void commands.cancel());
     this.drawing = new ChangeLine(() => (this.picture = undefined), "drawing");
@@ -185,7 +220,7 @@ export class Page {
     const controls = h("div", { class: "controls" }, ...lines);
     const deck = h("div", { class: "deck" }, controls);
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, deck));
-    const dialogs = [help, this.gallery, this.prompt].map(({ element }) => element);
+    const dialogs = [help, this.prompt].map(({ element }) => element);
     container.append(header.element, foot, panel.element, status.element, toasts.element, ...dialogs);
     panel.element.setAttribute("role", "region");
     panel.element.setAttribute("aria-label", "Controls");
@@ -221,8 +256,8 @@ export class Page {
     this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.gauge.update(this.actions.camera, this.session.facts !== undefined);
     this.legend.update(this.choices.mode, this.session.facts);
-    this.gallery.update(blockedReason);
-    document.getElementById("picture")?.classList.toggle("pushing", this.choices.push);
+    this.lazy.gallery?.update(blockedReason);
+    document.getElementById("picture")?.classList.toggle("aiming", this.choices.tool !== "select");
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
     this.header.update(now, this.steering.state, graphics);
@@ -235,7 +270,8 @@ export class Page {
   recordingChanged(recording: Recording, before: Recording | undefined): void {
     const end = recordingEnd(recording, before);
     if (!end) return;
-    const fetched = (use: (file: Blob) => void): void => void this.fetchRecording(end.file, use);
+    const path = `recordings/${encodeURIComponent(end.file)}`;
+    const fetched = (use: (file: Blob) => void): void => void this.fetchFile(path, end.file, use);
     const actions = {
       Download: () => fetched((file) => this.files.give(file, end.file)),
       Open: () => fetched((file) => this.actions.play(new File([file], end.file))),
@@ -243,10 +279,10 @@ export class Page {
     this.toasts.show(end.title, end.text, end.failed ? "bad" : "good", { stay: longStay, actions });
   }
 
-  /** `name`: of a recording that the server has written. */
-  private async fetchRecording(name: string, use: (file: Blob) => void): Promise<void> {
+  /** Fetches a file of the server. `name`: for the user. */
+  private async fetchFile(path: string, name: string, use: (file: Blob) => void): Promise<void> {
     try {
-      use(await this.actions.fetchRecording(name));
+      use(await this.actions.fetchFile(path));
     } catch (error) {
       this.toasts.show(name, sentence(error instanceof Error ? error.message : String(error)), "bad");
     }
@@ -299,7 +335,7 @@ export class Page {
     if (action === "reset") void this.commands.reset();
     if (action === "drop") this.panel.dropNow();
     if (action === "load") void this.commands.load(this.links.wanted?.name ?? "");
-    if (action === "choose") this.gallery.show(this.steering.blockedReason);
+    if (action === "choose") void this.lazy.showGallery(this.steering.blockedReason);
   }
 
   private setPlaying(playing: boolean): void {

@@ -1,12 +1,13 @@
 import GUI from "lil-gui";
 import type { Controller, NumberController } from "lil-gui";
-import type { Commands } from "../connection/commands";
+import type { Commands, Drop } from "../connection/commands";
 import type { Outcome } from "../connection/link";
 import type { ViewRequest } from "../connection/messages";
 import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Dial as DialMessage } from "../gen/spherule/v1/diagnostics_pb";
 import type { Cut } from "../model/cut";
 import type { Facts } from "../model/facts";
+import type { Tool } from "../model/tool";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
 import { largestSide } from "../renderer/picture";
@@ -21,6 +22,7 @@ import { Dial } from "./dial";
 import { Entry } from "./entry";
 import type { EntryRule } from "./entry";
 import { rememberFolders } from "./folders";
+import type { LoadPart } from "./parts";
 import {
   customGravity,
   dropCountFor,
@@ -34,7 +36,7 @@ import {
   impulseRule,
 } from "./presets";
 import { refusalText } from "./refusals";
-import { StatisticsLists } from "./statistics";
+import { StatisticsFolders } from "./statistics_folders";
 import { StreamFolder } from "./stream_folder";
 
 /** Choices of the user that concern only this page. */
@@ -44,7 +46,7 @@ export interface Choices {
   quality: RenderQualityChoice;
   theme: ThemeName;
   themeChosen: boolean; // false: the system determines the theme
-  push: boolean;
+  tool: Tool;
   impulse: number; // N s
   view: ViewRequest;
   cut: Cut;
@@ -60,11 +62,15 @@ export interface PanelActions {
   copyLink(): void;
   openFile(): void;
   savePicture(width: number, height: number): void; // px
+  saveScene(): void;
+  editScene(): void;
+  loadPart: LoadPart;
 }
 
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
 const gravityRule: EntryRule = { unit: "m/s²", least: -1e6, most: 1e6 };
 const capital = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
+const toolNames = { Select: "select", Push: "push", Pull: "pull", Drop: "drop" };
 const themeNames = { Light: "light", Dark: "dark" };
 
 /**
@@ -76,7 +82,7 @@ export class Panel {
   readonly cut: CutFolder;
   readonly charts: ChartFolder;
   private readonly gui: GUI;
-  private readonly statistics = new StatisticsLists();
+  private readonly statistics: StatisticsFolders;
   private readonly world = {
     gravity: "Earth",
     x: 0,
@@ -96,6 +102,9 @@ export class Panel {
   private readonly access: GUI; // hidden while there is no token
   private readonly restriction: Restriction;
   private readonly scenes: Controller;
+  private readonly save: Controller;
+  private readonly edit: Controller;
+  gravity!: GUI; // its folder
   private readonly dial = new Dial(
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
@@ -114,9 +123,12 @@ export class Panel {
     this.element.dataset.testid = "panel";
     this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
     const open = tag("open-file", this.gui.add({ act: () => actions.openFile() }, "act").name("Open…"));
-    open.domElement.title = "Plays a recording (.sph). It can also be dropped on the page";
+    open.domElement.title = "Plays a recording (.sph) or loads a scene (.json). Both can also be dropped on the page";
     const copy = tag("copy-link", this.gui.add({ act: () => actions.copyLink() }, "act").name("Copy link"));
     copy.domElement.title = "Copies an address that opens this view";
+    this.save = tag("save-scene", this.gui.add({ act: () => actions.saveScene() }, "act").name("Save scene"));
+    this.save.domElement.title = "Saves the spheres as they are now, as a scene file (.json)";
+    this.edit = tag("edit-scene", this.gui.add({ act: () => actions.editScene() }, "act").name("Write a scene…"));
     this.addDrop();
     this.addPush();
     this.addGravity();
@@ -129,11 +141,10 @@ export class Panel {
     const stream = this.gui.addFolder("Stream");
     this.stream = new StreamFolder(stream, choices.view, requested);
     const now = this.addSimulated("Now");
-    now.$children.append(this.statistics.quality.element);
     const statistics = this.addSimulated("Statistics");
-    statistics.$children.append(this.statistics.rest.element);
+    this.statistics = new StatisticsFolders(now, statistics, actions.loadPart);
     const charts = this.gui.addFolder("Charts");
-    this.charts = new ChartFolder(charts);
+    this.charts = new ChartFolder(charts, actions.loadPart);
     this.access = this.gui.addFolder("Access").hide();
     const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
@@ -144,7 +155,7 @@ export class Panel {
 
   /** Disables all controls that send commands; an empty reason enables them. */
   restrict(blockedReason: string): void {
-    if (blockedReason) this.choices.push = false;
+    if (blockedReason) this.choices.tool = "select";
     this.restriction.set(blockedReason);
     this.dial.restrict(blockedReason);
     this.refresh();
@@ -156,8 +167,8 @@ export class Panel {
 
   /** `playing`: the server plays a recording. Hides the controls that then have no effect. */
   setPlaying(playing: boolean): void {
-    if (playing) this.choices.push = false;
-    this.scenes.show(!playing);
+    if (playing) this.choices.tool = "select";
+    for (const scene of [this.scenes, this.save, this.edit]) scene.show(!playing);
     for (const folder of this.simulated) folder.show(!playing);
     for (const controller of this.playback.controllers) controller.show(!playing || controller.property === "speed");
     this.playback.title(playing ? "Recording" : "World");
@@ -227,10 +238,11 @@ export class Panel {
     this.entries.get("impulse")?.refuse(refusalText(outcome.value));
   }
 
-  private async dropSpheres(): Promise<void> {
+  /** Drops spheres in the region that `place` returns for their number and radius. */
+  async dropSpheres(place: (facts: Facts, count: number, radius: number) => Drop = dropFor): Promise<void> {
     const [count, radius] = [this.entries.get("drop-count"), this.entries.get("drop-radius")];
     if (!this.facts || !count?.check() || !radius?.check()) return;
-    const outcome = await this.commands.drop(dropFor(this.facts, this.drop.count, this.drop.radius));
+    const outcome = await this.commands.drop(place(this.facts, this.drop.count, this.drop.radius));
     if (outcome.case === "applied") count.restore();
     if (outcome.case !== "refused" || !outcome.value.field) return;
     const ofCount = outcome.value.field.endsWith(".count");
@@ -267,7 +279,7 @@ export class Panel {
 
   private addGravity(): void {
     const { world } = this;
-    const folder = this.addSimulated("Gravity");
+    const folder = (this.gravity = this.addSimulated("Gravity"));
     this.steering.push(folder);
     const setGravity = (entry?: string): void =>
       void this.change("Gravity", { gravity: [world.x, world.y, world.z] }, entry);
@@ -332,10 +344,11 @@ export class Panel {
   }
 
   private addPush(): void {
-    const folder = this.addSimulated("Push");
+    const folder = this.addSimulated("Click and drag");
     this.steering.push(folder);
-    tag("push", folder.add(this.choices, "push").name("Push on click"));
-    const impulse = folder.add(this.choices, "impulse").min(0).name("Impulse, N s");
+    const tool = tag("tool", folder.add(this.choices, "tool", toolNames).name("Tool"));
+    tool.domElement.title = "Select a sphere, push it, drag it by a spring, or drop spheres at the place of a click";
+    const impulse = folder.add(this.choices, "impulse").min(0).name("Push, N s");
     impulse.domElement.title = impulseNote;
     this.number("impulse", impulse, () => impulseRule(this.settings));
   }

@@ -1,7 +1,9 @@
 import type { Commands } from "../connection/commands";
 import { count } from "../format";
 import type { Session } from "../model/session";
-import { h, setText } from "./dom";
+import { h, setText } from "../ui/dom";
+import { adoptStyle } from "../ui/parts";
+import style from "./gallery.css";
 
 interface Card {
   name: string;
@@ -23,6 +25,7 @@ export class Gallery {
     private readonly session: Session,
     private readonly commands: Commands,
   ) {
+    adoptStyle(style);
     const close = (): void => this.element.close();
     this.element = h(
       "dialog",

@@ -2,10 +2,10 @@ import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Statistics } from "../gen/spherule/v1/diagnostics_pb";
 import { Model } from "../gen/spherule/v1/scene_pb";
 import { count, figure, length, percent, seconds, vector, withPrefix } from "../format";
-import { impactLabels, mergeImpacts } from "./dial_labels";
-import type { Impacts } from "./dial_labels";
-import { Figures } from "./figures";
-import type { Figure } from "./figures";
+import { impactLabels, mergeImpacts } from "../ui/dial_labels";
+import type { Impacts } from "../ui/dial_labels";
+import { Figures } from "../ui/figures";
+import type { Figure } from "../ui/figures";
 
 /** The diagnostics in two lists: the figures that belong to the dial, and the others. */
 export class StatisticsLists {

@@ -1,0 +1,85 @@
+#include "host/scene_saver.h"
+
+#include <utility>
+
+#include "core/memory.h"
+#include "host/saved_scene.h"
+#include "scene/describe.h"
+#include "sim/memory_needs.h"
+#include "sim/simulation.h"
+
+namespace spherule::host {
+
+namespace {
+
+constexpr std::chrono::seconds period{1};
+
+}  // namespace
+
+void SceneSaver::refuse(const Made& made, int status, const std::string& text) {
+    made(nullptr, {status, "text/plain; charset=utf-8", text + "\n"});
+}
+
+void SceneSaver::open() {
+    const std::lock_guard lock(mutex_);
+    open_ = true;
+}
+
+void SceneSaver::close() {
+    std::unique_lock lock(mutex_);
+    open_ = false;
+    const Made made = std::exchange(asked_, {});
+    lock.unlock();
+    if (made) refuse(made, 503, "the server is stopping");
+}
+
+void SceneSaver::ask(Made made) {
+    std::unique_lock lock(mutex_);
+    const bool open = open_;
+    const bool free = open && !busy_ && document_.expired() && Clock::now() >= next_;
+    if (free) {
+        busy_ = true;
+        next_ = Clock::now() + period;
+        asked_ = std::move(made);
+        return;
+    }
+    lock.unlock();
+    if (open)
+        refuse(made, 503, "another scene is being saved: try again soon");
+    else
+        refuse(made, 404, "this server simulates no scene");
+}
+
+void SceneSaver::serve(sim::Simulation& simulation) {
+    std::unique_lock lock(mutex_);
+    const Made made = std::exchange(asked_, {});
+    lock.unlock();
+    if (!made) return;
+    const auto refuseBusy = [&](int status, const std::string& text) {
+        {
+            const std::lock_guard guard(mutex_);
+            busy_ = false;
+        }
+        refuse(made, status, text);
+    };
+    auto claim = memory::Claim::make("", "a copy of the state", 2 * sim::copiesToHash(simulation.plan()));
+    if (!claim) return refuseBusy(503, claim.error().text());
+    const scene::Scene& scene = simulation.scene();
+    std::vector<SavedScene::Run> groups;
+    for (const scene::Group& group : scene.groups) groups.push_back({group.first, group.count});
+    making_ = std::async(
+        std::launch::async, [this, made, claim = std::move(*claim), message = scene::describe(scene),
+                             groups = std::move(groups), slots = simulation.pipeline().download(),
+                             population = simulation.population(), centre = scene.bounds.centre()]() mutable {
+            const auto document = std::make_shared<SavedScene>(
+                std::move(message), std::move(groups), sim::inIdOrder(slots, population), centre, std::move(claim));
+            {
+                const std::lock_guard guard(mutex_);
+                busy_ = false;
+                document_ = document;
+            }
+            made(document, {});
+        });
+}
+
+}  // namespace spherule::host

@@ -1,0 +1,116 @@
+#include "scene/describe.h"
+
+#include "scene/check.h"
+#include "scene/quality.h"
+#include "scene/quality_goal.h"
+#include "scene/shapes.h"
+
+namespace spherule::scene {
+
+namespace {
+
+void setBox(v1::Box& message, const Box& box) {
+    setVector(*message.mutable_min(), box.min);
+    setVector(*message.mutable_max(), box.max);
+}
+
+void setField(v1::Field& message, const Drag& drag) {
+    message.mutable_drag()->set_density(drag.density);
+    message.mutable_drag()->set_coefficient(drag.coefficient);
+}
+
+void setField(v1::Field& message, const Attraction& attraction) {
+    setVector(*message.mutable_attraction()->mutable_centre(), attraction.centre);
+    message.mutable_attraction()->set_strength(attraction.strength);
+    message.mutable_attraction()->set_softening(attraction.softening);
+}
+
+void setForces(v1::Scene& message, const Forces& forces) {
+    setVector(*message.mutable_gravity(), forces.gravity);
+    for (const Field& field : forces.fields)
+        std::visit([&](const auto& one) { setField(*message.add_fields(), one); }, field);
+}
+
+void setMaterials(v1::Scene& message, const Scene& scene) {
+    for (const Material& material : scene.materials) {
+        v1::Material& to = *message.add_materials();
+        to.set_name(material.name);
+        to.set_density(material.density);
+        to.set_restitution(material.restitution);
+        to.set_friction(material.friction);
+        to.set_rolling_resistance(material.rollingResistance);
+        to.set_spinning_resistance(material.spinningResistance);
+        if (material.young > 0) to.set_young(material.young);
+        to.set_poisson(material.poisson);
+    }
+    for (const MaterialPair& pair : scene.pairs) {
+        v1::MaterialPair& to = *message.add_pairs();
+        to.set_a(scene.materials[pair.a].name);
+        to.set_b(scene.materials[pair.b].name);
+        if (pair.restitution) to.set_restitution(*pair.restitution);
+        if (pair.friction) to.set_friction(*pair.friction);
+        if (pair.rollingResistance) to.set_rolling_resistance(*pair.rollingResistance);
+        if (pair.spinningResistance) to.set_spinning_resistance(*pair.spinningResistance);
+    }
+}
+
+void setBounds(v1::Scene& message, const Scene& scene) {
+    v1::Bounds& to = *message.mutable_bounds();
+    setVector(*to.mutable_min(), scene.bounds.min);
+    setVector(*to.mutable_max(), scene.bounds.max);
+    for (int face = 0; face < 6; ++face)
+        if (scene.bounds.open[static_cast<std::size_t>(face)]) to.add_open(static_cast<v1::Face>(face + v1::X_MIN));
+    for (int axis = 0; axis < 3; ++axis)
+        if (scene.bounds.periodic[static_cast<std::size_t>(axis)]) to.add_periodic(static_cast<v1::Axis>(axis + v1::X));
+    to.set_material(scene.materials[scene.bounds.material].name);
+    for (const Obstacle& obstacle : scene.obstacles) {
+        v1::Obstacle& one = *message.add_obstacles();
+        obstacle.shape->write(one);
+        one.set_material(scene.materials[obstacle.material].name);
+        one.set_colour(obstacle.colour);
+    }
+    for (const Box& sink : scene.sinks) setBox(*message.add_sinks()->mutable_region(), sink);
+}
+
+void setGroups(v1::Scene& message, const Scene& scene) {
+    for (const Group& group : scene.groups) {
+        v1::Group& to = *message.add_groups();
+        to.set_name(group.name);
+        to.set_colour(group.look.colour);
+        to.set_roughness(group.look.roughness);
+        to.set_metal(group.look.metal);
+        if (group.count == 0) continue;
+        const Sphere& first = scene.spheres[group.first];
+        to.set_material(scene.materials[first.material].name);
+        to.set_fixed(first.fixed);
+    }
+}
+
+}  // namespace
+
+v1::Scene describe(const Scene& scene) {
+    v1::Scene message;
+    message.set_name(scene.name);
+    message.set_description(scene.description);
+    setForces(message, scene.forces);
+    setMaterials(message, scene);
+    setBounds(message, scene);
+    setGroups(message, scene);
+    message.set_step(scene.step);
+    v1::Quality& quality = *message.mutable_quality();
+    quality.set_model(messageOf(scene.quality.model));
+    quality.set_substeps(scene.quality.substeps);
+    quality.set_overlap(scene.quality.overlap);
+    if (scene.quality.goal) *quality.mutable_auto_() = messageOf(*scene.quality.goal);
+    setVector(*message.mutable_camera()->mutable_eye(), scene.camera.eye);
+    setVector(*message.mutable_camera()->mutable_target(), scene.camera.target);
+    message.mutable_camera()->set_field_of_view(scene.camera.fieldOfView);
+    message.mutable_sleep()->set_enabled(scene.sleep.enabled);
+    message.mutable_sleep()->set_speed(scene.sleep.speed);
+    message.mutable_sleep()->set_time(scene.sleep.time);
+    message.set_sphere_contacts(scene.sphereContacts);
+    message.set_contact_sums(scene.contactSums);
+    return message;
+}
+
+}  // namespace spherule::scene

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "spherule/v1/scene.pb.h"
+
+namespace spherule::scene {
+
+// Returns the scene as a message, with its present settings, from which build() makes the same scene. Its groups have
+// no spheres.
+v1::Scene describe(const Scene& scene);
+
+}  // namespace spherule::scene

@@ -1,0 +1,52 @@
+// The part of Pipeline that pulls spheres by springs.
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include "sim/pipeline.h"
+
+namespace spherule::sim {
+
+// Makes the array and the kernel, unless they exist.
+Result<void> Pipeline::makePulls() {
+    if (!pulls_.empty()) return {};
+    if (!plan_.has(Array::SlotOf)) {
+        if (auto made = makeSlotOf(); !made) return made;
+        std::vector<std::uint32_t> slots(plan_.room);
+        std::iota(slots.begin(), slots.end(), 0U);
+        write<std::uint32_t>(Array::SlotOf, slots);
+    }
+    if (!plan_.has(Array::Pulls)) {
+        const ArraySpec spec{Array::Pulls, std::uint64_t{MOST_PULLS} * sizeof(layout::PullSpring)};
+        auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
+        if (!made) return tl::unexpected(made.error());
+        setBuffer(spec.array, std::move(*made));
+        plan_.arrays.push_back(spec);
+    }
+    if (auto made = makeKernel(pullSpec_.kernel); !made) return made;
+    kernelFiles_.push_back(pullSpec_.kernel);
+    auto bound = bind(pullSpec_);
+    if (!bound) return tl::unexpected(bound.error());
+    pulls_.push_back(std::move(*bound));
+    return {};
+}
+
+Result<void> Pipeline::setPulls(std::span<const layout::PullSpring> springs) {
+    pulling_ = false;
+    if (springs.empty()) return {};
+    if (auto made = makePulls(); !made) return made;
+    std::array<layout::PullSpring, MOST_PULLS> rows{};
+    std::ranges::copy(springs, rows.begin());
+    write<layout::PullSpring>(Array::Pulls, rows);
+    pulling_ = true;
+    return {};
+}
+
+glm::vec4 Pipeline::positionOf(std::uint32_t handle) {
+    glm::vec4 position;
+    device_.download(buffer(Array::Position), slotOf(handle) * sizeof position,
+                     std::as_writable_bytes(std::span(&position, 1)));
+    return position;
+}
+
+}  // namespace spherule::sim

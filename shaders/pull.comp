@@ -1,0 +1,49 @@
+// Pulls spheres to points by springs with critical damping, at the beginning of a substep. Implicit, so that it is
+// stable for every stiffness. The pull and the speed that it gives are limited; the damping only takes energy.
+#include "shared/kernel.h"
+#include "shared/layout.h"
+PARAMETERS
+#include "shared/accessors.h"
+#include "shared/math.h"
+#include "shared/separation.h"
+#include "shared/fields.h"
+
+BUFFER(readonly, PullSpring, pulls)
+BUFFER(readonly, uint, slotOf)
+BUFFER(readonly, vec4, position)
+BUFFER(restrict, vec4, velocity)
+BUFFER(restrict, vec4, restReference)
+
+// A row of `restReference` of a sphere that does not come to rest.
+vec4 restless(vec4 rest) {
+    return vec4(vec3(rest), hasMovedAway(rest) ? MOVED_AWAY : 0.0f);
+}
+
+vec3 limited(vec3 a, float most) {
+    float square = dot3(a, a);
+    return square > most * most ? a * (most / sqrt(square)) : a;
+}
+
+KERNEL(MOST_PULLS) {
+    vec4 point = pulls[invocation].point;
+    float rate = point.w;
+    if (rate == 0.0f) return;
+    uint id = pulls[invocation].sphere;
+    uint sphere = slotOf[id];
+    vec4 x = position[sphere];
+    vec4 v = velocity[sphere];
+    if (!finite3(vec3(x)) || !finite3(vec3(v))) return;
+    float h = params.substep;
+    vec3 fall = vec3(0.0f, 0.0f, 0.0f);
+    if (HAS(GRAVITY)) fall = vec3(params.gravity);
+    if (HAS(FIELDS)) fall = meanAcceleration(fall, vec3(x), vec3(v), radiusOf(x), inverseMassOf(v));
+    // The mean velocity on the path of this substep without the spring: the damping acts on it, so that a sphere that
+    // hangs at rest is not damped.
+    vec3 kick = fall * (0.5f * h);
+    vec3 mean = vec3(v) + kick;
+    float share = 1.0f / ((1.0f + h * rate) * (1.0f + h * rate));
+    vec3 given = limited(separation(vec3(point), vec3(x)) * (h * rate * rate * share), pulls[invocation].mostPull * h);
+    vec3 pulled = limited(mean * share + given, max(pulls[invocation].mostSpeed, sqrt(dot3(mean, mean))));
+    velocity[sphere] = vec4(pulled - kick, abs(v.w));
+    if (HAS(SLEEP)) restReference[id] = restless(restReference[id]);
+}

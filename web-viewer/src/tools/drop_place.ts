@@ -1,0 +1,109 @@
+import type { Ray } from "../camera/ray";
+import type { Drop } from "../connection/commands";
+import type { Facts, Obstacle, Vec3 } from "../model/facts";
+
+type Bounds = Pick<Facts, "min" | "max">;
+
+const mostSteps = 200; // on a ray
+const fill = 0.15; // of the region, by spheres: random places without overlaps are then soon found
+const margin = 1.1; // radii between dropped spheres and the bounds, or the place
+
+const along = ({ origin, direction }: Ray, distance: number): Vec3 =>
+  origin.map((part, k) => part + distance * (direction[k] ?? 0)) as Vec3;
+const dot = (a: readonly number[], b: readonly number[]): number =>
+  a.reduce((sum, part, k) => sum + part * (b[k] ?? 0), 0);
+const minus = (a: readonly number[], b: readonly number[]): Vec3 => a.map((part, k) => part - (b[k] ?? 0)) as Vec3;
+
+/** Where the ray enters and leaves the bounds (m along it). */
+function crossing({ min, max }: Bounds, { origin, direction }: Ray): [number, number] {
+  let [enters, leaves] = [0, Infinity];
+  origin.forEach((from, k) => {
+    const way = direction[k] ?? 0;
+    if (way === 0) return;
+    const [a, b] = [((min[k] ?? 0) - from) / way, ((max[k] ?? 0) - from) / way];
+    enters = Math.max(enters, Math.min(a, b));
+    leaves = Math.min(leaves, Math.max(a, b));
+  });
+  return [enters, leaves];
+}
+
+/** The distance of a point from a body, or from the free space in a hollow one, or less (m); negative inside it. */
+function distanceFrom({ shape: { case: kind, value } }: Obstacle, p: Vec3): number {
+  switch (kind) {
+    case "plane": {
+      const length = Math.hypot(...value.normal) || 1;
+      return dot(minus(p, value.point), value.normal) / length;
+    }
+    case "box": {
+      const out = p.map((part, k) => Math.max((value.min[k] ?? 0) - part, part - (value.max[k] ?? 0)));
+      return Math.max(...out) > 0 ? Math.hypot(...out.map((part) => Math.max(part, 0))) : Math.max(...out);
+    }
+    case "sphere":
+      return Math.hypot(...minus(p, value.centre)) - value.radius;
+    case "cylinder": {
+      const axis = minus(value.to, value.from);
+      const length = Math.hypot(...axis) || 1;
+      const from = minus(p, value.from);
+      const height = dot(from, axis) / length;
+      const aside = Math.sqrt(Math.max(0, dot(from, from) - height * height));
+      return Math.max(aside - value.radius, -height, height - length);
+    }
+    default:
+      return Infinity;
+  }
+}
+
+const isHollow = ({ shape: { case: kind, value } }: Obstacle): boolean =>
+  (kind === "sphere" || kind === "cylinder") && value.hollow;
+
+/** The first place on the ray at an obstacle, or else at the far side of the bounds (m). */
+export function placeOnRay(facts: Pick<Facts, "min" | "max" | "obstacles">, ray: Ray): Vec3 {
+  const [enters, leaves] = crossing(facts, ray);
+  const far = Math.max(enters, Math.min(leaves, 1e9));
+  const near = 1e-4 * Math.hypot(...minus(facts.max, facts.min));
+  // The ray comes through the near side of a hollow obstacle, and meets the far side: so it is followed backwards.
+  const ends = facts.obstacles.map((obstacle) => {
+    const back = isHollow(obstacle);
+    let distance = back ? far : enters;
+    for (let step = 0; step < mostSteps && distance >= enters && distance <= far; step++) {
+      const room = distanceFrom(obstacle, along(ray, distance));
+      if (room < near) return distance;
+      distance += back ? -room : room;
+    }
+    return far;
+  });
+  return along(ray, Math.min(far, ...ends));
+}
+
+/**
+ * A region for spheres above a place: against gravity, or upwards without it. `clear`: m above the place that are not
+ * free.
+ */
+export function dropAbove(
+  { min, max }: Bounds,
+  gravity: readonly number[] = [],
+  place: Vec3,
+  clear: number,
+  count: number,
+  radius: number,
+): Drop {
+  const strength = Math.hypot(...gravity);
+  const up = [0, 1, 2].map((k) => (strength > 0 ? -(gravity[k] ?? 0) / strength : Number(k === 2)));
+  const volume = (count * (4 / 3) * Math.PI * radius ** 3) / fill;
+  const side = 2.2 * radius + (count > 1 ? Math.cbrt(volume) : 0); // centres keep a radius from its faces
+  // The axis that is nearest to the direction upwards: the region is a box along the axes.
+  const axis = up.reduce((best, part, k) => (Math.abs(part) > Math.abs(up[best] ?? 0) ? k : best), 0);
+  const low: number[] = [];
+  const high: number[] = [];
+  for (let k = 0; k < 3; k++) {
+    const [least, most] = [(min[k] ?? 0) + margin * radius, (max[k] ?? 0) - margin * radius];
+    const at = place[k] ?? 0;
+    const lift = clear + margin * radius + side / 2;
+    const middle = k === axis ? at + Math.sign(up[k] ?? 1) * lift : at;
+    const width = Math.min(side, Math.max(0, most - least));
+    const from = Math.max(least, Math.min(middle - width / 2, most - width));
+    low.push(from);
+    high.push(Math.max(from + width, from + 1e-9));
+  }
+  return { min: low, max: high, count, radius };
+}

@@ -1,0 +1,32 @@
+import * as vec3 from "gl-matrix/esm/vec3.js";
+import type { Ray } from "../camera/ray";
+import { rayThrough } from "../camera/ray";
+import type { View } from "../camera/view";
+import type { Vec3 } from "../model/facts";
+
+/** The axes of the picture in the world: to the right, upwards, and away from the eye. */
+export function axesOf(view: View): { right: Vec3; up: Vec3; away: Vec3 } {
+  const { width, height, forward: away } = view;
+  const low = pointAt(view, width / 2, height);
+  const up = vec3.subtract([0, 0, 0], pointAt(view, width / 2, 0), low);
+  vec3.normalize(up, vec3.scaleAndAdd(up, up, away, -vec3.dot(up, away)));
+  return { right: vec3.cross([0, 0, 0], away, up) as Vec3, up: up as Vec3, away };
+}
+
+/** A point of the ray through a pixel, at the distance 1 along the direction of the view. */
+function pointAt(view: View, x: number, y: number): Vec3 {
+  const { origin, direction } = rayThrough(view, x, y);
+  return vec3.scaleAndAdd([0, 0, 0], origin, direction, 1 / vec3.dot(direction, view.forward)) as Vec3;
+}
+
+/** Where the ray meets the plane parallel to the picture through a point (m); undefined behind the eye. */
+export function acrossPlane({ forward }: View, { origin, direction }: Ray, through: Vec3): Vec3 | undefined {
+  const distance = vec3.dot(vec3.subtract([0, 0, 0], through, origin), forward) / vec3.dot(direction, forward);
+  return distance > 0 ? (vec3.scaleAndAdd([0, 0, 0], origin, direction, distance) as Vec3) : undefined;
+}
+
+/** The point, moved by `by` (m) along the axes of the picture. */
+export function moved(view: View, point: Vec3, by: Vec3): Vec3 {
+  const { right, up, away } = axesOf(view);
+  return point.map((at, k) => at + by[0] * (right[k] ?? 0) + by[1] * (up[k] ?? 0) + by[2] * (away[k] ?? 0)) as Vec3;
+}
