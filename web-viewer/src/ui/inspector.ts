@@ -6,7 +6,7 @@ import { shownPosition } from "../model/positions";
 import { modes, quantityOf } from "../model/quantities";
 import { Selection } from "../model/selection";
 import type { Shown } from "../model/states";
-import { h, setText, setTitle } from "./dom";
+import { focusWhileScrolling, h, setText, setTitle } from "./dom";
 
 const contactsShown = 6;
 
@@ -32,12 +32,13 @@ export class Inspector {
     };
     const click = (): void => void this.removeSelected();
     this.removal = h("button", { type: "button", class: "remove", "data-testid": "remove", click }, "Remove");
+    const body = h("div", { class: "body" }, this.lines, this.contacts);
+    focusWhileScrolling(body);
     this.element = h(
       "section",
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
       h("div", { class: "row" }, this.name, h("button", deselect, "×")),
-      this.lines,
-      this.contacts,
+      body,
       this.removal,
     );
   }
