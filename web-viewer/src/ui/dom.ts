@@ -42,7 +42,7 @@ export function setTitle(element: HTMLElement, title: string): void {
 /** Lets the keyboard scroll an element while it has more content than room. */
 export function focusWhileScrolling(element: HTMLElement): void {
   new ResizeObserver(() => {
-    if (element.scrollHeight > element.clientHeight) element.tabIndex = 0;
+    if (element.scrollHeight > element.clientHeight + 1) element.tabIndex = 0;
     else element.removeAttribute("tabindex");
   }).observe(element);
 }
