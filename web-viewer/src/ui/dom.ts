@@ -38,3 +38,11 @@ export function setText(element: HTMLElement, text: string): void {
 export function setTitle(element: HTMLElement, title: string): void {
   if (element.title !== title) element.title = title;
 }
+
+/** Lets the keyboard scroll an element while it has more content than room. */
+export function focusWhileScrolling(element: HTMLElement): void {
+  new ResizeObserver(() => {
+    if (element.scrollHeight > element.clientHeight + 1) element.tabIndex = 0;
+    else element.removeAttribute("tabindex");
+  }).observe(element);
+}

@@ -6,7 +6,7 @@ import { shownPosition } from "../model/positions";
 import { modes, quantityOf } from "../model/quantities";
 import { Selection } from "../model/selection";
 import type { Shown } from "../model/states";
-import { h, setText, setTitle } from "./dom";
+import { focusWhileScrolling, h, setText, setTitle } from "./dom";
 
 const contactsShown = 6;
 
@@ -36,12 +36,13 @@ export class Inspector {
     const follow = (): void => this.toggleFollowed();
     this.following = h("button", { type: "button", "data-testid": "follow", click: follow }, "Follow");
     this.following.title = "The camera follows the sphere (G)";
+    const body = h("div", { class: "body" }, this.lines, this.contacts);
+    focusWhileScrolling(body);
     this.element = h(
       "section",
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
       h("div", { class: "row" }, this.name, h("button", deselect, "×")),
-      this.lines,
-      this.contacts,
+      body,
       h("div", { class: "actions" }, this.following, this.removal),
     );
   }

@@ -4,7 +4,7 @@ import type { ColourRanges } from "../model/colour_ranges";
 import type { Facts } from "../model/facts";
 import { quantityOf } from "../model/quantities";
 import type { LegendContent, Mode, Swatch } from "../model/quantities";
-import { h, setText } from "./dom";
+import { focusWhileScrolling, h, setText } from "./dom";
 import { RangeEntry } from "./range_entry";
 import type { End } from "./range_entry";
 
@@ -32,12 +32,7 @@ export class Legend {
       { type: "button", class: "head", title: "Next colour mode", "data-testid": "legend-next", click: next },
       this.title,
     );
-    const { body } = this;
-    new ResizeObserver(() => {
-      const scrolls = body.scrollHeight > body.clientHeight;
-      if (scrolls) body.tabIndex = 0; // for the keyboard
-      else body.removeAttribute("tabindex");
-    }).observe(body);
+    focusWhileScrolling(this.body);
     this.element = h(
       "section",
       { class: "legend", "data-testid": "legend", "aria-label": "Colours" },
