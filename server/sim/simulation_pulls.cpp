@@ -26,8 +26,8 @@ glm::dvec3 limited(const glm::dvec3& a, double most) {
 }  // namespace
 
 // The largest speed (m/s) and acceleration (m/s^2) that a spring gives to a sphere of this radius. It never makes a
-// sphere so fast that it needs more substeps, and contacts resist it: those of rigid spheres within a substep, those of
-// `accurate` over many. A spring can always lift its sphere.
+// sphere so fast that it needs more substeps, and contacts resist it: rigid ones within a substep, soft ones over many.
+// A spring can always lift its sphere.
 Simulation::PullLimits Simulation::pullLimits(double radius) const {
     const bool soft = scene_.quality.model == scene::Model::Accurate;
     const double perSubstep = (soft ? 1.0 / 32 : 0.9) * scene::safeMotion * radius;  // m

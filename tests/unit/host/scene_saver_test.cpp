@@ -29,9 +29,7 @@ constexpr const char* full = R"({
   ],
   "pairs": [{"a": "glass", "b": "steel", "restitution": 0.65}],
   "obstacles": [{"plane": {"point": [102, 4, 0], "normal": [0, -0.2, 1]}, "material": "steel", "colour": "#102030"}],
-  "fields": [
-    {"drag": {"density": 2}}, {"attraction": {"centre": [102, 2, 1], "strength": 0.5, "softening": 0.2}}
-  ],
+  "fields": [{"drag": {"density": 2}}],
   "sinks": [{"region": {"min": [100, 0, -1], "max": [100.5, 0.5, 0.2]}}],
   "sleep": {"speed": 0.03, "time": 0.7},
   "quality": {"model": "BALANCED", "substeps": 6, "auto": {"overlap": 0.01}},
@@ -51,6 +49,8 @@ std::string withoutPeriodicAxis() {
         text.replace(text.find(before), before.size(), after);
     };
     replace(R"("periodic": ["X"], )", "");
+    replace(R"("fields": [)",
+            R"("fields": [{"attraction": {"centre": [102, 2, 1], "strength": 0.5, "softening": 0.2}}, )");
     replace(R"("obstacles": [)",
             R"("obstacles": [{"box": {"min": [101, 1, 0], "max": [102, 2, 0.3]}, "colour": "#0a0b0c"},
       {"cylinder": {"from": [103, 3, 0], "to": [103, 3, 1], "radius": 0.2}, "material": "steel"}, )");
@@ -142,7 +142,7 @@ void SaveScene::checkRoundTrip(const std::string& json) {
         EXPECT_EQ(after.spheres[k].material, before.spheres[k].material);
         EXPECT_EQ(after.spheres[k].fixed, before.spheres[k].fixed);
     }
-    EXPECT_EQ(saved(*again), text) << "saving what was loaded gives the same file";
+    EXPECT_TRUE(saved(*again) == text) << "saving what was loaded gives the same file";
     ASSERT_TRUE(again->step());
 }
 
