@@ -191,14 +191,6 @@ Result<void> Pipeline::bindAll() {
     return {};
 }
 
-Result<Pipeline::BoundLaunch> Pipeline::bind(const LaunchSpec& spec) {
-    const auto index = std::ranges::find(kernelFiles_, spec.kernel) - kernelFiles_.begin();
-    const compute::Kernel& kernel = *kernels_[static_cast<std::size_t>(index)];
-    auto arrays = arraysFor(spec, kernel);
-    if (!arrays) return tl::unexpected(arrays.error());
-    return BoundLaunch{.spec = &spec, .kernel = &kernel, .arrays = std::move(*arrays)};
-}
-
 void Pipeline::setParameters(layout::Parameters parameters) {
     const float before = std::exchange(substepLength_, parameters.substep);
     parameters.substepRatio = before > 0 ? parameters.substep / before : 1;

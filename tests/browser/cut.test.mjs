@@ -1,4 +1,4 @@
-// What images leave out: groups, and all beyond a plane.
+// Groups and parts of the scene that images leave out.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";

@@ -251,7 +251,7 @@ export class Viewer {
     };
   }
 
-  /** Makes a picture of what the page shows (px), as PNG. See Canvas.picture(). */
+  /** Makes a picture of the present view (px), as PNG. See Canvas.picture(). */
   private async picture(
     width: number,
     height: number,

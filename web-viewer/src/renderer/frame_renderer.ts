@@ -18,7 +18,7 @@ import { texture } from "./table";
 import type { Theme } from "./theme";
 import { TracePass } from "./trace_pass";
 
-/** What the shadow map shows: the states as in Shown, and the half-space as in HalfSpace. */
+/** The content of the shadow map: the states as in Shown, and the half-space as in HalfSpace. */
 interface Cast {
   from: State | undefined;
   to: State | undefined;
