@@ -23,6 +23,7 @@ import { Canvas } from "./renderer/canvas";
 import type { DrawState } from "./renderer/draw_state";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
+import { Ticker } from "./ticker";
 import { refusalText } from "./ui/refusals";
 import { longStay } from "./ui/toasts";
 
@@ -32,33 +33,46 @@ const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
 /** The values that an image depends on, to find whether it would be another one. Allocates nothing per image. */
 class Content {
-  private next: unknown[] = [];
-  private kept: unknown[] = [];
+  private next = new Float64Array(64);
+  private kept = new Float64Array(64);
   private length = 0;
+  private nextNames: unknown[] = [];
+  private keptNames: unknown[] = [];
+  private names = 0;
+  private known = false; // `kept` and `keptNames` are those of an image
 
   begin(): void {
-    this.length = 0;
+    this.length = this.names = 0;
   }
 
-  add(value: unknown): this {
+  /** At most 64 numbers. */
+  add(value = NaN): this {
     this.next[this.length++] = value;
     return this;
   }
 
+  addName(value: unknown): this {
+    this.nextNames[this.names++] = value;
+    return this;
+  }
+
   get changed(): boolean {
-    if (this.kept.length !== this.length) return true;
+    if (!this.known) return true;
     for (let k = 0; k < this.length; k++) if (!Object.is(this.kept[k], this.next[k])) return true;
+    for (let k = 0; k < this.names; k++) if (this.keptNames[k] !== this.nextNames[k]) return true;
     return false;
   }
 
   /** The image has been drawn. */
   keep(): void {
     [this.kept, this.next] = [this.next, this.kept];
+    [this.keptNames, this.nextNames] = [this.nextNames, this.keptNames];
+    this.known = true;
   }
 
   /** The image must be drawn again. */
   forget(): void {
-    this.kept.length = 0;
+    this.known = false;
   }
 }
 
@@ -76,6 +90,7 @@ export class Viewer {
   private readonly admission: Admission;
   private readonly ranges = new ColourRanges();
   private readonly clock = new DrawClock();
+  private readonly ticker = new Ticker((now) => this.tick(now));
   private readonly subscription: ViewSubscription;
   private tokenNote = ""; // message of the next token dialog
   private readonly trace = new Trace(); // of the selected sphere
@@ -90,8 +105,11 @@ export class Viewer {
     private readonly choices: Choices,
     private readonly url: string, // of the server
   ) {
-    this.canvas = new Canvas(element, choices.quality, () => this.image.forget());
-    this.link = new Link(new Worker("worker.js"), (message) => this.session.handle(message));
+    this.canvas = new Canvas(element, choices.quality, () => this.redraw());
+    this.link = new Link(new Worker("worker.js"), (message) => {
+      this.session.handle(message);
+      this.ticker.wake();
+    });
     this.subscription = new ViewSubscription({ ...choices.view }, (view) => this.link.requestView(view));
     this.session = this.createSession();
     this.admission = new Admission(new TokenStore(url, () => sessionStorage), {
@@ -120,12 +138,19 @@ export class Viewer {
       forgetToken: () => this.admission.forget(),
       sendControl: (message) => this.link.sendControl(message),
       picture: (width, height, progress) => this.picture(width, height, progress),
-      themeChanged: (theme) => this.canvas.setTheme(theme),
-      qualityChanged: (quality) => this.canvas.choose(quality),
+      themeChanged: (theme) => {
+        this.canvas.setTheme(theme);
+        this.redraw();
+      },
+      qualityChanged: (quality) => {
+        this.canvas.choose(quality);
+        this.redraw();
+      },
       viewRequested: (view) => {
         saveViewRequest(view, () => localStorage);
         this.subscription.request(view);
       },
+      wake: () => this.ticker.wake(),
       camera: this.camera,
     });
     this.canvas.setTheme(choices.theme);
@@ -143,17 +168,13 @@ export class Viewer {
     const resize = (): void => {
       this.camera.resize(window.innerWidth, window.innerHeight);
       this.canvas.resize(window.innerWidth, window.innerHeight);
-      this.image.forget();
+      this.redraw();
     };
     window.addEventListener("resize", resize);
     resize();
     document.addEventListener("visibilitychange", () => this.setVisible(!document.hidden));
     this.setVisible(!document.hidden);
-    const tick = (now: number): void => {
-      this.tick(now);
-      requestAnimationFrame(tick);
-    };
-    requestAnimationFrame(tick);
+    this.ticker.start();
   }
 
   /** The place of the sphere that the image shows at a point of the canvas (CSS pixels). */
@@ -174,13 +195,13 @@ export class Viewer {
         else this.page.inspector.selection.follow(facts.population);
         this.page.panel.setFacts(facts, another);
         this.page.links.sceneShown(facts);
-        this.image.forget();
+        this.redraw();
       },
       orderChanged: (order) => this.canvas.setOrder(order),
       populationChanged: ({ population }, changed) => {
         this.canvas.updatePopulation(changed);
         this.page.inspector.selection.follow(population);
-        this.image.forget();
+        this.redraw();
       },
       settingsChanged: (settings) => this.page.panel.setSettings(settings),
       dialChanged: (dial) => this.page.panel.setDial(dial),
@@ -202,7 +223,14 @@ export class Viewer {
     else if (!quiet) toasts.show(name, text, "good");
   }
 
-  private tick(now: number): void {
+  /** The next tick draws an image. */
+  private redraw(): void {
+    this.image.forget();
+    this.ticker.wake();
+  }
+
+  /** Returns whether it has drawn an image. */
+  private tick(now: number): boolean {
     const { session, camera, choices } = this;
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
@@ -215,7 +243,7 @@ export class Viewer {
     if (choices.cut.version !== this.cutVersion) {
       this.cutVersion = choices.cut.version;
       this.canvas.hide(choices.cut.hidden);
-      this.image.forget();
+      this.redraw();
     }
     const state = this.stateOf(camera.view(), session.staleness(wall));
     const { image } = this;
@@ -225,10 +253,11 @@ export class Viewer {
     for (const part of state.view.toClip) image.add(part);
     for (const part of state.kept.normal) image.add(part);
     image.add(state.kept.offset);
-    image.add(state.mode).add(state.range[0]).add(state.range[1]).add(state.selected).add(state.trace).add(state.dim);
-    image.add(choices.theme).add(choices.quality);
+    image.add(state.range[0]).add(state.range[1]).add(state.selected).add(state.dim);
+    image.addName(state.mode).addName(state.trace).addName(choices.theme).addName(choices.quality);
     const draws = image.changed && !session.awaitsState(wall);
-    if (draws && this.canvas.draw(shown, state, this.clock.sinceDrawn)) {
+    const drew = draws && this.canvas.draw(shown, state, this.clock.sinceDrawn);
+    if (drew) {
       image.keep();
       this.clock.drew();
       if (shown) markFirst("drawn");
@@ -236,6 +265,7 @@ export class Viewer {
     this.page.lazy.tools?.update(state.view, shown);
     this.reportDrawRate(now);
     this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.graphics);
+    return drew;
   }
 
   private stateOf(view: View, dim: number): DrawState {
@@ -260,7 +290,7 @@ export class Viewer {
     const view = this.camera.viewFor((width * pictureHeight) / height, pictureHeight);
     const shown = this.session.states.shown(sharedNow());
     const picture = await this.canvas.picture(shown, this.stateOf(view, 0), width, height, progress);
-    this.image.forget();
+    this.redraw();
     return picture;
   }
 

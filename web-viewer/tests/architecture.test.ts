@@ -9,6 +9,7 @@ import { test } from "node:test";
 const allowed: Record<string, string[]> = {
   gen: [],
   clock: [],
+  ticker: [],
   columns: ["gen"],
   format: [],
   perf_marks: ["clock"],
@@ -28,7 +29,7 @@ const allowed: Record<string, string[]> = {
   ],
   tools: ["camera", "connection", "format", "model", "ui"],
   editor: ["format", "gen", "ui"],
-  viewer: ["camera", "clock", "connection", "format", "model", "perf_marks", "renderer", "ui"],
+  viewer: ["camera", "clock", "connection", "format", "model", "perf_marks", "renderer", "ticker", "ui"],
   test_api: ["camera", "clock", "connection", "model", "viewer"],
   main: ["connection", "model", "test_api", "ui", "viewer"],
 };

@@ -55,6 +55,7 @@ export interface PageActions extends Omit<PanelActions, OwnActions> {
   sendControl(message: ControlMessage): void;
   /** Makes a picture (px), as PNG; undefined if `progress` has returned false. */
   picture(width: number, height: number, progress: (share: number) => boolean): Promise<Blob | undefined>;
+  wake(): void; // the page may look different
   camera: Camera;
 }
 
@@ -352,6 +353,7 @@ export class Page {
     const observer = new ResizeObserver(() => {
       const boxes = elements.map((element) => element.getBoundingClientRect());
       this.covered = boxes.filter(({ width, height }) => width > 0 && height > 0);
+      this.actions.wake();
     });
     for (const element of [this.container, ...elements]) observer.observe(element);
   }
