@@ -33,7 +33,7 @@ export class Tools implements LazyTools {
       () => stage.blocked(),
       () => camera.last,
     );
-    panel.gravity.$children.prepend(this.arrow.element);
+    panel.arrowRoom.append(this.arrow.element);
   }
 
   grab(x: number, y: number, place: number | undefined): boolean {

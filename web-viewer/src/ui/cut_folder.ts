@@ -35,7 +35,7 @@ export class CutFolder {
     const at = folder.add(this.at, "percent", 0, 100, 0.5).name("Cut at, %");
     tag("cut-at", at).domElement.title = "Place of the plane, from the low end of the bounds to their high end";
     at.onChange((percent: number) => (cut.share = percent / 100));
-    tag("cut-flipped", folder.add(cut, "flipped").name("Show the high side"));
+    tag("cut-flipped", folder.add(cut, "flipped", { "low side": false, "high side": true }).name("Shown"));
     folder.$children.append(this.list, this.more);
   }
 

@@ -19,6 +19,7 @@ import { ChartFolder } from "./chart_folder";
 import { nameFolders, Restriction, tag } from "./controllers";
 import { CutFolder } from "./cut_folder";
 import { Dial } from "./dial";
+import { h } from "./dom";
 import { Entry } from "./entry";
 import type { EntryRule } from "./entry";
 import { rememberFolders } from "./folders";
@@ -104,7 +105,8 @@ export class Panel {
   private readonly scenes: Controller;
   private readonly save: Controller;
   private readonly edit: Controller;
-  gravity!: GUI; // its folder
+  /** Room for the arrow of gravity, which is loaded later. */
+  readonly arrowRoom = h("div", { class: "arrow-room" });
   private readonly dial = new Dial(
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
@@ -279,7 +281,8 @@ export class Panel {
 
   private addGravity(): void {
     const { world } = this;
-    const folder = (this.gravity = this.addSimulated("Gravity"));
+    const folder = this.addSimulated("Gravity");
+    folder.$children.append(this.arrowRoom);
     this.steering.push(folder);
     const setGravity = (entry?: string): void =>
       void this.change("Gravity", { gravity: [world.x, world.y, world.z] }, entry);
@@ -364,7 +367,7 @@ export class Panel {
     const names = Object.fromEntries(modes.map((mode) => [quantityOf(mode).label, mode]));
     const mode = tag("colour", folder.add(choices, "mode", names).name("Colour by"));
     mode.onChange((value: Mode) => this.colourBy(value));
-    const trace = tag("trace", folder.add(choices, "trace").name("Path"));
+    const trace = tag("trace", folder.add(choices, "trace", { Shown: true, Hidden: false }).name("Path"));
     trace.domElement.title = "Shows the path of the selected sphere";
     const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
