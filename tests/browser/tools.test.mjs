@@ -27,6 +27,7 @@ const suite = browserSuite(async (browser, folder) => {
   server = await serve(file);
   page = await open(browser, server.url, { size: [1280, 800] });
   await page.waitForSelector(control("gravity-arrow"));
+  await page.waitForTimeout(1500); // the camera moves
 });
 
 beforeEach(async () => {
