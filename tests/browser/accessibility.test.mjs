@@ -81,6 +81,34 @@ test("a selected sphere is accessible", async () => {
   await expectAccessible(page, () => showPanel(page, true));
 });
 
+test("the editor of scenes is accessible, also with a fault", async () => {
+  await showPanel(page, true);
+  await page.click(control("edit-scene"));
+  await page.waitForSelector(`${control("editor")}[open]`);
+  await page.keyboard.press("Control+A");
+  await page.keyboard.insertText('{"bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}, "grops": []}');
+  await page.click(control("editor-load"));
+  await when(page, (selector) => document.querySelector(selector).textContent !== "", control("editor-message"));
+  await expectAccessible(page);
+  await page.keyboard.press("Escape");
+});
+
+test("a pulled sphere is accessible", async () => {
+  await page.click(control("reset"));
+  await showPanel(page, true);
+  await page.setViewportSize({ width: 1280, height: 720 });
+  await page.selectOption(control("tool"), "Pull");
+  await page.click(control("home"));
+  await page.waitForTimeout(1500); // the camera moves
+  await clickSphere(page, 2);
+  await page.focus(control("picture"));
+  await page.keyboard.press("ArrowUp");
+  await page.waitForSelector(control("pull-force"));
+  await expectAccessible(page, () => showPanel(page, true));
+  await page.keyboard.press("Escape");
+  await page.selectOption(control("tool"), "Select");
+});
+
 test("the timeline of a recording is accessible", async () => {
   const file = path.join(suite.folder, "cradle.sph");
   await spherule("run", "cradle", "--for", "1s", "--record", file, "--device", "cpu");

@@ -27,6 +27,7 @@ const suite = browserSuite(async (browser, folder) => {
   server = await serve(file);
   page = await open(browser, server.url, { size: [1280, 800] });
   await page.waitForSelector(control("gravity-arrow"));
+  await page.waitForTimeout(1500); // the camera moves
 });
 
 beforeEach(async () => {
@@ -75,7 +76,7 @@ test("dragging a sphere pulls it to the pointer, with the force as text, until t
   assert.ok(Math.abs(positions[1][2] - 1) < 0.01, "the other sphere stays");
   await page.mouse.up();
   await when(page, () => spherule.reports.some(({ name }) => name === "Release"));
-  assert.equal(await page.isVisible(control("pull-force")), false);
+  await page.waitForSelector(control("pull-force"), { state: "hidden" });
   // Nothing pulls it back.
   await server.ctl("push", "0", "0", "0", String(-0.3 * mass));
   await page.waitForTimeout(800);

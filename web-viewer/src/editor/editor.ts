@@ -60,8 +60,10 @@ export class Editor implements LazyEditor {
     // The security policy forbids style elements. In a shadow root, the editor uses style sheets of its own.
     const root = this.host.attachShadow({ mode: "open" });
     const label = EditorView.contentAttributes.of({ "aria-label": "Scene, as JSON" });
-    const extensions = [basicSetup, json(), lintGutter(), theme, syntaxHighlighting(colours), label];
+    const look = [theme, syntaxHighlighting(colours), EditorView.lineWrapping, lintGutter()];
+    const extensions = [basicSetup, json(), look, label];
     this.view = new EditorView({ root, parent: root, state: EditorState.create({ doc: example, extensions }) });
+    this.view.scrollDOM.tabIndex = 0; // arrow keys scroll it
     const button = { type: "button", class: "primary", "data-testid": "editor-load", click: () => void this.submit() };
     this.load = h("button", button, "Load");
     const close = { type: "button", "data-testid": "editor-close", click: () => this.element.close() };
