@@ -64,27 +64,6 @@ export const quantities = {
       return `${figure(speed - error)} to ${figure(speed + error)} m/s`;
     },
   },
-  contacts: {
-    label: "Contacts",
-    glsl: "sentColour(place)",
-    scale: { ramp: contactsRamp, unit: "", value: sent(Sent.CONTACTS), least: 5 },
-    sent: Sent.CONTACTS,
-    legend: (_, [low, high]) => ({ bar: contactsRamp, low: figure(low), high: `${figure(high)} bodies` }),
-  },
-  overlap: {
-    label: "Overlap",
-    glsl: "sentColour(place)",
-    scale: { ramp: overlapRamp, unit: "%", size: 0.01, value: sent(Sent.OVERLAP), least: 0.001 },
-    sent: Sent.OVERLAP,
-    legend: (_, [low, high]) => ({ bar: overlapRamp, low: percent(low), high: `${percent(high)} of the radius` }),
-  },
-  energy: {
-    label: "Energy",
-    glsl: "sentColour(place)",
-    scale: { ramp: energyRamp, unit: "J", value: sent(Sent.ENERGY), least: 1e-12 },
-    sent: Sent.ENERGY,
-    legend: (_, [low, high]) => ({ bar: energyRamp, low: withPrefix(low, "J"), high: withPrefix(high, "J") }),
-  },
   radius: {
     label: "Radius",
     glsl: "colourOf(radiusOf(place))",
@@ -122,6 +101,27 @@ export const quantities = {
       const swatches = shown.map((group) => ({ colour: group.colour, name: group.name, figure: count(group.count) }));
       return { swatches, notes: more > 0 ? [`and ${more} more`] : [] };
     },
+  },
+  contacts: {
+    label: "Contacts",
+    glsl: "sentColour(place)",
+    scale: { ramp: contactsRamp, unit: "", value: sent(Sent.CONTACTS), least: 5 },
+    sent: Sent.CONTACTS,
+    legend: (_, [low, high]) => ({ bar: contactsRamp, low: figure(low), high: `${figure(high)} bodies` }),
+  },
+  overlap: {
+    label: "Overlap",
+    glsl: "sentColour(place)",
+    scale: { ramp: overlapRamp, unit: "%", size: 0.01, value: sent(Sent.OVERLAP), least: 0.001 },
+    sent: Sent.OVERLAP,
+    legend: (_, [low, high]) => ({ bar: overlapRamp, low: percent(low), high: `${percent(high)} of the radius` }),
+  },
+  energy: {
+    label: "Energy",
+    glsl: "sentColour(place)",
+    scale: { ramp: energyRamp, unit: "J", value: sent(Sent.ENERGY), least: 1e-12 },
+    sent: Sent.ENERGY,
+    legend: (_, [low, high]) => ({ bar: energyRamp, low: withPrefix(low, "J"), high: withPrefix(high, "J") }),
   },
 } satisfies Record<string, Quantity>;
 
