@@ -8,8 +8,8 @@ const events = [
 ];
 
 /**
- * Calls a function before each image that the browser draws, as long as the page is active: images have been drawn,
- * messages have arrived, or the user has done something lately. At rest it calls the function four times a second, for
+ * Calls a function before each image that the browser draws, as long as the page is active. It is active after an image
+ * was drawn, a message arrived, or the user did something. At rest it calls the function four times a second, for
  * figures that depend on the time.
  */
 export class Ticker {

@@ -39,7 +39,7 @@ class Content {
   private nextNames: unknown[] = [];
   private keptNames: unknown[] = [];
   private names = 0;
-  private known = false; // `kept` and `keptNames` are those of an image
+  private known = false; // `kept` and `keptNames` hold the values of an image
 
   begin(): void {
     this.length = this.names = 0;

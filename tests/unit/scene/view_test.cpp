@@ -112,7 +112,8 @@ TEST(SceneView, LightIsInItsRanges) {
               "light.direction: has 2 numbers, must have three: x, y, z");
     EXPECT_EQ(refusalOf(R"("light": {"strength": 11})"), "light.strength: is 11, must be 0 to 10");
     EXPECT_EQ(refusalOf(R"("light": {"sky": -1})"), "light.sky: is -1, must be 0 to 10");
-    EXPECT_EQ(refusalOf(R"("light": {"colour": "white"})"), R"(light.colour: is "white", must be #rrggbb in hexadecimal)");
+    EXPECT_EQ(refusalOf(R"("light": {"colour": "white"})"),
+              R"(light.colour: is "white", must be #rrggbb in hexadecimal)");
 }
 
 }  // namespace
