@@ -233,7 +233,7 @@ void CommandExecutor::answerInspections() {
     while (!inspections_.empty() && Clock::now() >= nextInspection_) {
         const auto begin = Clock::now();
         const std::uint64_t sphere = inspections_.front().command.inspect().sphere();
-        const Result<sim::Applied> seen = *apply(inspections_.front().command);
+        const Result<sim::Applied> seen = *apply(inspections_.front());
         std::erase_if(inspections_, [&](const Request& one) {
             if (one.command.inspect().sphere() != sphere) return false;
             publisher_.reply(one.session, resultOf(one.command, seen));

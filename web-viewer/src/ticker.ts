@@ -9,7 +9,7 @@ const events = [
 
 /**
  * Calls a function before each image that the browser draws, as long as the page is active. It is active after an image
- * was drawn, a message arrived, or the user did something. At rest it calls the function four times a second, for
+ * was drawn, or the user did something. At rest it calls the function four times a second, for
  * figures that depend on the time.
  */
 export class Ticker {
@@ -25,13 +25,14 @@ export class Ticker {
     this.wake();
   }
 
-  /** Call when something may have changed, besides the events of the user. */
+  /** Makes the page active. Events of the user do that, too. */
   wake(): void {
     this.lastActive = performance.now();
     this.request();
   }
 
-  private request(): void {
+  /** Asks for one tick before the next image. */
+  request(): void {
     if (this.requested) return;
     this.requested = true;
     clearTimeout(this.timer);

@@ -51,6 +51,11 @@ class Content {
     return this;
   }
 
+  addAll(values: ArrayLike<number>): this {
+    for (let k = 0; k < values.length; k++) this.next[this.length++] = values[k] as number;
+    return this;
+  }
+
   addName(value: unknown): this {
     this.nextNames[this.names++] = value;
     return this;
@@ -65,8 +70,11 @@ class Content {
 
   /** The image has been drawn. */
   keep(): void {
-    [this.kept, this.next] = [this.next, this.kept];
-    [this.keptNames, this.nextNames] = [this.nextNames, this.keptNames];
+    const { kept, keptNames } = this;
+    this.kept = this.next;
+    this.next = kept;
+    this.keptNames = this.nextNames;
+    this.nextNames = keptNames;
     this.known = true;
   }
 
@@ -108,7 +116,7 @@ export class Viewer {
     this.canvas = new Canvas(element, choices.quality, () => this.redraw());
     this.link = new Link(new Worker("worker.js"), (message) => {
       this.session.handle(message);
-      this.ticker.wake();
+      this.ticker.request();
     });
     this.subscription = new ViewSubscription({ ...choices.view }, (view) => this.link.requestView(view));
     this.session = this.createSession();
@@ -236,7 +244,7 @@ export class Viewer {
     this.clock.tick(now);
     if (session.facts) this.subscription.setQuantity(this.page.quantity);
     const shown = session.states.shown(wall);
-    this.ranges.update(this.session.facts, shown, now);
+    this.ranges.update(choices.mode, session.facts, shown, now);
     this.follow(shown);
     camera.cover(this.page.covered);
     camera.advance(this.clock.elapsed, reducedMotion.matches);
@@ -249,9 +257,7 @@ export class Viewer {
     const { image } = this;
     image.begin();
     image.add(shown?.from.sequence).add(shown?.to.sequence).add(shown?.mix);
-    for (const part of state.view.eye) image.add(part);
-    for (const part of state.view.toClip) image.add(part);
-    for (const part of state.kept.normal) image.add(part);
+    image.addAll(state.view.eye).addAll(state.view.toClip).addAll(state.kept.normal);
     image.add(state.kept.offset);
     image.add(state.range[0]).add(state.range[1]).add(state.selected).add(state.dim);
     image.addName(state.mode).addName(state.trace).addName(choices.theme).addName(choices.quality);
@@ -264,7 +270,7 @@ export class Viewer {
     }
     this.page.lazy.tools?.update(state.view, shown);
     this.reportDrawRate(now);
-    this.page.update(wall, shown, this.clock.imagesPerSecond, this.canvas.graphics);
+    this.page.update(wall, shown, this.clock, this.canvas.graphics);
     return drew;
   }
 

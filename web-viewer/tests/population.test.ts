@@ -155,7 +155,7 @@ test("automatic colour ranges ignore places without a sphere", () => {
   };
   const ranges = new ColourRanges();
   const shown = { from: at(0, [0, 0, 0, 0, 0, 0]), to: at(1, [90, 2, 2, 90, 90, 2]), mix: 1, moving: false };
-  ranges.update(scene, shown, 0);
+  ranges.update("speed", scene, shown, 0);
   assert.deepEqual(ranges.of("speed", scene), [0, 2]);
 });
 

@@ -39,10 +39,10 @@ test("automatic ranges follow the values shown, unless they are locked", () => {
   const ranges = new ColourRanges();
   const shown = { from: state(1, 0, 0), to: state(2, 0.5, 2), mix: 1, moving: false };
   ranges.toggleLock();
-  ranges.update(facts(), shown, 0);
+  ranges.update("speed", facts(), shown, 0);
   assert.deepEqual([ranges.locked, ranges.of("speed", undefined)], [true, [0, 0.1]]);
   ranges.toggleLock();
-  ranges.update(facts(), { ...shown, to: state(3, 0.5, 2) }, 0);
+  ranges.update("speed", facts(), { ...shown, to: state(3, 0.5, 2) }, 250);
   assert.deepEqual([ranges.locked, ranges.of("speed", undefined)], [false, [0, 5]]);
   ranges.reset();
   assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);

@@ -29,6 +29,10 @@ test("at rest there are four ticks a second, and as many as images while somethi
     assert.ok(resting >= 6 && resting <= 8, `${resting} ticks at rest`);
     for (let k = 0; k < 10; k++) ticker.wake();
     assert.equal(during(2 * frame), 2, "several events make one tick per image");
+    during(1000);
+    ticker.request();
+    assert.equal(during(frame), 1, "a message makes one tick");
+    assert.equal(during(5 * frame), 0);
     draws = true;
     during(2000);
     assert.ok(during(2000) >= 2000 / frame - 2, "ticks go on while images are drawn");

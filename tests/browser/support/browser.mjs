@@ -20,11 +20,12 @@ export async function launch(...more) {
 
 /**
  * Opens the page. `picture`: its choice of image quality; `fixed`: the server does not reduce the stream, however
- * slowly the page draws here.
+ * slowly the page draws here. `init`: a function that runs in the page before its own code.
  */
 export async function visit(browser, url, options = {}) {
-  const { size = [960, 540], picture = "light", colour = "", fixed = true, ...context } = options;
+  const { size = [960, 540], picture = "light", colour = "", fixed = true, init, ...context } = options;
   const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, ...context });
+  if (init) await page.addInitScript(init);
   page.setDefaultTimeout(patience);
   page.faults = [];
   page.requested = [];

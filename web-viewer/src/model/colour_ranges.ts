@@ -19,7 +19,9 @@ export interface GivenRange {
 export class ColourRanges {
   private readonly given = new Map<Mode, GivenRange>();
   private readonly automatic = new Map<Mode, Automatic>();
-  private measured = -1; // sequence number of the newest state whose values the automatic ranges know
+  private measured = -1; // sequence number of the state whose values were last measured
+  private mode: Mode | undefined; // in which that was
+  private last = 0; // ms
 
   constructor() {
     for (const mode of modes) {
@@ -57,16 +59,18 @@ export class ColourRanges {
     return [0, this.automatic.get(mode)?.range.high ?? 1];
   }
 
-  /** Adapts the automatic ranges to the values that are shown. `now`: ms. */
-  update(facts: Facts | undefined, shown: Shown | undefined, now: number): void {
-    if (!facts || !shown || shown.to.sequence === this.measured) return;
+  /** Adapts the automatic range of a mode to the values that are shown, four times a second. `now`: ms. */
+  update(mode: Mode, facts: Facts | undefined, shown: Shown | undefined, now: number): void {
+    const automatic = this.automatic.get(mode);
+    if (!automatic || !facts || !shown || shown.to.sequence === this.measured) return;
+    if (mode === this.mode && now - this.last < samplePeriod) return;
+    this.mode = mode;
+    this.last = now;
     this.measured = shown.to.sequence;
     const places = Math.min(shown.from.count, shown.to.count);
-    const isUsed = (place: number): boolean => facts.population.isUsed(place);
-    for (const { range, value } of this.automatic.values()) {
-      const high = highOf((place) => value(facts, shown, place), places, isUsed);
-      if (high !== undefined) range.update(high, now);
-    }
+    const { range, value } = automatic;
+    const high = highOf((place) => value(facts, shown, place), places, (place) => facts.population.isUsed(place));
+    if (high !== undefined) range.update(high, now);
   }
 
   /** Resets the ranges for another scene, unless they are locked. */
@@ -77,7 +81,8 @@ export class ColourRanges {
 
   /** Whether the automatic ranges do not change. */
   get locked(): boolean {
-    return [...this.automatic.values()].every(({ range }) => range.locked);
+    for (const { range } of this.automatic.values()) if (!range.locked) return false;
+    return true;
   }
 
   toggleLock(): void {
@@ -86,6 +91,7 @@ export class ColourRanges {
   }
 }
 
+const samplePeriod = 250; // ms
 const samples = new Float64Array(2048); // reused: each state is sampled
 
 /**

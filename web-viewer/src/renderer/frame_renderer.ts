@@ -20,6 +20,7 @@ import { TracePass } from "./trace_pass";
 
 /** The content of the shadow map: the states as in Shown, and the half-space as in HalfSpace. */
 interface Cast {
+  known: boolean; // false: the map must be drawn
   from: State | undefined;
   to: State | undefined;
   mix: number;
@@ -49,7 +50,7 @@ export class FrameRenderer {
   private theme: Theme | undefined;
   private quality: RenderQuality | undefined;
   private readonly eye: Vec3 = [0, 0, 0]; // of the last image, relative to the centre of the bounds
-  private cast: Cast | undefined; // in the shadow map; undefined: it must be drawn
+  private readonly cast: Cast = { known: false, from: undefined, to: undefined, mix: 0, x: 0, y: 0, z: 0, offset: 0 };
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.uniforms = new FrameUniforms(gl);
@@ -75,20 +76,20 @@ export class FrameRenderer {
     this.order = order;
     this.data.setOrder(order);
     if (this.facts) this.spheres?.setFacts(this.facts, order);
-    this.cast = undefined;
+    this.cast.known = false;
   }
 
   /** `changed`: the places whose sphere has changed. */
   updatePopulation(changed: readonly Run[]): void {
     this.data.updatePopulation(changed);
     if (this.facts) this.spheres?.setFacts(this.facts, this.order);
-    this.cast = undefined;
+    this.cast.known = false;
   }
 
   /** `hidden`: numbers of the groups that images leave out. */
   hide(hidden: ReadonlySet<number>): void {
     this.data.hide(hidden);
-    this.cast = undefined;
+    this.cast.known = false;
   }
 
   /** Width and height in pixels of the canvas. */
@@ -100,7 +101,7 @@ export class FrameRenderer {
       this.scene = new ScenePass(gl, quality.full);
       this.spheres = new SpherePass(gl, quality.full);
       if (this.facts) this.spheres.setFacts(this.facts, this.order);
-      this.cast = undefined;
+      this.cast.known = false;
     }
     if (quality !== this.quality || width !== this.target?.width || height !== this.target.height) {
       this.post?.free();
@@ -170,9 +171,16 @@ export class FrameRenderer {
     const { cast } = this;
     const mix = shown?.mix ?? 0;
     const [x, y, z] = normal;
-    const isSameState = cast?.from === shown?.from && cast?.to === shown?.to && cast?.mix === mix;
-    if (isSameState && cast?.x === x && cast.y === y && cast.z === z && cast.offset === offset) return;
+    const isSameState = cast.from === shown?.from && cast.to === shown?.to && cast.mix === mix;
+    if (cast.known && isSameState && cast.x === x && cast.y === y && cast.z === z && cast.offset === offset) return;
     shadow.draw(light, this.data, mix, this.environment);
-    this.cast = { from: shown?.from, to: shown?.to, mix, x, y, z, offset };
+    cast.known = true;
+    cast.from = shown?.from;
+    cast.to = shown?.to;
+    cast.mix = mix;
+    cast.x = x;
+    cast.y = y;
+    cast.z = z;
+    cast.offset = offset;
   }
 }

@@ -78,7 +78,7 @@ export class PostPass {
     const { gl, occlusion, framebuffer } = this;
     if (!occlusion || !framebuffer) return;
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-    gl.viewport(0, 0, ...this.half);
+    gl.viewport(0, 0, this.half[0], this.half[1]);
     occlusion.use();
     mat4.invert(this.unproject, state.view.projection);
     gl.uniformMatrix4fv(occlusion.at("u_unproject"), false, this.unproject);

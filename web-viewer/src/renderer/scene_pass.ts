@@ -83,6 +83,6 @@ export class ScenePass {
   private prepare(used: Program, state: DrawState, eye: Vec3): void {
     used.use();
     this.gl.uniformMatrix4fv(used.at("u_matrix"), false, state.view.toClip);
-    this.gl.uniform3fv(used.at("u_from"), eye);
+    this.gl.uniform3f(used.at("u_from"), eye[0], eye[1], eye[2]);
   }
 }

@@ -10,6 +10,7 @@ export class SceneTarget {
   readonly drawnDepth: WebGLTexture;
   readonly colour: WebGLTexture;
   readonly depth: WebGLTexture;
+  private readonly forwardTarget: WebGLFramebuffer;
   private readonly codeTarget: WebGLFramebuffer;
   private readonly scene: WebGLFramebuffer;
   private readonly none = Uint32Array.of(0, 0, 0, 0);
@@ -24,24 +25,24 @@ export class SceneTarget {
     this.drawnDepth = texture(gl, gl.DEPTH_COMPONENT24, width, height, gl.NEAREST);
     this.colour = texture(gl, gl.RGBA8, width, height, gl.LINEAR);
     this.depth = texture(gl, gl.DEPTH_COMPONENT24, width, height, gl.NEAREST);
-    this.codeTarget = framebuffer(gl, this.drawnDepth, this.forward, this.code);
+    this.forwardTarget = framebuffer(gl, this.drawnDepth, this.forward);
+    this.codeTarget = framebuffer(gl, this.drawnDepth, undefined, this.code);
     this.scene = framebuffer(gl, this.depth, this.colour);
   }
 
   /** Begins to draw background, floor and obstacles, to `forward`. */
   beginForward(): void {
     const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.codeTarget);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.forwardTarget);
     gl.viewport(0, 0, this.width, this.height);
-    gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1]);
-    gl.clearBufferuiv(gl.COLOR, 1, this.none);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.NONE]);
   }
 
   /** Begins to draw the spheres' codes. */
   beginCodes(): void {
-    this.gl.drawBuffers([this.gl.NONE, this.gl.COLOR_ATTACHMENT1]);
+    const { gl } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.codeTarget);
+    gl.clearBufferuiv(gl.COLOR, 1, this.none);
   }
 
   /** Begins to draw to `colour` and `depth`; their content is undefined. */
@@ -64,6 +65,7 @@ export class SceneTarget {
   free(): void {
     const { gl } = this;
     for (const used of [this.code, this.forward, this.drawnDepth, this.colour, this.depth]) gl.deleteTexture(used);
+    gl.deleteFramebuffer(this.forwardTarget);
     gl.deleteFramebuffer(this.codeTarget);
     gl.deleteFramebuffer(this.scene);
   }
@@ -74,12 +76,18 @@ export function placeIn(code: number): number | undefined {
   return code === 0 ? undefined : code & 0xffffff;
 }
 
-function framebuffer(gl: WebGL2RenderingContext, depth: WebGLTexture, ...colours: WebGLTexture[]): WebGLFramebuffer {
+/** `colours`: the attachments in their order; undefined: nothing is drawn there. */
+function framebuffer(
+  gl: WebGL2RenderingContext,
+  depth: WebGLTexture,
+  ...colours: (WebGLTexture | undefined)[]
+): WebGLFramebuffer {
   const made = gl.createFramebuffer();
   gl.bindFramebuffer(gl.FRAMEBUFFER, made);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, depth, 0);
   colours.forEach((colour, k) => {
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + k, gl.TEXTURE_2D, colour, 0);
+    if (colour) gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + k, gl.TEXTURE_2D, colour, 0);
   });
+  gl.drawBuffers(colours.map((colour, k) => (colour ? gl.COLOR_ATTACHMENT0 + k : gl.NONE)));
   return made;
 }

@@ -42,8 +42,9 @@ export class ShadowMap {
     gl.polygonOffset(1.5, 4);
     this.spheres.use();
     gl.uniformMatrix4fv(this.spheres.at("u_light"), false, light.clip);
-    gl.uniform3fv(this.spheres.at("u_right"), light.right);
-    gl.uniform3fv(this.spheres.at("u_up"), light.up);
+    const { right, up } = light;
+    gl.uniform3f(this.spheres.at("u_right"), right[0], right[1], right[2]);
+    gl.uniform3f(this.spheres.at("u_up"), up[0], up[1], up[2]);
     data.prepare(this.spheres, mix);
     data.draw(this.spheres, 0, data.count);
     this.solids.use();

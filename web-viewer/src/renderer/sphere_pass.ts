@@ -39,8 +39,11 @@ export class SpherePass {
   private readonly programs: Record<Detail, Program>;
   private readonly shading: Program;
   private readonly blocks = new SphereBlocks();
-  private cells: number[] = [1, 1, 1];
-  private readonly ramps = new Map(modes.map((mode) => [mode, quantityOf(mode).scale?.ramp.flat()]));
+  // Arrays of numbers would be copied number by number for each image.
+  private readonly cells = Int32Array.of(1, 1, 1);
+  private readonly ramps = new Map(
+    modes.map((mode) => [mode, Float32Array.from(quantityOf(mode).scale?.ramp.flat() ?? [])]),
+  );
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -58,7 +61,7 @@ export class SpherePass {
 
   /** `order`: of drawing; undefined: by place. Call again when the population has changed. */
   setFacts(facts: Facts, order: DrawOrder | undefined): void {
-    this.cells = facts.cells.map((n) => Math.max(1, n));
+    this.cells.set(facts.cells.map((n) => Math.max(1, n)));
     this.blocks.set(facts, order);
   }
 
@@ -66,7 +69,7 @@ export class SpherePass {
   drawCodes(shown: Shown, data: SphereData, state: DrawState, eye: Vec3, pixel: number): void {
     const { blocks, programs } = this;
     blocks.find(shown, data.count, state, eye, pixel);
-    for (const detail of [Detail.Round, Detail.Disc, Detail.Point]) {
+    for (let detail = Detail.Round; detail >= Detail.Point; detail--) {
       let prepared = false;
       for (let k = 0; k < blocks.length; k++) {
         const run = blocks.runs[k];
@@ -99,9 +102,10 @@ export class SpherePass {
     }
     const ramp = this.ramps.get(state.mode);
     gl.uniform1i(shading.at("u_mode"), modes.indexOf(state.mode));
-    if (ramp) gl.uniform3fv(shading.at("u_ramp"), ramp);
-    gl.uniform2fv(shading.at("u_range"), state.range);
-    gl.uniform3fv(shading.at("u_cellSize"), facts.cellWidths);
+    if (ramp && ramp.length > 0) gl.uniform3fv(shading.at("u_ramp"), ramp);
+    gl.uniform2f(shading.at("u_range"), state.range[0], state.range[1]);
+    const { cellWidths } = facts;
+    gl.uniform3f(shading.at("u_cellSize"), cellWidths[0], cellWidths[1], cellWidths[2]);
     gl.uniform3iv(shading.at("u_cells"), this.cells);
     gl.uniform1i(shading.at("u_selected"), state.selected ?? -1);
     gl.depthFunc(gl.ALWAYS);

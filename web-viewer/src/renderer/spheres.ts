@@ -6,7 +6,7 @@ import { joined } from "../model/population";
 import type { Population, Run } from "../model/population";
 import type { DrawOrder, Shown, State } from "../model/states";
 import { bindTexture } from "./program";
-import type { Program } from "./program";
+import type { Program, Sampler } from "./program";
 import { Table } from "./table";
 
 /** A state on the device. */
@@ -17,6 +17,8 @@ interface Resident {
 }
 
 const texelsPerLook = 2;
+const fromSamplers = new Map(columnNames.map((name): [ColumnName, Sampler] => [name, `u_${name}From`]));
+const toSamplers = new Map(columnNames.map((name): [ColumnName, Sampler] => [name, `u_${name}To`]));
 
 /**
  * The spheres' data on the device, in tables by place: states as received, and radius, id and group, which change with
@@ -33,7 +35,8 @@ export class SphereData {
   private readonly nothing: Table;
   private facts: Facts | undefined;
   private images: Image[] = [];
-  private perLength: number[] = [0, 0, 0]; // 1/m
+  private readonly periods = new Float32Array(3); // m
+  private readonly perLength = new Float32Array(3); // 1/m
   private tabled = false; // the tables hold ids, and radii even if all are equal
   private hidden: ReadonlySet<number> = new Set(); // numbers of groups
   private shownRadii = new Float32Array(0); // m; 0 for hidden spheres; used if a group is hidden
@@ -55,7 +58,8 @@ export class SphereData {
     const { population, periods } = facts;
     this.facts = facts;
     this.images = imagesOf(facts);
-    this.perLength = periods.map((length) => (length > 0 ? 1 / length : 0));
+    this.periods.set(periods);
+    this.perLength.set(periods.map((length) => (length > 0 ? 1 / length : 0)));
     this.tabled = population.ids !== undefined;
     for (const table of [this.radii, this.ids, this.groups]) table.fit(population.places);
     this.uploadTables(population, { first: 0, count: population.places });
@@ -98,8 +102,8 @@ export class SphereData {
   /** Selects the states to draw, and uploads those that are new. */
   show(shown: Shown): void {
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.population.places ?? 0);
-    this.bindState("From", shown.from);
-    this.bindState("To", shown.to);
+    this.bindState(fromSamplers, shown.from);
+    this.bindState(toSamplers, shown.to);
     bindTexture(this.gl, "u_order", this.order.texture);
     bindTexture(this.gl, "u_radius", this.radii.texture);
     bindTexture(this.gl, "u_id", this.ids.texture);
@@ -115,7 +119,7 @@ export class SphereData {
     const isSame = !this.tabled && this.hidden.size === 0;
     gl.uniform1f(program.at("u_sameRadius"), isSame ? facts.population.radius : 0);
     gl.uniform1i(program.at("u_idsGiven"), this.tabled ? 1 : 0);
-    gl.uniform3fv(program.at("u_period"), facts.periods);
+    gl.uniform3fv(program.at("u_period"), this.periods);
     gl.uniform3fv(program.at("u_perLength"), this.perLength);
   }
 
@@ -136,19 +140,25 @@ export class SphereData {
     }
   }
 
-  private bindState(end: "From" | "To", state: State): void {
+  private bindState(samplers: ReadonlyMap<ColumnName, Sampler>, state: State): void {
     const { tables } = this.resident(state);
-    for (const name of columnNames) {
+    samplers.forEach((sampler, name) => {
       const table = state.columns[name] ? tables.get(name) : undefined;
-      bindTexture(this.gl, `u_${name}${end}`, (table ?? this.nothing).texture);
-    }
+      bindTexture(this.gl, sampler, (table ?? this.nothing).texture);
+    });
   }
 
   private resident(state: State): Resident {
     this.turn += 1;
-    let found = this.residents.find((resident) => resident.state === state);
+    let found: Resident | undefined;
+    let oldest = this.residents[0] as Resident;
+    for (let k = 0; k < this.residents.length; k++) {
+      const resident = this.residents[k] as Resident;
+      if (resident.state === state) found = resident;
+      if (resident.used < oldest.used) oldest = resident;
+    }
     if (!found) {
-      found = this.residents.reduce((oldest, other) => (other.used < oldest.used ? other : oldest));
+      found = oldest;
       found.state = state;
       for (const name of columnNames) {
         const values = state.columns[name]?.values;
@@ -204,20 +214,13 @@ export class SphereData {
 
 /** A set of periodic axes across whose faces images are drawn: 1 per axis in the set, and the same as bits. */
 interface Image {
-  axes: number[];
+  axes: Float32Array;
   bits: number; // as in the codes of shaders/code.glsl
 }
 
 /** All sets of periodic axes. The first one is empty. */
 function imagesOf({ periods }: Facts): Image[] {
-  return periods.reduce<Image[]>(
-    (sets, length, axis) =>
-      length > 0
-        ? sets.flatMap((set) => [
-            set,
-            { axes: set.axes.map((one, k) => (k === axis ? 1 : one)), bits: set.bits | (1 << axis) },
-          ])
-        : sets,
-    [{ axes: [0, 0, 0], bits: 0 }],
-  );
+  const all = periods.reduce((bits, length, axis) => (length > 0 ? bits | (1 << axis) : bits), 0);
+  const sets = [0, 1, 2, 3, 4, 5, 6, 7].filter((bits) => (bits & ~all) === 0);
+  return sets.map((bits) => ({ axes: Float32Array.from([0, 1, 2], (axis) => (bits >> axis) & 1), bits }));
 }

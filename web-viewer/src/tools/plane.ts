@@ -1,22 +1,13 @@
 import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Ray } from "../camera/ray";
-import { rayThrough } from "../camera/ray";
 import type { View } from "../camera/view";
 import type { Vec3 } from "../model/facts";
 
-/** The axes of the picture in the world: to the right, upwards, and away from the eye. */
-export function axesOf(view: View): { right: Vec3; up: Vec3; away: Vec3 } {
-  const { width, height, forward: away } = view;
-  const low = pointAt(view, width / 2, height);
-  const up = vec3.subtract([0, 0, 0], pointAt(view, width / 2, 0), low);
-  vec3.normalize(up, vec3.scaleAndAdd(up, up, away, -vec3.dot(up, away)));
-  return { right: vec3.cross([0, 0, 0], away, up) as Vec3, up: up as Vec3, away };
-}
-
-/** A point of the ray through a pixel, at the distance 1 along the direction of the view. */
-function pointAt(view: View, x: number, y: number): Vec3 {
-  const { origin, direction } = rayThrough(view, x, y);
-  return vec3.scaleAndAdd([0, 0, 0], origin, direction, 1 / vec3.dot(direction, view.forward)) as Vec3;
+/** The axes of the picture in the world: to the right, upwards, and away from the eye. The camera stands upright. */
+export function axesOf({ forward: away }: View): { right: Vec3; up: Vec3; away: Vec3 } {
+  const flat = Math.hypot(away[0], away[1]);
+  const right: Vec3 = [away[1] / flat, -away[0] / flat, 0];
+  return { right, up: vec3.cross([0, 0, 0], right, away) as Vec3, away };
 }
 
 /** Where the ray meets the plane parallel to the picture through a point (m); undefined behind the eye. */

@@ -85,9 +85,12 @@ export class Tools implements LazyTools {
     void panel.dropSpheres((_, count, radius) => dropAbove(facts, settings?.gravity, at, clear, count, radius));
   }
 
+  refresh(view: View): void {
+    this.arrow.update(view, this.stage.session.settings?.gravity);
+  }
+
   update(view: View, shown: Shown | undefined): void {
-    const { facts, settings } = this.stage.session;
-    this.arrow.update(view, settings?.gravity);
+    const { facts } = this.stage.session;
     const { sphere, point, force } = this.pull;
     const place = sphere === undefined ? undefined : facts?.population.placeOf(sphere);
     if (sphere !== undefined && (place === undefined || this.stage.choices.tool !== "pull")) this.pull.letGo();

@@ -34,6 +34,8 @@ export interface Tools {
   letGo(): boolean;
   /** Drops spheres above the place that the picture shows on a ray. `place`: of the sphere there. */
   drop(ray: Ray, place: number | undefined): void;
+  /** Updates the tools' elements in the panel. */
+  refresh(view: View): void;
   /** Call at every tick. */
   update(view: View, shown: Shown | undefined): void;
 }

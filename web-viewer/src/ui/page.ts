@@ -1,5 +1,6 @@
 import type { Camera } from "../camera/camera";
 import type { Box } from "../camera/free_part";
+import type { DrawClock } from "../clock";
 import type { Commands } from "../connection/commands";
 import type { ControlMessage } from "../connection/messages";
 import { sentence } from "../format";
@@ -60,6 +61,7 @@ export interface PageActions extends Omit<PanelActions, OwnActions> {
 }
 
 const small = window.matchMedia("(width <= 720px) or (height <= 480px)");
+const updatePeriod = 100; // ms; elements that follow the picture need no more
 const figurePeriod = 200; // ms; figures that change faster cannot be read
 
 /** All elements over the canvas. */
@@ -91,6 +93,7 @@ export class Page {
   private readonly help = new Help(this.characters);
   private readonly keys: () => Key[];
   private playing = false; // the server plays a recording
+  private lastUpdate = 0; // ms
   private lastFigures = 0; // ms
 
   constructor(
@@ -239,7 +242,9 @@ export class Page {
   }
 
   /** Call at every tick. `now`: ms, as sharedNow() counts. */
-  update(now: number, shown: Shown | undefined, imagesPerSecond: number, graphics: Graphics): void {
+  update(now: number, shown: Shown | undefined, clock: DrawClock, graphics: Graphics): void {
+    if (now - this.lastUpdate < updatePeriod) return;
+    this.lastUpdate = now;
     this.setPlaying(this.session.timeline !== undefined);
     this.steering.update();
     const { blockedReason } = this.steering;
@@ -258,11 +263,12 @@ export class Page {
     this.gauge.update(this.actions.camera, this.session.facts !== undefined);
     this.legend.update(this.choices.mode, this.session.facts);
     this.lazy.gallery?.update(blockedReason);
+    this.lazy.tools?.refresh(this.actions.camera.last);
     document.getElementById("picture")?.classList.toggle("aiming", this.choices.tool !== "select");
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
     this.header.update(now, this.steering.state, graphics);
-    this.status.update(now, imagesPerSecond, state.current);
+    this.status.update(now, clock.imagesPerSecond, state.current);
     this.panel.stream.update(this.session, now);
     if (this.session.facts) this.panel.cut.update(this.session.facts);
     this.panel.charts.update(this.session.samples);
