@@ -11,7 +11,7 @@ const suite = browserSuite(async (browser, folder) => {
   server = await serve(await gasScene(folder));
 });
 
-/** Counts calls of the graphics device, and bytes of uploads except those of uniforms. */
+/** Counts calls that draw, uploads of data other than uniforms, and ticks. */
 function countCalls() {
   window.calls = { draws: 0, uploads: 0, ticks: 0 };
   const { prototype } = WebGL2RenderingContext;
