@@ -8,7 +8,7 @@ PARAMETERS
 #include "shared/separation.h"
 #include "shared/fields.h"
 
-BUFFER(readonly, PullSpring, pulls)
+BUFFER(readonly, vec4, pulls)
 BUFFER(readonly, uint, slotOf)
 BUFFER(readonly, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -25,10 +25,11 @@ vec3 limited(vec3 a, float most) {
 }
 
 KERNEL(MOST_PULLS) {
-    vec4 point = pulls[invocation].point;
+    vec4 point = pulls[PULL_ROWS * invocation];
+    vec4 limits = pulls[PULL_ROWS * invocation + 1u];
     float rate = point.w;
     if (rate == 0.0f) return;
-    uint id = pulls[invocation].sphere;
+    uint id = uint(limits.z);
     uint sphere = slotOf[id];
     vec4 x = position[sphere];
     vec4 v = velocity[sphere];
@@ -42,8 +43,8 @@ KERNEL(MOST_PULLS) {
     vec3 kick = fall * (0.5f * h);
     vec3 mean = vec3(v) + kick;
     float share = 1.0f / ((1.0f + h * rate) * (1.0f + h * rate));
-    vec3 given = limited(separation(vec3(point), vec3(x)) * (h * rate * rate * share), pulls[invocation].mostPull * h);
-    vec3 pulled = limited(mean * share + given, max(pulls[invocation].mostSpeed, sqrt(dot3(mean, mean))));
+    vec3 given = limited(separation(vec3(point), vec3(x)) * (h * rate * rate * share), limits.x * h);
+    vec3 pulled = limited(mean * share + given, max(limits.y, sqrt(dot3(mean, mean))));
     velocity[sphere] = vec4(pulled - kick, abs(v.w));
     if (HAS(SLEEP)) restReference[id] = restless(restReference[id]);
 }

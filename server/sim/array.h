@@ -40,7 +40,7 @@ enum class Extent : std::uint8_t {
     MaterialPair,
     Counter,
     StatisticBlock,
-    Pull,            // MOST_PULLS
+    PullRow,         // PULL_ROWS for each of MOST_PULLS
     SurfaceSumWord,  // SURFACE_SUM_WORDS for each copy of each surface
     InspectedWord,   // of one sphere: see layout.h
 };

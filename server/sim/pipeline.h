@@ -112,7 +112,7 @@ class Pipeline {
     [[nodiscard]] glm::vec4 velocityOf(std::uint32_t handle);  // waits for the device
 
     // Sets the springs that pull spheres in each substep, at most MOST_PULLS. Refused if there is no memory for it.
-    Result<void> setPulls(std::span<const layout::PullSpring> springs);
+    Result<void> setPulls(std::span<const glm::vec4> rows);
     // Position (m, relative to the centre of the bounds) and radius of a sphere. Waits for the device.
     [[nodiscard]] glm::vec4 positionOf(std::uint32_t handle);
 

@@ -17,7 +17,7 @@ Result<void> Pipeline::makePulls() {
         write<std::uint32_t>(Array::SlotOf, slots);
     }
     if (!plan_.has(Array::Pulls)) {
-        const ArraySpec spec{Array::Pulls, std::uint64_t{MOST_PULLS} * sizeof(layout::PullSpring)};
+        const ArraySpec spec{Array::Pulls, std::uint64_t{MOST_PULLS} * PULL_ROWS * sizeof(glm::vec4)};
         auto made = device_.createBuffer(nameOf(spec.array), spec.bytes, typeOf(spec.array).words);
         if (!made) return tl::unexpected(made.error());
         setBuffer(spec.array, std::move(*made));
@@ -31,13 +31,14 @@ Result<void> Pipeline::makePulls() {
     return {};
 }
 
-Result<void> Pipeline::setPulls(std::span<const layout::PullSpring> springs) {
+// `rows`: of the springs, as in layout.h.
+Result<void> Pipeline::setPulls(std::span<const glm::vec4> rows) {
     pulling_ = false;
-    if (springs.empty()) return {};
+    if (rows.empty()) return {};
     if (auto made = makePulls(); !made) return made;
-    std::array<layout::PullSpring, MOST_PULLS> rows{};
-    std::ranges::copy(springs, rows.begin());
-    write<layout::PullSpring>(Array::Pulls, rows);
+    std::array<glm::vec4, std::size_t{MOST_PULLS} * PULL_ROWS> all{};
+    std::ranges::copy(rows, all.begin());
+    write<glm::vec4>(Array::Pulls, all);
     pulling_ = true;
     return {};
 }

@@ -85,8 +85,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
             return COUNTER_WORDS;
         case Extent::StatisticBlock:
             return blocksOf(plan.room, STATISTIC_BLOCK);
-        case Extent::Pull:
-            return MOST_PULLS;
+        case Extent::PullRow:
+            return std::uint64_t{MOST_PULLS} * PULL_ROWS;
         case Extent::SurfaceSumWord:
             return std::uint64_t{scene::surfacesOf(scene)} * SURFACE_SUM_COPIES * SURFACE_SUM_WORDS;
         case Extent::InspectedWord:

@@ -76,17 +76,13 @@ void Simulation::release(std::uint64_t session) {
 
 // Sends the springs to the device.
 Result<void> Simulation::writePulls() {
-    std::vector<layout::PullSpring> rows;
+    std::vector<glm::vec4> rows;
     for (const PullSpring& spring : pulls_) {
         const std::uint32_t rank = *population_.rankOf(spring.sphere);
-        const auto radius = static_cast<double>(scene_.spheres[rank].radius);
         const glm::vec3 point(spring.point - scene_.bounds.centre());
-        const PullLimits limits = pullLimits(radius);
-        rows.push_back({.point = glm::vec4(point, static_cast<float>(spring.rate)),
-                        .mostPull = static_cast<float>(limits.acceleration),
-                        .mostSpeed = static_cast<float>(limits.speed),
-                        .sphere = population_.handleAt(rank),
-                        .unusedUint = 0});
+        const PullLimits limits = pullLimits(static_cast<double>(scene_.spheres[rank].radius));
+        rows.emplace_back(point, static_cast<float>(spring.rate));
+        rows.emplace_back(limits.acceleration, limits.speed, population_.handleAt(rank), 0);
     }
     return pipeline_->setPulls(rows);
 }

@@ -86,15 +86,12 @@ struct Obstacle {
 #define ALL_OBSTACLES 1u
 #define END_OF_LIST 0xffffffffu
 
-// Springs that pull spheres.
+// Springs that pull spheres, in the buffer `pulls`: two rows each. The first has the point (m), and as w the square root of
+// stiffness over mass (1/s), 0: there is no spring. The second has the largest acceleration that the spring gives (m/s^2),
+// the speed up to which it makes the sphere faster (m/s), and the handle of the sphere. (They are no struct: see
+// contact_law.h.)
 #define MOST_PULLS 64u
-struct PullSpring {
-    vec4 point;          // m; w: the square root of stiffness over mass (1/s), 0: there is no spring
-    float mostPull;      // m/s^2: the spring gives no larger acceleration
-    float mostSpeed;     // m/s: it makes the sphere no faster
-    uint sphere;         // handle
-    uint unusedUint;
-};
+#define PULL_ROWS 2u
 
 // Sums over a block of spheres.
 struct SphereStatistics {

@@ -19,7 +19,8 @@ namespace {
 using compute::BufferDeclaration;
 
 // Buffers that are bound to different arrays; each launch gives the array.
-const std::set<std::string_view> general{"values", "sums", "column", "velocityBeforeSolve", "touching"};
+const std::set<std::string_view> general{"values",   "sums",    "column", "velocityBeforeSolve",
+                                         "touching", "deepest", "figures"};
 
 bool encodes(std::string_view kernel) {
     return kernel.starts_with("codec_");
