@@ -28,9 +28,10 @@ export class StatisticsFolders {
 
   private update(): void {
     const { diagnostics, settings, lists } = this;
-    if (lists && diagnostics) lists.show(diagnostics, settings);
     const isOpen = !this.quality._closed || !this.rest._closed;
-    if (isOpen && !lists && !this.loading) void this.begin();
+    if (!diagnostics) return; // the panel is still being made
+    if (lists) lists.show(diagnostics, settings);
+    else if (isOpen && !this.loading) void this.begin();
   }
 
   private async begin(): Promise<void> {
