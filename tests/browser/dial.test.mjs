@@ -129,6 +129,7 @@ test("a model's own substeps follow gravity, and others are kept", async () => {
 });
 
 test("diagnostics are updated regularly", async () => {
+  await unfold(page, "Now");
   const step = await page.evaluate(() => Number(spherule.session.diagnostics.statistics.step));
   await when(page, (then) => spherule.session.diagnostics.statistics.step > then, step);
   assert.match(await text("statistics-energy"), / [nµmkMGT]?J$/);
@@ -141,6 +142,7 @@ test("diagnostics are updated regularly", async () => {
 });
 
 test("forces on the walls are among the diagnostics, in a scene with contact sums", async () => {
+  await unfold(page, "Statistics");
   assert.match(await text("statistics-collisions"), /^[\d\u202f]+$/);
   assert.match(await text("statistics-dissipated"), / [nµmkMGT]?J$/);
   assert.match(await text("statistics-force-Z_MIN"), /^\S+ {2}\S+ {2}−\S+$/);
@@ -148,7 +150,6 @@ test("forces on the walls are among the diagnostics, in a scene with contact sum
 });
 
 test("a long name of a surface beside three long numbers fits into the panel", async () => {
-  await unfold(page, "Statistics");
   const sticksOut = await page.evaluate(() => {
     const value = document.querySelector('[data-testid="statistics-torque-X_MAX"]');
     const name = value.parentElement.querySelector("span");

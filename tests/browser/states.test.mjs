@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, pause, says, visit, when } from "./support/browser.mjs";
+import { control, open, pause, says, unfold, visit, when } from "./support/browser.mjs";
 import { collisions } from "./support/layout.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -20,7 +20,8 @@ async function notices(page, ...ids) {
 /** The controls that look usable and send commands. */
 const usable = (page) =>
   page.evaluate(() => {
-    const look = ["tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
+    const picture = ["trace", "picture-width", "picture-height", "save-picture"];
+    const look = [...picture, "tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
     const local = [...look, "scenes", "open-file", "copy-link", "timeline", "save"];
     const elements = document.querySelectorAll("#page :is(button, input, select)[data-testid]");
     return Array.from(elements)
@@ -124,6 +125,7 @@ test("a browser without WebGL shows what to do, and figures and controls work", 
   });
   await page.goto(server.url);
   await notices(page, "no-graphics");
+  await unfold(page, "Statistics");
   await when(page, () => /\d/.test(document.querySelector('[data-testid="statistics-kinetic"]')?.textContent));
   await page.click(control("pause"));
   await when(page, () => spherule.session.paused);

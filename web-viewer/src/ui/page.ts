@@ -188,7 +188,8 @@ export class Page {
       },
     };
     this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
-    this.steering = new Steering(session, this.toasts, actions.sendControl, (reason) => this.panel.restrict(reason));
+    const restrict = (blocked: string, away: string): void => this.panel.restrict(blocked, away);
+    this.steering = new Steering(session, this.toasts, actions.sendControl, restrict);
     const keys = { live: keysFor(keyActions, false), playing: keysFor(keyActions, true) };
     const typing = (): boolean => this.prompt.open || this.lazy.dialog;
     this.keys = () => (typing() ? [] : this.playing ? keys.playing : keys.live);

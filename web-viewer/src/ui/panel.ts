@@ -102,6 +102,7 @@ export class Panel {
   private playback!: GUI; // the folder of which a recording uses the speed
   private readonly access: GUI; // hidden while there is no token
   private readonly restriction: Restriction;
+  private readonly saving: Restriction; // viewers may save, too
   private readonly scenes: Controller;
   private readonly save: Controller;
   private readonly edit: Controller;
@@ -152,13 +153,15 @@ export class Panel {
     tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
     nameFolders(this.gui);
     rememberFolders(this.gui, [cut, stream, now, statistics, charts], () => localStorage);
-    this.restriction = new Restriction(this.steering.flatMap((folder) => folder.controllers));
+    this.restriction = new Restriction([this.edit, ...this.steering.flatMap((folder) => folder.controllers)]);
+    this.saving = new Restriction([this.save]);
   }
 
   /** Disables all controls that send commands; an empty reason enables them. */
-  restrict(blockedReason: string): void {
+  restrict(blockedReason: string, awayReason: string): void {
     if (blockedReason) this.choices.tool = "select";
     this.restriction.set(blockedReason);
+    this.saving.set(awayReason);
     this.dial.restrict(blockedReason);
     this.refresh();
   }

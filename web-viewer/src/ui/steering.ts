@@ -11,16 +11,20 @@ import type { Toasts } from "./toasts";
 export class Steering {
   state: ControlState = { kind: "unrestricted" };
   blockedReason = ""; // why this page may not send commands; empty if it may
+  private awayReason = ""; // why nobody may, as far as this page can tell: there is no connection
   private readonly line: ControlLine;
   private info: ControlInfo = { welcome: undefined, control: undefined }; // from which the state was derived
   private withdrawn = false; // this page has withdrawn its request
 
-  /** `restrict`: disables all that sends commands, with the given reason; an empty reason enables it. */
+  /**
+   * `restrict`: disables all that sends commands, with the given reason; an empty reason enables it. `awayReason`: the
+   * same if no server can be asked for anything.
+   */
   constructor(
     private readonly session: Session,
     private readonly toasts: Toasts,
     send: (message: ControlMessage) => void,
-    private readonly restrict: (blockedReason: string) => void,
+    private readonly restrict: (blockedReason: string, awayReason: string) => void,
   ) {
     this.line = new ControlLine({
       request: () => send({ case: "askControl", value: {} }),
@@ -51,10 +55,12 @@ export class Steering {
   update(): void {
     const { welcome, control } = this.session;
     if (welcome !== this.info.welcome || control !== this.info.control) this.controlChanged({ welcome, control });
-    const blockedReason = pageStateOf(this.session).blockedReason || blockedReasonOf(this.state);
-    if (blockedReason === this.blockedReason) return;
+    const { blockedReason: awayReason } = pageStateOf(this.session);
+    const blockedReason = awayReason || blockedReasonOf(this.state);
+    if (blockedReason === this.blockedReason && awayReason === this.awayReason) return;
     this.blockedReason = blockedReason;
-    this.restrict(blockedReason);
+    this.awayReason = awayReason;
+    this.restrict(blockedReason, awayReason);
   }
 
   private controlChanged(info: ControlInfo): void {
