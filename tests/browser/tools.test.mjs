@@ -26,6 +26,7 @@ const suite = browserSuite(async (browser, folder) => {
   writeFileSync(file, JSON.stringify(scene));
   server = await serve(file);
   page = await open(browser, server.url, { size: [1280, 800] });
+  await page.mouse.move(10, 10); // the page loads the tools
   await page.waitForSelector(control("gravity-arrow"));
   await page.waitForTimeout(1500); // the camera moves
 });
