@@ -86,6 +86,7 @@ test("dragging a sphere pulls it to the pointer, with the force as text, until t
 
 test("a touch pulls, too", async () => {
   const other = await open(suite.browser, server.url, { size: [1280, 800], hasTouch: true });
+  await other.mouse.move(10, 10); // the page loads the tools
   await other.waitForSelector(control("gravity-arrow"));
   await other.selectOption(control("tool"), "Pull");
   const shows = ([at, wanted]) => spherule.at(...spherule.project(at)) === wanted;
@@ -122,6 +123,7 @@ test("keys pull the selected sphere, and Escape releases it", async () => {
 
 test("the pull of a page that is closed ends", async () => {
   const other = await open(suite.browser, server.url, { size: [1280, 800] });
+  await other.mouse.move(10, 10); // the page loads the tools
   await other.waitForSelector(control("gravity-arrow"));
   await other.selectOption(control("tool"), "Pull");
   const shows = ([at, wanted]) => spherule.at(...spherule.project(at)) === wanted;
