@@ -7,7 +7,6 @@ import type { Settings } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Dial as DialMessage } from "../gen/spherule/v1/diagnostics_pb";
 import type { Cut } from "../model/cut";
 import type { Facts } from "../model/facts";
-import type { Tool } from "../model/tool";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
 import { largestSide } from "../renderer/picture";
@@ -47,7 +46,7 @@ export interface Choices {
   quality: RenderQualityChoice;
   theme: ThemeName;
   themeChosen: boolean; // false: the system determines the theme
-  tool: Tool;
+  tool: "select" | "push" | "pull" | "drop"; // the effect of a click or a drag on the picture
   impulse: number; // N s
   view: ViewRequest;
   cut: Cut;

@@ -1,2 +1,0 @@
-/** The effect of a click or a drag on the picture. */
-export type Tool = "select" | "push" | "pull" | "drop";
