@@ -2,6 +2,7 @@ import type { Camera } from "../camera/camera";
 import type { Box } from "../camera/free_part";
 import type { DrawClock } from "../clock";
 import type { Commands } from "../connection/commands";
+import { fileNameOf } from "../connection/file_name";
 import type { ControlMessage } from "../connection/messages";
 import { sentence } from "../format";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
@@ -16,7 +17,6 @@ import type { Shown } from "../model/states";
 import type { ThemeName } from "../renderer/theme";
 import { announcementOf } from "./announcements";
 import { ChangeLine } from "./change_line";
-import { fileNameOf } from "../connection/file_name";
 import { h } from "./dom";
 import { Files } from "./files";
 import { Header } from "./header";
@@ -81,7 +81,8 @@ export class Page {
   private readonly inspection: Inspection;
   private readonly change: ChangeLine;
   private readonly drawing: ChangeLine;
-  private picture: number | undefined; // completed share of the picture that is made
+  private makesPicture = false;
+  private picture: number | undefined; // completed share of the picture that is made; undefined: none, or cancelled
   private readonly notices: Notices;
   private readonly outside = new OutsideCount();
   private readonly record: RecordButton;
@@ -297,7 +298,9 @@ export class Page {
   }
 
   private async savePicture(width: number, height: number): Promise<void> {
-    if (this.picture !== undefined) return; // one at a time
+    // A picture that was cancelled still ends its tile.
+    if (this.makesPicture) return this.toasts.once("Not saved", "Another picture is being made.", "plain");
+    this.makesPicture = true;
     const { facts } = this.session;
     this.picture = 0;
     const progress = (share: number): boolean => {
@@ -311,6 +314,7 @@ export class Page {
       this.toasts.show("Picture not saved", sentence(error instanceof Error ? error.message : String(error)), "bad");
     }
     this.picture = undefined;
+    this.makesPicture = false;
   }
 
   saved(file: Blob, name: string): void {

@@ -15,6 +15,6 @@ void main() {
     float size = length(aside);
     if (size > 0.0) at += (side * u_halfWidth * pixelAt(length(at)) / size) * aside;
     float age = u_total - u_first - float(gl_InstanceID);
-    v_strength = 1.0 - 0.85 * min(1.0, age / 2048.0);
+    v_strength = 1.0 - 0.85 * min(1.0, age / 2048.0);    // as `capacity` in model/trace.ts
     gl_Position = toClip * vec4(at, 1.0);
 }
