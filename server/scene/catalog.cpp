@@ -69,9 +69,10 @@ std::optional<std::string_view> embeddedScene(std::string_view name, std::string
 std::vector<CatalogEntry> catalog(std::string_view deviceKind) {
     static const std::vector<CatalogEntry> read = readCatalog();
     std::vector<CatalogEntry> entries = read;
-    std::ranges::stable_partition(entries, [first = sceneFor(defaultScene, deviceKind)](const CatalogEntry& entry) {
+    const auto isFirst = [first = sceneFor(defaultScene, deviceKind)](const CatalogEntry& entry) {
         return entry.name == first;
-    });
+    };
+    std::stable_partition(entries.begin(), entries.end(), isFirst);
     return entries;
 }
 

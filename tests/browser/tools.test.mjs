@@ -32,7 +32,9 @@ const suite = browserSuite(async (browser, folder) => {
 });
 
 beforeEach(async () => {
+  const before = await page.evaluate(() => spherule.session.states.epoch);
   await server.ctl("reset");
+  await when(page, (epoch) => spherule.session.states.epoch !== epoch && spherule.session.newest, before);
   await page.selectOption(control("tool"), "Select");
   await page.keyboard.press("Escape");
 });

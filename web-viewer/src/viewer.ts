@@ -106,6 +106,7 @@ export class Viewer {
   private cutVersion = 0; // of the hidden groups that the canvas leaves out
   private lastReport = 0; // ms: when the worker was last given the draw rate
   private readonly image = new Content(); // of the canvas
+  private clicked: { x: number; y: number; tool: Choices["tool"] } | undefined; // a click that waits
 
   constructor(
     element: HTMLCanvasElement,
@@ -268,6 +269,11 @@ export class Viewer {
       this.clock.drew();
       if (shown) markFirst("drawn");
     }
+    const { clicked } = this;
+    if (clicked && session.newest && (drew || !draws)) {
+      if (clicked.tool === choices.tool) this.click(clicked.x, clicked.y);
+      else this.clicked = undefined;
+    }
     this.page.lazy.tools?.update(state.view, shown);
     this.reportDrawRate(now);
     this.page.update(wall, shown, this.clock, this.canvas.graphics);
@@ -343,12 +349,21 @@ export class Viewer {
     });
   }
 
-  /** `x`, `y`: CSS pixels on the canvas. */
+  /**
+   * `x`, `y`: CSS pixels on the canvas. A click into the image of an earlier scene, or before the tool is loaded, waits
+   * for an image of this scene, or for the tool.
+   */
   private click(x: number, y: number): void {
+    this.clicked = undefined;
+    const { tool } = this.choices;
+    const loads = tool === "drop" && !this.page.lazy.tools;
+    if (loads || (this.session.facts && !this.session.newest)) {
+      this.clicked = { x, y, tool };
+      return;
+    }
     const place = this.placeAt(x, y);
     const population = this.session.facts?.population;
     const ray = rayThrough(this.camera.last, x, y);
-    const { tool } = this.choices;
     if (tool === "push") void this.push(ray, place === undefined ? undefined : population?.idOf(place));
     else if (tool === "drop") this.page.lazy.tools?.drop(ray, place);
     else this.page.inspector.selection.select(population, place);

@@ -78,6 +78,7 @@ FakeApp::FakeApp(const Options& options) {
 
 FakeApp::~FakeApp() {
     stopPublishing();
+    server_.reset();  // its thread uses the members declared after it
 }
 
 std::string FakeApp::url() const {

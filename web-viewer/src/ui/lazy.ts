@@ -66,9 +66,14 @@ export class Lazy {
   constructor(private readonly stage: Stage) {
     const first = (): void => {
       for (const name of interactions) window.removeEventListener(name, first, true);
-      void this.loadTools();
+      void this.loadTools().then(() => {
+        if (!this.tools) listen(); // the next interaction tries again
+      });
     };
-    for (const name of interactions) window.addEventListener(name, first, true);
+    const listen = (): void => {
+      for (const name of interactions) window.addEventListener(name, first, true);
+    };
+    listen();
   }
 
   /** Whether a dialog is open, which has keys of its own. */
