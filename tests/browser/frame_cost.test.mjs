@@ -11,9 +11,9 @@ const suite = browserSuite(async (browser, folder) => {
   server = await serve(await gasScene(folder));
 });
 
-/** Counts calls that draw, uploads of data other than uniforms, and ticks. */
+/** Counts calls that draw, uploads of data other than uniforms, ticks, and objects that have not been deleted. */
 function countCalls() {
-  window.calls = { draws: 0, uploads: 0, ticks: 0 };
+  window.calls = { draws: 0, uploads: 0, ticks: 0, objects: 0 };
   const { prototype } = WebGL2RenderingContext;
   const wrap = (name, count) => {
     const original = prototype[name];
@@ -27,6 +27,10 @@ function countCalls() {
   for (const name of ["texImage2D", "texSubImage2D"]) wrap(name, () => (window.calls.uploads += 1));
   for (const name of ["bufferData", "bufferSubData"]) {
     wrap(name, ([target]) => (window.calls.uploads += target === uniforms ? 0 : 1));
+  }
+  for (const kind of ["Program", "Shader", "Texture", "Framebuffer", "Renderbuffer", "Buffer", "VertexArray"]) {
+    wrap(`create${kind}`, () => (window.calls.objects += 1));
+    wrap(`delete${kind}`, () => (window.calls.objects -= 1));
   }
   const request = window.requestAnimationFrame.bind(window);
   window.requestAnimationFrame = (callback) => {
@@ -56,5 +60,21 @@ test("a camera that moves uploads nothing, and at rest nothing is drawn", async 
   assert.equal(rested.uploads, moved.uploads);
   assert.ok(rested.ticks - moved.ticks <= 12, `${rested.ticks - moved.ticks} ticks in 2 s`);
   assert.deepEqual(page.faults, []);
+  await page.close();
+});
+
+test("another quality or size leaves no object of the former one on the device", async () => {
+  const page = await open(suite.browser, server.url, { init: countCalls });
+  await pause(page);
+  await settled(page);
+  const objects = () => page.evaluate(() => window.calls.objects);
+  const before = await objects();
+  for (const picture of ["Full", "Light"]) {
+    await page.selectOption(control("quality"), picture, { force: true }); // in a closed folder
+    await settled(page);
+  }
+  await page.setViewportSize({ width: 800, height: 500 });
+  await settled(page);
+  assert.equal(await objects(), before);
   await page.close();
 });

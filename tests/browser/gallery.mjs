@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
-import { launch, open, settled, when } from "./support/browser.mjs";
+import { cameraRests, launch, open, settled, when } from "./support/browser.mjs";
 import { play, spherule } from "./support/server.mjs";
 
 const views = {
@@ -17,32 +17,32 @@ const views = {
   "cradle-touching": { time: 0.25 },
   bounce: { time: 1.35, zoom: 1 },
   "two-spheres": { time: 0.35, zoom: 1 },
-  "box-4k": { time: 0.5, zoom: 1 },
-  "box-10k": { time: 0.5, zoom: 1 },
-  "box-50k": { time: 0.5 },
-  "stress-1m": { time: 0, zoom: 1, quality: "light" }, // in full quality, software takes minutes for it
+  "box-4k": { time: 0.5, colour: "height" },
+  "box-10k": { time: 0.5, colour: "height" },
+  "box-50k": { time: 0.5, colour: "height" },
+  "stress-1m": { time: 0, colour: "height", quality: "light" }, // in full quality, software takes minutes for it
 }; // time: s; zoom: steps towards the scene
 const [width, height] = [360, 225]; // px
 const most = 6000; // bytes of a picture
-const deck = 88; // px of the window that show no scene
 const target = fileURLToPath(new URL("../../web-viewer/src/page/scenes", import.meta.url));
 
 const folder = mkdtempSync(path.join(tmpdir(), "spherule-gallery-"));
 const browser = await launch();
 const wanted = process.argv.slice(2);
-for (const [name, { time, zoom = 0, quality = "full" }] of Object.entries(views)) {
+for (const [name, { time, zoom = 0, quality = "full", colour }] of Object.entries(views)) {
   if (wanted.length > 0 && !wanted.includes(name)) continue;
   const file = path.join(folder, `${name}.sph`);
   await spherule("run", name, "--device", "cpu", "--for", `${time + 0.05}s`, "--record", file);
   const server = await play(file);
-  const page = await open(browser, server.url, { size: [960, 600 + deck], picture: quality });
+  const page = await open(browser, server.url, { size: [960, 600], picture: quality, colour });
   await server.ctl("pause");
   await server.ctl("seek", String(time));
   await when(page, (then) => Math.abs((spherule.shown?.time ?? -1) - then) < 0.04, time);
-  await page.keyboard.press("c"); // hides the panel
   for (let k = 0; k < zoom; k++) await page.keyboard.press("+");
+  await page.evaluate(() => (document.getElementById("page").style.display = "none")); // the scene fills the window
+  await page.waitForTimeout(500); // the camera learns of it
+  await cameraRests(page);
   await settled(page);
-  await page.evaluate(() => (document.getElementById("page").style.visibility = "hidden"));
   const shot = await page.screenshot({ clip: { x: 0, y: 0, width: 960, height: 600 }, timeout: 0 });
   const picture = await page.evaluate(compressed, [shot.toString("base64"), width, height, most]);
   writeFileSync(path.join(target, `${name}.webp`), Buffer.from(picture.split(",")[1], "base64"));

@@ -1,7 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { radiusRamp, speedRamp } from "../src/colour/ramp";
+import { heightRamp, radiusRamp, speedRamp } from "../src/colour/ramp";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { Quantity } from "../src/gen/spherule/v1/frame_pb";
 import { ColourRanges } from "../src/model/colour_ranges";
@@ -30,7 +30,7 @@ function state(sequence: number, simTime: number, x: number): State {
 test("the ranges of what changes with time are automatic", () => {
   const ranges = new ColourRanges();
   const automatic = modes.filter((mode) => ranges.isAutomatic(mode));
-  assert.deepEqual(automatic, ["speed", "contacts", "overlap", "energy"]);
+  assert.deepEqual(automatic, ["speed", "contacts", "overlap", "energy", "height"]);
   assert.deepEqual(ranges.of("speed", undefined), [0, 0.1]);
   assert.deepEqual(ranges.of("id", facts()), [0, 7]);
 });
@@ -71,6 +71,20 @@ test("each mode with a quantity of the server asks for it, and its legend has th
   assert.deepEqual(ends("contacts", 12), ["0", "12 bodies"]);
   assert.deepEqual(ends("overlap", 0.05), ["0 %", "5 % of the radius"]);
   assert.deepEqual(ends("energy", 0.002), ["0 J", "2 mJ"]);
+});
+
+test("heights are those of the image, above the lower face of the bounds", () => {
+  const at = (sequence: number, z: number): State => {
+    const position = { values: Float32Array.of(3, 4, z), quantum: 0.01 };
+    return { ...state(sequence, sequence, 0), columns: { position } };
+  };
+  const { scale } = quantityOf("height");
+  const bounded = facts({ boundsMin: [-1, -1, 10], boundsMax: [1, 1, 16] }); // positions are relative to z = 13
+  const shown = { from: at(1, -3), to: at(2, -1), mix: 0.25, moving: true };
+  assert.ok(scale && "value" in scale);
+  assert.equal(scale.value(bounded, shown, 0), 0.5);
+  assert.ok(Number.isNaN(scale.value(bounded, shown, 1)), "no sphere");
+  assert.deepEqual(quantityOf("height").legend(bounded, [0, 0.5]), { bar: heightRamp, low: "0 m", high: "50 cm" });
 });
 
 test("a speed is shown with what is known of it", () => {

@@ -23,6 +23,8 @@ export const contactsRamp = ramp("#53407f", "#86498b", "#b85a80", "#dd7c70", "#f
 export const overlapRamp = ramp("#44546a", "#6f6378", "#a0707a", "#cc8472", "#e8a979", "#f6dca6");
 /** From rest to high energy. */
 export const energyRamp = ramp("#6b3a4f", "#9c4a49", "#c66645", "#dd8d4b", "#e9b966", "#f3e5a5");
+/** From low to high: pine, moss, straw. */
+export const heightRamp = ramp("#2f4858", "#35675f", "#4f8865", "#82a76a", "#bfc47a", "#f1e3a6");
 
 export function rampColour(stops: Ramp, at: number): Rgb {
   const scaled = Math.min(1, Math.max(0, at)) * (stops.length - 1);

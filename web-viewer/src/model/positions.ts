@@ -34,6 +34,14 @@ export function writePosition(into: Vec3, { periods }: Facts, { from, to }: Show
   return into;
 }
 
+/** The height of a sphere's centre above the lower face of the bounds (m). It allocates nothing. */
+export function heightOf({ min, origin }: Facts, { from, to, mix }: Shown, place: number): number {
+  const at = 3 * place + 2;
+  const begin = from.columns.position.values[at] ?? NaN;
+  const end = to.columns.position.values[at] ?? NaN;
+  return begin + mix * (end - begin) + origin[2] - min[2];
+}
+
 /** Whether the server sent this quantity in both states. */
 export function isSent(quantity: Quantity, { from, to }: Shown): boolean {
   return from.columns.value?.quantity === quantity && to.columns.value?.quantity === quantity;

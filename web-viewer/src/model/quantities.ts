@@ -1,10 +1,10 @@
-import { contactsRamp, energyRamp, idRamp, overlapRamp, radiusRamp, speedRamp } from "../colour/ramp";
+import { contactsRamp, energyRamp, heightRamp, idRamp, overlapRamp, radiusRamp, speedRamp } from "../colour/ramp";
 import type { Ramp } from "../colour/ramp";
 import type { Rgb } from "../colour/rgb";
 import { count, figure, length, percent, withPrefix } from "../format";
 import { Quantity as Sent } from "../gen/spherule/v1/frame_pb";
 import type { Facts } from "./facts";
-import { sentValue, shownSpeed, speedOf } from "./positions";
+import { heightOf, sentValue, shownSpeed, speedOf } from "./positions";
 import type { Shown } from "./states";
 
 export type Range = [number, number];
@@ -122,6 +122,12 @@ export const quantities = {
     scale: { ramp: energyRamp, unit: "J", value: sent(Sent.ENERGY), least: 1e-12 },
     sent: Sent.ENERGY,
     legend: (_, [low, high]) => ({ bar: energyRamp, low: withPrefix(low, "J"), high: withPrefix(high, "J") }),
+  },
+  height: {
+    label: "Height",
+    glsl: "colourOf(position.z - u_bottom)",
+    scale: { ramp: heightRamp, unit: "m", value: heightOf, least: 1e-9 },
+    legend: (_, [low, high]) => ({ bar: heightRamp, low: length(low), high: length(high) }),
   },
 } satisfies Record<string, Quantity>;
 

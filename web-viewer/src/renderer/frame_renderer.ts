@@ -97,6 +97,8 @@ export class FrameRenderer {
     const { gl } = this;
     if (quality !== this.quality) {
       this.shadow?.free();
+      this.scene?.free();
+      this.spheres?.free();
       this.shadow = new ShadowMap(gl, quality.shadowSize);
       this.scene = new ScenePass(gl, quality.full);
       this.spheres = new SpherePass(gl, quality.full);

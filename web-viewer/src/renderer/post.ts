@@ -10,6 +10,7 @@ import { texture } from "./table";
 import compositeFragment from "./shaders/composite.frag.glsl";
 import frame from "./shaders/frame.glsl";
 import meet from "./shaders/meet.glsl";
+import noise from "./shaders/noise.glsl";
 import occlusionFragment from "./shaders/occlusion.frag.glsl";
 import screen from "./shaders/screen.vert.glsl";
 
@@ -28,10 +29,10 @@ export class PostPass {
     full: boolean,
   ) {
     this.half = [Math.ceil(target.width / 2), Math.ceil(target.height / 2)];
-    const parts = full ? [frame, ...placeParts, meet, compositeFragment] : [compositeFragment];
+    const parts = full ? [frame, ...placeParts, meet, noise, compositeFragment] : [noise, compositeFragment];
     this.composite = program(gl, [screen], parts, full ? ["FULL"] : []);
     if (!full) return;
-    this.occlusion = program(gl, [screen], [frame, occlusionFragment]);
+    this.occlusion = program(gl, [screen], [frame, noise, occlusionFragment]);
     this.openness = texture(gl, gl.R8, ...this.half, gl.LINEAR);
     this.framebuffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
@@ -69,6 +70,8 @@ export class PostPass {
   }
 
   free(): void {
+    this.composite.free();
+    this.occlusion?.free();
     if (this.openness) this.gl.deleteTexture(this.openness);
     if (this.framebuffer) this.gl.deleteFramebuffer(this.framebuffer);
   }

@@ -5,6 +5,7 @@ import type { ColumnName } from "../columns";
 export interface Program {
   use(): void;
   at(uniform: string): WebGLUniformLocation | null;
+  free(): void;
 }
 
 /** The table of a column: its values in one of the two states that are interpolated. */
@@ -79,6 +80,7 @@ export function program(
     gl.shaderSource(shader, [...head, ...parts].join("\n"));
     gl.compileShader(shader);
     gl.attachShader(linked, shader);
+    gl.deleteShader(shader); // with the program
   }
   attributes.forEach((name, index) => gl.bindAttribLocation(linked, index, name));
   gl.linkProgram(linked);
@@ -96,6 +98,7 @@ export function program(
   const locations = new Map<string, WebGLUniformLocation | null>();
   return {
     use: () => gl.useProgram(linked),
+    free: () => gl.deleteProgram(linked),
     at(uniform) {
       let location = locations.get(uniform);
       if (location === undefined) {

@@ -8,6 +8,7 @@ import floorFragment from "./shaders/floor.frag.glsl";
 import frame from "./shaders/frame.glsl";
 import light from "./shaders/light.glsl";
 import lineFragment from "./shaders/line.frag.glsl";
+import noise from "./shaders/noise.glsl";
 import screen from "./shaders/screen.vert.glsl";
 import solidFragment from "./shaders/solid.frag.glsl";
 import solidVertex from "./shaders/solid.vert.glsl";
@@ -26,10 +27,11 @@ export class ScenePass {
     softShadow: boolean,
   ) {
     const soft = softShadow ? ["SOFT_SHADOW"] : [];
-    this.background = program(gl, [screen], [frame, light, background]);
-    this.floor = program(gl, [solidVertex], [frame, light, floorFragment], soft);
-    this.solids = program(gl, [solidVertex], [frame, light, solidFragment], soft);
-    this.lines = program(gl, [solidVertex], [frame, light, lineFragment]);
+    const parts = [frame, noise, light];
+    this.background = program(gl, [screen], [...parts, background]);
+    this.floor = program(gl, [solidVertex], [...parts, floorFragment], soft);
+    this.solids = program(gl, [solidVertex], [...parts, solidFragment], soft);
+    this.lines = program(gl, [solidVertex], [...parts, lineFragment]);
   }
 
   /** `eye`, here and below: relative to the centre of the bounds (m). */
@@ -78,6 +80,10 @@ export class ScenePass {
     environment.edges.draw(gl.LINES);
     gl.depthMask(true);
     gl.disable(gl.BLEND);
+  }
+
+  free(): void {
+    for (const used of [this.background, this.floor, this.solids, this.lines]) used.free();
   }
 
   private prepare(used: Program, state: DrawState, eye: Vec3): void {

@@ -61,6 +61,8 @@ export class ShadowMap {
   }
 
   free(): void {
+    this.spheres.free();
+    this.solids.free();
     this.gl.deleteTexture(this.texture);
     this.gl.deleteFramebuffer(this.framebuffer);
   }

@@ -12,6 +12,7 @@ import colour from "./shaders/colour.glsl";
 import frame from "./shaders/frame.glsl";
 import light from "./shaders/light.glsl";
 import meet from "./shaders/meet.glsl";
+import noise from "./shaders/noise.glsl";
 import place from "./shaders/place.glsl";
 import pointFragment from "./shaders/points.frag.glsl";
 import pointVertex from "./shaders/points.vert.glsl";
@@ -55,8 +56,13 @@ export class SpherePass {
       [Detail.Disc]: program(gl, [...parts, sphereVertex], [frame, meet, sphereFragment]),
       [Detail.Round]: program(gl, [...parts, sphereVertex], [frame, meet, sphereFragment], ["ROUND"]),
     };
-    const shadeParts = [...parts, meet, light, colour, colourNow, shadeFragment];
+    const shadeParts = [...parts, meet, noise, light, colour, colourNow, shadeFragment];
     this.shading = program(gl, [screen], shadeParts, softShadow ? ["SOFT_SHADOW"] : []);
+  }
+
+  free(): void {
+    this.shading.free();
+    for (const used of Object.values(this.programs)) used.free();
   }
 
   /** `order`: of drawing; undefined: by place. Call again when the population has changed. */
@@ -104,7 +110,8 @@ export class SpherePass {
     gl.uniform1i(shading.at("u_mode"), modes.indexOf(state.mode));
     if (ramp && ramp.length > 0) gl.uniform3fv(shading.at("u_ramp"), ramp);
     gl.uniform2f(shading.at("u_range"), state.range[0], state.range[1]);
-    const { cellWidths } = facts;
+    const { cellWidths, min, origin } = facts;
+    gl.uniform1f(shading.at("u_bottom"), min[2] - origin[2]);
     gl.uniform3f(shading.at("u_cellSize"), cellWidths[0], cellWidths[1], cellWidths[2]);
     gl.uniform3iv(shading.at("u_cells"), this.cells);
     gl.uniform1i(shading.at("u_selected"), state.selected ?? -1);

@@ -10,6 +10,7 @@ uniform vec3 u_ramp[6];         // sRGB
 uniform vec2 u_range;
 uniform bool u_valuesSent;      // the two states have the quantity of the mode
 uniform float u_inverseTime;    // 1/s, inverse of the time between the two states; 0: unknown
+uniform float u_bottom;         // m, of the bounds, relative to their centre
 uniform vec3 u_cellSize;        // m, per axis; 0: no grid
 uniform ivec3 u_cells;
 

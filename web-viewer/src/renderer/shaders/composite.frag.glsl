@@ -108,6 +108,5 @@ void main() {
     float grey = dot(colour, vec3(0.3, 0.59, 0.11));
     colour = mix(colour, mix(vec3(grey), vec3(u_haze), 0.25), 0.75 * u_dim);
     // Noise of less than one colour step avoids bands in the background.
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    o_colour = vec4(colour + (noise - 0.5) / 255.0, 1.0);
+    o_colour = vec4(colour + (noise() - 0.5) / 255.0, 1.0);
 }

@@ -9,9 +9,6 @@ vec3 compressed(vec3 linear) {
     return min(linear, 0.6) + 0.4 * bright / (bright + 0.4);
 }
 
-// A number in 0..1 that differs from pixel to pixel, after Jimenez 2014 ("interleaved gradient noise").
-float noise() { return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))); }
-
 // Share of the key light that reaches a position. The position is first moved by `lift` (m) along `normal`, off its
 // own surface.
 float lit(vec3 position, vec3 normal, float lift) {

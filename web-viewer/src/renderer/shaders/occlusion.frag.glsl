@@ -33,7 +33,7 @@ void main() {
     vec3 normal = normalize(cross(dx, dy));
 
     float span = min(u_reach / pixelAt(-position.z), 0.12 * float(size.y));    // texels
-    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    float turn = 6.2831853 * noise();
     float hidden = 0.0;
     for (int i = 0; i < samples; i++) {
         float part = (float(i) + 0.5) / float(samples);
