@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, settled, unfold, when } from "./support/browser.mjs";
+import { control, open, settled, when } from "./support/browser.mjs";
 import { pictureOf, shareOfDifferent } from "./support/picture.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -25,7 +25,7 @@ browserSuite(async (browser, folder) => {
   server = await serve("two-spheres");
   await server.ctl("pause");
   await server.ctl("load", file); // stays paused
-  page = await open(browser, server.url, { size: [480, 270] });
+  page = await open(browser, server.url);
 });
 
 /** The canvas at rest, after `count` further steps. */
@@ -40,10 +40,17 @@ async function pictureAfter(count) {
 const bytes = () => page.evaluate(() => spherule.session.newest.bytes);
 const differs = (one, other) => shareOfDifferent(one, other, 8) > 0.005;
 
+async function reset() {
+  await server.ctl("reset");
+  await when(page, () => spherule.session.newest?.step === 0);
+  await settled(page);
+  return pictureOf(page);
+}
+
 async function choose(name) {
   await page.selectOption(control("rotation"), { label: name });
   const sent = name === "Shown";
-  await when(page, (wanted) => (spherule.session.newest.columns.turn !== undefined) === wanted, sent);
+  await when(page, (wanted) => (spherule.session.newest?.columns.turn !== undefined) === wanted, sent);
   await settled(page);
 }
 
@@ -51,7 +58,6 @@ test("a sphere that spins in place changes the picture only while the rotation i
   const plain = await pictureAfter(20);
   const plainBytes = await bytes();
   assert.ok(!differs(plain, await pictureAfter(20)), "without the pattern, the picture is still");
-  await unfold(page, "Look");
   await choose("Shown");
   const first = await pictureOf(page);
   assert.ok(differs(plain, first), "the sphere has a pattern");
@@ -72,20 +78,14 @@ test("a sphere that spins in place changes the picture only while the rotation i
 test("orientations begin anew after a reset, and there is no choice without friction", async () => {
   await choose("Shown");
   const turned = await pictureAfter(20);
-  await server.ctl("reset");
-  await when(page, () => spherule.session.newest.step === 0);
-  await settled(page);
-  const begun = await pictureOf(page);
+  const begun = await reset();
   assert.ok(differs(turned, begun));
   await pictureAfter(30);
-  await server.ctl("reset");
-  await when(page, () => spherule.session.newest.step === 0);
-  await settled(page);
-  assert.ok(!differs(begun, await pictureOf(page)));
+  assert.ok(!differs(begun, await reset()));
 
   assert.ok(await page.isVisible(control("rotation")));
   await server.ctl("set", "friction", "0");
-  await when(page, () => spherule.session.newest.columns.turn === undefined);
+  await when(page, () => spherule.session.newest?.columns.turn === undefined);
   assert.ok(!(await page.isVisible(control("rotation"))));
   assert.deepEqual(page.faults, []);
 });

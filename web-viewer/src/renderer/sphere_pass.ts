@@ -100,8 +100,8 @@ export class SpherePass {
       gl.uniform1f(shading.at("u_inverseTime"), time > 0 ? 1 / time : 0);
       const { sent } = quantityOf(state.mode);
       gl.uniform1i(shading.at("u_valuesSent"), sent && isSent(sent, shown) ? 1 : 0);
-      const turns = state.turns && shown.from.columns.turn && shown.to.columns.turn;
-      gl.uniform1i(shading.at("u_turns"), turns ? 1 : 0);
+      const turns = !state.turns || !shown.to.columns.turn ? 0 : shown.from.columns.turn ? 2 : 1;
+      gl.uniform1i(shading.at("u_turns"), turns);
     }
     const ramp = this.ramps.get(state.mode);
     gl.uniform1i(shading.at("u_mode"), modes.indexOf(state.mode));
