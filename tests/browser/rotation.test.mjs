@@ -35,7 +35,10 @@ async function sphere() {
 
 /** Waits until the image of the sphere is another one. */
 async function changes(before) {
-  while (before.equals(await sphere())) await page.waitForTimeout(200);
+  for (let tries = 0; before.equals(await sphere()); tries++) {
+    assert.ok(tries < 60, "the image stays the same");
+    await page.waitForTimeout(200);
+  }
 }
 
 /** The image of the sphere at rest. */

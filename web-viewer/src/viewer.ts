@@ -29,7 +29,7 @@ import { longStay } from "./ui/toasts";
 
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 const pictureHeight = 720; // CSS px: lines in saved pictures are as wide as in a page of this height
-const mostTurning = 20_000; // spheres of which the page shows the rotation unasked
+const mostTurning = 10_000; // spheres of which the page shows the rotation unasked
 const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
 /** The values that an image depends on, to find whether it would be another one. Allocates nothing per image. */

@@ -376,7 +376,7 @@ export class Panel {
     const trace = tag("trace", folder.add(choices, "trace", { Shown: true, Hidden: false }).name("Path"));
     trace.domElement.title = "Shows the path of the selected sphere";
     this.rotation = tag("rotation", folder.add(choices, "rotation", rotationNames).name("Rotation"));
-    this.rotation.domElement.title = "Shows how spheres turn. Automatic: in full quality, up to 20,000 spheres";
+    this.rotation.domElement.title = "Shows how spheres turn. Automatic: in full quality, up to 10,000 spheres";
     const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
     const sizeRule: EntryRule = { unit: "px", whole: true, least: 16, most: largestSide };

@@ -32,7 +32,7 @@ void main() {
     vec3 albedo = colourNow(place, centre);
     albedo *= albedo * tint;
     float facing = dot(normal, toEye);
-    if (!found.open) albedo *= patternNow(place, normal, radius / pixelAt(length(near)), facing);
+    if (!found.open && look.moves) albedo *= patternNow(place, normal, radius / pixelAt(length(near)), facing);
     bool selected = place == u_selected;
     if (selected) albedo = mix(albedo, vec3(1.0), 0.35);
     float share = dot(normal, light.xyz) > 0.0 ? lit(position, normal, 0.05 * radius) : 0.0;
