@@ -5,7 +5,7 @@
 #include "shared/codec.h"
 PARAMETERS
 
-BUFFER(readonly, vec4, source)  // positions; for speeds: velocities; for other quantities: figures
+BUFFER(readonly, vec4, source)  // positions; for speeds: velocities; for other quantities: figures; angular velocities
 BUFFER(readonly, uint, slotOf)
 BUFFER(readonly, uint, order)
 BUFFER(readonly, uint, newest)
@@ -109,6 +109,23 @@ uint codeOfLength(vec4 v) {
 
 uint codeOfFigure(vec4 row) {
     return codeOf(params.quantity == CODEC_FIGURES ? row.x : params.quantity == CODEC_FIGURES + 1u ? row.y : row.z);
+}
+
+// The codes of the magnitudes of three components, with the signs of the components.
+void takeSpins(int first) {
+    takeSlots(first);
+    for (int run = 0; run < 8; ++run)
+        for (int k = 0; k < 8; ++k) {
+            vec4 spin = source[step[8 * run + k]];
+            int lane = 8 * k + run;
+            change[lane] = floatBitsToUint(spin.x);
+            change[lane + 64] = floatBitsToUint(spin.y);
+            change[lane + 128] = floatBitsToUint(spin.z);
+        }
+    for (int k = 0; k < 192; ++k) {
+        uint code = codeOf(uintBitsToFloat(change[k] & 0x7fffffffu)) >> (CODEC_SPIN_SHIFT - CODEC_VALUE_SHIFT);
+        change[k] = (change[k] >> 31u) != 0u ? 0u - code : code;
+    }
 }
 
 void takeValues(int first) {
@@ -292,7 +309,9 @@ KERNEL(params.blocks) {
         for (int k = 0; k < 192; ++k) change[k] = newest[first + k];
         for (int k = 0; k < 192; ++k) step[k] = 0u;
     } else {
-        if (params.quantity != CODEC_POSITIONS)
+        if (params.quantity == CODEC_SPINS)
+            takeSpins(int(invocation * CODEC_BLOCK));
+        else if (params.quantity != CODEC_POSITIONS)
             takeValues(int(invocation * CODEC_BLOCK));
         else
             takePositions(int(invocation * CODEC_BLOCK));

@@ -23,6 +23,7 @@ constexpr std::uint32_t turnsFlag = 0x04000000;
 constexpr std::size_t turnsHeadWords = 7;  // of a frame with turns
 constexpr std::uint32_t mostTurns = 1U << 30U;
 constexpr std::uint32_t valueShift = 17;  // bits of a float that the code of a value leaves out
+constexpr std::uint32_t spinShift = 19;   // the same for a component of an angular velocity
 
 enum class Mode : std::uint8_t { Plain, Mask, Runs, RunsWithBase };
 enum class Predictor : std::uint8_t { Previous, Linear, Half, None };

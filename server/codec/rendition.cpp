@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "codec/format.h"
@@ -39,10 +40,24 @@ double unitOf(v1::Quantity quantity, double smallestRadius) {
     }
 }
 
-double valueOf(std::uint32_t code, double unit) {
+namespace {
+
+// `shift`: the bits of a float that the code leaves out.
+double magnitudeOf(std::uint32_t code, std::uint32_t shift, double unit) {
     if (code == 0) return 0;
-    const std::uint32_t middle = (code << valueShift) + (1U << (valueShift - 1));
+    const std::uint32_t middle = (code << shift) + (1U << (shift - 1));
     return unit * (static_cast<double>(std::bit_cast<float>(std::bit_cast<std::uint32_t>(1.0F) + middle)) - 1);
+}
+
+}  // namespace
+
+double valueOf(std::uint32_t code, double unit) {
+    return magnitudeOf(code, valueShift, unit);
+}
+
+double spinOf(std::int32_t code, double unit) {
+    const double magnitude = magnitudeOf(static_cast<std::uint32_t>(std::abs(code)), spinShift, unit);
+    return code < 0 ? -magnitude : magnitude;
 }
 
 }  // namespace spherule::codec

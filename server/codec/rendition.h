@@ -18,6 +18,7 @@ struct Rendition {
     bool turns = false;       // frames count modulo the lengths of periodic axes, if the scene has any (docs/codec.md)
     bool population = false;  // the sessions follow Population messages
     v1::Quantity quantity = v1::QUANTITY_UNSPECIFIED;  // that frames have besides positions
+    bool spins = false;                                // frames have angular velocities, if the spheres rotate
 
     auto operator<=>(const Rendition&) const = default;
 };
@@ -39,6 +40,12 @@ double unitOf(v1::Quantity quantity, double smallestRadius);
 
 // Returns the value of a code: in the middle of the values that have it; 0 for code 0.
 double valueOf(std::uint32_t code, double unit);
+
+// The unit of the codes of angular velocities (rad/s).
+constexpr double spinUnit = 1;
+
+// Returns a component of the angular velocity of a code (docs/codec.md).
+double spinOf(std::int32_t code, double unit);
 
 // A frame of a chain.
 struct EncodedFrame {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t word = 4;
 
-static_assert(CODEC_VALUE_SHIFT == codec::valueShift);
+static_assert(CODEC_VALUE_SHIFT == codec::valueShift && CODEC_SPIN_SHIFT == codec::spinShift);
 static_assert(CODEC_LENGTHS == v1::SPEED && CODEC_FIGURES == v1::CONTACTS && v1::OVERLAP == v1::CONTACTS + 1 &&
               v1::ENERGY == v1::CONTACTS + 2);
 
@@ -185,7 +185,7 @@ void ColumnEncoder::encode(Kind kind, const ColumnSource& source, bool hash) {
         parameters.perQuantum[axis] = static_cast<float>(turns > 0 ? turns / grid_.periods[axis] : 1 / grid_.quantum);
     }
     parameters.head = headWords();
-    parameters.quantity = static_cast<std::uint32_t>(grid_.quantity);
+    parameters.quantity = grid_.spins ? CODEC_SPINS : static_cast<std::uint32_t>(grid_.quantity);
     parameters.spheres = context_.spheres_;
     parameters.blocks = context_.blocks_;
     parameters.groups = context_.groups_;

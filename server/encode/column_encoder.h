@@ -85,6 +85,7 @@ class ColumnEncoder {
         // The content of frames: positions, or a quantity of each row of the values. For SPEED the rows are velocities
         // (m/s), for other quantities rows of shaders/figures.comp. The quantum is the unit of docs/codec.md.
         v1::Quantity quantity = v1::QUANTITY_UNSPECIFIED;
+        bool spins = false;  // in place of these: angular velocities (rad/s), with the unit of docs/codec.md
     };
 
     // `context` must outlive the encoder. Refused if there is no room.

@@ -102,7 +102,8 @@ Result<StreamEncoder::Chain*> StreamEncoder::chainOf(const codec::Rendition& ren
     if (input.epoch != epoch_)
         if (auto done = prepare(input); !done) return tl::unexpected(done.error());
     auto encoder = FrameEncoder::create(*context_, rendition.tier, input.smallestRadius, input.periods, rendition.turns,
-                                        input.source.quantity ? rendition.quantity : v1::QUANTITY_UNSPECIFIED);
+                                        input.source.quantity ? rendition.quantity : v1::QUANTITY_UNSPECIFIED,
+                                        rendition.spins && input.source.spins != nullptr);
     if (!encoder) return tl::unexpected(encoder.error());
     Chain& chain = chains_[rendition];
     chain.encoder = std::move(*encoder);

@@ -115,6 +115,7 @@ void PlaybackProducer::describe() {
 void PlaybackProducer::sendSettings() {
     v1::ServerMessage message;
     *message.mutable_settings() = player_.settings();
+    message.mutable_settings()->clear_rotates();  // frames of a recording have no angular velocities
     std::string bytes = message.SerializeAsString();
     if (bytes == settings_) return;
     settings_ = std::move(bytes);

@@ -54,6 +54,7 @@ void SimulationHost::noticeGeneration() {
 v1::ServerMessage SimulationHost::settings() const {
     v1::ServerMessage message = settingsMessage(simulation_->scene(), scheduler_.speed(), paused_);
     message.mutable_settings()->set_max_impulse(simulation_->maxImpulse());
+    message.mutable_settings()->set_rotates(simulation_->buffer(sim::Array::AngularVelocity) != nullptr);
     return message;
 }
 

@@ -182,9 +182,12 @@ void Session::onView(const v1::View& view) {
         return;
     }
     const bool known = v1::Tier_IsValid(view.tier()) && view.tier() != v1::TIER_UNSPECIFIED;
-    const codec::Rendition requested{
-        known ? view.tier() : v1::NORMAL, codec::rateFor(view.has_rate() ? view.rate() : defaultRate), turns_,
-        population_, v1::Quantity_IsValid(view.quantity()) ? view.quantity() : v1::QUANTITY_UNSPECIFIED};
+    const codec::Rendition requested{known ? view.tier() : v1::NORMAL,
+                                     codec::rateFor(view.has_rate() ? view.rate() : defaultRate),
+                                     turns_,
+                                     population_,
+                                     v1::Quantity_IsValid(view.quantity()) ? view.quantity() : v1::QUANTITY_UNSPECIFIED,
+                                     view.spins()};
     // An unchanged view does not restart the chain.
     if (rateController_.setTarget(requested, view.fixed(), RateController::Clock::now()))
         switchRendition("");

@@ -11,6 +11,7 @@
 #define CODEC_MOST_WORDS 197u   // of a block
 #define CODEC_PACKED 208u       // words from one packed block to the next before they are placed: whole cache lines
 #define CODEC_VALUE_SHIFT 17u   // bits of a float that the code of a value leaves out: 64 codes per power of two
+#define CODEC_SPIN_SHIFT 19u    // the same for a component of an angular velocity: 16 codes per power of two
 #define CODEC_MASK_WIDTHS 12u   // no mask is tried if x, y and z together have more bits
 
 #define CODEC_MAGIC 0x00015053u
@@ -41,6 +42,7 @@
 #define CODEC_POSITIONS 0u
 #define CODEC_LENGTHS 1u        // of x, y, z
 #define CODEC_FIGURES 2u
+#define CODEC_SPINS 255u        // x, y, z with their signs
 
 // The uniform block, std140.
 struct Parameters {

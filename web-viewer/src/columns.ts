@@ -6,7 +6,7 @@ import type { Frame } from "./gen/spherule/v1/frame_pb";
 /** The values of all spheres in one state. */
 export interface Column {
   values: Float32Array; // `components` per sphere, by place
-  quantum: number; // a position is off by at most half of it; for a quantity: its unit
+  quantum: number; // a position is off by at most half of it; for a quantity or angular velocities: their unit
   quantity?: Quantity | undefined; // that the values are; undefined: positions
 }
 
@@ -23,7 +23,7 @@ interface ColumnFormat {
 }
 
 /** A column of this name has tables in the shaders: u_<name>From and u_<name>To (renderer/program.ts). */
-export const columnFormats: { position: ColumnFormat; value: ColumnFormat } = {
+export const columnFormats: { position: ColumnFormat; value: ColumnFormat; turn: ColumnFormat } = {
   // x y z (m), relative to the centre of the bounds
   position: { components: 3, encoded: ({ quantum, spb }) => ({ quantum, spb }) },
   // a quantity; within 1 %
@@ -31,6 +31,11 @@ export const columnFormats: { position: ColumnFormat; value: ColumnFormat } = {
     components: 1,
     encoded: ({ quantity, unit, values }) =>
       quantity === Quantity.QUANTITY_UNSPECIFIED ? undefined : { quantum: unit, spb: values, quantity },
+  },
+  // orientations as of Orientations, integrated from the angular velocities of frames
+  turn: {
+    components: 3,
+    encoded: ({ spinUnit, spins }) => (spinUnit === 0 ? undefined : { quantum: spinUnit, spb: spins }),
   },
 };
 

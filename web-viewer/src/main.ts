@@ -34,6 +34,7 @@ function start(): void {
     trace: true,
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
+    rotation: "auto",
     quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
     theme: theme ?? systemTheme(),
     themeChosen: theme !== undefined,

@@ -29,6 +29,7 @@ import { longStay } from "./ui/toasts";
 
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 const pictureHeight = 720; // CSS px: lines in saved pictures are as wide as in a page of this height
+const mostTurning = 10_000; // spheres of which the page shows the rotation unasked
 const reportPeriod = 1000; // ms between reports of the draw rate to the worker
 
 /** The values that an image depends on, to find whether it would be another one. Allocates nothing per image. */
@@ -244,6 +245,8 @@ export class Viewer {
     const wall = performance.timeOrigin + now;
     this.clock.tick(now);
     if (session.facts) this.subscription.setQuantity(this.page.quantity);
+    const turns = this.turns;
+    this.subscription.setSpins(turns);
     const shown = session.states.shown(wall);
     this.ranges.update(choices.mode, session.facts, shown, now);
     this.follow(shown);
@@ -254,14 +257,14 @@ export class Viewer {
       this.canvas.hide(choices.cut.hidden);
       this.redraw();
     }
-    const state = this.stateOf(camera.view(), session.staleness(wall));
+    const state = this.stateOf(camera.view(), session.staleness(wall), turns);
     const { image } = this;
     image.begin();
     image.add(shown?.from.sequence).add(shown?.to.sequence).add(shown?.mix);
     image.addAll(state.view.eye).addAll(state.view.toClip).addAll(state.kept.normal);
     image.add(state.kept.offset);
     image.add(state.range[0]).add(state.range[1]).add(state.selected).add(state.dim);
-    image.addName(state.mode).addName(state.trace).addName(choices.theme).addName(choices.quality);
+    image.addName(state.mode).addName(state.trace).addName(choices.theme).addName(choices.quality).addName(turns);
     const draws = image.changed && !session.awaitsState(wall);
     const drew = draws && this.canvas.draw(shown, state, this.clock.sinceDrawn);
     if (drew) {
@@ -280,12 +283,21 @@ export class Viewer {
     return drew;
   }
 
-  private stateOf(view: View, dim: number): DrawState {
+  /** Whether spheres are drawn with a pattern that turns with them. */
+  private get turns(): boolean {
+    const { session, choices, canvas } = this;
+    if (!session.settings?.rotates || choices.rotation === "hidden") return false;
+    const few = (session.facts?.population.count ?? Infinity) <= mostTurning;
+    return choices.rotation === "shown" || (canvas.full && few);
+  }
+
+  private stateOf(view: View, dim: number, turns: boolean): DrawState {
     const { session, choices } = this;
     return {
       view,
       kept: session.facts ? choices.cut.halfSpace(session.facts) : everything,
       mode: choices.mode,
+      turns,
       range: this.ranges.of(choices.mode, session.facts),
       trace: choices.trace ? this.trace : undefined,
       selected: this.page.inspector.selection.place,
@@ -301,7 +313,7 @@ export class Viewer {
   ): Promise<Blob | undefined> {
     const view = this.camera.viewFor((width * pictureHeight) / height, pictureHeight);
     const shown = this.session.states.shown(sharedNow());
-    const picture = await this.canvas.picture(shown, this.stateOf(view, 0), width, height, progress);
+    const picture = await this.canvas.picture(shown, this.stateOf(view, 0, this.turns), width, height, progress);
     this.redraw();
     return picture;
   }

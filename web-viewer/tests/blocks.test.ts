@@ -38,7 +38,7 @@ function viewFrom(orthographic = false): { view: View; eye: Vec3; pixel: number 
 }
 
 function drawn(view: View, kept = everything): DrawState {
-  return { view, kept, mode: "speed", range: [0, 1], selected: undefined, trace: undefined, dim: 0 };
+  return { view, kept, mode: "speed", turns: false, range: [0, 1], selected: undefined, trace: undefined, dim: 0 };
 }
 
 /** First block, number of spheres and detail of each run. */

@@ -64,6 +64,31 @@ test("speeds are decoded from their codes, in id order, and end with the chain t
   assert.equal(frames.decode(next(2, { ...speeds, values: still(2, 3) })).kind, "behind");
 });
 
+test("frames with angular velocities have orientations, which begin anew in another epoch", () => {
+  const spins: [number, number, number][] = [
+    [40, 0, 0],
+    [0, 0, 0],
+    [0, -40, 0],
+  ];
+  const frames = begun();
+  const turnsOf = (frame: Frame): number[] => {
+    const decoded = frames.decode(frame);
+    assert.ok(decoded.kind === "state", decoded.kind);
+    return [...(decoded.content.columns.turn?.values ?? [])];
+  };
+  const begin = { spinUnit: 1, spins: keyframe(1, spins) };
+  const initial = turnsOf(first(begin));
+  assert.equal(initial.length, 9);
+  const turned = turnsOf(next(2, { spinUnit: 1, spins: still(2, 3), simTime: 2.5 }));
+  const changed = [2, 0, 1].map((place) => turned[3 * place] !== initial[3 * place]); // in frame order
+  assert.deepEqual(changed, [true, false, true]);
+  assert.deepEqual(turnsOf(first()), [], "no orientations without angular velocities");
+  turnsOf(first(begin));
+  frames.setScene(4, 3);
+  frames.setOrder(orderOf([2, 0, 1], { epoch: 4 }));
+  assert.deepEqual(turnsOf(first({ ...begin, epoch: 4, simTime: 9 })), initial);
+});
+
 test("the golden frames are decoded in the given order", () => {
   const golden = (name: string) => new Uint8Array(readFileSync(path.join("..", "tests", "golden", "codec", name)));
   const count = 583;

@@ -45,3 +45,11 @@ test("a quantity is requested at once, and given up after a while", () => {
   assert.deepEqual(requested.slice(2), [Quantity.CONTACTS, Quantity.ENERGY], "another quantity replaces it at once");
   timers.reset();
 });
+
+test("angular velocities are requested while they are needed", () => {
+  const requested: boolean[] = [];
+  const subscription = new ViewSubscription(defaults, (view) => void requested.push(view.spins));
+  assert.equal(subscription.view.spins, false);
+  for (const needed of [false, true, true, false]) subscription.setSpins(needed);
+  assert.deepEqual(requested, [true, false]);
+});

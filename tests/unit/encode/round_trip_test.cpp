@@ -183,6 +183,33 @@ TEST(Codec, OverlapsAndEnergiesAreWithinOnePercent) {
     }
 }
 
+// Components of both signs, from far below the unit to far above it.
+TEST(Codec, SpinsAreWithinTheirBound) {
+    constexpr double unit = spinUnit;  // rad/s
+    constexpr std::uint32_t spheres = 4000;
+    Encoder encoder("cpu:1", spheres, {.quantum = unit, .spins = true});
+    Decoder decoder(spheres);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> exponent(-4, 5);
+    std::bernoulli_distribution negative;
+    Positions spins(spheres);
+    for (int frame = 0; frame < 5; ++frame) {
+        for (glm::vec4& spin : spins)
+            for (int axis = 0; axis < 4; ++axis)
+                spin[axis] = static_cast<float>((negative(random) ? -1 : 1) * std::pow(10.0, exponent(random)));
+        spins[7] = glm::vec4(0, -0.0F, 0.06F, 1);
+        const auto codes = decoded(decoder, frame == 0 ? encoder.begin(spins) : encoder.next(spins));
+        ASSERT_EQ(codes.size(), spheres);
+        for (std::uint32_t k = 0; k < spheres; ++k)
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto exact = static_cast<double>(spins[k][axis]);
+                const double most = std::abs(exact) / 32 + unit / (std::abs(exact) < unit / 16 ? 16 : 32);
+                ASSERT_NEAR(spinOf(codes[k][axis], unit), exact, most * 1.0001) << k << ", axis " << axis;
+            }
+        EXPECT_EQ(codes[7], glm::ivec3(0));
+    }
+}
+
 TEST(Codec, KeepsTheOrderOfSpheres) {
     constexpr std::uint32_t spheres = 3000;
     Encoder encoder("cpu:1", spheres);

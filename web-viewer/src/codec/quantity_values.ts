@@ -1,10 +1,9 @@
-const shift = 17; // bits of a float that the code of a value leaves out
-const codes = 1 << (31 - shift); // more than there are
-
 /** Values by code, in units: the middle of the values that have the code. */
-const table = tabulate();
+const table = tabulate(17);
 
-function tabulate(): Float64Array {
+/** `shift`: the bits of a float that the code of a value leaves out. */
+export function tabulate(shift: number): Float64Array {
+  const codes = 1 << (31 - shift); // more than there are
   const bits = new DataView(new ArrayBuffer(4));
   bits.setFloat32(0, 1);
   const one = bits.getUint32(0);

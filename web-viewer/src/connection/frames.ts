@@ -1,6 +1,7 @@
 import { Decoder } from "../codec/decoder";
 import type { ChainState } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
+import { Orientations } from "../codec/orientations";
 import { valuesOf } from "../codec/quantity_values";
 import type { Turns } from "../codec/turns";
 import { blockPlaces, columnFormats, columnNames } from "../columns";
@@ -54,6 +55,7 @@ export class Frames {
   private readonly decoders = new Map<ColumnName, Decoder>();
   private chain: string | undefined; // undefined: lost, or not yet started
   private grids: Grid[] = []; // of the newest frame's columns
+  private orientations: Orientations | undefined; // undefined: the newest frame has no angular velocities
 
   constructor(private readonly buffers: BufferPool) {}
 
@@ -67,6 +69,7 @@ export class Frames {
   setScene(epoch: number, count: number, periods: Periods = [0, 0, 0]): void {
     this.periods = periods;
     if (epoch === this.epoch && count === this.count) return;
+    this.orientations = undefined;
     this.epoch = epoch;
     this.count = count;
     this.order = undefined;
@@ -99,6 +102,7 @@ export class Frames {
   /** Continues from a saved state. */
   restore({ epoch, count, periods, order, ids, chain }: FramesState): void {
     Object.assign(this, { epoch, count, periods, order, ids, chain: chain?.name, grids: chain?.grids ?? [] });
+    this.orientations = undefined;
     for (const [name, state] of chain?.states ?? []) this.decoderOf(name).restore(state);
   }
 
@@ -137,7 +141,17 @@ export class Frames {
     for (const { name, spb } of encoded) this.decoderOf(name).apply(spb);
     this.chain = chain;
     this.grids = encoded.map(({ name, quantum, quantity }) => ({ name, quantum, quantity }));
+    this.turnSpheres(frame);
     return { kind: "state", keyframe, content: shown ? this.contentOf(frame.order) : noContent };
+  }
+
+  private turnSpheres({ spinUnit, simTime }: Frame): void {
+    if (spinUnit === 0) {
+      this.orientations = undefined;
+      return;
+    }
+    this.orientations ??= new Orientations(this.count);
+    this.orientations.turn(this.decoderOf("turn").newest, this.ids, spinUnit, simTime);
   }
 
   private decoderOf(name: ColumnName): Decoder {
@@ -166,6 +180,7 @@ export class Frames {
       const values = new Float32Array(buffer, at, components * this.count);
       const decoder = this.decoderOf(name);
       if (name === "value") valuesOf(decoder.newest, this.ids, quantum, values);
+      else if (name === "turn") values.set(this.orientations?.values ?? []);
       else scatter(decoder.newest, this.ids, components, this.quantaOf(decoder, quantum), values);
       at += values.byteLength;
       return [name, { values, quantum, quantity }];

@@ -86,6 +86,7 @@ export interface ViewRequest {
 /** The stream that the page requests. */
 export interface StreamRequest extends ViewRequest {
   quantity: Quantity; // of each sphere, besides its position
+  spins: boolean; // frames have angular velocities, if the spheres rotate
 }
 
 /** The part of a live simulation that the page can show again; times on the timeline in s. */

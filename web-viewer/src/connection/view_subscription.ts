@@ -3,12 +3,16 @@ import type { StreamRequest, ViewRequest } from "./messages";
 
 const grace = 3000; // ms: a need that returns sooner keeps its stream, and needs no new keyframe
 
-/** Requests the stream that the user has chosen, but no frames while the page is hidden, and a quantity when needed. */
+/**
+ * Requests the stream that the user has chosen, but no frames while the page is hidden, and a quantity and angular
+ * velocities when needed.
+ */
 export class ViewSubscription {
   private hidden = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private needed = Quantity.QUANTITY_UNSPECIFIED;
   private requested = Quantity.QUANTITY_UNSPECIFIED;
+  private spins = false;
   private quantityTimer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
@@ -18,7 +22,7 @@ export class ViewSubscription {
 
   get view(): StreamRequest {
     const rate = this.hidden ? 0 : this.choice.rate;
-    return { ...this.choice, rate, quantity: this.requested };
+    return { ...this.choice, rate, quantity: this.requested, spins: this.spins };
   }
 
   /** Call whenever the page may show another quantity, or none (unspecified). */
@@ -28,6 +32,13 @@ export class ViewSubscription {
     clearTimeout(this.quantityTimer);
     if (needed !== Quantity.QUANTITY_UNSPECIFIED) this.requestQuantity(needed);
     else this.quantityTimer = setTimeout(() => this.requestQuantity(needed), grace);
+  }
+
+  /** Call whenever the page may need angular velocities, or none. */
+  setSpins(needed: boolean): void {
+    if (needed === this.spins) return;
+    this.spins = needed;
+    this.send(this.view);
   }
 
   request(choice: ViewRequest): void {

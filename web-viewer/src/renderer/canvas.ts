@@ -139,6 +139,11 @@ export class Canvas {
     }
   }
 
+  /** Whether images have the full quality at present. */
+  get full(): boolean {
+    return this.quality.quality.full;
+  }
+
   /** The place of the sphere that the last image shows at a point (CSS pixels from the upper left corner). */
   placeAt(x: number, y: number): number | undefined {
     const { width, height } = this.element;

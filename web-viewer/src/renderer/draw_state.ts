@@ -8,6 +8,7 @@ export interface DrawState {
   view: View;
   mode: Mode;
   range: Range; // of values that the mode's scale covers
+  turns: boolean; // the spheres have a pattern that turns with them, if the states have orientations
   kept: HalfSpace; // what is shown of space
   selected: number | undefined; // place of the selected sphere
   trace: Trace | undefined; // the path of a sphere

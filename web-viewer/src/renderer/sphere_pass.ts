@@ -14,6 +14,7 @@ import light from "./shaders/light.glsl";
 import meet from "./shaders/meet.glsl";
 import noise from "./shaders/noise.glsl";
 import place from "./shaders/place.glsl";
+import pattern from "./shaders/pattern.glsl";
 import pointFragment from "./shaders/points.frag.glsl";
 import pointVertex from "./shaders/points.vert.glsl";
 import screen from "./shaders/screen.vert.glsl";
@@ -56,7 +57,7 @@ export class SpherePass {
       [Detail.Disc]: program(gl, [...parts, sphereVertex], [frame, meet, sphereFragment]),
       [Detail.Round]: program(gl, [...parts, sphereVertex], [frame, meet, sphereFragment], ["ROUND"]),
     };
-    const shadeParts = [...parts, meet, noise, light, colour, colourNow, shadeFragment];
+    const shadeParts = [...parts, meet, noise, light, colour, colourNow, pattern, shadeFragment];
     this.shading = program(gl, [screen], shadeParts, softShadow ? ["SOFT_SHADOW"] : []);
   }
 
@@ -105,6 +106,8 @@ export class SpherePass {
       gl.uniform1f(shading.at("u_inverseTime"), time > 0 ? 1 / time : 0);
       const { sent } = quantityOf(state.mode);
       gl.uniform1i(shading.at("u_valuesSent"), sent && isSent(sent, shown) ? 1 : 0);
+      const turns = !state.turns || !shown.to.columns.turn ? 0 : shown.from.columns.turn ? 2 : 1;
+      gl.uniform1i(shading.at("u_turns"), turns);
     }
     const ramp = this.ramps.get(state.mode);
     gl.uniform1i(shading.at("u_mode"), modes.indexOf(state.mode));

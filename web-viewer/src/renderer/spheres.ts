@@ -201,11 +201,11 @@ export class SphereData {
     return this.shownRadii;
   }
 
-  /** Two texels per group: colour (sRGB) and roughness; metal. */
+  /** Two texels per group: colour (sRGB) and roughness; metal, and 1 if the group is fixed. */
   private uploadLooks({ groups }: Population): void {
     const values = new Float32Array(4 * texelsPerLook * Math.max(1, groups.length));
-    groups.forEach(({ colour, roughness, metal }, group) => {
-      values.set([...colour, roughness, metal], 4 * texelsPerLook * group);
+    groups.forEach(({ colour, roughness, metal, fixed }, group) => {
+      values.set([...colour, roughness, metal, Number(fixed)], 4 * texelsPerLook * group);
     });
     this.looks.fit(values.length / 4);
     this.looks.upload(values, { first: 0, count: values.length / 4 });

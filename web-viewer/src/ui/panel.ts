@@ -43,6 +43,7 @@ import { StreamFolder } from "./stream_folder";
 export interface Choices {
   mode: Mode;
   modeChosen: boolean; // false: the scene determines the mode
+  rotation: "auto" | "shown" | "hidden"; // the pattern that turns with the spheres
   quality: RenderQualityChoice;
   theme: ThemeName;
   themeChosen: boolean; // false: the system determines the theme
@@ -67,6 +68,7 @@ export interface PanelActions {
   loadPart: LoadPart;
 }
 
+const rotationNames = { Automatic: "auto", Shown: "shown", Hidden: "hidden" };
 const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
 const gravityRule: EntryRule = { unit: "m/s²", least: -1e6, most: 1e6 };
 const capital = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
@@ -111,6 +113,7 @@ export class Panel {
     ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
   );
   private goal!: NumberController;
+  private rotation!: Controller; // hidden while no sphere rotates
   private readonly entries = new Map<string, Entry>(); // by the name of the control
   private facts: Facts | undefined;
   private settings: Settings | undefined;
@@ -204,6 +207,7 @@ export class Panel {
     Object.assign(this.world, values);
     this.choices.impulse = Math.min(this.choices.impulse, impulseRule(settings).most ?? Infinity);
     this.dial.setSettings(settings);
+    this.rotation.show(settings.rotates);
     this.goal.show(this.world.auto !== "off").name(goals[this.world.auto].label);
     this.refresh();
   }
@@ -371,6 +375,8 @@ export class Panel {
     mode.onChange((value: Mode) => this.colourBy(value));
     const trace = tag("trace", folder.add(choices, "trace", { Shown: true, Hidden: false }).name("Path"));
     trace.domElement.title = "Shows the path of the selected sphere";
+    this.rotation = tag("rotation", folder.add(choices, "rotation", rotationNames).name("Rotation"));
+    this.rotation.domElement.title = "Shows how spheres turn. Automatic: in full quality, up to 10,000 spheres";
     const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
     quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
     const sizeRule: EntryRule = { unit: "px", whole: true, least: 16, most: largestSide };

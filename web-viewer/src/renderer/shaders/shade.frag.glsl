@@ -31,6 +31,8 @@ void main() {
     float tint = 0.96 + 0.08 * float(scrambled(uint(place)) & 255u) / 255.0;
     vec3 albedo = colourNow(place, centre);
     albedo *= albedo * tint;
+    float facing = dot(normal, toEye);
+    if (!found.open && look.moves) albedo *= patternNow(place, normal, radius / pixelAt(length(near)), facing);
     bool selected = place == u_selected;
     if (selected) albedo = mix(albedo, vec3(1.0), 0.35);
     float share = dot(normal, light.xyz) > 0.0 ? lit(position, normal, 0.05 * radius) : 0.0;
