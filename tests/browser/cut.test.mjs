@@ -19,7 +19,10 @@ const places = [...even, ...odd];
 const scene = {
   gravity: [0, 0, 0],
   bounds: { min: [at - 1, at - 1, at - 1], max: [at + 1, at + 1, at + 1] },
-  groups: [{ name: "even", list: { spheres: even } }, { name: "odd", list: { spheres: odd } }],
+  groups: [
+    { name: "even", list: { spheres: even } },
+    { name: "odd", list: { spheres: odd } },
+  ],
   camera: { eye: [at + 3, at - 3, at + 2], target: [at, at, at] },
 };
 

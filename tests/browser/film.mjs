@@ -28,7 +28,11 @@ await page.evaluate(() => (document.querySelector("#page").style.visibility = "h
 for (let k = 0; k < frames; k++) {
   await server.ctl("seek", String(k / perSecond));
   await settled(page);
-  await page.screenshot({ path: path.join(folder, `${String(k).padStart(3, "0")}.png`), clip: { x: 80, y: 0, width: 800, height: 560 }, timeout: 120_000 });
+  await page.screenshot({
+    path: path.join(folder, `${String(k).padStart(3, "0")}.png`),
+    clip: { x: 80, y: 0, width: 800, height: 560 },
+    timeout: 120_000,
+  });
 }
 await browser.close();
 await server.stop();

@@ -11,7 +11,8 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name, value);
     else if (typeof value === "boolean") element.toggleAttribute(name, value);
-    else if (name === "style") element.style.cssText = value; // security policies may forbid the attribute
+    else if (name === "style")
+      element.style.cssText = value; // security policies may forbid the attribute
     else element.setAttribute(name, value);
   }
   element.append(...children);

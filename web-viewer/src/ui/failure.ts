@@ -27,6 +27,8 @@ export function showFailure(error: unknown, fatal: boolean): void {
 /** Shows errors that no other part of the page handles. */
 export function watchForFailures(): void {
   // Messages without an error come from the browser itself, and tell of nothing that failed.
-  window.addEventListener("error", ({ error }) => error && showFailure(error, false));
+  window.addEventListener("error", ({ error }) => {
+    if (error) showFailure(error, false);
+  });
   window.addEventListener("unhandledrejection", ({ reason }) => showFailure(reason, false));
 }

@@ -63,9 +63,18 @@ export class Transport {
       this.reset,
       record,
       h("span", { class: "rule" }),
-      named(button("home", () => actions.home(), icons.home), "Reset the view (F)"),
-      named(button("help", () => actions.help(), icons.help), "Keys and gestures (?)"),
-      named(button("panel-toggle", () => actions.panel(), icons.panel), "Controls (C)"),
+      named(
+        button("home", () => actions.home(), icons.home),
+        "Reset the view (F)",
+      ),
+      named(
+        button("help", () => actions.help(), icons.help),
+        "Keys and gestures (?)",
+      ),
+      named(
+        button("panel-toggle", () => actions.panel(), icons.panel),
+        "Controls (C)",
+      ),
     );
     this.describe();
   }
