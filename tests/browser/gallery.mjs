@@ -42,7 +42,7 @@ for (const [name, { time, zoom = 0, quality = "full" }] of Object.entries(views)
   await page.keyboard.press("c"); // hides the panel
   for (let k = 0; k < zoom; k++) await page.keyboard.press("+");
   await settled(page);
-  await page.evaluate(() => (document.getElementById("page").style.visibility = "hidden"));
+  await page.evaluate(() => (document.querySelector(".page").style.visibility = "hidden"));
   const shot = await page.screenshot({ clip: { x: 0, y: 0, width: 960, height: 600 }, timeout: 0 });
   const picture = await page.evaluate(compressed, [shot.toString("base64"), width, height, most]);
   writeFileSync(path.join(target, `${name}.webp`), Buffer.from(picture.split(",")[1], "base64"));

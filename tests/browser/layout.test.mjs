@@ -129,7 +129,7 @@ for (const [kind, text] of Object.entries(hostile)) {
       [control("scene-name"), ".swatch bdi"],
     );
     assert.deepEqual(shown, [text, text], "the whole text is in the tooltip");
-    assert.equal(await page.locator("#page img:not([src^='scenes/'])").count(), 0);
+    assert.equal(await page.locator(".page img:not([src^='scenes/'])").count(), 0);
     assert.deepEqual(page.faults, []);
   });
 }

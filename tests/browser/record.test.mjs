@@ -42,7 +42,7 @@ async function drop(name, bytes) {
     },
     [bytes.toString("base64"), name],
   );
-  for (const kind of ["dragover", "drop"]) await page.dispatchEvent("#page", kind, { dataTransfer: data });
+  for (const kind of ["dragover", "drop"]) await page.dispatchEvent(".page", kind, { dataTransfer: data });
 }
 
 const plays = (name) =>

@@ -20,7 +20,7 @@ async function boxesOf(page) {
         return !isHidden && (field.left < line.left || field.right > line.right || field.bottom > line.bottom);
       })
       .map((element) => element.className),
-    boxes: Array.from(document.querySelectorAll("#page > *, .facts > *, .controls > *, header > *, .transport > *"))
+    boxes: Array.from(document.querySelectorAll(".page > *, .facts > *, .controls > *, header > *, .transport > *"))
       .filter((element) => !element.matches(".foot, header, .toasts, dialog"))
       .map((element) => ({
         name: element.className || element.dataset.testid || element.tagName,

@@ -53,7 +53,7 @@ export class Charts {
   /** Shows the samples. Does nothing if they are shown already. */
   update(samples: Samples): void {
     const { list, version } = samples;
-    const theme = document.documentElement.dataset.theme ?? "";
+    const theme = this.parent.closest<HTMLElement>("[data-theme]")?.dataset.theme ?? "";
     const width = this.host.clientWidth;
     const content = [version, this.kind.name, theme, width].join(" ");
     if (content === this.drawn || width === 0) return;

@@ -19,6 +19,13 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+let lastId = 0;
+
+/** An id that no other element of the page has, as long as each bundle uses prefixes of its own. */
+export function uniqueId(prefix: string): string {
+  return `${prefix}-${++lastId}`;
+}
+
 /** Creates an icon from a path in 20 x 20 units. */
 export function icon(path: string): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");

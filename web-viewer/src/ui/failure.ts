@@ -20,7 +20,7 @@ export function showFailure(error: unknown, fatal: boolean): void {
   row.append(h("button", { ...attributes, click: () => location.reload() }, "Reload"));
   dialog.append(row);
   if (fatal) dialog.addEventListener("cancel", (event) => event.preventDefault());
-  document.body.append(dialog);
+  (document.querySelector(".spherule") ?? document.body).append(dialog); // it has the styles of viewers
   dialog.showModal();
 }
 

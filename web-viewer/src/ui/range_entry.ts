@@ -2,7 +2,7 @@ import type { ColourRanges, GivenRange } from "../model/colour_ranges";
 import type { Facts } from "../model/facts";
 import { quantityOf } from "../model/quantities";
 import type { Mode, Scale } from "../model/quantities";
-import { h, setText } from "./dom";
+import { h, setText, uniqueId } from "./dom";
 import { allowed, entryText, parseEntry } from "./entry";
 import type { EntryRule } from "./entry";
 
@@ -15,7 +15,7 @@ const names: Record<End, string> = { low: "Lowest value", high: "Highest value" 
 export class RangeEntry {
   private readonly inputs: Record<End, HTMLInputElement>;
   private readonly unit = h("span");
-  private readonly message = h("p", { class: "wrong", id: "range-wrong", role: "alert", hidden: true });
+  private readonly message = h("p", { class: "wrong", id: uniqueId("range"), role: "alert", hidden: true });
   private mode: Mode = "speed";
   private facts: Facts | undefined;
   readonly element: HTMLFormElement;
