@@ -42,6 +42,7 @@ export class GravityArrow {
       role: "slider",
       "aria-label": "Gravity",
       "aria-valuemin": "0",
+      "aria-valuenow": "0",
       "data-testid": "gravity-arrow",
     };
     for (const [name, value] of Object.entries(attributes)) svg.setAttribute(name, value);
