@@ -1,5 +1,7 @@
 #include "host/scene_saver.h"
 
+#include <exception>
+#include <new>
 #include <utility>
 
 #include "core/memory.h"
@@ -20,6 +22,14 @@ void SceneSaver::refuse(const Made& made, int status, const std::string& text) {
     made(nullptr, {status, "text/plain; charset=utf-8", text + "\n"});
 }
 
+void SceneSaver::fail(const Made& made, const std::string& text) {
+    {
+        const std::lock_guard lock(mutex_);
+        busy_ = false;
+    }
+    refuse(made, 503, text);
+}
+
 void SceneSaver::open() {
     const std::lock_guard lock(mutex_);
     open_ = true;
@@ -30,7 +40,7 @@ void SceneSaver::close() {
     open_ = false;
     const Made made = std::exchange(asked_, {});
     lock.unlock();
-    if (made) refuse(made, 503, "the server is stopping");
+    if (made) fail(made, "the server is stopping");
 }
 
 void SceneSaver::ask(Made made) {
@@ -55,15 +65,8 @@ void SceneSaver::serve(sim::Simulation& simulation) {
     const Made made = std::exchange(asked_, {});
     lock.unlock();
     if (!made) return;
-    const auto refuseBusy = [&](int status, const std::string& text) {
-        {
-            const std::lock_guard guard(mutex_);
-            busy_ = false;
-        }
-        refuse(made, status, text);
-    };
     auto claim = memory::Claim::make("", "a copy of the state", 2 * sim::copiesToHash(simulation.plan()));
-    if (!claim) return refuseBusy(503, claim.error().text());
+    if (!claim) return fail(made, claim.error().text());
     const scene::Scene& scene = simulation.scene();
     std::vector<SavedScene::Run> groups;
     for (const scene::Group& group : scene.groups) groups.push_back({group.first, group.count});
@@ -71,8 +74,15 @@ void SceneSaver::serve(sim::Simulation& simulation) {
         std::launch::async, [this, made, claim = std::move(*claim), message = scene::describe(scene),
                              groups = std::move(groups), slots = simulation.pipeline().download(),
                              population = simulation.population(), centre = scene.bounds.centre()]() mutable {
-            const auto document = std::make_shared<SavedScene>(
-                std::move(message), std::move(groups), sim::inIdOrder(slots, population), centre, std::move(claim));
+            std::shared_ptr<SavedScene> document;
+            try {
+                document = std::make_shared<SavedScene>(std::move(message), std::move(groups),
+                                                        sim::inIdOrder(slots, population), centre, std::move(claim));
+            } catch (const std::bad_alloc&) {
+                return fail(made, "there is no memory for a copy of the state: save the scene again when there is");
+            } catch (const std::exception& error) {
+                return fail(made, std::string("the scene cannot be saved: ") + error.what());
+            }
             {
                 const std::lock_guard guard(mutex_);
                 busy_ = false;

@@ -31,6 +31,8 @@ class SceneSaver {
 
   private:
     void refuse(const Made& made, int status, const std::string& text);
+    // Refuses what is under way, so that others can ask.
+    void fail(const Made& made, const std::string& text);
 
     std::mutex mutex_;
     bool open_ = false;

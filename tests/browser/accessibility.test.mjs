@@ -11,8 +11,18 @@ import { browserSuite } from "./support/suite.mjs";
 
 // Colours of the canvas without spheres, from top to bottom, in renderer/theme.ts.
 const canvas = {
-  light: [[0xe9, 0xed, 0xf0], [0xd3, 0xda, 0xdf], [0xcd, 0xd4, 0xd9], [0xd9, 0xde, 0xe1]],
-  dark: [[0x2a, 0x32, 0x39], [0x17, 0x1c, 0x21], [0x24, 0x2c, 0x33], [0x36, 0x41, 0x4a]],
+  light: [
+    [0xe9, 0xed, 0xf0],
+    [0xd3, 0xda, 0xdf],
+    [0xcd, 0xd4, 0xd9],
+    [0xd9, 0xde, 0xe1],
+  ],
+  dark: [
+    [0x2a, 0x32, 0x39],
+    [0x17, 0x1c, 0x21],
+    [0x24, 0x2c, 0x33],
+    [0x36, 0x41, 0x4a],
+  ],
 };
 
 /** The same colours in a stale picture, as in composite.frag.glsl. */
@@ -34,7 +44,10 @@ const suite = browserSuite(async (browser) => {
 
 /** Checks the page in both themes, on a screen and on a phone. `arrange` runs after each change of the size. */
 async function expectAccessible(other, arrange = () => {}) {
-  for (const [width, height] of [[1280, 720], [390, 844]]) {
+  for (const [width, height] of [
+    [1280, 720],
+    [390, 844],
+  ]) {
     await other.setViewportSize({ width, height });
     await arrange();
     for (const colorScheme of ["light", "dark"]) {
@@ -143,7 +156,8 @@ function focused() {
   const hit = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
   const faults = [];
   if (outlineStyle === "none" || parseFloat(outlineWidth) < 2) faults.push("its focus is invisible");
-  if (element.id !== "picture" && !(hit && (element.contains(hit) || hit.contains(element)))) faults.push("is covered");
+  if (element.dataset.testid !== "picture" && !(hit && (element.contains(hit) || hit.contains(element))))
+    faults.push("is covered");
   if (left < 0 || top < 0 || right > innerWidth || bottom > innerHeight) faults.push("is cut off");
   const name = element.dataset.testid ?? element.textContent.trim() ?? element.tagName;
   const again = "reached" in element.dataset;
@@ -151,7 +165,11 @@ function focused() {
   return { name, faults, again };
 }
 
-for (const size of [[1280, 720], [390, 844], [640, 360]]) {
+for (const size of [
+  [1280, 720],
+  [390, 844],
+  [640, 360],
+]) {
   test(`at ${size.join(" x ")}, the tab key reaches every control, and the focus is visible`, async () => {
     await page.setViewportSize({ width: size[0], height: size[1] });
     await showPanel(page, true);
@@ -190,7 +208,10 @@ test("the help scrolls with arrow keys", async () => {
 
 test("fingers have large controls", async () => {
   const touch = { hasTouch: true, isMobile: true };
-  for (const size of [[390, 844], [844, 390]]) {
+  for (const size of [
+    [390, 844],
+    [844, 390],
+  ]) {
     const other = await open(suite.browser, server.url, { size, ...touch });
     await showPanel(other, true);
     assert.deepEqual(await collisions(other, 5), []);

@@ -205,7 +205,11 @@ test("control is requested, kept, withdrawn, handed over and released", async ()
   await two.click(control("control-withdraw"));
   await says(one, "control", /^You have control\s*Release$/);
   await two.waitForSelector(control("control-ask"));
-  assert.equal((await toasts(two)).some((text) => /keeps/.test(text)), false, "a withdrawn request gets no answer");
+  assert.equal(
+    (await toasts(two)).some((text) => /keeps/.test(text)),
+    false,
+    "a withdrawn request gets no answer",
+  );
 
   await two.click(control("control-ask"));
   await one.click(control("control-keep"));

@@ -196,7 +196,7 @@ test("the focused canvas shows that it has the focus", async () => {
   await page.focus(control("picture"));
   const style = await page.evaluate(() => {
     const { activeElement } = document;
-    return [activeElement?.id, activeElement && getComputedStyle(activeElement).outlineStyle];
+    return [activeElement?.dataset.testid, activeElement && getComputedStyle(activeElement).outlineStyle];
   });
   assert.deepEqual(style, ["picture", "solid"]);
 });

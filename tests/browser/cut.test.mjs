@@ -19,7 +19,10 @@ const places = [...even, ...odd];
 const scene = {
   gravity: [0, 0, 0],
   bounds: { min: [at - 1, at - 1, at - 1], max: [at + 1, at + 1, at + 1] },
-  groups: [{ name: "even", list: { spheres: even } }, { name: "odd", list: { spheres: odd } }],
+  groups: [
+    { name: "even", list: { spheres: even } },
+    { name: "odd", list: { spheres: odd } },
+  ],
   camera: { eye: [at + 3, at - 3, at + 2], target: [at, at, at] },
 };
 
@@ -38,7 +41,7 @@ const suite = browserSuite(async (browser) => {
 /** Compares a small image, over which nothing lies, with the expected one. `seen`: a filter of places. */
 async function check(kept, keys, seen = () => true) {
   await page.setViewportSize({ width: 240, height: 136 });
-  await page.evaluate(() => (document.getElementById("page").style.display = "none"));
+  await page.evaluate(() => (document.querySelector(".page").style.display = "none"));
   await ticks(page, 6); // with reduced motion, the picture is in its place then
   let [different, pixels] = [0, 0];
   for (const key of ["", ...keys]) {
@@ -54,7 +57,7 @@ async function check(kept, keys, seen = () => true) {
     pixels += drawn.places.length;
   }
   assert.ok(different < 0.012 * pixels, `${different} of ${pixels} pixels differ, at edges`);
-  await page.evaluate(() => (document.getElementById("page").style.display = ""));
+  await page.evaluate(() => (document.querySelector(".page").style.display = ""));
   await page.keyboard.press("f");
   await page.setViewportSize({ width: 800, height: 600 });
 }

@@ -58,7 +58,7 @@ for (const [kind, size, at] of [
     const page = await open(suite.browser, `${server.url}?tier=fine`, { size: [240, 136], reducedMotion: "reduce" });
     await page.keyboard.press(" ");
     await when(page, () => spherule.session.paused);
-    await page.evaluate(() => (document.getElementById("page").style.display = "none")); // the picture has all the room
+    await page.evaluate(() => (document.querySelector(".page").style.display = "none")); // the picture has all the room
     await settled(page);
     let [different, pixels, shown] = [0, 0, 0];
     for (const [pose, keys] of poses.entries()) {

@@ -24,11 +24,15 @@ const server = await play(file, { options: ["--paused"] });
 const browser = await launch();
 const page = await open(browser, server.url, { size: [960, 740], picture: "full", colour: "id" });
 await page.keyboard.press("c"); // hides the controls, which leaves the whole width to the picture
-await page.evaluate(() => (document.querySelector("#page").style.visibility = "hidden"));
+await page.evaluate(() => (document.querySelector(".page").style.visibility = "hidden"));
 for (let k = 0; k < frames; k++) {
   await server.ctl("seek", String(k / perSecond));
   await settled(page);
-  await page.screenshot({ path: path.join(folder, `${String(k).padStart(3, "0")}.png`), clip: { x: 80, y: 0, width: 800, height: 560 }, timeout: 120_000 });
+  await page.screenshot({
+    path: path.join(folder, `${String(k).padStart(3, "0")}.png`),
+    clip: { x: 80, y: 0, width: 800, height: 560 },
+    timeout: 120_000,
+  });
 }
 await browser.close();
 await server.stop();

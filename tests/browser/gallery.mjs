@@ -39,7 +39,7 @@ for (const [name, { time, zoom = 0, quality = "full", colour }] of Object.entrie
   await server.ctl("seek", String(time));
   await when(page, (then) => Math.abs((spherule.shown?.time ?? -1) - then) < 0.04, time);
   for (let k = 0; k < zoom; k++) await page.keyboard.press("+");
-  await page.evaluate(() => (document.getElementById("page").style.display = "none")); // the scene fills the window
+  await page.evaluate(() => (document.querySelector(".page").style.display = "none")); // the scene fills the window
   await page.waitForTimeout(500); // the camera learns of it
   await cameraRests(page);
   await settled(page);

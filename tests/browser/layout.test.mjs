@@ -9,7 +9,13 @@ import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
 // A phone upright and turned, a tablet, a screen of 1280 x 720 px at a zoom of 200 %, and the same screen at 100 %.
-const sizes = [[390, 844], [844, 390], [768, 1024], [640, 360], [1280, 720]];
+const sizes = [
+  [390, 844],
+  [844, 390],
+  [768, 1024],
+  [640, 360],
+  [1280, 720],
+];
 const still = { reducedMotion: "reduce" }; // the picture needs no time to move
 const scene = {
   bounds: { min: [0, 0, 0], max: [3, 2, 1.5] },
@@ -118,12 +124,12 @@ for (const [kind, text] of Object.entries(hostile)) {
       assert.deepEqual(await collisions(page, 6), [], `${size}`);
       assert.deepEqual(await coverings(page), [], `${size}`);
     }
-    const shown = await page.evaluate((selectors) => selectors.map((one) => document.querySelector(one).title), [
-      control("scene-name"),
-      ".swatch bdi",
-    ]);
+    const shown = await page.evaluate(
+      (selectors) => selectors.map((one) => document.querySelector(one).title),
+      [control("scene-name"), ".swatch bdi"],
+    );
     assert.deepEqual(shown, [text, text], "the whole text is in the tooltip");
-    assert.equal(await page.locator("#page img:not([src^='scenes/'])").count(), 0);
+    assert.equal(await page.locator(".page img:not([src^='scenes/'])").count(), 0);
     assert.deepEqual(page.faults, []);
   });
 }

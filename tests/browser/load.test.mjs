@@ -39,10 +39,16 @@ test("the first load takes at most 120 kB, and the next transfers no file", asyn
   };
   const files = ["/", "/style.css", "/viewer.js", "/worker.js"];
   const first = await load();
-  assert.deepEqual(first.answers, files.map((path) => `${path} 200`));
+  assert.deepEqual(
+    first.answers,
+    files.map((path) => `${path} 200`),
+  );
   assert.ok(first.bytes <= 120_000, `${first.bytes} bytes`);
   const both = await load();
-  assert.deepEqual(both.answers, files.flatMap((path) => [`${path} 200`, `${path} 304`]));
+  assert.deepEqual(
+    both.answers,
+    files.flatMap((path) => [`${path} 200`, `${path} 304`]),
+  );
   assert.ok(both.bytes - first.bytes < 5_000, `${both.bytes - first.bytes} bytes`);
   await context.close();
   proxy.close();

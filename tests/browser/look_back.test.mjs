@@ -281,7 +281,13 @@ test("the last seconds are saved as a recording that the program plays and expor
 
 test("nothing overlaps while the past is shown", async () => {
   await hasPast(3);
-  for (const [width, height] of [[390, 844], [844, 390], [768, 1024], [640, 360], [1280, 720]]) {
+  for (const [width, height] of [
+    [390, 844],
+    [844, 390],
+    [768, 1024],
+    [640, 360],
+    [1280, 720],
+  ]) {
     await page.setViewportSize({ width, height });
     for (const shown of [false, true]) {
       await showPanel(page, shown);

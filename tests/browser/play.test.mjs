@@ -110,9 +110,15 @@ test("a click on the timeline seeks at once, and no state in between is shown", 
   await page.mouse.click(...(await placeOf(0.75)));
   await at(0.75 * duration);
   const seen = await page.evaluate(() => window.seen);
-  assert.deepEqual(seen.filter(({ image }) => image > 3 * frame && image < 0.75 * duration - 3 * frame), []);
+  assert.deepEqual(
+    seen.filter(({ image }) => image > 3 * frame && image < 0.75 * duration - 3 * frame),
+    [],
+  );
   const moved = seen.findIndex(({ handle }) => handle > 0.7 * duration);
-  assert.deepEqual(seen.slice(moved).filter(({ handle }) => handle < 0.7 * duration), []);
+  assert.deepEqual(
+    seen.slice(moved).filter(({ handle }) => handle < 0.7 * duration),
+    [],
+  );
   const { from, to } = await page.evaluate(() => spherule.shown);
   assert.equal(from, to); // no motion from the earlier state
   const { step, positions, quantum } = await queryServer(page);
@@ -210,7 +216,10 @@ test("keys move the focused handle", async () => {
   await at(duration, 1e-6);
   await page.keyboard.press("Home");
   await at(0, 1e-9);
-  for (const [key, frames] of [["ArrowRight", [1, 2, 3]], ["ArrowLeft", [2, 1]]]) {
+  for (const [key, frames] of [
+    ["ArrowRight", [1, 2, 3]],
+    ["ArrowLeft", [2, 1]],
+  ]) {
     for (const number of frames) {
       await page.keyboard.press(key);
       await at(number * frame, 1e-6);

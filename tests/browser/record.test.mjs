@@ -42,7 +42,7 @@ async function drop(name, bytes) {
     },
     [bytes.toString("base64"), name],
   );
-  for (const kind of ["dragover", "drop"]) await page.dispatchEvent("#page", kind, { dataTransfer: data });
+  for (const kind of ["dragover", "drop"]) await page.dispatchEvent(".page", kind, { dataTransfer: data });
 }
 
 const plays = (name) =>
@@ -97,7 +97,11 @@ test("a chosen file is played in the page, with its positions, and the server ne
   const csv = file.replace(".sph", ".csv");
   const range = ["--from", `${shown.time - 1e-4}s`, "--to", `${shown.time + 1e-4}s`];
   await spherule("export", file, "--format", "csv", "--out", csv, "--force", ...range);
-  const rows = (await readFile(csv, "utf8")).trim().split("\n").slice(1).map((row) => row.split(",").map(Number));
+  const rows = (await readFile(csv, "utf8"))
+    .trim()
+    .split("\n")
+    .slice(1)
+    .map((row) => row.split(",").map(Number));
   assert.equal(rows.length, 24);
   for (const [, id, ...place] of rows) {
     shown.positions[id].forEach((value, axis) => {
@@ -147,7 +151,10 @@ test("a dropped file is played, also while the server is away, and the page find
   await pauseAt(3);
   server = await serve("cradle", { port });
   await backToLive();
-  assert.deepEqual(page.faults.filter((fault) => !/WebSocket|ERR_CONNECTION/.test(fault)), []);
+  assert.deepEqual(
+    page.faults.filter((fault) => !/WebSocket|ERR_CONNECTION/.test(fault)),
+    [],
+  );
 });
 
 test("foreign and damaged files are refused with what is wrong and where, and the simulation stays", async () => {
@@ -205,7 +212,13 @@ test("a file that was cut off plays up to the cut, and damage inside is told and
   await plays("cut.sph");
   await says(page, "timeline-flaw", /Ends early: the record at byte \d+ is cut off/);
   assert.ok(await page.evaluate((most) => spherule.session.timeline.end < most, 0.9 * duration));
-  for (const [width, height] of [[390, 844], [844, 390], [768, 1024], [640, 360], [1280, 720]]) {
+  for (const [width, height] of [
+    [390, 844],
+    [844, 390],
+    [768, 1024],
+    [640, 360],
+    [1280, 720],
+  ]) {
     await page.setViewportSize({ width, height });
     for (const shown of [false, true]) {
       await showPanel(page, shown);

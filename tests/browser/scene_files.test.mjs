@@ -23,11 +23,14 @@ const scene = {
 
 /** Drops a file on the page. */
 async function dropFile(name, text) {
-  await page.evaluate(([title, content]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([content], title));
-    window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, cancelable: true }));
-  }, [name, text]);
+  await page.evaluate(
+    ([title, content]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([content], title));
+      window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, cancelable: true }));
+    },
+    [name, text],
+  );
 }
 
 /** Replaces the text of the editor. */
@@ -84,7 +87,7 @@ test("faults of a scene file are shown at their lines, and the present scene goe
   await page.click(control("editor-load"));
   const sphere = text.split("\n").findIndex((one) => one.includes('"position"'));
   await says(page, "editor-message", new RegExp(`^Line ${sphere}: .*outside the bounds`));
-  await write(text.replace('"min"', 'min'));
+  await write(text.replace('"min"', "min"));
   await page.click(control("editor-load"));
   await says(page, "editor-message", /^Line 4: This is not JSON/);
   await write(text.replace(/"list": \{[^]*?\]\s*\}\s*\]\s*\}/, '"csv": {"file": "spheres.csv"}'));

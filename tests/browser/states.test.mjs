@@ -23,7 +23,7 @@ const usable = (page) =>
     const picture = ["trace", "picture-width", "picture-height", "save-picture"];
     const look = [...picture, "tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
     const local = [...look, "scenes", "open-file", "copy-link", "timeline", "save"];
-    const elements = document.querySelectorAll("#page :is(button, input, select)[data-testid]");
+    const elements = document.querySelectorAll(".page :is(button, input, select)[data-testid]");
     return Array.from(elements)
       .filter((one) => one.offsetParent && !one.disabled && !one.closest("dialog, [data-notice], .legend"))
       .map(({ dataset }) => dataset.testid)
@@ -66,7 +66,7 @@ test("a page without a connection looks like one: nothing can be used, and no fi
   for (const id of ["factor", "steps", "stream", "viewers"]) {
     assert.equal(await page.textContent(control(`status-${id}`)), "–", id);
   }
-  assert.ok(await page.evaluate(() => document.querySelector("#page").classList.contains("old")));
+  assert.ok(await page.evaluate(() => document.querySelector(".page").classList.contains("old")));
   // Keys that send commands tell the reason instead.
   await page.keyboard.press("r");
   await says(page, "toast-text", /^There is no connection to the server$/);
@@ -77,7 +77,7 @@ test("a page without a connection looks like one: nothing can be used, and no fi
   await page.evaluate((button) => document.querySelector(button)?.click(), control("notice-retry"));
   await notices(page);
   assert.ok((await usable(page)).includes("reset"));
-  assert.ok(await page.evaluate(() => !document.querySelector("#page").classList.contains("old")));
+  assert.ok(await page.evaluate(() => !document.querySelector(".page").classList.contains("old")));
   await page.close();
   await next.stop();
 });

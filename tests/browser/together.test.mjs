@@ -54,7 +54,6 @@ test("the page reconnects to a restarted server, and shows its scene", async () 
   await second.stop();
 });
 
-
 test("a long load shows its progress and can be cancelled, and the simulation continues", async () => {
   // In such a dense scene, the search for random places without overlaps takes many seconds.
   const fill = { min: [-1, -1, -1], max: [1, 1, 1], count: 700000 };

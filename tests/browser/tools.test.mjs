@@ -8,7 +8,10 @@ import { queryServer } from "./support/raw.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
-const places = [[-0.5, 0, 1], [0.5, 0, 1]]; // m
+const places = [
+  [-0.5, 0, 1],
+  [0.5, 0, 1],
+]; // m
 const mass = 1000 * (4 / 3) * Math.PI * 0.15 ** 3; // kg
 
 let server;
@@ -146,7 +149,10 @@ test("the pull of a page that is closed ends", async () => {
 
 test("a click of the tool Drop drops spheres above the place", async () => {
   await page.selectOption(control("tool"), "Drop");
-  for (const [id, value] of [["drop-count", "5"], ["drop-radius", "0.04"]]) {
+  for (const [id, value] of [
+    ["drop-count", "5"],
+    ["drop-radius", "0.04"],
+  ]) {
     await page.fill(control(id), value);
     await page.press(control(id), "Enter");
   }
@@ -163,7 +169,10 @@ test("a click of the tool Drop drops spheres above the place", async () => {
 
 test("the tool Drop says how to go on when there is no room", async () => {
   await page.selectOption(control("tool"), "Drop");
-  for (const [id, value] of [["drop-count", "5000"], ["drop-radius", "0.3"]]) {
+  for (const [id, value] of [
+    ["drop-count", "5000"],
+    ["drop-radius", "0.3"],
+  ]) {
     await page.fill(control(id), value);
     await page.press(control(id), "Enter");
   }

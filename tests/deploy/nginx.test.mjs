@@ -15,7 +15,11 @@ let nginx;
 let browser;
 
 function serveBehind() {
-  const settings = { SPHERULE_OPEN: "true", SPHERULE_HOST: `${name}:${ports.tls}`, SPHERULE_ORIGIN: `https://${name}:${ports.tls}` };
+  const settings = {
+    SPHERULE_OPEN: "true",
+    SPHERULE_HOST: `${name}:${ports.tls}`,
+    SPHERULE_ORIGIN: `https://${name}:${ports.tls}`,
+  };
   return serve("billiards", { port: ports.upstream, settings });
 }
 

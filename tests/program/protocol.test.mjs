@@ -101,13 +101,18 @@ test("the words for a shell make the answer that is shown", async () => {
   assert.equal(result.id, shown.result.id);
   assert.match(result.applied.step ?? "0", /^\d+$/);
   assert.match(shown.result.applied.step, /^\d+$/);
-  for (const kind of ["welcome", "scene", "settings"]) assert.ok(answers.some(([, answer]) => answer[kind]), kind);
+  for (const kind of ["welcome", "scene", "settings"])
+    assert.ok(
+      answers.some(([, answer]) => answer[kind]),
+      kind,
+    );
 });
 
 test("ctl does the same and fails when it is refused", async () => {
   const [program, ...words] = here(examples[2].text).trim().split(" ");
   assert.equal(program, "spherule");
-  const code = (more) => new Promise((resolve) => execFile(process.env.SPHERULE, more, (error) => resolve(error?.code ?? 0)));
+  const code = (more) =>
+    new Promise((resolve) => execFile(process.env.SPHERULE, more, (error) => resolve(error?.code ?? 0)));
   assert.equal(await code(words), 0);
   assert.notEqual(await code([...words.slice(0, -1), "1e9"]), 0);
 });
@@ -147,7 +152,15 @@ test("positions come out of a frame as is shown", async () => {
   const { scene, order, frame } = viewer.heard;
   const { Decoder } = await loadDecoder();
   const ids = Buffer.from(order.ids, "base64");
-  const run = new Function("Decoder", "frame", "order", "boundsMin", "boundsMax", "k", `${examples[4].text}; return [id, z];`);
+  const run = new Function(
+    "Decoder",
+    "frame",
+    "order",
+    "boundsMin",
+    "boundsMax",
+    "k",
+    `${examples[4].text}; return [id, z];`,
+  );
   const one = (k) =>
     run(
       Decoder,
@@ -210,7 +223,9 @@ test("vectors and targets have the ranges of the document", async () => {
 
 test("load keeps what the document says, and nothing else", async () => {
   await applied({ startRecording: {} });
-  await applied({ set: { speed: 2, gravity: [0, 0, -1], restitution: 0.25, friction: 0.5, model: "FAST", substeps: 3 } });
+  await applied({
+    set: { speed: 2, gravity: [0, 0, -1], restitution: 0.25, friction: 0.5, model: "FAST", substeps: 3 },
+  });
   await applied({ pause: {} });
   await until(() => client.heard.settings.paused && client.heard.recording?.active);
   const { epoch } = client.heard.scene;

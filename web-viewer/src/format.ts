@@ -122,7 +122,12 @@ export function vector(values: readonly number[], digits = 2): string {
 }
 
 function power(value: number): string {
-  return signed(value.toExponential(2).replace("e+", "e").replace(/\.?0+(?=e)/, ""));
+  return signed(
+    value
+      .toExponential(2)
+      .replace("e+", "e")
+      .replace(/\.?0+(?=e)/, ""),
+  );
 }
 
 function trimmed(text: string): string {

@@ -8,47 +8,47 @@ import type { Choices } from "./ui/panel";
 import { systemTheme } from "./ui/system_theme";
 import { Viewer } from "./viewer";
 
-/** Reads a choice from the address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
-function chosen<T extends string>(name: string, allowed: readonly T[]): T | undefined {
-  const value = new URLSearchParams(location.search).get(name);
+/** Reads a choice from an address: ?colour=group&picture=full&theme=dark&tier=fine&rate=10&fixed */
+function chosen<T extends string>(address: URLSearchParams, name: string, allowed: readonly T[]): T | undefined {
+  const value = address.get(name);
   return allowed.find((candidate) => candidate === value);
 }
 
-function serverUrl(): string {
-  const url = new URL("ws", location.href);
-  url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-  url.search = url.hash = "";
-  return url.href;
-}
-
-function start(): void {
-  const canvas = document.querySelector<HTMLCanvasElement>("#picture");
-  const container = document.querySelector<HTMLElement>("#page");
-  if (!canvas || !container) throw new Error("The page has no canvas.");
-  const clean = withoutToken(location.href);
+/**
+ * Starts the viewer of an element. Its attribute data-server is the address of a stream, with the viewer's choices as
+ * parameters; without it, the address is "ws". `own`: see Site.
+ */
+function start(host: HTMLElement, own: boolean): Viewer {
+  const url = new URL(host.dataset.server ?? "ws", location.href);
+  const address = own ? new URLSearchParams(location.search) : url.searchParams;
+  const clean = own ? withoutToken(location.href) : undefined;
   if (clean !== undefined) history.replaceState(history.state, "", clean);
-  const mode = chosen("colour", modes);
-  const theme = chosen("theme", ["light", "dark"]);
+  const mode = chosen(address, "colour", modes);
+  const theme = chosen(address, "theme", ["light", "dark"]);
   const choices: Choices = {
     cut: new Cut(),
     trace: true,
     mode: mode ?? "speed",
     modeChosen: mode !== undefined,
     rotation: "auto",
-    quality: chosen("picture", ["auto", "full", "light"]) ?? "auto",
+    quality: chosen(address, "picture", ["auto", "full", "light"]) ?? "auto",
     theme: theme ?? systemTheme(),
     themeChosen: theme !== undefined,
     tool: "select",
     impulse: 1,
-    view: loadViewRequest(new URLSearchParams(location.search), () => localStorage),
+    view: loadViewRequest(address, () => localStorage),
   };
-  const viewer = new Viewer(canvas, container, choices, serverUrl());
-  window.spherule = createTestApi(viewer);
+  url.protocol = url.protocol.replace("http", "ws");
+  url.search = url.hash = "";
+  const viewer = new Viewer(host, choices, url.href, own);
   viewer.start(clean !== undefined);
+  return viewer;
 }
 
 try {
-  start();
+  const viewers = Array.from(document.querySelectorAll<HTMLElement>(".spherule"), (host, k) => start(host, k === 0));
+  if (!viewers[0]) throw new Error('The page has no element of the class "spherule".');
+  window.spherule = createTestApi(viewers[0]);
   watchForFailures();
 } catch (error) {
   showFailure(error, true);

@@ -9,9 +9,9 @@ import { timeOf } from "./model/states";
 import type { Viewer } from "./viewer";
 
 /**
- * `window.spherule`: read-only access for tests to all that the DOM does not show. Elements of the page are found by
- * their `data-testid`. Commands are sent through the page's controls or the server's protocol. perf_marks.ts lists the
- * performance marks of the first image.
+ * `window.spherule`: read-only access for tests to all that the DOM does not show, of the first viewer of the page.
+ * Elements are found by their `data-testid`. Commands are sent through the page's controls or the server's protocol.
+ * perf_marks.ts lists the performance marks of the first image.
  */
 export interface TestApi {
   readonly session: Session;
@@ -29,11 +29,11 @@ export interface TestApi {
   readonly selected: number | undefined;
   /** Positions of spheres in the newest state (m); each is off by at most half a quantum on each axis. */
   positions(ids: number[]): { step: number; quantum: number; positions: (Vec3 | undefined)[] } | undefined;
-  /** The id of the sphere that is drawn at a point of the page (CSS pixels). */
+  /** The id of the sphere that is drawn at a point of the canvas (CSS pixels). */
   at(x: number, y: number): number | undefined;
   /** The places of the spheres that the image shows, row after row from the top; negative: none. */
   readonly places: { width: number; height: number; places: number[] } | undefined;
-  /** Projects a point (m) to the page (CSS pixels); undefined if it lies behind the eye. */
+  /** Projects a point (m) to the canvas (CSS pixels); undefined if it lies behind the eye. */
   project(point: Vec3): [number, number] | undefined;
 }
 

@@ -21,6 +21,8 @@ import { Trace } from "./model/trace";
 import { markFirst } from "./perf_marks";
 import { Canvas } from "./renderer/canvas";
 import type { DrawState } from "./renderer/draw_state";
+import { h } from "./ui/dom";
+import { addHost } from "./ui/hosts";
 import { Page } from "./ui/page";
 import type { Choices } from "./ui/panel";
 import { Ticker } from "./ticker";
@@ -109,12 +111,23 @@ export class Viewer {
   private readonly image = new Content(); // of the canvas
   private clicked: { x: number; y: number; tool: Choices["tool"] } | undefined; // a click that waits
 
+  /** `url`: of the server's stream. `own`: see Site. */
   constructor(
-    element: HTMLCanvasElement,
-    container: HTMLElement,
+    private readonly host: HTMLElement,
     private readonly choices: Choices,
-    private readonly url: string, // of the server
+    private readonly url: string,
+    own: boolean,
   ) {
+    const element = h("canvas", {
+      class: "view empty",
+      "data-testid": "picture",
+      tabindex: "0",
+      role: "application",
+      "aria-label": "The simulated spheres. Arrow keys turn the view, + and − zoom",
+    });
+    host.append(h(host.closest("main, section") ? "div" : "main", {}, element));
+    addHost(host);
+    const server = new URL(".", url.replace("ws", "http"));
     this.canvas = new Canvas(element, choices.quality, () => this.redraw());
     this.link = new Link(new Worker("worker.js"), (message) => {
       this.session.handle(message);
@@ -137,11 +150,11 @@ export class Viewer {
       (command) => this.session.isLocal(command),
       (command) => this.page.steering.blocked(command),
     );
-    this.page = new Page(container, this.session, this.commands, this.ranges, choices, {
+    this.page = new Page({ host, view: element, server, own }, this.session, this.commands, this.ranges, choices, {
       retry: () => (this.session.link === "locked" ? this.page.prompt.ask("") : this.link.retry()),
       present: () => this.link.showPresent(),
       save: () => this.link.save(),
-      fetchFile: (path) => fetchFile(path, this.admission.token),
+      fetchFile: (path) => fetchFile(path, server, this.admission.token),
       click: (x, y) => this.click(x, y),
       play: (recording) => this.link.open(recording),
       submitToken: (text) => this.admission.submit(text),
@@ -176,11 +189,13 @@ export class Viewer {
     }
     this.link.connect(this.url, this.subscription.view, this.admission.begin());
     const resize = (): void => {
-      this.camera.resize(window.innerWidth, window.innerHeight);
-      this.canvas.resize(window.innerWidth, window.innerHeight);
+      const { clientWidth, clientHeight } = this.host;
+      this.camera.resize(clientWidth, clientHeight);
+      this.canvas.resize(clientWidth, clientHeight);
       this.redraw();
     };
-    window.addEventListener("resize", resize);
+    window.addEventListener("resize", resize); // also when the device's pixels change
+    new ResizeObserver(resize).observe(this.host);
     resize();
     document.addEventListener("visibilitychange", () => this.setVisible(!document.hidden));
     this.setVisible(!document.hidden);

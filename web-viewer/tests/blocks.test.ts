@@ -57,7 +57,10 @@ test("blocks outside of the view are not drawn, and equal neighbours are drawn t
   for (const orthographic of [false, true]) {
     const see = (...centres: Vec3[]): [number, number, Detail][] => found(still(state(4, ...centres)), orthographic);
     assert.deepEqual(see([0, 0, 0], [1, 0, 0], [2, 0, 0]), [[0, places, Detail.Disc]]);
-    assert.deepEqual(see([0, 0, 0], [90, 0, 0], [2, 0, 0]), [[0, blockPlaces, Detail.Disc], [2, last, Detail.Disc]]);
+    assert.deepEqual(see([0, 0, 0], [90, 0, 0], [2, 0, 0]), [
+      [0, blockPlaces, Detail.Disc],
+      [2, last, Detail.Disc],
+    ]);
     assert.deepEqual(see([0, 0, 90], [0, 0, -90], [-90, 0, 0]), []);
   }
   const behind = found(still(state(4, [0, -60, 0], [0, 0, 0], [0, 0, 0])));
@@ -72,7 +75,10 @@ test("a block between its places in two states is drawn", () => {
 
 test("near spheres are drawn round, and far ones as points", () => {
   const near = found(still(state(4, [0, -45, 0], [0, 0, 0], [0, 0, 0])));
-  assert.deepEqual(near, [[0, blockPlaces, Detail.Round], [1, places - blockPlaces, Detail.Disc]]);
+  assert.deepEqual(near, [
+    [0, blockPlaces, Detail.Round],
+    [1, places - blockPlaces, Detail.Disc],
+  ]);
   const small = factsOf(create(SceneFactsSchema, { epoch: 1, count: places, radius: 0.01, ...bounds, camera }));
   const blocks = new SphereBlocks();
   blocks.set(small, order);
@@ -84,9 +90,15 @@ test("near spheres are drawn round, and far ones as points", () => {
 test("blocks beyond the plane of a cut are not drawn, and blocks that it meets are drawn round", () => {
   const shown = still(state(4, [-10, 0, 0], [0, 0, 0], [10, 0, 0]));
   const low: HalfSpace = { normal: [1, 0, 0], offset: 0.2 };
-  assert.deepEqual(found(shown, false, low), [[0, blockPlaces, Detail.Disc], [1, blockPlaces, Detail.Round]]);
+  assert.deepEqual(found(shown, false, low), [
+    [0, blockPlaces, Detail.Disc],
+    [1, blockPlaces, Detail.Round],
+  ]);
   const high: HalfSpace = { normal: [-1, 0, 0], offset: 9 };
-  assert.deepEqual(found(shown, false, high), [[0, blockPlaces, Detail.Round], [1, places - blockPlaces, Detail.Disc]]);
+  assert.deepEqual(found(shown, false, high), [
+    [0, blockPlaces, Detail.Round],
+    [1, places - blockPlaces, Detail.Disc],
+  ]);
 });
 
 test("without boxes of the present order, all spheres are drawn round", () => {

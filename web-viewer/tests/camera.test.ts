@@ -19,11 +19,7 @@ function close(actual: readonly number[], expected: readonly number[], within = 
 }
 
 function corners(min: Vec3, max: Vec3): Vec3[] {
-  return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [
-    (i & 1 ? max : min)[0],
-    (i & 2 ? max : min)[1],
-    (i & 4 ? max : min)[2],
-  ]);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [(i & 1 ? max : min)[0], (i & 2 ? max : min)[1], (i & 4 ? max : min)[2]]);
 }
 
 test("a pose made from an eye has that eye", () => {
@@ -69,7 +65,11 @@ test("a ray through a projected point meets the point", () => {
   const [x, y] = project(view, point) ?? [0, 0];
   const ray = rayThrough(view, x, y);
   const distance = Math.hypot(...point.map((value, i) => value - (view.eye[i] ?? 0)));
-  close(ray.direction.map((part, i) => (view.eye[i] ?? 0) + part * distance), point, 1e-4);
+  close(
+    ray.direction.map((part, i) => (view.eye[i] ?? 0) + part * distance),
+    point,
+    1e-4,
+  );
 });
 
 test("the target lies in the middle of the part that the page does not cover", () => {
@@ -93,7 +93,10 @@ test("a point behind the eye has no projection", () => {
 });
 
 test("framing shows every corner of the bounds", () => {
-  const [min, max]: [Vec3, Vec3] = [[-2, -1, 0], [3, 1, 4]];
+  const [min, max]: [Vec3, Vec3] = [
+    [-2, -1, 0],
+    [3, 1, 4],
+  ];
   const view = viewOf(framing(min, max, 45), field, 1000, 1000, none, 60);
   for (const corner of corners(min, max)) {
     const [x, y] = project(view, corner) ?? [-1, -1];
@@ -102,7 +105,10 @@ test("framing shows every corner of the bounds", () => {
 });
 
 test("the free part shows every corner of the bounds, whatever its shape", () => {
-  const [min, max]: [Vec3, Vec3] = [[0, 0, 0], [6, 1.5, 1]];
+  const [min, max]: [Vec3, Vec3] = [
+    [0, 0, 0],
+    [6, 1.5, 1],
+  ];
   const pose = framing(min, max, 40);
   const extent = extentOf(pose, 40, min, max);
   const column = { top: 30, right: 270, bottom: 80, left: 8 };
@@ -184,7 +190,10 @@ test("an orthographic view shows the plane of the target as large as a perspecti
     const point = pose.target.map((part, axis) => part + offset * (right[axis] ?? 0)) as Vec3;
     close(project(orthographic, point) ?? [], project(perspective, point) ?? [NaN, NaN], 1e-3);
   }
-  for (const [x, y] of [[10, 20], [700, 400]] as const) {
+  for (const [x, y] of [
+    [10, 20],
+    [700, 400],
+  ] as const) {
     const { origin, direction } = rayThrough(orthographic, x, y);
     close(direction, orthographic.forward);
     for (const far of [0, 7]) {
@@ -225,7 +234,11 @@ test("the views of parts of a picture show what the whole picture shows there", 
     const view = viewOf(poseFrom([4, -6, 3], [0, 0, 1]), field, 800, 500, none, 20, orthographic);
     const part = { x: 0.25, y: 0.5, width: 0.5, height: 0.2 };
     const seen = viewOfPart(view, part);
-    for (const point of [[0, 0, 1], [0.3, 0.1, 1.4], [-1, 2, 0.5]] as Vec3[]) {
+    for (const point of [
+      [0, 0, 1],
+      [0.3, 0.1, 1.4],
+      [-1, 2, 0.5],
+    ] as Vec3[]) {
       const [x = 0, y = 0] = project(view, point) ?? [];
       const [column = 0, row = 0] = project(seen, point) ?? [];
       close([column, row], [x - 200, y - 500 * (1 - 0.7)], 1e-3);

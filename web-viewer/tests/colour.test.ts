@@ -9,7 +9,16 @@ import type { Rgb } from "../src/colour/rgb";
 import { defaultMode, modes, quantityOf } from "../src/model/quantities";
 
 test("values are rounded up to 1, 2, 3 or 5 times a power of ten", () => {
-  const cases = [[0.9, 1], [1, 1], [1.1, 2], [2.5, 3], [4, 5], [7, 10], [0.031, 0.05], [1234, 2000]] as const;
+  const cases = [
+    [0.9, 1],
+    [1, 1],
+    [1.1, 2],
+    [2.5, 3],
+    [4, 5],
+    [7, 10],
+    [0.031, 0.05],
+    [1234, 2000],
+  ] as const;
   for (const [value, nice] of cases) {
     assert.ok(Math.abs(niceAbove(value) / nice - 1) < 1e-9, `${value}: ${niceAbove(value)}`);
   }
@@ -58,9 +67,21 @@ test("a ramp interpolates between its stops, and is constant beyond its ends", (
 
 // How people see linear RGB (Machado, Oliveira and Fernandes 2009, complete deficiency).
 const vision = {
-  "full colour vision": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-  protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
-  deuteranopia: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+  "full colour vision": [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+  protanopia: [
+    [0.152286, 1.052583, -0.204868],
+    [0.114503, 0.786281, 0.099216],
+    [-0.003882, -0.048116, 1.051998],
+  ],
+  deuteranopia: [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.01182, 0.04294, 0.968881],
+  ],
 };
 
 /** The lightness L* of a colour, from 0 to 100. */

@@ -21,10 +21,14 @@ function createCommands(applied = {}, blocked = false) {
 test("a sphere is removed by its id, and the report says how many are gone", async () => {
   const { commands, sent, reports } = createCommands({ removed: 1n });
   await commands.remove(5_000_000_000);
-  assert.deepEqual(sent.map((kind) => kind.case === "remove" && kind.value.spheres), [[5_000_000_000n]]);
-  assert.deepEqual(reports.map(({ name, text }) => [name, text]), [
-    ["Remove sphere 5\u202f000\u202f000\u202f000", "removed 1 sphere"],
-  ]);
+  assert.deepEqual(
+    sent.map((kind) => kind.case === "remove" && kind.value.spheres),
+    [[5_000_000_000n]],
+  );
+  assert.deepEqual(
+    reports.map(({ name, text }) => [name, text]),
+    [["Remove sphere 5\u202f000\u202f000\u202f000", "removed 1 sphere"]],
+  );
   const several = createCommands({ removed: 3n });
   await several.commands.remove(1);
   assert.equal(several.reports[0]?.text, "removed 3 spheres");

@@ -52,7 +52,7 @@ test("free control blocks no client", () => {
 test("the holder sees the requests, the oldest first", () => {
   const now = seen(control(1, 3, 2));
   assert.equal(now.kind, "mine");
-  assert.deepEqual(now.kind === "mine" && now.asking.map(nameText), ["spherule ctl", "spherule viewer #2"]);
+  assert.deepEqual(now.asking.map(nameText), ["spherule ctl", "spherule viewer #2"]);
   assert.equal(blockedReasonOf(now), "");
 });
 

@@ -32,7 +32,10 @@ const settings = { step: 1 / 60, speed: 1 };
 const valuesOf = (figures: Figure[]): string[] => figures.map(({ name, value }) => `${name}: ${value}`);
 
 test("the nearest position is of the same model, and the nearest by the ratio of substeps", () => {
-  assert.deepEqual([8, 11, 12, 1000, 1].map((substeps) => nearest(dial, Model.BALANCED, substeps)), [1, 1, 2, 2, 1]);
+  assert.deepEqual(
+    [8, 11, 12, 1000, 1].map((substeps) => nearest(dial, Model.BALANCED, substeps)),
+    [1, 1, 2, 2, 1],
+  );
   assert.equal(nearest(dial, Model.FAST, 1000), 0);
   assert.equal(nearest(dial, Model.ACCURATE, 8), -1);
 });
@@ -58,7 +61,11 @@ test("the cost is proportional to the substeps, and shows whether the requested 
 });
 
 test("a goal survives the conversion to a message and back", () => {
-  const cases = [{ auto: "time", goal: 16 }, { auto: "overlap", goal: 0.7 }, { auto: "off", goal: 0 }] as const;
+  const cases = [
+    { auto: "time", goal: 16 },
+    { auto: "overlap", goal: 0.7 },
+    { auto: "off", goal: 0 },
+  ] as const;
   for (const held of cases) {
     assert.deepEqual(fromAuto(create(AutoSchema, toAuto(held.auto, held.goal))), held);
   }

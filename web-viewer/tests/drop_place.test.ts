@@ -28,19 +28,27 @@ test("a ray meets the far side of the bounds, or an obstacle before it", () => {
 });
 
 test("spheres are dropped above the place, against gravity", () => {
-  for (const [gravity, axis, side] of [[[0, 0, -9.81], 2, 1], [[0, 0, 0], 2, 1], [[5, 1, 0], 0, -1]] as const) {
+  for (const [gravity, axis, side] of [
+    [[0, 0, -9.81], 2, 1],
+    [[0, 0, 0], 2, 1],
+    [[5, 1, 0], 0, -1],
+  ] as const) {
     const place: Vec3 = [0.1, 0.2, 1];
     const { min, max, count, radius } = dropAbove(box, gravity, place, 0.1, 10, 0.05);
     assert.deepEqual([count, radius], [10, 0.05]);
     const nearest = side > 0 ? (min[axis] ?? 0) : (max[axis] ?? 0);
-    assert.ok(Math.abs((nearest - (place[axis] ?? 0)) * side - 0.155) < 1e-9, `${min} ${max}`);
+    assert.ok(Math.abs((nearest - place[axis]) * side - 0.155) < 1e-9, `${min} ${max}`);
     const volume = min.reduce((product, low, k) => product * ((max[k] ?? 0) - low), 1);
     assert.ok(10 * (4 / 3) * Math.PI * 0.05 ** 3 <= 0.2 * volume, "room for random places");
   }
 });
 
 test("the region for dropped spheres stays in the bounds", () => {
-  for (const place of [[1, 1, 2], [-1, -1, 0], [0, 0, 1.99]] as Vec3[]) {
+  for (const place of [
+    [1, 1, 2],
+    [-1, -1, 0],
+    [0, 0, 1.99],
+  ] as Vec3[]) {
     const { min, max } = dropAbove(box, [0, 0, -9.81], place, 0, 100, 0.1);
     min.forEach((low, k) => assert.ok(low >= (box.min[k] ?? 0) + 0.1 && (max[k] ?? 0) <= (box.max[k] ?? 0) - 0.1));
   }

@@ -72,7 +72,11 @@ test("even motion takes few bits, because steps are predicted", () => {
   const encoder = new Encoder(640);
   const [positions] = [...frames(640, 1)] as [Int32Array];
   const sizes = [0, 1, 2, 3].map((frame) => {
-    return encoder.encode(positions.map((q) => q + 1000 * frame), noTurns, false).spb.byteLength;
+    return encoder.encode(
+      positions.map((q) => q + 1000 * frame),
+      noTurns,
+      false,
+    ).spb.byteLength;
   });
   assert.ok((sizes[2] as number) < (sizes[1] as number) / 5, String(sizes));
 });

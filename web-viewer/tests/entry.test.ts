@@ -14,14 +14,23 @@ test("numbers are read as people write them, and nothing else is a number", () =
     ["16\u202f000\u202f000", 16e6],
     ["12 345", 12345],
   ];
-  assert.deepEqual(numbers.map(([text]) => parseEntry(text)), numbers.map(([, value]) => value));
+  assert.deepEqual(
+    numbers.map(([text]) => parseEntry(text)),
+    numbers.map(([, value]) => value),
+  );
   const wrong = ["", " ", "abc", "12abc", "1,5", "1.2.3", "1 2", "0x10", "Infinity", "NaN", "--1", "e5"];
-  assert.deepEqual(wrong.map(parseEntry), wrong.map(() => NaN));
+  assert.deepEqual(
+    wrong.map(parseEntry),
+    wrong.map(() => NaN),
+  );
 });
 
 test("a wrong entry is answered with the allowed numbers", () => {
   const rule = { unit: "m", least: 0.5, most: 20 };
-  assert.deepEqual([0.5, 20].map((value) => entryError(value, rule)), ["", ""]);
+  assert.deepEqual(
+    [0.5, 20].map((value) => entryError(value, rule)),
+    ["", ""],
+  );
   for (const value of [0.49, 20.1, NaN, Infinity]) {
     assert.equal(entryError(value, rule), "Give a number from 0.5 to 20\u00a0m", String(value));
   }

@@ -113,11 +113,7 @@ check("bytes per second", format.bytesPerSecond, [
   [2e9, "2 GB/s"],
 ]);
 
-check("bits per second", format.bitsPerSecond, [
-  ...none,
-  [0, "0 Mb/s"],
-  [125_000, "1 Mb/s"],
-]);
+check("bits per second", format.bitsPerSecond, [...none, [0, "0 Mb/s"], [125_000, "1 Mb/s"]]);
 
 check("clock times", format.clockTime, [
   ...none,
@@ -137,11 +133,20 @@ test("vectors have the same digits, unless that would hide them or take much roo
     [[1e15, 1, 0], "1e15  1  0"],
     [[NaN, 1, 2], "–  1  2"],
   ];
-  assert.deepEqual(rows.map(([values]) => format.vector(values)), rows.map(([, text]) => text));
+  assert.deepEqual(
+    rows.map(([values]) => format.vector(values)),
+    rows.map(([, text]) => text),
+  );
 });
 
 test("times in a recording", () => {
-  const times = [[3.2, 10], [65, 200], [0.0123, 0.05], [0, 0], [NaN, 10]] as const;
+  const times = [
+    [3.2, 10],
+    [65, 200],
+    [0.0123, 0.05],
+    [0, 0],
+    [NaN, 10],
+  ] as const;
   const texts = times.map(([time, duration]) => format.recordingTime(time, duration));
   assert.deepEqual(texts, ["3.20 s", "1:05", "0.0123 s", "0.00 s", "–"]);
 });

@@ -18,5 +18,8 @@ test("for a recording, no key drops, pushes or removes spheres, and descriptions
   const arrows = Array.from({ length: 4 }, () => "orbit, or move the pulled sphere");
   assert.deepEqual(missing, [...simulated, ...depths, "from the past back to live", ...arrows]);
   const orbits = Array.from({ length: 4 }, () => "orbit");
-  assert.deepEqual(played.filter((text) => !live.includes(text)), ["one frame", "go to the beginning", ...orbits]);
+  assert.deepEqual(
+    played.filter((text) => !live.includes(text)),
+    ["one frame", "go to the beginning", ...orbits],
+  );
 });

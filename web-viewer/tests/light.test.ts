@@ -28,14 +28,22 @@ test("a scene sets direction, colour and strengths", () => {
   const { direction, key, sky } = lightOf({ direction: [0, -3, 4], strength: 2, colour: "#ff8000", sky: 0.5 });
   close(direction, [0, -0.6, 0.8]);
   close(key, [2 * 0.86, 2 * 0.86 * (128 / 255) ** 2, 0]);
-  close(sky, themes.light.sky.map((part) => part / 2));
+  close(
+    sky,
+    themes.light.sky.map((part) => part / 2),
+  );
 });
 
 test("the shadow map covers the bounds from every direction, straight from above and below, too", () => {
-  for (const direction of [[0, 0, 1], [0, 0, -1], [1, 2, 3], [-1, 0, 0]]) {
+  for (const direction of [
+    [0, 0, 1],
+    [0, 0, -1],
+    [1, 2, 3],
+    [-1, 0, 0],
+  ]) {
     const { map } = lightOf({ direction });
     for (let corner = 0; corner < 8; corner++) {
-      const [x = 0, y = 0, z = 0] = [corner & 1 ? 2 : -2, corner & 2 ? 2 : -2, corner & 4 ? 0.5 : -0.5];
+      const [x, y, z] = [corner & 1 ? 2 : -2, corner & 2 ? 2 : -2, corner & 4 ? 0.5 : -0.5] as const;
       for (let row = 0; row < 3; row++) {
         const at = map[row]! * x + map[4 + row]! * y + map[8 + row]! * z + map[12 + row]!;
         assert.ok(at >= 0 && at <= 1, `${direction}: ${at}`);

@@ -72,7 +72,12 @@ class World {
       this.time += spacing;
       this.stamp += gap;
       const begins = key && k === 0;
-      const spb = begins ? keyframe(this.number, [[this.x, 0, 0], [9, 9, 9]]) : moved(this.number, 2, [1, 0, 0]);
+      const spb = begins
+        ? keyframe(this.number, [
+            [this.x, 0, 0],
+            [9, 9, 9],
+          ])
+        : moved(this.number, 2, [1, 0, 0]);
       const times = { simTime: this.time, stampUs: BigInt(Math.round(1e6 * this.stamp)) };
       const frame = frameOf(spb, { epoch: this.epoch, count: 2, population, quantum: 1, ...times });
       const message = toBinary(
@@ -122,7 +127,10 @@ test("what is older than half a minute is dropped, in whole segments", () => {
   assert.ok(Math.abs(history.end - begin - lookBackSeconds) < 1e-6);
   assert.ok(history.end - history.begin < lookBackSeconds + 11);
   assert.ok(history.all.length > 3);
-  assert.equal(history.frames, history.all.reduce((sum, { entries }) => sum + entries.length, 0));
+  assert.equal(
+    history.frames,
+    history.all.reduce((sum, { entries }) => sum + entries.length, 0),
+  );
 });
 
 test("while the past is shown, its begin stays", () => {
@@ -187,7 +195,10 @@ test("a change of the population is played where it happened, and undone by a se
   assert.deepEqual(rest, []);
   assert.ok(typeof before === "object" && "places" in before && before.population === 0 && before.places.length === 1);
   assert.ok(isAt(frame, 102));
-  assert.deepEqual(world.seek(199 * spacing - 1e-4).filter((entry) => typeof entry !== "object"), []);
+  assert.deepEqual(
+    world.seek(199 * spacing - 1e-4).filter((entry) => typeof entry !== "object"),
+    [],
+  );
   const forward = world.seek(100 * spacing - 1e-4);
   assert.ok(isAt(forward.at(-1), 202));
   const known = forward.map((entry) => (typeof entry === "number" ? entry : "places" in entry ? entry.population : 0));
@@ -206,14 +217,21 @@ test("facts at any moment tell which spheres are in which places", () => {
   const radii = new Uint8Array(Float32Array.of(0.125).buffer);
   world.change({ added: [create(PlacesSchema, { first: 0, count: 1, id: 9n, group: 1, radii })], groups: [{}] });
   const { facts } = world.lookBack;
-  assert.deepEqual(facts?.places.map(({ first, count, id, group }) => [first, count, id, group]), [
-    [0, 1, 9n, 1],
-    [1, 1, 1n, 0],
-  ]);
-  assert.deepEqual([facts?.population, facts?.groups.length], [2, 2]);
-  assert.deepEqual([...new Float32Array(facts?.radii.slice().buffer ?? new ArrayBuffer(0))], [0.125, 0.5]);
+  assert.deepEqual(
+    facts?.places.map(({ first, count, id, group }) => [first, count, id, group]),
+    [
+      [0, 1, 9n, 1],
+      [1, 1, 1n, 0],
+    ],
+  );
+  assert.deepEqual([facts.population, facts.groups.length], [2, 2]);
+  assert.deepEqual([...new Float32Array(facts.radii.slice().buffer)], [0.125, 0.5]);
   world.change({ removed: [create(PlacesSchema, { first: 0, count: 2 })] });
-  assert.deepEqual(world.lookBack.facts?.places.map(({ count }) => count), [0], "no place is in use");
+  assert.deepEqual(
+    world.lookBack.facts?.places.map(({ count }) => count),
+    [0],
+    "no place is in use",
+  );
 });
 
 test("other scenes and connections keep their own facts", () => {

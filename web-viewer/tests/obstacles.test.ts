@@ -98,7 +98,10 @@ test("triangles are counter-clockwise as seen from the free side", () => {
   const cylinder = { $typeName: "spherule.v1.CylinderShape" as const, from: [0, 0, 0], to: [0, 1, 1], radius: 0.5 };
   const plane = { $typeName: "spherule.v1.Plane" as const, point: [0, 0, 0], normal: [1, 0, 1] };
   const box = { $typeName: "spherule.v1.Box" as const, min: [-1, -1, -1], max: [1, 1, 1] };
-  const shapes: Obstacle["shape"][] = [{ case: "plane", value: plane }, { case: "box", value: box }];
+  const shapes: Obstacle["shape"][] = [
+    { case: "plane", value: plane },
+    { case: "box", value: box },
+  ];
   for (const hollow of [false, true]) {
     shapes.push({ case: "sphere", value: { ...sphere, hollow } }, { case: "cylinder", value: { ...cylinder, hollow } });
   }

@@ -102,7 +102,10 @@ test("a dismissed number of spheres outside is reported again once it has double
   const outside = new OutsideCount();
   assert.equal(outside.due(2), 2);
   outside.dismiss(2);
-  assert.deepEqual([2, 3, 4].map((count) => outside.due(count)), [0, 0, 4]);
+  assert.deepEqual(
+    [2, 3, 4].map((count) => outside.due(count)),
+    [0, 0, 4],
+  );
   outside.dismiss(4);
   assert.equal(outside.due(0), 0); // the scene was reset
   assert.equal(outside.due(1), 1);

@@ -51,7 +51,12 @@ test("delays of up to a third of an interval have little effect", () => {
 });
 
 test("a skipped frame changes the speed by less than a quarter", () => {
-  for (const step of steps(play(() => 0, (index) => index % 7 === 3))) {
+  for (const step of steps(
+    play(
+      () => 0,
+      (index) => index % 7 === 3,
+    ),
+  )) {
     assert.ok(step > 0.75 / 60 && step < 1.25 / 60, `${step}`);
   }
 });

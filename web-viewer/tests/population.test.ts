@@ -41,10 +41,19 @@ const sizesOf = (population: Population): number[] => population.groups.map(({ c
 test("runs of places say which sphere is at each place", () => {
   const population = populationOf();
   assert.deepEqual(idsOf(population), [undefined, 10, 11, undefined, undefined, 4]);
-  assert.deepEqual(all.map((place) => population.isUsed(place)), [false, true, true, false, false, true]);
+  assert.deepEqual(
+    all.map((place) => population.isUsed(place)),
+    [false, true, true, false, false, true],
+  );
   const groups = [undefined, "gas", "gas", undefined, undefined, "dust"];
-  assert.deepEqual(all.map((place) => population.groupOf(place)?.name), groups);
-  assert.deepEqual([4, 10, 11, 12].map((id) => population.placeOf(id)), [5, 1, 2, undefined]);
+  assert.deepEqual(
+    all.map((place) => population.groupOf(place)?.name),
+    groups,
+  );
+  assert.deepEqual(
+    [4, 10, 11, 12].map((id) => population.placeOf(id)),
+    [5, 1, 2, undefined],
+  );
   assert.deepEqual([population.count, population.places, sizesOf(population)], [3, 6, [2, 1]]);
   assert.deepEqual(population.idRange, [4, 11]);
 });
@@ -68,7 +77,10 @@ test("the mean radius is of the spheres that can move, or of all if none can", (
 });
 
 test("without places, all are in use and ids are places, as older servers have it", () => {
-  const groups = [{ name: "a", first: 0, count: 2 }, { name: "b", first: 2, count: 4 }];
+  const groups = [
+    { name: "a", first: 0, count: 2 },
+    { name: "b", first: 2, count: 4 },
+  ];
   const population = populationOf({ places: [], groups });
   assert.deepEqual(idsOf(population), all);
   assert.deepEqual([population.ids, population.radii, population.count], [undefined, undefined, 6]);
@@ -90,7 +102,10 @@ test("a change removes spheres, then adds others", () => {
     groups: [{ name: "rain" }],
     added: [{ first: 0, count: 2, id: 5_000_000_000n, group: 2, radii: floats(0.5, 2) }],
   });
-  assert.deepEqual(changed, [{ first: 1, count: 1 }, { first: 0, count: 2 }]);
+  assert.deepEqual(changed, [
+    { first: 1, count: 1 },
+    { first: 0, count: 2 },
+  ]);
   assert.deepEqual(idsOf(population), [5_000_000_000, 5_000_000_001, 11, undefined, undefined, 4]);
   assert.deepEqual([...(population.radii ?? [])], [0.5, 2, 0.25, 0, 0, 0.75]);
   assert.deepEqual([population.groupOf(1)?.name, sizesOf(population)], ["rain", [1, 1, 2]]);
@@ -99,14 +114,43 @@ test("a change removes spheres, then adds others", () => {
 
 test("ranges follow the spheres that exist", () => {
   const population = populationOf({ radius: 0, radii: floats(0, 1, 0.25, 0, 0, 0.75) });
-  assert.deepEqual([population.radiusRange, population.idRange], [[0.25, 1], [4, 11]]);
-  apply(population, { removed: [{ first: 1, count: 1 }, { first: 5, count: 1 }] });
-  assert.deepEqual([population.radiusRange, population.idRange], [[0.25, 0.25], [11, 11]]);
+  assert.deepEqual(
+    [population.radiusRange, population.idRange],
+    [
+      [0.25, 1],
+      [4, 11],
+    ],
+  );
+  apply(population, {
+    removed: [
+      { first: 1, count: 1 },
+      { first: 5, count: 1 },
+    ],
+  });
+  assert.deepEqual(
+    [population.radiusRange, population.idRange],
+    [
+      [0.25, 0.25],
+      [11, 11],
+    ],
+  );
   apply(population, { added: [{ first: 3, count: 1, id: 20n, group: 0, radii: floats(3) }] });
-  assert.deepEqual([population.radiusRange, population.idRange], [[0.25, 3], [11, 20]]);
+  assert.deepEqual(
+    [population.radiusRange, population.idRange],
+    [
+      [0.25, 3],
+      [11, 20],
+    ],
+  );
   const ranges = new ColourRanges();
   const scene = factsOf(create(SceneFactsSchema, facts));
-  assert.deepEqual([ranges.of("id", scene), ranges.of("radius", scene)], [[4, 11], [0.5, 0.5]]);
+  assert.deepEqual(
+    [ranges.of("id", scene), ranges.of("radius", scene)],
+    [
+      [4, 11],
+      [0.5, 0.5],
+    ],
+  );
 });
 
 test("the first change of a scene whose places were all in use makes its tables", () => {
@@ -120,16 +164,34 @@ test("the first change of a scene whose places were all in use makes its tables"
 test("places beyond the last one are ignored", () => {
   const population = populationOf({ places: [{ first: 4, count: 9, id: 1n, group: 0 }] });
   assert.deepEqual([population.count, population.radii?.length], [2, 6]);
-  const removed = [{ first: 5, count: 7 }, { first: 4_000_000_000, count: 4_000_000_000 }];
+  const removed = [
+    { first: 5, count: 7 },
+    { first: 4_000_000_000, count: 4_000_000_000 },
+  ];
   assert.deepEqual(apply(population, { removed }), [{ first: 5, count: 1 }]);
   assert.equal(population.count, 1);
 });
 
 test("runs are joined to few uploads, and two populations are compared by their spheres", () => {
-  const runs = [{ first: 90, count: 2 }, { first: 0, count: 5 }, { first: 8, count: 1 }, { first: 3, count: 1 }];
-  assert.deepEqual(joined(runs, 3), [{ first: 0, count: 9 }, { first: 90, count: 2 }]);
-  assert.deepEqual(joined(runs, 2), [{ first: 0, count: 5 }, { first: 8, count: 1 }, { first: 90, count: 2 }]);
-  const places = [{ first: 1, count: 1, id: 10n, group: 0 }, { first: 4, count: 2, id: 30n, group: 1 }];
+  const runs = [
+    { first: 90, count: 2 },
+    { first: 0, count: 5 },
+    { first: 8, count: 1 },
+    { first: 3, count: 1 },
+  ];
+  assert.deepEqual(joined(runs, 3), [
+    { first: 0, count: 9 },
+    { first: 90, count: 2 },
+  ]);
+  assert.deepEqual(joined(runs, 2), [
+    { first: 0, count: 5 },
+    { first: 8, count: 1 },
+    { first: 90, count: 2 },
+  ]);
+  const places = [
+    { first: 1, count: 1, id: 10n, group: 0 },
+    { first: 4, count: 2, id: 30n, group: 1 },
+  ];
   assert.deepEqual(differences(populationOf(), populationOf({ places })), [
     { first: 2, count: 1 },
     { first: 4, count: 2 }, // place 5 has another sphere
@@ -139,9 +201,27 @@ test("runs are joined to few uploads, and two populations are compared by their 
 test("places without a sphere are not measured, and the legend counts spheres", () => {
   const scene = factsOf(create(SceneFactsSchema, { ...facts, boundsMin: [-9, -9, -9], boundsMax: [9, 9, 9] }));
   const isUsed = (place: number): boolean => scene.population.isUsed(place);
-  assert.equal(highOf((place) => (isUsed(place) ? 7 - place : 1000), 6, isUsed), 5);
-  assert.equal(highOf(() => 1000, 6, () => false), undefined);
-  assert.equal(highOf((place) => place, 5000, (place) => place === 1234), 1234, "one sphere between two samples");
+  assert.equal(
+    highOf((place) => (isUsed(place) ? 7 - place : 1000), 6, isUsed),
+    5,
+  );
+  assert.equal(
+    highOf(
+      () => 1000,
+      6,
+      () => false,
+    ),
+    undefined,
+  );
+  assert.equal(
+    highOf(
+      (place) => place,
+      5000,
+      (place) => place === 1234,
+    ),
+    1234,
+    "one sphere between two samples",
+  );
   const legend = quantityOf("group").legend(scene, [0, 1]);
   assert.deepEqual("swatches" in legend && legend.swatches.map(({ figure }) => figure), ["2", "1"]);
 });
@@ -172,7 +252,13 @@ test("a change is applied with the first frame that includes it, however many fr
   population(3, { added: [{ first: 1, count: 1, id: 30n, group: 0 }] });
   frame(3, all);
   assert.deepEqual([session.facts?.population.count, session.facts?.population.placeOf(30)], [2, 1]);
-  assert.deepEqual(changes, [[{ first: 1, count: 1 }], [{ first: 2, count: 1 }, { first: 1, count: 1 }]]);
+  assert.deepEqual(changes, [
+    [{ first: 1, count: 1 }],
+    [
+      { first: 2, count: 1 },
+      { first: 1, count: 1 },
+    ],
+  ]);
   assert.equal(session.frames, 4);
 });
 
@@ -213,9 +299,18 @@ test("facts of the same epoch replace the tables with the first frame that inclu
   frame(0, all);
   assert.deepEqual(session.facts && idsOf(session.facts.population), [undefined, 10, 11, undefined, undefined, 4]);
   frame(4, all);
-  assert.deepEqual([2, 3].map((place) => session.facts?.population.idOf(place)), [11, 12]);
+  assert.deepEqual(
+    [2, 3].map((place) => session.facts?.population.idOf(place)),
+    [11, 12],
+  );
   assert.deepEqual([session.facts?.population.number, session.facts?.population.count], [4, 2]);
-  assert.deepEqual(changes, [[{ first: 1, count: 1 }, { first: 3, count: 1 }, { first: 5, count: 1 }]]);
+  assert.deepEqual(changes, [
+    [
+      { first: 1, count: 1 },
+      { first: 3, count: 1 },
+      { first: 5, count: 1 },
+    ],
+  ]);
   frame(5, all);
   assert.deepEqual([session.facts?.population.placeOf(40), session.facts?.population.count], [0, 3]);
   assert.deepEqual([scenes(), session.frames], [1, 4]);
@@ -239,7 +334,10 @@ test("a new sphere does not fly from the position of another, and a removed one 
   const [earliest, latest] = [session.states.shown(0)?.from, session.states.shown(1e9)?.to];
   population(1, {
     removed: [{ first: 1, count: 1 }],
-    added: [{ first: 1, count: 1, id: 50n, group: 0 }, { first: 3, count: 2, id: 51n, group: 0 }],
+    added: [
+      { first: 1, count: 1, id: 50n, group: 0 },
+      { first: 3, count: 2, id: 51n, group: 0 },
+    ],
   });
   frame(1, [9, -1, 3, -3, -4, 6]);
   const xs = (state: State | undefined): number[] =>

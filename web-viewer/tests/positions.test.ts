@@ -31,7 +31,10 @@ test("a position is relative to the centre of the bounds", () => {
 });
 
 test("radii are read as float32", () => {
-  assert.deepEqual([0, 1].map((place) => facts.population.radiusOf(place)), [0.5, 0.25]);
+  assert.deepEqual(
+    [0, 1].map((place) => facts.population.radiusOf(place)),
+    [0.5, 0.25],
+  );
   assert.deepEqual(facts.population.radiusRange, [0.25, 0.5]);
 });
 
@@ -76,10 +79,19 @@ test("a quantity of the server is known only if both states have it", () => {
 
 test("the high speed ignores the fastest spheres", () => {
   const many = Array.from({ length: 64 }, (_, id) => [0, 0, id === 63 ? 1000 : id]).flat();
-  const from = state(2, many.map(() => 0));
+  const from = state(
+    2,
+    many.map(() => 0),
+  );
   const to = state(2.5, many);
-  assert.equal(highOf((id) => speedOf(facts, between(from, to), id), 64), 122);
-  assert.equal(highOf((id) => speedOf(facts, between(from, from), id), 64), undefined);
+  assert.equal(
+    highOf((id) => speedOf(facts, between(from, to), id), 64),
+    122,
+  );
+  assert.equal(
+    highOf((id) => speedOf(facts, between(from, from), id), 64),
+    undefined,
+  );
 });
 
 const torus = factsOf(

@@ -5,14 +5,7 @@ import type { Drop } from "../src/connection/commands";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { factsOf } from "../src/model/facts";
 import type { Vec3 } from "../src/model/facts";
-import {
-  dropCountFor,
-  dropFor,
-  dropRadiusFor,
-  dropRadiusRule,
-  gravityPresetOf,
-  impulseRule,
-} from "../src/ui/presets";
+import { dropCountFor, dropFor, dropRadiusFor, dropRadiusRule, gravityPresetOf, impulseRule } from "../src/ui/presets";
 
 function factsWith(radius: number, side: number) {
   const places = radius > 0 ? { count: 2, radius } : {};

@@ -65,7 +65,12 @@ test("the pointer moves in the plane parallel to the picture", () => {
     const view = viewOf(pose, extent, 800, 600, insets, 50, orthographic);
     const { right, up, away } = axesOf(view);
     const dot = (a: Vec3, b: Vec3): number => a.reduce((sum, part, k) => sum + part * (b[k] ?? 0), 0);
-    for (const [a, b, product] of [[right, up, 0], [right, away, 0], [up, away, 0], [up, up, 1]] as const) {
+    for (const [a, b, product] of [
+      [right, up, 0],
+      [right, away, 0],
+      [up, away, 0],
+      [up, up, 1],
+    ] as const) {
       assert.ok(Math.abs(dot(a, b) - product) < 1e-4, `${a} ${b}`);
     }
     assert.ok(up[2] > 0);

@@ -109,6 +109,9 @@ test("a legend has a bar with its ends, or swatches and notes", () => {
 test("the legend of groups lists six of them, and counts the others", () => {
   const legend = legendOf("group", facts());
   assert.ok("swatches" in legend);
-  assert.deepEqual(legend.swatches.map(({ name }) => name), ["g0", "g1", "g2", "g3", "g4", "g5"]);
+  assert.deepEqual(
+    legend.swatches.map(({ name }) => name),
+    ["g0", "g1", "g2", "g3", "g4", "g5"],
+  );
   assert.deepEqual(legend.notes, ["and 2 more"]);
 });

@@ -42,7 +42,13 @@ function past(frames = 300): readonly Segment[] {
       lookBack.populationReceived(create(PopulationSchema, { epoch: 3, number: 2, removed }));
     }
     const population = number < 50 ? 0 : number < 100 ? 1 : 2;
-    const first = (): Uint8Array => keyframe(1, [[30, 0, 0], [10, 0, 0], [0, 0, 0], [20, 0, 0]]);
+    const first = (): Uint8Array =>
+      keyframe(1, [
+        [30, 0, 0],
+        [10, 0, 0],
+        [0, 0, 0],
+        [20, 0, 0],
+      ]);
     const spb = number === 1 ? first() : moved(number, 4, [0, 1, 0]);
     const times = { step: BigInt(number), simTime: number / 10, stampUs: BigInt(number * 100_000) };
     const frame = frameOf(spb, { count: 4, population, quantum: 0.5, ...times });
@@ -97,8 +103,22 @@ test("a written recording has the spheres and positions of the past", () => {
   assert.deepEqual([xs(frames.at(-1)), frames.at(-1)?.columns.position.values[1]], [[0, 10, 15, 5], 24.5]);
   player.seek(29.95);
   assert.deepEqual([xs(frames.at(-1)), frames.at(-1)?.columns.position.values[1]], [[0, 15, 5], 149]);
-  assert.deepEqual(frames.map(({ step, simTime }) => [step, simTime]), [[1, 0.1], [50, 5], [299, 29.9]]);
-  assert.deepEqual(scenes.map(({ count, places }) => [count, places.length]), [[3, 0], [4, 0], [3, 0]]);
+  assert.deepEqual(
+    frames.map(({ step, simTime }) => [step, simTime]),
+    [
+      [1, 0.1],
+      [50, 5],
+      [299, 29.9],
+    ],
+  );
+  assert.deepEqual(
+    scenes.map(({ count, places }) => [count, places.length]),
+    [
+      [3, 0],
+      [4, 0],
+      [3, 0],
+    ],
+  );
   const groups = scenes.map((facts) => facts.groups.map(({ name, first, count }) => `${name} ${first} ${count}`));
   assert.deepEqual(groups.map(String), ["one 0 1,two 1 2", "one 0 1,two 1 2,one 3 1", "one 0 1,two 1 1,one 2 1"]);
   assert.deepEqual(scenes[0]?.groups[0]?.material, 3);

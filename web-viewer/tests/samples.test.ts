@@ -52,5 +52,8 @@ test("charts show the figures with their units, and gaps where they are unknown"
   ]);
   const without = { ...sample, statistics: create(StatisticsSchema) };
   assert.deepEqual(chartKinds[4]?.series(without), [], "a scene without contact sums has no forces");
-  assert.deepEqual(chartKinds[4]?.series(sample).map((one) => one.value(without)), [NaN]);
+  assert.deepEqual(
+    chartKinds[4].series(sample).map((one) => one.value(without)),
+    [NaN],
+  );
 });

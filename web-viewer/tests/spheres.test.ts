@@ -44,9 +44,21 @@ test("a change of the population uploads only what has changed, after the first 
   const whole = uploads.filter(([, count]) => count === places);
   assert.equal(whole.length, 3, "radii, ids and groups");
   change({ number: 2, removed: [{ first: 500, count: 3 }], added: [{ first: 7, count: 1, id: 1000n, group: 0 }] });
-  const tables = [[7, 1], [7, 1], [7, 1], [500, 3], [500, 3], [500, 3]]; // radii, ids and groups
+  const tables = [
+    [7, 1],
+    [7, 1],
+    [7, 1],
+    [500, 3],
+    [500, 3],
+    [500, 3],
+  ]; // radii, ids and groups
   const looks = [[0, 2]];
-  const values = [[7, 1], [500, 3], [7, 1], [500, 3]]; // of both states
+  const values = [
+    [7, 1],
+    [500, 3],
+    [7, 1],
+    [500, 3],
+  ]; // of both states
   assert.deepEqual(uploads, [...tables, ...looks, ...values]);
 });
 
@@ -55,7 +67,11 @@ test("a table uploads the rows of a range in few parts", () => {
   const table = new Table(gl, 1);
   table.fit(10_000);
   table.upload(new Float32Array(10_000), { first: 2000, count: 7000 });
-  assert.deepEqual(uploads, [[2000, 48], [2048, 6144], [8192, 808]]);
+  assert.deepEqual(uploads, [
+    [2000, 48],
+    [2048, 6144],
+    [8192, 808],
+  ]);
 });
 
 test("a state that is shown again is not uploaded again", () => {

@@ -44,15 +44,21 @@ test("each decoded frame is passed on, and acknowledged with its decode time", (
   stream.drawRate = 48;
   receive(10, keyframe(1, [[2, 4, 6]]));
   receive(12, still(2, 1), { population: 3 });
-  assert.deepEqual(acks.map(({ sequence, drawRate, lost }) => [sequence, drawRate, lost]), [
-    [10n, 48, false],
-    [12n, 48, false],
-  ]);
+  assert.deepEqual(
+    acks.map(({ sequence, drawRate, lost }) => [sequence, drawRate, lost]),
+    [
+      [10n, 48, false],
+      [12n, 48, false],
+    ],
+  );
   assert.ok(acks.every(({ decodeMs = -1 }) => decodeMs >= 0));
   const [state] = states;
   assert.deepEqual([...(state?.columns.position.values ?? [])], [1, 2, 3]);
   assert.deepEqual([state?.sequence, state?.step, state?.simTime, state?.columns.position.quantum], [10, 120, 2, 0.5]);
-  assert.deepEqual(states.map(({ population }) => population), [0, 3]);
+  assert.deepEqual(
+    states.map(({ population }) => population),
+    [0, 3],
+  );
   assert.deepEqual([state?.arrival, state?.ready, state?.bytes], [1234, 5000, 99]);
 });
 
@@ -65,7 +71,11 @@ test("a lost chain is reported once, and one keyframe is requested", () => {
   assert.deepEqual(requests(), [2]);
   assert.equal(faults.length, 1);
   assert.equal(lost(), 3);
-  assert.deepEqual(acks.map((ack) => Number(ack.sequence)), [1, 2, 3, 4], "every frame is acknowledged");
+  assert.deepEqual(
+    acks.map((ack) => Number(ack.sequence)),
+    [1, 2, 3, 4],
+    "every frame is acknowledged",
+  );
   receive(5, keyframe(6, [[0, 0, 0]]));
   receive(6, still(7, 1));
   assert.equal(states.length, 3);
@@ -92,7 +102,10 @@ test("the waits between requests grow while no keyframe helps", () => {
   timers.enable();
   let now = 0;
   const asked: [number, bigint][] = [];
-  const keyframe = new KeyframeRequester((sequence) => void asked.push([now, sequence]), () => now);
+  const keyframe = new KeyframeRequester(
+    (sequence) => void asked.push([now, sequence]),
+    () => now,
+  );
   for (now = 0; now <= 40_000; now += 500) {
     keyframe.request(BigInt(now));
     timers.tick(500);
@@ -108,7 +121,10 @@ test("the waits between requests grow while no keyframe helps", () => {
 test("a decoded keyframe cancels the next request", () => {
   timers.enable();
   let asked = 0;
-  const keyframe = new KeyframeRequester(() => void (asked += 1), () => 0);
+  const keyframe = new KeyframeRequester(
+    () => void (asked += 1),
+    () => 0,
+  );
   assert.deepEqual([keyframe.request(1n), keyframe.request(2n), keyframe.request(3n)], [true, false, false]);
   keyframe.cancel();
   timers.tick(60_000);

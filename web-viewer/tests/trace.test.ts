@@ -30,7 +30,10 @@ test("the path joins the states that were shown, and ends at the sphere", () => 
   for (const [k, from] of states.slice(0, 3).entries()) {
     for (const mix of [0.25, 0.75]) trace.update(facts, between(from, states[k + 1] as State, mix), 1, 1);
   }
-  assert.deepEqual(xsOf(trace), [[-1, -0.5], [-0.5, 0]]);
+  assert.deepEqual(xsOf(trace), [
+    [-1, -0.5],
+    [-0.5, 0],
+  ]);
   assert.deepEqual([...trace.end], [0.375, 0.5, 0]);
 });
 

@@ -43,10 +43,16 @@ try {
   console.log(`Chromium ${browser.version()}, ${values.play ?? `${values.scene} on ${values.device}`}`);
   const all = [];
   for (let k = 0; k < Number(values.openings); k++) all.push(await openOnce(browser, server.url));
-  line("WebSocket opened to picture handed over", all.map((one) => one.drawn - one.open));
+  line(
+    "WebSocket opened to picture handed over",
+    all.map((one) => one.drawn - one.open),
+  );
   for (let k = 1; k < marks.length; k++) {
     const [from, to] = [marks[k - 1], marks[k]];
-    line(`  ${from} to ${to}`, all.map((one) => one[to] - one[from]));
+    line(
+      `  ${from} to ${to}`,
+      all.map((one) => one[to] - one[from]),
+    );
   }
 } finally {
   await browser.close();

@@ -89,7 +89,13 @@ function own(count: number, full: boolean): Subject {
   const places = Uint32Array.from({ length: count }, (_, k) => k);
   renderer.setFacts(facts, themes.light, { epoch: 1, number: 1, places });
   const boxes = new Float32Array(6 * Math.ceil(count / blockPlaces));
-  boxesOf(Int32Array.from(positions, (x) => Math.round(1e6 * x)), count, [1e-6, 1e-6, 1e-6], [0, 0, 0], boxes);
+  boxesOf(
+    Int32Array.from(positions, (x) => Math.round(1e6 * x)),
+    count,
+    [1e-6, 1e-6, 1e-6],
+    [0, 0, 0],
+    boxes,
+  );
   const state = (sequence: number): State => ({
     sequence,
     epoch: 1,

@@ -42,9 +42,14 @@ const shortShaders = {
   name: "short shaders",
   setup(build) {
     build.onLoad({ filter: /\.glsl$/ }, ({ path: file }) => {
-      const lines = readFileSync(file, "utf8").replace(/\s*\/\/.*$/gm, "").split("\n");
+      const lines = readFileSync(file, "utf8")
+        .replace(/\s*\/\/.*$/gm, "")
+        .split("\n");
       const short = (line) => (line.startsWith("#") ? line : line.replace(/\s*([=*/(){},;?:<>])\s*/g, "$1"));
-      const contents = lines.map((line) => short(line.trim())).filter((line) => line !== "").join("\n");
+      const contents = lines
+        .map((line) => short(line.trim()))
+        .filter((line) => line !== "")
+        .join("\n");
       return { contents, loader: "text" };
     });
   },

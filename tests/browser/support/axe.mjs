@@ -41,7 +41,7 @@ export function faintParts(page, canvas) {
     };
     const groundOf = (element, colour) => {
       const chain = [];
-      for (let one = element; one && one.id !== "page"; one = one.parentElement) chain.unshift(one);
+      for (let one = element; one && !one.matches(".page"); one = one.parentElement) chain.unshift(one);
       return chain.reduce((under, one) => over(parse(getComputedStyle(one).backgroundColor), under), colour);
     };
     const edgeOf = ({ borderTopWidth, borderTopColor, boxShadow, backgroundColor }) => {
@@ -53,7 +53,7 @@ export function faintParts(page, canvas) {
       const found = contrast(over(parse(colour), ground), ground);
       if (found < least) faults.push(`${what}: ${found.toFixed(2)} on ${ground.map(Math.round)}`);
     };
-    for (const element of document.querySelectorAll("#page *")) {
+    for (const element of document.querySelectorAll(".page *")) {
       if (!element.checkVisibility() || element.closest(":disabled, .lil-disabled, option")) continue;
       const style = getComputedStyle(element);
       const texts = [...element.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE);

@@ -20,7 +20,7 @@ async function boxesOf(page) {
         return !isHidden && (field.left < line.left || field.right > line.right || field.bottom > line.bottom);
       })
       .map((element) => element.className),
-    boxes: Array.from(document.querySelectorAll("#page > *, .facts > *, .controls > *, header > *, .transport > *"))
+    boxes: Array.from(document.querySelectorAll(".page > *, .facts > *, .controls > *, header > *, .transport > *"))
       .filter((element) => !element.matches(".foot, header, .toasts, dialog"))
       .map((element) => ({
         name: element.className || element.dataset.testid || element.tagName,
@@ -72,7 +72,10 @@ export async function galleryFaults(page) {
     const cards = Array.from(gallery.querySelectorAll("li button"));
     const found = [];
     if (boxOf(document.activeElement).top < boxOf(close).bottom) found.push("the title covers the focused card");
-    for (const [place, card] of [["beginning", cards[0]], ["end", cards.at(-1)]]) {
+    for (const [place, card] of [
+      ["beginning", cards[0]],
+      ["end", cards.at(-1)],
+    ]) {
       gallery.scrollTop = place === "end" ? gallery.scrollHeight : 0;
       await new Promise(requestAnimationFrame);
       const [window, frame] = [{ left: 0, top: 0, right: innerWidth, bottom: innerHeight }, boxOf(gallery)];

@@ -7,7 +7,7 @@
 export async function pictureOf(page) {
   // The page's security policy forbids style sheets and requests, but allows images in data addresses.
   const setVisibility = (visibility) =>
-    page.evaluate((value) => (document.getElementById("page").style.visibility = value), visibility);
+    page.evaluate((value) => (document.querySelector(".page").style.visibility = value), visibility);
   await setVisibility("hidden");
   const shot = await page.screenshot({ scale: "css", timeout: 120_000 });
   const { width, data } = await page.evaluate(async (encoded) => {

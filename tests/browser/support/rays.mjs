@@ -76,7 +76,7 @@ const offsets = [-1, -0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75, 1]; // px
  * middle; `wrong`: those whose place is not expected anywhere within one pixel of their middle. A sphere may be smaller
  * than the distance of the points that are tried there: then its centre counts.
  */
-export function compare({ width, height, places }, expected) {
+export function compare({ width, places }, expected) {
   const wrong = [];
   let differ = 0;
   places.forEach((place, k) => {

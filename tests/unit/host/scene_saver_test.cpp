@@ -181,5 +181,19 @@ TEST_F(SaveScene, IsDoneOnceAtATime) {
     EXPECT_EQ(ask(saver).get().refusal, 404);
 }
 
+TEST_F(SaveScene, CanBeAskedAgainAfterASimulationHasEndedBeforeItAnswered) {
+    const auto simulation = simulate(full, *device_);
+    SceneSaver saver;
+    saver.open();
+    auto first = ask(saver);
+    saver.close();
+    EXPECT_EQ(first.get().refusal, 503);
+    std::this_thread::sleep_for(1100ms);
+    saver.open();
+    auto next = ask(saver);
+    saver.serve(*simulation);
+    EXPECT_TRUE(next.get().document);
+}
+
 }  // namespace
 }  // namespace spherule::host

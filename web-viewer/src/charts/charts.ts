@@ -13,7 +13,10 @@ const height = 170; // CSS pixels
 const colours = 8; // in charts.css
 const dashes = [[], [6, 3], [2, 2], [8, 3, 2, 3], [], [6, 3], [2, 2], [8, 3, 2, 3]];
 
-function element<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, ...children: (Node | string)[]) {
+function element<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[Tag] {
   const made = document.createElement(tag);
   made.append(...children);
   return made;
@@ -50,7 +53,7 @@ export class Charts {
   /** Shows the samples. Does nothing if they are shown already. */
   update(samples: Samples): void {
     const { list, version } = samples;
-    const theme = document.documentElement.dataset.theme ?? "";
+    const theme = this.parent.closest<HTMLElement>("[data-theme]")?.dataset.theme ?? "";
     const width = this.host.clientWidth;
     const content = [version, this.kind.name, theme, width].join(" ");
     if (content === this.drawn || width === 0) return;

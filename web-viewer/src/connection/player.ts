@@ -166,7 +166,7 @@ export class Player {
     let from = this.segment;
     if (!from || !this.history.has(from)) return false;
     if (from === segment) return index >= this.next;
-    while (from && from.number < segment.number) {
+    while (from.number < segment.number) {
       from = this.history.after(from);
       if (!from?.joins) return false;
     }

@@ -31,7 +31,7 @@ export function saveViewRequest({ tier, rate, fixed }: ViewRequest, store: () =>
 }
 
 function tierName(tier: Tier): string {
-  return (Tier[tier] ?? "unknown").toLowerCase();
+  return Tier[tier].toLowerCase();
 }
 
 function savedIn(store: () => Store): Record<string, unknown> {

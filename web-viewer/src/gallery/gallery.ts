@@ -1,7 +1,7 @@
 import type { Commands } from "../connection/commands";
 import { count } from "../format";
 import type { Session } from "../model/session";
-import { h, setText } from "../ui/dom";
+import { h, setText, uniqueId } from "../ui/dom";
 import { adoptStyle } from "../ui/parts";
 import style from "./gallery.css";
 
@@ -16,7 +16,7 @@ const ownScene = "This scene is not part of the program. Reset returns to its be
 
 /** A dialog with the scenes of the program, as cards with pictures. A click on a card loads its scene. */
 export class Gallery {
-  private readonly note = h("p", { id: "gallery-note", class: "blocked", "data-testid": "gallery-note" });
+  private readonly note = h("p", { id: uniqueId("gallery"), class: "blocked", "data-testid": "gallery-note" });
   private readonly list = h("ul");
   readonly element: HTMLDialogElement;
   private shown: unknown[] = []; // from which the cards were made
@@ -26,19 +26,20 @@ export class Gallery {
     private readonly commands: Commands,
   ) {
     adoptStyle(style);
+    const title = uniqueId("gallery");
     const close = (): void => this.element.close();
     this.element = h(
       "dialog",
       {
         class: "gallery",
         "data-testid": "gallery",
-        "aria-labelledby": "gallery-title",
+        "aria-labelledby": title,
         click: ({ target }: Event) => target === this.element && close(), // on the backdrop
       },
       h(
         "div",
         { class: "row" },
-        h("h2", { id: "gallery-title" }, "Scenes"),
+        h("h2", { id: title }, "Scenes"),
         h("button", { type: "button", class: "close", title: "Close (Esc)", "aria-label": "Close", click: close }, "×"),
       ),
       this.note,

@@ -69,7 +69,11 @@ export class ColourRanges {
     this.measured = shown.to.sequence;
     const places = Math.min(shown.from.count, shown.to.count);
     const { range, value } = automatic;
-    const high = highOf((place) => value(facts, shown, place), places, (place) => facts.population.isUsed(place));
+    const high = highOf(
+      (place) => value(facts, shown, place),
+      places,
+      (place) => facts.population.isUsed(place),
+    );
     if (high !== undefined) range.update(high, now);
   }
 

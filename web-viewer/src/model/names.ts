@@ -32,5 +32,10 @@ function sanitize(client: string): string {
   const unsafe = /[\p{Cc}\p{Bidi_Control}\p{Default_Ignorable_Code_Point}]/gu;
   const visible = client.replace(unsafe, " ").replace(/\s+/gu, " ").trim();
   const letters = [...visible];
-  return letters.length > longest ? `${letters.slice(0, longest - 1).join("").trimEnd()}…` : visible;
+  return letters.length > longest
+    ? `${letters
+        .slice(0, longest - 1)
+        .join("")
+        .trimEnd()}…`
+    : visible;
 }

@@ -11,16 +11,7 @@ import type { LinkState } from "../connection/messages";
  * - `locked`: the server requires a token.
  */
 export type Situation =
-  | "connecting"
-  | "waiting"
-  | "live"
-  | "empty"
-  | "silent"
-  | "offline"
-  | "refused"
-  | "ended"
-  | "lost"
-  | "locked";
+  "connecting" | "waiting" | "live" | "empty" | "silent" | "offline" | "refused" | "ended" | "lost" | "locked";
 
 /** Whether the page can draw. `lost`: the browser has taken the WebGL context away. `none`: there is no WebGL 2. */
 export type Graphics = "ok" | "lost" | "none";

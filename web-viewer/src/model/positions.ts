@@ -79,11 +79,7 @@ export function speedOf(facts: Facts, shown: Shown, place: number): number {
  * The speed of a sphere (m/s): the one that the server sent, or the mean between the two states, which is off by at
  * most `error` because positions are quantised. Undefined: unknown.
  */
-export function shownSpeed(
-  facts: Facts,
-  shown: Shown,
-  place: number,
-): { speed: number; error: number } | undefined {
+export function shownSpeed(facts: Facts, shown: Shown, place: number): { speed: number; error: number } | undefined {
   const speed = speedOf(facts, shown, place);
   if (Number.isNaN(speed)) return undefined;
   const { from, to } = shown;

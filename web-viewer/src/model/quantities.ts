@@ -15,8 +15,7 @@ export type Range = [number, number];
  * `size`: the size of this unit, if it is not 1.
  */
 export type Scale = { ramp: Ramp; unit: string; size?: number } & (
-  | { range(facts: Facts): Range }
-  | { value(facts: Facts, shown: Shown, place: number): number; least: number }
+  { range(facts: Facts): Range } | { value(facts: Facts, shown: Shown, place: number): number; least: number }
 );
 
 export interface Swatch {

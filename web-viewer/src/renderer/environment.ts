@@ -63,7 +63,7 @@ export class Environment {
     const lift = 1e-3 * (facts.max[2] - facts.min[2]); // keeps lines above the floor
     const ink = hexToRgb(theme.ink) ?? [0, 0, 0];
     faces(facts.min, facts.max).forEach(({ normal, points }, index) => {
-      const strength = isWall(facts, (index + 1) as Face) ? 1 : 0.6;
+      const strength = isWall(facts, index + 1) ? 1 : 0.6;
       const lifted = points.map(([x, y, z]): Vec3 => [x, y, Math.max(z, facts.min[2] + lift)]);
       lifted.forEach((point, i) => {
         const next = lifted[(i + 1) % lifted.length] ?? point;

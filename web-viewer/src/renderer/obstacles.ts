@@ -17,7 +17,7 @@ type Draw<Case> = (shape: Extract<Shape, { case: Case }>["value"], colour: numbe
 /** One function for each shape of scene.proto. */
 const surfaces: { [Case in NonNullable<Shape["case"]>]: Draw<Case> } = {
   plane: ({ point, normal }, colour, { min, max }) => {
-    const unit = vec3.normalize([0, 0, 0], normal as Vec3) as Vec3;
+    const unit = vec3.normalize([0, 0, 0], normal) as Vec3;
     const points = planeInBox({ point: point as Vec3, normal: unit }, min, max);
     return { vertices: polygon(points, unit, colour), oneSided: true };
   },
@@ -26,11 +26,11 @@ const surfaces: { [Case in NonNullable<Shape["case"]>]: Draw<Case> } = {
     return { vertices: sides.flatMap(({ normal, points }) => polygon(points, normal, colour)), oneSided: false };
   },
   sphere: ({ centre, radius, hollow }, colour) => {
-    const place = (direction: Vec3): Vec3 => vec3.scaleAndAdd([0, 0, 0], centre as Vec3, direction, radius) as Vec3;
+    const place = (direction: Vec3): Vec3 => vec3.scaleAndAdd([0, 0, 0], centre, direction, radius) as Vec3;
     return { vertices: round(meridian(), [0, 0, 1], place, hollow, colour), oneSided: hollow };
   },
   cylinder: ({ from, to, radius, hollow }, colour) => {
-    const axis = vec3.subtract([0, 0, 0], to as Vec3, from as Vec3) as Vec3;
+    const axis = vec3.subtract([0, 0, 0], to, from) as Vec3;
     const unit = vec3.normalize([0, 0, 0], axis) as Vec3;
     const outline: Outline = [
       { across: 0, along: 0, normal: [0, -1] },
@@ -40,7 +40,7 @@ const surfaces: { [Case in NonNullable<Shape["case"]>]: Draw<Case> } = {
       { across: radius, along: vec3.length(axis), normal: [0, 1] },
       { across: 0, along: vec3.length(axis), normal: [0, 1] },
     ];
-    const place = (way: Vec3): Vec3 => vec3.add([0, 0, 0], from as Vec3, way) as Vec3;
+    const place = (way: Vec3): Vec3 => vec3.add([0, 0, 0], from, way) as Vec3;
     return { vertices: round(outline, unit, place, hollow, colour), oneSided: hollow };
   },
 };

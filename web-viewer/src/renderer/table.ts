@@ -34,7 +34,7 @@ export class Table {
     const [format, type] = this.layout();
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
     const end = Math.min(first + count, values.length / components);
-    for (let place = first; place < end; ) {
+    for (let place = first; place < end;) {
       const x = place % width;
       const isRow = x === 0 && end - place >= width;
       const columns = isRow ? width : Math.min(width - x, end - place);

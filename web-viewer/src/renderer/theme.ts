@@ -27,7 +27,7 @@ export const themes = {
     solid: "#a8b4bd",
     key: [0.86, 0.82, 0.75],
     sky: [0.42, 0.46, 0.52],
-    ground: [0.20, 0.19, 0.185],
+    ground: [0.2, 0.19, 0.185],
     shadow: 0.86,
     haze: 0.9,
   },

@@ -24,7 +24,10 @@ export class TracePass {
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, segmentBytes * capacity, gl.DYNAMIC_DRAW);
-    for (const [name, offset] of [["a_position", 0], ["a_normal", 12]] as const) {
+    for (const [name, offset] of [
+      ["a_position", 0],
+      ["a_normal", 12],
+    ] as const) {
       gl.enableVertexAttribArray(slot(name));
       gl.vertexAttribPointer(slot(name), 3, gl.FLOAT, false, segmentBytes, offset);
       gl.vertexAttribDivisor(slot(name), 1);

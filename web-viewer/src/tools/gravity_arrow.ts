@@ -42,11 +42,16 @@ export class GravityArrow {
       role: "slider",
       "aria-label": "Gravity",
       "aria-valuemin": "0",
+      "aria-valuenow": "0",
       "data-testid": "gravity-arrow",
     };
     for (const [name, value] of Object.entries(attributes)) svg.setAttribute(name, value);
     const circle = document.createElementNS(svgName, "circle");
-    for (const [name, value] of [["cx", middle], ["cy", middle], ["r", radius]] as const) {
+    for (const [name, value] of [
+      ["cx", middle],
+      ["cy", middle],
+      ["r", radius],
+    ] as const) {
       circle.setAttribute(name, String(value));
     }
     svg.append(circle, this.line);
@@ -68,7 +73,9 @@ export class GravityArrow {
     );
     svg.addEventListener("keydown", (event) => this.pressed(event));
     const button = (name: string, id: string, gravity: () => Vec3): HTMLElement => {
-      const click = (): void => void (this.blocked() || this.ask(gravity()));
+      const click = (): void => {
+        if (!this.blocked()) this.ask(gravity());
+      };
       return h("button", { type: "button", "data-testid": id, click }, name);
     };
     const down = button("Down", "gravity-down", () => [0, 0, -this.strength]);
@@ -86,7 +93,7 @@ export class GravityArrow {
       this.strength = strength;
       this.direction = this.shown.map((part) => part / strength) as Vec3;
     }
-    const key = `${this.shown} ${view.forward} ${view.toClip[1]} ${view.toClip[5]}`;
+    const key = [...this.shown, ...view.forward, view.toClip[1], view.toClip[5]].join();
     if (key === this.drawn) return;
     this.drawn = key;
     this.draw(view, strength);

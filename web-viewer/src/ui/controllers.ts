@@ -1,5 +1,6 @@
 import type { Controller } from "lil-gui";
 import type GUI from "lil-gui";
+import { uniqueId } from "./dom";
 
 /** Marks a controller of the panel for tests, which then do not depend on the panel's markup. */
 export function tag<C extends Controller>(id: string, controller: C): C {
@@ -10,8 +11,8 @@ export function tag<C extends Controller>(id: string, controller: C): C {
 
 /** Tells assistive software which controls belong together. */
 export function nameFolders(gui: GUI): void {
-  gui.foldersRecursive().forEach(({ domElement, $title }, i) => {
-    $title.id = `folder-${i}`;
+  gui.foldersRecursive().forEach(({ domElement, $title }) => {
+    $title.id = uniqueId("folder");
     domElement.setAttribute("role", "group");
     domElement.setAttribute("aria-labelledby", $title.id);
   });

@@ -11,11 +11,19 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name, value);
     else if (typeof value === "boolean") element.toggleAttribute(name, value);
-    else if (name === "style") element.style.cssText = value; // security policies may forbid the attribute
+    else if (name === "style")
+      element.style.cssText = value; // security policies may forbid the attribute
     else element.setAttribute(name, value);
   }
   element.append(...children);
   return element;
+}
+
+let lastId = 0;
+
+/** An id that no other element of the page has, as long as each bundle uses prefixes of its own. */
+export function uniqueId(prefix: string): string {
+  return `${prefix}-${++lastId}`;
 }
 
 /** Creates an icon from a path in 20 x 20 units. */

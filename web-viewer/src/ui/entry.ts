@@ -1,6 +1,6 @@
 import type { NumberController } from "lil-gui";
 import { count, figure } from "../format";
-import { h, setText } from "./dom";
+import { h, setText, uniqueId } from "./dom";
 
 /** The numbers that a field accepts. */
 export interface EntryRule {
@@ -51,14 +51,12 @@ export function entryText(value: number): string {
   return String(Number(value.toPrecision(6)));
 }
 
-let lastId = 0;
-
 /**
  * A number field of the panel that answers a wrong entry at the field. It keeps the user's text, marks it, says below
  * it what is allowed, and changes no value. Escape restores the last value.
  */
 export class Entry {
-  private readonly message = h("p", { class: "wrong", id: `entry-${++lastId}`, role: "alert", hidden: true });
+  private readonly message = h("p", { class: "wrong", id: uniqueId("entry"), role: "alert", hidden: true });
   private readonly input: HTMLInputElement;
   private typed = false; // the text was changed since it was taken over
   private taken = ""; // the last text that was taken over

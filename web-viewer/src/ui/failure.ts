@@ -20,13 +20,15 @@ export function showFailure(error: unknown, fatal: boolean): void {
   row.append(h("button", { ...attributes, click: () => location.reload() }, "Reload"));
   dialog.append(row);
   if (fatal) dialog.addEventListener("cancel", (event) => event.preventDefault());
-  document.body.append(dialog);
+  (document.querySelector(".spherule") ?? document.body).append(dialog); // it has the styles of viewers
   dialog.showModal();
 }
 
 /** Shows errors that no other part of the page handles. */
 export function watchForFailures(): void {
   // Messages without an error come from the browser itself, and tell of nothing that failed.
-  window.addEventListener("error", ({ error }) => error && showFailure(error, false));
+  window.addEventListener("error", ({ error }) => {
+    if (error) showFailure(error, false);
+  });
   window.addEventListener("unhandledrejection", ({ reason }) => showFailure(reason, false));
 }

@@ -1,4 +1,5 @@
 import { h } from "./dom";
+import { concerns } from "./hosts";
 import type { Toasts } from "./toasts";
 
 /** Actions that open files, by the endings of their names. */
@@ -11,6 +12,7 @@ export class Files {
   constructor(
     private readonly openers: Openers,
     private readonly toasts: Toasts,
+    host: HTMLElement,
     container: HTMLElement,
   ) {
     const accept = Object.keys(openers).join(",");
@@ -19,6 +21,7 @@ export class Files {
     container.append(this.field);
     const over = (event: DragEvent): void => {
       if (!event.dataTransfer?.types.includes("Files")) return;
+      if (!concerns(host, event)) return;
       event.preventDefault();
       container.classList.toggle("dropping", event.type === "dragover");
     };
@@ -26,7 +29,7 @@ export class Files {
     window.addEventListener("dragleave", over);
     window.addEventListener("drop", (event) => {
       over(event);
-      this.open(event.dataTransfer?.files ?? null);
+      if (concerns(host, event)) this.open(event.dataTransfer?.files ?? null);
     });
   }
 

@@ -1,6 +1,7 @@
 import type { Camera } from "../camera/camera";
 import { modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
+import { concerns } from "./hosts";
 
 export interface Key {
   keys: string[]; // as KeyboardEvent.key, letters in lower case
@@ -48,9 +49,10 @@ export class CharacterKeys {
   }
 }
 
-/** Listens for keys, except while the focused element handles them. */
-export function listenForKeys(keys: () => Key[], characters: CharacterKeys): void {
+/** Listens for keys of the viewer in `host`, except while the focused element handles them. */
+export function listenForKeys(host: HTMLElement, keys: () => Key[], characters: CharacterKeys): void {
   const pressedDown = (event: KeyboardEvent): void => {
+    if (!concerns(host, event)) return;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target instanceof HTMLElement && handlesKey(event.target, event.key)) return;
     if (event.key.length === 1 && event.key !== " " && !characters.enabled) return;

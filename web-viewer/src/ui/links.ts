@@ -7,6 +7,7 @@ import type { PageLink } from "../model/page_link";
 import type { Mode } from "../model/quantities";
 import type { Selection } from "../model/selection";
 import type { Session } from "../model/session";
+import type { Site } from "./hosts";
 import { longStay } from "./toasts";
 import type { Toasts } from "./toasts";
 
@@ -31,8 +32,10 @@ export class Links {
   constructor(
     private readonly session: Session,
     private readonly toasts: Toasts,
+    private readonly site: Site,
     private readonly parts: LinkParts,
   ) {
+    if (!site.own) return;
     window.addEventListener("hashchange", () => this.open());
     this.open();
   }
@@ -69,14 +72,15 @@ export class Links {
     const eye = eyeOf(camera.pose);
     const view = { eye, target: camera.pose.target };
     const link = { scene: this.session.facts?.name, camera: view, colour: colour(), sphere: selection.id };
-    const address = new URL(fragmentOf(link), location.origin + location.pathname).href;
+    const address = new URL(fragmentOf(link), this.site.server).href;
     try {
       await navigator.clipboard.writeText(address);
       this.toasts.show("Link copied", "It opens this view.", "good");
     } catch {
       // Browsers let pages copy only from secure addresses, and if the user allows it.
-      history.replaceState(history.state, "", address);
-      this.toasts.show("Not copied", "The browser does not let this page copy. The link is in the address bar.", "bad");
+      if (this.site.own) history.replaceState(history.state, "", address);
+      const where = this.site.own ? "The link is in the address bar." : address;
+      this.toasts.show("Not copied", `The browser does not let this page copy. ${where}`, "bad");
     }
   }
 

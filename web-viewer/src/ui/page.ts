@@ -22,6 +22,7 @@ import { Files } from "./files";
 import { Header } from "./header";
 import { Gauge } from "./gauge";
 import { Help } from "./help";
+import type { Site } from "./hosts";
 import { Inspector } from "./inspector";
 import { CharacterKeys, keysFor, listenForKeys } from "./keys";
 import type { Key, KeyActions } from "./keys";
@@ -60,7 +61,6 @@ export interface PageActions extends Omit<PanelActions, OwnActions> {
   camera: Camera;
 }
 
-const small = window.matchMedia("(width <= 720px) or (height <= 480px)");
 const updatePeriod = 100; // ms; elements that follow the picture need no more
 const figurePeriod = 200; // ms; figures that change faster cannot be read
 
@@ -75,6 +75,7 @@ export class Page {
   readonly files: Files;
   readonly steering: Steering;
   readonly lazy: Lazy;
+  private readonly container = h("div", { class: "page" });
   /** Where elements cover the canvas; another array after each change. */
   covered: readonly Box[] = [];
   private readonly header: Header;
@@ -98,15 +99,19 @@ export class Page {
   private lastFigures = 0; // ms
 
   constructor(
-    private readonly container: HTMLElement,
+    private readonly site: Site,
     private readonly session: Session,
     private readonly commands: Commands,
     ranges: ColourRanges,
     private readonly choices: Choices,
     private readonly actions: PageActions,
   ) {
+    const { host, own } = site;
+    const { container } = this;
+    const suffix = own || !host.ariaLabel ? "" : ` (${host.ariaLabel})`; // tells the regions of several viewers apart
+    const themed = own ? document.documentElement : host;
     const showTheme = (theme: ThemeName): void => {
-      document.documentElement.dataset.theme = theme;
+      themed.dataset.theme = theme;
       actions.themeChanged(theme);
     };
     const themeChanged = (theme: ThemeName): void => {
@@ -127,7 +132,7 @@ export class Page {
       ".sph": { what: "recordings", open: actions.play },
       ".json": { what: "scenes", open: (file: File) => editScene(file.text()) },
     };
-    this.files = new Files(openers, this.toasts, container);
+    this.files = new Files(openers, this.toasts, host, container);
     const saveScene = (): void => {
       const name = `${session.facts?.name || "scene"}.json`;
       void this.fetchFile("scene.json", name, (file) => this.files.give(file, name));
@@ -137,11 +142,11 @@ export class Page {
     const load: LoadPart = (name) => loadPart(name, this.toasts);
     const savePicture = (width: number, height: number): void => void this.savePicture(width, height);
     const files = { openFile, saveScene, editScene: () => editScene(), savePicture };
-    const own = { themeChanged, showScenes, copyLink, loadPart: load };
-    this.panel = new Panel(commands, choices, { ...actions, ...files, ...own });
+    const more = { themeChanged, showScenes, copyLink, loadPart: load };
+    this.panel = new Panel(commands, choices, { ...actions, ...files, ...more });
     this.inspector = new Inspector((id) => commands.remove(id));
     this.inspection = new Inspection(session, (id) => commands.inspect(id));
-    this.links = new Links(session, this.toasts, {
+    this.links = new Links(session, this.toasts, site, {
       camera: actions.camera,
       selection: this.inspector.selection,
       colour: () => choices.mode,
@@ -188,13 +193,13 @@ export class Page {
         this.help.element.close();
       },
     };
-    this.prompt = new Prompt(location.host, (text) => actions.submitToken(text));
+    this.prompt = new Prompt(site.server.host, (text) => actions.submitToken(text));
     const restrict = (blocked: string, away: string): void => this.panel.restrict(blocked, away);
     this.steering = new Steering(session, this.toasts, actions.sendControl, restrict);
     const keys = { live: keysFor(keyActions, false), playing: keysFor(keyActions, true) };
     const typing = (): boolean => this.prompt.open || this.lazy.dialog;
     this.keys = () => (typing() ? [] : this.playing ? keys.playing : keys.live);
-    listenForKeys(() => this.keys(), this.characters);
+    listenForKeys(host, () => this.keys(), this.characters);
     this.lazy = new Lazy({
       container,
       session,
@@ -214,7 +219,7 @@ export class Page {
       else if (action === "dismiss") this.dismiss(id);
       else this.act(action);
     });
-    this.transport = new Transport(this.record.element, shared);
+    this.transport = new Transport(this.record.element, shared, suffix);
     this.playback = new Playback(session, commands, () => this.quantity !== Quantity.QUANTITY_UNSPECIFIED, {
       present: () => actions.present(),
       save: () => actions.save(),
@@ -230,10 +235,14 @@ export class Page {
     container.append(header.element, foot, panel.element, status.element, toasts.element, ...dialogs);
     panel.element.setAttribute("role", "region");
     panel.element.setAttribute("aria-label", "Controls");
+    for (const part of container.querySelectorAll(":is(section, .lil-root)[aria-label]:not(.transport)")) {
+      part.ariaLabel = `${part.ariaLabel ?? ""}${suffix}`;
+    }
     const covering = [header, this.gauge, inspector, legend, panel, status].map(({ element }) => element);
     this.observe([...covering, controls]);
-    document.documentElement.dataset.theme = choices.theme;
-    this.showPanel(!small.matches);
+    themed.dataset.theme = choices.theme;
+    this.showPanel(host.clientWidth > 720 && host.clientHeight > 480);
+    host.append(container);
     this.help.describe(this.keys(), this.playing);
   }
 
@@ -266,7 +275,7 @@ export class Page {
     this.legend.update(this.choices.mode, this.session.facts);
     this.lazy.gallery?.update(blockedReason);
     this.lazy.tools?.refresh(this.actions.camera.last);
-    document.getElementById("picture")?.classList.toggle("aiming", this.choices.tool !== "select");
+    this.site.view.classList.toggle("aiming", this.choices.tool !== "select");
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
     this.header.update(now, this.steering.state, graphics);
@@ -332,7 +341,7 @@ export class Page {
     const { refusal, farewell, status, divergence, facts } = this.session;
     const outside = this.playing ? 0 : this.outside.due(status?.outside ?? 0);
     const more = { outside, link: this.links.wanted, diverged: divergence !== undefined, known: facts !== undefined };
-    const notices = noticesFor({ state, graphics, host: location.host, refusal, farewell, ...more });
+    const notices = noticesFor({ state, graphics, host: this.site.server.host, refusal, farewell, ...more });
     this.notices.update(notices, now, this.steering.blockedReason);
   }
 
@@ -362,8 +371,16 @@ export class Page {
   /** Measures where the elements cover the canvas. They move only if one of them or the page changes its size. */
   private observe(elements: HTMLElement[]): void {
     const observer = new ResizeObserver(() => {
-      const boxes = elements.map((element) => element.getBoundingClientRect());
-      this.covered = boxes.filter(({ width, height }) => width > 0 && height > 0);
+      const { left: x, top: y } = this.site.view.getBoundingClientRect();
+      this.covered = elements
+        .map((element) => element.getBoundingClientRect())
+        .filter(({ width, height }) => width > 0 && height > 0)
+        .map(({ left, top, right, bottom }) => ({
+          left: left - x,
+          top: top - y,
+          right: right - x,
+          bottom: bottom - y,
+        }));
       this.actions.wake();
     });
     for (const element of [this.container, ...elements]) observer.observe(element);

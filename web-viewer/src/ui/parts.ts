@@ -17,8 +17,12 @@ export async function loadPart<T>(name: PartName, toasts: Toasts): Promise<T | u
   }
 }
 
-/** Adds a style sheet to the page. */
+const adopted = new Set<string>();
+
+/** Adds a style sheet to the page, once. */
 export function adoptStyle(style: string): void {
+  if (adopted.has(style)) return;
+  adopted.add(style);
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(style);
   document.adoptedStyleSheets.push(sheet);

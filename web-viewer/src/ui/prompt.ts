@@ -1,17 +1,18 @@
-import { h, icon, setText } from "./dom";
+import { h, icon, setText, uniqueId } from "./dom";
 
 const eye = "M2.5 10S5.3 5 10 5s7.5 5 7.5 5-2.8 5-7.5 5-7.5-5-7.5-5zM10 7.8a2.2 2.2 0 1 1 0 4.4 2.2 2.2 0 0 1 0-4.4z";
 const struckEye = `${eye}M3.5 16.5l13-13`;
 
 /** A dialog that asks for a token. The field is cleared as soon as the token is submitted. */
 export class Prompt {
+  private readonly ids = { field: uniqueId("token"), wrong: uniqueId("token") };
   private readonly field = h("input", {
-    id: "token",
+    id: this.ids.field,
     type: "password",
     autocomplete: "off",
     autocapitalize: "off",
     spellcheck: "false",
-    "aria-describedby": "token-wrong",
+    "aria-describedby": this.ids.wrong,
     "data-testid": "token-field",
   });
   private readonly reveal = h("button", {
@@ -21,7 +22,7 @@ export class Prompt {
     click: () => this.show(this.field.type === "password"),
   });
   private readonly message = h("p", {
-    id: "token-wrong",
+    id: this.ids.wrong,
     class: "wrong",
     role: "alert",
     "data-testid": "token-wrong",
@@ -34,12 +35,13 @@ export class Prompt {
     host: string,
     private readonly submit: (text: string) => boolean,
   ) {
+    const [title, about] = [uniqueId("token"), uniqueId("token")];
     const form = h(
       "form",
       { submit: (event) => this.submitted(event) },
-      h("h2", { id: "token-title" }, "Token required"),
-      h("p", { id: "token-about" }, h("b", {}, host), " requires a token."),
-      h("label", { for: "token" }, "Token"),
+      h("h2", { id: title }, "Token required"),
+      h("p", { id: about }, h("b", {}, host), " requires a token."),
+      h("label", { for: this.ids.field }, "Token"),
       h("div", { class: "entry" }, this.field, this.reveal),
       this.message,
       h("div", { class: "row" }, h("small", {}, "Kept until this tab is closed."), this.connect),
@@ -47,8 +49,8 @@ export class Prompt {
     const attributes = {
       class: "prompt",
       "data-testid": "token-prompt",
-      "aria-labelledby": "token-title",
-      "aria-describedby": "token-about",
+      "aria-labelledby": title,
+      "aria-describedby": about,
     };
     this.element = h("dialog", { ...attributes, close: () => this.clear() }, form);
     this.clear();

@@ -2,7 +2,7 @@ import type { ColourRanges, GivenRange } from "../model/colour_ranges";
 import type { Facts } from "../model/facts";
 import { quantityOf } from "../model/quantities";
 import type { Mode, Scale } from "../model/quantities";
-import { h, setText } from "./dom";
+import { h, setText, uniqueId } from "./dom";
 import { allowed, entryText, parseEntry } from "./entry";
 import type { EntryRule } from "./entry";
 
@@ -15,7 +15,7 @@ const names: Record<End, string> = { low: "Lowest value", high: "Highest value" 
 export class RangeEntry {
   private readonly inputs: Record<End, HTMLInputElement>;
   private readonly unit = h("span");
-  private readonly message = h("p", { class: "wrong", id: "range-wrong", role: "alert", hidden: true });
+  private readonly message = h("p", { class: "wrong", id: uniqueId("range"), role: "alert", hidden: true });
   private mode: Mode = "speed";
   private facts: Facts | undefined;
   readonly element: HTMLFormElement;
@@ -24,7 +24,7 @@ export class RangeEntry {
     this.message.dataset.testid = "range-wrong";
     const field = (end: End): HTMLInputElement => {
       const keydown = (event: Event): void => this.pressed(event as KeyboardEvent, end);
-      const input = h("input", {
+      return h("input", {
         type: "text",
         inputmode: "decimal",
         "aria-label": names[end],
@@ -32,14 +32,13 @@ export class RangeEntry {
         keydown,
         change: () => this.take(end),
       });
-      return input as HTMLInputElement;
     };
     this.inputs = { low: field("low"), high: field("high") };
     const { low, high } = this.inputs;
     const submit = (event: Event): void => event.preventDefault();
     const row = h("div", { class: "range-row" }, low, h("span", {}, "to"), high, this.unit);
     const attributes = { class: "range", hidden: true, "aria-label": "Ends of the colour scale", submit };
-    this.element = h("form", attributes, row, this.message) as HTMLFormElement;
+    this.element = h("form", attributes, row, this.message);
   }
 
   /** Shows the fields for a mode, with the focus on one of them; hides them if they are shown. */

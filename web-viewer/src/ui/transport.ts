@@ -39,7 +39,12 @@ export class Transport {
   private replay = false; // the page shows the past or a file: pause and steps act on that
   private blockedReason = ""; // why the user may not send commands; empty if they may
 
-  constructor(record: HTMLElement, actions: TransportActions) {
+  /** `suffix`: of the name of its region. */
+  constructor(
+    record: HTMLElement,
+    actions: TransportActions,
+    private readonly suffix: string,
+  ) {
     const button = (id: string, click: () => void, path: string, filled = false): HTMLButtonElement =>
       h("button", { type: "button", class: filled ? "filled" : "", "data-testid": id, click }, icon(path));
     this.pause = button("pause", () => actions.toggle(), icons.pause, true);
@@ -63,9 +68,18 @@ export class Transport {
       this.reset,
       record,
       h("span", { class: "rule" }),
-      named(button("home", () => actions.home(), icons.home), "Reset the view (F)"),
-      named(button("help", () => actions.help(), icons.help), "Keys and gestures (?)"),
-      named(button("panel-toggle", () => actions.panel(), icons.panel), "Controls (C)"),
+      named(
+        button("home", () => actions.home(), icons.home),
+        "Reset the view (F)",
+      ),
+      named(
+        button("help", () => actions.help(), icons.help),
+        "Keys and gestures (?)",
+      ),
+      named(
+        button("panel-toggle", () => actions.panel(), icons.panel),
+        "Controls (C)",
+      ),
     );
     this.describe();
   }
@@ -89,7 +103,7 @@ export class Transport {
     const { playing, paused, replay, blockedReason } = this;
     const unit = playing || replay ? "frame" : "step";
     const reason = replay ? "" : blockedReason; // of pause and steps
-    this.element.setAttribute("aria-label", playing ? "Playback" : "Simulation");
+    this.element.setAttribute("aria-label", (playing ? "Playback" : "Simulation") + this.suffix);
     named(this.step, `One ${unit} (.)`, reason);
     this.steps.title = reason || `Number of ${unit}s`;
     this.steps.setAttribute("aria-label", `Number of ${unit}s`);
