@@ -25,7 +25,7 @@ const allowed: Record<string, string[]> = {
   renderer: ["camera", "colour", "columns", "gen", "model"],
   ui: [
     ...["camera", "clock", "colour", "connection", "format", "gen", "model", "renderer"],
-    ...["charts", "gallery", "statistics"],
+    ...["charts", "gallery", "statistics", "tools"],
   ],
   tools: ["camera", "connection", "format", "model", "ui"],
   editor: ["format", "gen", "ui"],

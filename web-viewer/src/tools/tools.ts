@@ -12,6 +12,8 @@ import { Pull } from "./pull";
 import { PullLine } from "./pull_line";
 import style from "./tools.css";
 
+export { RangeEntry } from "./range_entry"; // for ui/legend.ts
+
 const keySteps = 40; // of the picture's height, per press of a key
 
 /** See ui/lazy.ts. */

@@ -5,8 +5,8 @@ import type { Facts } from "../model/facts";
 import { quantityOf } from "../model/quantities";
 import type { LegendContent, Mode, Swatch } from "../model/quantities";
 import { focusWhileScrolling, h, setText } from "./dom";
-import { RangeEntry } from "./range_entry";
-import type { End } from "./range_entry";
+import type { End, RangeEntry } from "../tools/range_entry";
+import type { LoadPart } from "./parts";
 
 /** Explains the colours. */
 export class Legend {
@@ -14,17 +14,19 @@ export class Legend {
   private readonly body = h("div", { class: "scale" });
   private readonly low = this.end("low", "Set the lowest value");
   private readonly high = this.end("high", "Set the highest value");
-  private readonly entry: RangeEntry;
+  private entry: RangeEntry | undefined; // loaded when it is first needed
   private readonly lock: HTMLButtonElement;
   private readonly head: HTMLElement;
   readonly element: HTMLElement;
+  private mode: Mode = "speed";
+  private facts: Facts | undefined;
   private shown = ""; // mode, epoch, population and range
 
   constructor(
     private readonly ranges: ColourRanges,
+    private readonly load: LoadPart,
     next: () => void,
   ) {
-    this.entry = new RangeEntry(ranges);
     const toggle = (): void => this.ranges.toggleLock();
     this.lock = h("button", { type: "button", class: "lock", "data-testid": "legend-lock", click: toggle }, "auto");
     this.head = h(
@@ -38,15 +40,16 @@ export class Legend {
       { class: "legend", "data-testid": "legend", "aria-label": "Colours" },
       h("div", { class: "row" }, h("h2", {}, this.head), this.lock),
       this.body,
-      this.entry.element,
     );
   }
 
   update(mode: Mode, facts: Facts | undefined): void {
+    this.mode = mode;
+    this.facts = facts;
     this.element.hidden = !facts;
     if (!facts) return;
     const { ranges } = this;
-    this.entry.update(mode, facts);
+    this.entry?.update(mode, facts);
     const range = ranges.of(mode, facts);
     const key = [mode, facts.epoch, facts.population.number, ...range].join(" ");
     if (key !== this.shown) {
@@ -63,8 +66,18 @@ export class Legend {
 
   /** The text of an end of the scale, which opens the fields for both ends. */
   private end(end: End, title: string): HTMLElement {
-    const click = (): void => this.entry.toggle(end);
+    const click = (): void => void this.edit(end);
     return h("button", { type: "button", class: "end", title, "data-testid": `legend-${end}`, click });
+  }
+
+  private async edit(end: End): Promise<void> {
+    const part = this.entry ? undefined : await this.load<{ RangeEntry: typeof RangeEntry }>("tools");
+    if (part && !this.entry) {
+      this.entry = new part.RangeEntry(this.ranges);
+      this.element.append(this.entry.element);
+    }
+    if (this.facts) this.entry?.update(this.mode, this.facts);
+    this.entry?.toggle(end);
   }
 
   private bodyOf(content: LegendContent): HTMLElement[] {

@@ -153,7 +153,7 @@ export class Page {
       colourBy: (mode) => this.panel.colourBy(mode),
     });
     this.header = new Header(session, () => (session.replay ? actions.present() : actions.retry()));
-    this.legend = new Legend(ranges, () => {
+    this.legend = new Legend(ranges, load, () => {
       this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
     });
     this.status = new StatusLine(session);

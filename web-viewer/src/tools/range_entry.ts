@@ -2,9 +2,9 @@ import type { ColourRanges, GivenRange } from "../model/colour_ranges";
 import type { Facts } from "../model/facts";
 import { quantityOf } from "../model/quantities";
 import type { Mode, Scale } from "../model/quantities";
-import { h, setText, uniqueId } from "./dom";
-import { allowed, entryText, parseEntry } from "./entry";
-import type { EntryRule } from "./entry";
+import { h, setText, uniqueId } from "../ui/dom";
+import { allowed, entryText, parseEntry } from "../ui/entry";
+import type { EntryRule } from "../ui/entry";
 
 export type End = keyof GivenRange;
 
