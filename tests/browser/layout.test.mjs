@@ -4,18 +4,10 @@ import { writeFile } from "node:fs/promises";
 import path from "node:path";
 import { test } from "node:test";
 import { clickSphere, control, open, pause, when } from "./support/browser.mjs";
-import { collisions, coverings, galleryFaults, showPanel } from "./support/layout.mjs";
+import { collisions, coverings, galleryFaults, showPanel, sizes } from "./support/layout.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
-// A phone upright and turned, a tablet, a screen of 1280 x 720 px at a zoom of 200 %, and the same screen at 100 %.
-const sizes = [
-  [390, 844],
-  [844, 390],
-  [768, 1024],
-  [640, 360],
-  [1280, 720],
-];
 const still = { reducedMotion: "reduce" }; // the picture needs no time to move
 const scene = {
   bounds: { min: [0, 0, 0], max: [3, 2, 1.5] },

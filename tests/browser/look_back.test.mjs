@@ -5,7 +5,7 @@ import path from "node:path";
 import { beforeEach, test } from "node:test";
 import { chooseScene, control, open, says, visit, when } from "./support/browser.mjs";
 import { gasScene, logStates } from "./support/gas.mjs";
-import { collisions, showPanel } from "./support/layout.mjs";
+import { collisions, showPanel, sizes } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { play, serve, spherule } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -281,13 +281,7 @@ test("the last seconds are saved as a recording that the program plays and expor
 
 test("nothing overlaps while the past is shown", async () => {
   await hasPast(3);
-  for (const [width, height] of [
-    [390, 844],
-    [844, 390],
-    [768, 1024],
-    [640, 360],
-    [1280, 720],
-  ]) {
+  for (const [width, height] of sizes) {
     await page.setViewportSize({ width, height });
     for (const shown of [false, true]) {
       await showPanel(page, shown);

@@ -5,7 +5,7 @@ import path from "node:path";
 import { test } from "node:test";
 import { control, open, says, visit, when } from "./support/browser.mjs";
 import { gasScene } from "./support/gas.mjs";
-import { collisions, showPanel } from "./support/layout.mjs";
+import { collisions, showPanel, sizes } from "./support/layout.mjs";
 import { queryServer } from "./support/raw.mjs";
 import { serve, spherule } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -212,13 +212,7 @@ test("a file that was cut off plays up to the cut, and damage inside is told and
   await plays("cut.sph");
   await says(page, "timeline-flaw", /Ends early: the record at byte \d+ is cut off/);
   assert.ok(await page.evaluate((most) => spherule.session.timeline.end < most, 0.9 * duration));
-  for (const [width, height] of [
-    [390, 844],
-    [844, 390],
-    [768, 1024],
-    [640, 360],
-    [1280, 720],
-  ]) {
+  for (const [width, height] of sizes) {
     await page.setViewportSize({ width, height });
     for (const shown of [false, true]) {
       await showPanel(page, shown);

@@ -9,7 +9,7 @@ import { browserSuite } from "./support/suite.mjs";
 
 let server;
 let page;
-browserSuite(async (browser, folder) => {
+const suite = browserSuite(async (browser, folder) => {
   const scene = {
     name: "top",
     gravity: [0, 0, 0],
@@ -96,6 +96,20 @@ test("orientations begin anew after a reset", async () => {
   assert.notDeepEqual(await orientation(), begun);
   await reset();
   assert.deepEqual(await orientation(), begun);
+});
+
+test("a recording, which has no rotation, offers no choice", async () => {
+  assert.ok(await page.isVisible(control("rotation")));
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(control("save"))]);
+  const file = path.join(suite.folder, "top.sph");
+  await download.saveAs(file);
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click(control("open-file"))]);
+  await chooser.setFiles(file);
+  await when(page, () => spherule.session.replay?.source === "file" && spherule.session.newest);
+  assert.ok(!(await page.isVisible(control("rotation"))));
+  await page.click(control("present"));
+  await when(page, () => !spherule.session.replay && spherule.session.newest);
+  assert.ok(await page.isVisible(control("rotation")));
 });
 
 test("a scene without friction offers no choice, and its frames have no rotation", async () => {

@@ -1,6 +1,15 @@
 // Finds elements of the page that overlap, are cut off, or cover the scene.
 import { control } from "./browser.mjs";
 
+// A phone upright and turned, a tablet, a screen of 1280 x 720 px at a zoom of 200 %, and the same screen at 100 %.
+export const sizes = [
+  [390, 844],
+  [844, 390],
+  [768, 1024],
+  [640, 360],
+  [1280, 720],
+];
+
 /** The places of the elements, in the next frame but one: elements may take a frame to follow their containers. */
 async function boxesOf(page) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));

@@ -3,8 +3,8 @@ import { tabulate } from "./quantity_values";
 const magnitudes = tabulate(19); // of a component of an angular velocity by code, in units
 
 /**
- * The orientations of the spheres, integrated from the angular velocities of frames. The first one of each sphere is
- * any one, the same for the same place. An orientation is the vector of its modified Rodrigues parameters: the axis
+ * The orientations of the spheres, integrated from the angular velocities of frames. Each sphere
+ * begins with an arbitrary orientation, which depends on its place alone. An orientation is the vector of its modified Rodrigues parameters: the axis
  * times the tangent of a quarter of the angle, at most 1 long.
  */
 export class Orientations {

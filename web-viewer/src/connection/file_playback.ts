@@ -26,7 +26,8 @@ export class FilePlayback {
       history.open(start, begin);
       for (const entry of entries) history.add(entry);
     }
-    this.settings = content.settings ?? create(SettingsSchema, {});
+    // The frames of a recording have no angular velocities.
+    this.settings = { ...(content.settings ?? create(SettingsSchema, {})), rotates: false };
     this.replay = new Replay("file", history, false, buffers, port, () => {
       this.replay.pause();
       this.tellSettings();
