@@ -3,9 +3,9 @@ import { tabulate } from "./quantity_values";
 const magnitudes = tabulate(19); // of a component of an angular velocity by code, in units
 
 /**
- * The orientations of the spheres, integrated from the angular velocities of frames. Each sphere
- * begins with an arbitrary orientation, which depends on its place alone. An orientation is the vector of its modified Rodrigues parameters: the axis
- * times the tangent of a quarter of the angle, at most 1 long.
+ * The orientations of the spheres, integrated from the angular velocities of frames. Each sphere begins with an
+ * arbitrary orientation, which depends on its place alone. An orientation is the vector of its modified Rodrigues
+ * parameters: the axis times the tangent of a quarter of the angle, at most 1 long.
  */
 export class Orientations {
   readonly values: Float32Array; // three per sphere, by place

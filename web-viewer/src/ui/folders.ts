@@ -5,9 +5,9 @@ const key = "spherule.folders";
 type Store = Pick<Storage, "getItem" | "setItem">;
 
 /**
- * Opens the folders of the panel, except the `folded` ones. They open and close at once: the movement of lil-gui cuts off
- * the content for good if it is interrupted, by hiding the panel for example. A folder that the user has opened or closed stays as it is
- * when the page is loaded again, if the browser can store it.
+ * Opens the folders of the panel, except the `folded` ones. A folder that the user has opened or closed stays as it is
+ * when the page is loaded again, if the browser can store it. Folders open and close at once: if lil-gui's animation is
+ * interrupted, for example because the panel is hidden, the content stays cut off.
  */
 export function rememberFolders(gui: GUI, folded: GUI[], store: () => Store): void {
   for (const folder of gui.foldersRecursive()) folder.openAnimated = (open) => folder.open(open);
