@@ -150,8 +150,7 @@ test("the page without a connection is accessible", async () => {
 function focused() {
   const { activeElement: element } = document;
   if (!element || element === document.body) return undefined;
-  const shown = element.matches(".lil-option select") ? element.nextElementSibling : element;
-  const { outlineStyle, outlineWidth } = getComputedStyle(shown);
+  const { outlineStyle, outlineWidth } = getComputedStyle(element);
   const { left, right, top, bottom } = element.getBoundingClientRect();
   const hit = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
   const faults = [];
@@ -221,7 +220,7 @@ test("fingers have large controls", async () => {
     await showPanel(other, true);
     assert.deepEqual(await collisions(other, 5), []);
     const small = await other.evaluate(() =>
-      ["transport button", "lil-root button", "lil-root select", "lil-root input:not([type=checkbox])"]
+      ["transport button", "panel button", "panel select", "panel input:not([type=checkbox])"]
         .flatMap((selector) => Array.from(document.querySelectorAll(`.${selector}`)))
         .filter((element) => element.checkVisibility())
         .map((element) => [element.dataset.testid ?? element.textContent, element.getBoundingClientRect()])
@@ -257,12 +256,11 @@ test("with reduced motion, nothing moves by itself, and folders open and close",
       .filter((duration) => parseFloat(duration) > 0.001),
   );
   assert.deepEqual(lasting, []);
-  const folder = other.locator(".lil-title", { hasText: "World" });
+  const folder = other.locator(".folder > summary", { hasText: "World" });
   await folder.click();
   await when(other, (selector) => !document.querySelector(selector).checkVisibility(), control("friction"));
   await folder.click();
   await other.waitForSelector(control("friction"));
-  await when(other, () => !document.querySelector(".lil-transition"));
   await other.close();
 });
 
@@ -271,7 +269,7 @@ test("forced colours keep edges, states and the colour scale", async () => {
   const other = await open(suite.browser, server.url, { ...forced, colour: "speed" });
   assert.equal(await other.evaluate(() => document.documentElement.dataset.theme), "dark");
   const style = (selector, name) => other.$eval(selector, (element, key) => getComputedStyle(element)[key], name);
-  for (const plate of [".lil-root", ".legend", ".transport", ".lil-display", ".many", control("restitution")]) {
+  for (const plate of [".panel", ".legend", ".transport", ".panel select", ".many", control("restitution")]) {
     assert.equal(await style(plate, "borderTopStyle"), "solid", plate);
   }
   assert.match(await style(".bar", "backgroundImage"), /gradient/);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
-import { control, open, ticks, when } from "./support/browser.mjs";
+import { control, open, ticks, unfold, when } from "./support/browser.mjs";
 import { cluster, compare, placesSeen } from "./support/rays.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
@@ -35,7 +35,7 @@ const suite = browserSuite(async (browser) => {
   page = await open(browser, `${server.url}?tier=fine`, { size: [800, 600], reducedMotion: "reduce" });
   await page.keyboard.press(" ");
   await when(page, () => spherule.session.paused);
-  await page.click(`.lil-title:text("Show")`);
+  await unfold(page, "Show");
 });
 
 /** Compares a small image, over which nothing lies, with the expected one. `seen`: a filter of places. */
@@ -65,7 +65,7 @@ async function check(kept, keys, seen = () => true) {
 /** Sets the plane with the controls. */
 async function cut(side, percent, flipped) {
   await page.selectOption(`${control("cut-side")}`, side);
-  const field = page.locator('[data-control="cut-at"] input[type=text], [data-control="cut-at"] input[type=number]');
+  const field = page.locator(control("cut-at"));
   await field.fill(String(percent));
   await field.press("Enter");
   await page.selectOption(control("cut-flipped"), flipped ? "high side" : "low side");

@@ -107,9 +107,10 @@ test("pause, drop, push, gravity and quality need no scrolling", async () => {
 });
 
 test("diagnostics are folded until someone asks for them, and then stay open", async () => {
-  const title = (name) => page.locator(".lil-title", { hasText: new RegExp(`^${name}$`) });
+  const title = (name) => page.locator(".folder > summary", { hasText: new RegExp(`^${name}$`) });
+  const isOpen = (name) => title(name).evaluate((summary) => summary.parentElement.open);
   for (const name of ["Stream", "Now", "Statistics"]) {
-    assert.equal(await title(name).getAttribute("aria-expanded"), "false", name);
+    assert.equal(await isOpen(name), false, name);
   }
   await title("Now").click();
   const figure = page.locator("summary", { hasText: "Overlap, mean" });
@@ -121,6 +122,6 @@ test("diagnostics are folded until someone asks for them, and then stay open", a
   assert.equal(await page.evaluate(() => spherule.session.paused), false, "the figure took the key");
   await page.reload();
   await when(page, () => spherule.session.frames > 0);
-  assert.equal(await title("Now").getAttribute("aria-expanded"), "true");
-  assert.equal(await title("Stream").getAttribute("aria-expanded"), "false");
+  assert.equal(await isOpen("Now"), true);
+  assert.equal(await isOpen("Stream"), false);
 });

@@ -1,10 +1,10 @@
 import { withoutToken } from "./connection/admission";
 import { loadViewRequest } from "./connection/view_request";
-import { Cut } from "./model/cut";
+import { Choices } from "./ui/choices";
+import type { FirstChoices } from "./ui/choices";
 import { modes } from "./model/quantities";
 import { createTestApi } from "./test_api";
 import { showFailure, watchForFailures } from "./ui/failure";
-import type { Choices } from "./ui/panel";
 import { systemTheme } from "./ui/system_theme";
 import { Viewer } from "./viewer";
 
@@ -23,21 +23,13 @@ function start(host: HTMLElement, own: boolean): Viewer {
   const address = own ? new URLSearchParams(location.search) : url.searchParams;
   const clean = own ? withoutToken(location.href) : undefined;
   if (clean !== undefined) history.replaceState(history.state, "", clean);
-  const mode = chosen(address, "colour", modes);
-  const theme = chosen(address, "theme", ["light", "dark"]);
-  const choices: Choices = {
-    cut: new Cut(),
-    trace: true,
-    mode: mode ?? "speed",
-    modeChosen: mode !== undefined,
-    rotation: "auto",
+  const first: FirstChoices = {
+    mode: chosen(address, "colour", modes),
+    theme: chosen(address, "theme", ["light", "dark"]),
     quality: chosen(address, "picture", ["auto", "full", "light"]) ?? "auto",
-    theme: theme ?? systemTheme(),
-    themeChosen: theme !== undefined,
-    tool: "select",
-    impulse: 1,
     view: loadViewRequest(address, () => localStorage),
   };
+  const choices = new Choices(first, systemTheme());
   url.protocol = url.protocol.replace("http", "ws");
   url.search = url.hash = "";
   const viewer = new Viewer(host, choices, url.href, own);

@@ -1,3 +1,4 @@
+import { effect } from "@preact/signals-core";
 import { Camera } from "./camera/camera";
 import { listen } from "./camera/gestures";
 import { rayThrough } from "./camera/ray";
@@ -12,6 +13,7 @@ import { TokenStore } from "./connection/token_store";
 import { saveViewRequest } from "./connection/view_request";
 import { ViewSubscription } from "./connection/view_subscription";
 import { sentence } from "./format";
+import type { Choices, ToolName } from "./ui/choices";
 import { everything } from "./model/cut";
 import { ColourRanges } from "./model/colour_ranges";
 import { Session } from "./model/session";
@@ -24,7 +26,6 @@ import type { DrawState } from "./renderer/draw_state";
 import { h } from "./ui/dom";
 import { addHost } from "./ui/hosts";
 import { Page } from "./ui/page";
-import type { Choices } from "./ui/panel";
 import { Ticker } from "./ticker";
 import { refusalText } from "./ui/refusals";
 import { longStay } from "./ui/toasts";
@@ -106,10 +107,9 @@ export class Viewer {
   private tokenNote = ""; // message of the next token dialog
   private readonly trace = new Trace(); // of the selected sphere
   private tracked: number | undefined; // id of the sphere that the camera was last given
-  private cutVersion = 0; // of the hidden groups that the canvas leaves out
   private lastReport = 0; // ms: when the worker was last given the draw rate
   private readonly image = new Content(); // of the canvas
-  private clicked: { x: number; y: number; tool: Choices["tool"] } | undefined; // a click that waits
+  private clicked: { x: number; y: number; tool: ToolName } | undefined; // a click that waits
 
   /** `url`: of the server's stream. `own`: see Site. */
   constructor(
@@ -142,7 +142,7 @@ export class Viewer {
       },
       tokenSettled: () => this.page.prompt.close(),
       reconnect: (token) => this.link.reconnect(token),
-      tokenHeld: (held) => this.page.panel.setTokenHeld(held),
+      tokenHeld: (held) => (this.session.tokenHeld = held),
     });
     this.commands = new Commands(
       this.link,
@@ -161,14 +161,6 @@ export class Viewer {
       forgetToken: () => this.admission.forget(),
       sendControl: (message) => this.link.sendControl(message),
       picture: (width, height, progress) => this.picture(width, height, progress),
-      themeChanged: (theme) => {
-        this.canvas.setTheme(theme);
-        this.redraw();
-      },
-      qualityChanged: (quality) => {
-        this.canvas.choose(quality);
-        this.redraw();
-      },
       viewRequested: (view) => {
         saveViewRequest(view, () => localStorage);
         this.subscription.request(view);
@@ -176,7 +168,18 @@ export class Viewer {
       wake: () => this.ticker.wake(),
       camera: this.camera,
     });
-    this.canvas.setTheme(choices.theme);
+    effect(() => {
+      this.canvas.setTheme(choices.theme);
+      this.redraw();
+    });
+    effect(() => {
+      this.canvas.choose(choices.quality);
+      this.redraw();
+    });
+    effect(() => {
+      this.canvas.hide(choices.cut.hidden);
+      this.redraw();
+    });
     this.listenToGestures(element);
   }
 
@@ -215,10 +218,13 @@ export class Viewer {
       sceneChanged: (facts, another) => {
         this.camera.look(facts, !another);
         this.canvas.setFacts(facts);
-        if (another) this.ranges.reset();
-        if (another) this.page.inspector.selection.clear();
-        else this.page.inspector.selection.follow(facts.population);
-        this.page.panel.setFacts(facts, another);
+        if (another) {
+          this.ranges.reset();
+          this.page.inspector.selection.clear();
+          this.page.panel.sceneChanged(facts);
+        } else {
+          this.page.inspector.selection.follow(facts.population);
+        }
         this.page.links.sceneShown(facts);
         this.redraw();
       },
@@ -228,9 +234,6 @@ export class Viewer {
         this.page.inspector.selection.follow(population);
         this.redraw();
       },
-      settingsChanged: (settings) => this.page.panel.setSettings(settings),
-      dialChanged: (dial) => this.page.panel.setDial(dial),
-      diagnosticsReceived: (diagnostics) => this.page.panel.setDiagnostics(diagnostics),
       recordingChanged: (recording, before) => this.page.recordingChanged(recording, before),
       eventReceived: (event) => this.page.eventReceived(event),
       saved: (file, name) => this.page.saved(file, name),
@@ -267,11 +270,6 @@ export class Viewer {
     this.follow(shown);
     camera.cover(this.page.covered);
     camera.advance(this.clock.elapsed, reducedMotion.matches);
-    if (choices.cut.version !== this.cutVersion) {
-      this.cutVersion = choices.cut.version;
-      this.canvas.hide(choices.cut.hidden);
-      this.redraw();
-    }
     const state = this.stateOf(camera.view(), session.staleness(wall), turns);
     const { image } = this;
     image.begin();

@@ -5,29 +5,27 @@ import type { Circumstances, Situation } from "../src/model/page_state";
 import { noticesFor, OutsideCount } from "../src/ui/notices";
 import type { Notice, NoticeInfo } from "../src/ui/notices";
 
-const scene = (count: number): Circumstances["facts"] => ({ population: { count } });
-
 const good: Circumstances = {
   connection: "open",
   attempted: false,
   refusal: "",
   farewell: "",
   deviceLost: false,
-  facts: scene(3),
+  spheres: 3,
 };
 
 const cases: [Partial<Circumstances>, Situation][] = [
   [{}, "live"],
-  [{ facts: scene(0) }, "empty"],
-  [{ facts: undefined }, "waiting"],
-  [{ connection: "connecting", facts: undefined }, "connecting"],
-  [{ connection: "connecting", facts: undefined, attempted: true }, "offline"],
+  [{ spheres: 0 }, "empty"],
+  [{ spheres: undefined }, "waiting"],
+  [{ connection: "connecting", spheres: undefined }, "connecting"],
+  [{ connection: "connecting", spheres: undefined, attempted: true }, "offline"],
   [{ connection: "connecting", attempted: true }, "offline"],
   [{ connection: "waiting", attempted: true }, "offline"],
   [{ connection: "waiting", attempted: true, refusal: "full" }, "refused"],
   [{ connection: "connecting", attempted: true, refusal: "full" }, "refused"],
   [{ connection: "silent" }, "silent"],
-  [{ connection: "silent", facts: scene(0) }, "silent"],
+  [{ connection: "silent", spheres: 0 }, "silent"],
   [{ farewell: "bye" }, "ended"],
   [{ connection: "waiting", farewell: "bye" }, "ended"],
   [{ connection: "connecting", farewell: "bye", deviceLost: true }, "lost"],

@@ -1,6 +1,6 @@
 // Bundles the page: viewer.js, worker.js, style.css and the files of src/page. The page fetches nothing from elsewhere.
 // Each file is also compressed, as NAME.gz. Fails if what a first visit loads is larger than `limit`, compressed, or if
-// the protobuf library is in viewer.js, too.
+// a bundle contains a library that belongs to another one.
 import { execFileSync } from "node:child_process";
 import * as esbuild from "esbuild";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -10,32 +10,6 @@ import { generate } from "./generate.mjs";
 import { options, root } from "./options.mjs";
 
 const limit = 117_000; // bytes; with the headers of the responses, a first visit loads less than 120,000
-
-/** Removes the font from lil-gui's style sheet: the security policy forbids it, and the page draws its own arrows. */
-const withoutFont = {
-  name: "without font",
-  setup(build) {
-    build.onLoad({ filter: /lil-gui\.css$/ }, ({ path: file }) => {
-      const whole = readFileSync(file, "utf8");
-      const contents = whole.replace(/@font-face\s*\{[^}]*\}/, "");
-      if (contents === whole) throw new Error("the style sheet of lil-gui has no font any more: remove this plugin");
-      return { contents, loader: "css" };
-    });
-  },
-};
-
-/** Removes the copy of lil-gui's style sheet from its code: the page has the sheet in style.css. */
-const withoutSheet = {
-  name: "without sheet",
-  setup(build) {
-    build.onLoad({ filter: /lil-gui\.esm\.js$/ }, ({ path: file }) => {
-      const whole = readFileSync(file, "utf8");
-      const contents = whole.replace(/(stylesheet = )`[^`]*`/, '$1""');
-      if (contents === whole) throw new Error("the code of lil-gui has no style sheet any more: remove this plugin");
-      return { contents, loader: "js" };
-    });
-  },
-};
 
 /** Removes comments, indentation and spaces around punctuation from shaders. */
 const shortShaders = {
@@ -78,15 +52,28 @@ const { outputFiles, metafile } = await esbuild.build({
   },
   metafile: true,
   format: "iife",
-  plugins: [withoutFont, withoutSheet, shortShaders],
+  plugins: [shortShaders],
 });
 // Parts of the page that it loads when it needs them: see src/ui/parts.ts.
 const names = ["charts", "editor", "gallery", "statistics", "tools"];
 const parts = Object.fromEntries(names.map((name) => [name, `src/${name}/${name}.ts`]));
-const lazy = await esbuild.build({ ...common, entryPoints: parts, format: "esm", loader: { ".css": "text" } });
+const lazy = await esbuild.build({
+  ...common,
+  entryPoints: parts,
+  metafile: true,
+  format: "esm",
+  loader: { ".css": "text" },
+});
 const viewer = Object.values(metafile.outputs).find(({ entryPoint }) => entryPoint === "src/main.ts");
-const library = Object.entries(viewer.inputs).find(([file, used]) => used.bytesInOutput && file.includes("@bufbuild/"));
-if (library) throw new Error(`viewer.js contains ${library[0]}: only the worker may encode and decode messages`);
+/** Throws an Error if a bundle contains a library. */
+function forbid({ entryPoint, inputs }, library, why) {
+  const found = Object.entries(inputs).find(([file, used]) => used.bytesInOutput && file.includes(library));
+  if (found) throw new Error(`the bundle of ${entryPoint} contains ${found[0]}: ${why}`);
+}
+
+forbid(viewer, "@bufbuild/", "only the worker may encode and decode messages");
+// Effects follow only the signals of their own copy of the library.
+for (const part of Object.values(lazy.metafile.outputs)) forbid(part, "@preact/", "only viewer.js has signals");
 
 const pages = path.join(root, "src/page");
 const pageFiles = readdirSync(pages, { recursive: true, withFileTypes: true }).filter((entry) => entry.isFile());

@@ -54,13 +54,13 @@ export function faintParts(page, canvas) {
       if (found < least) faults.push(`${what}: ${found.toFixed(2)} on ${ground.map(Math.round)}`);
     };
     for (const element of document.querySelectorAll(".page *")) {
-      if (!element.checkVisibility() || element.closest(":disabled, .lil-disabled, option")) continue;
+      if (!element.checkVisibility() || element.closest(":disabled, .control:has(:disabled), option")) continue;
       const style = getComputedStyle(element);
       const texts = [...element.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE);
       const words = texts.map((node) => node.data.trim()).join("");
       const size = parseFloat(style.fontSize);
       const least = size >= 24 || (size >= 18.66 && style.fontWeight >= 700) ? 3 : 4.5;
-      const isField = element.matches(".lil-display, .many, input:not([type=range], .many input)");
+      const isField = element.matches("select, .many, input:not([type=range], .many input)");
       const hasEdge = isField && (style.appearance === "none" || element.type !== "checkbox"); // else the browser's own
       for (const colour of element.closest("dialog") ? behind.slice(0, 1) : behind) {
         if (words) check(words.slice(0, 40), style.color, groundOf(element, colour), least);

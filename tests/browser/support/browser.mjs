@@ -97,7 +97,7 @@ export async function chooseScene(page, name) {
 
 /** Opens a folder of the panel that is folded. */
 export async function unfold(page, name) {
-  await page.click(`.lil-title[aria-expanded="false"]:text-is("${name}")`);
+  await page.click(`.folder:not([open]) > summary:text-is("${name}")`);
 }
 
 /** Waits until the camera stands still, after parts of the page have appeared or gone. */

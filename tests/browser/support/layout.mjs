@@ -17,9 +17,7 @@ async function boxesOf(page) {
     width: innerWidth,
     height: innerHeight,
     scrolls: document.scrollingElement.scrollWidth > innerWidth || document.scrollingElement.scrollHeight > innerHeight,
-    wide: Array.from(
-      document.querySelectorAll("header, .facts > *, .controls > *, .lil-root, .lil-root > *, .lil-controller"),
-    )
+    wide: Array.from(document.querySelectorAll("header, .facts > *, .controls > *, .panel, .panel > *, .control"))
       .filter((element) => element.scrollWidth > element.clientWidth)
       .map((element) => element.dataset.control || element.className || element.tagName),
     cut: Array.from(document.querySelectorAll(".field"))

@@ -1,3 +1,4 @@
+import { observed } from "../observed";
 import type { Facts, Vec3 } from "./facts";
 
 /** The half-space that images show: the points p with normal · p ≤ offset, relative to the centre of the bounds (m). */
@@ -13,12 +14,10 @@ export const everything: HalfSpace = { normal: [0, 0, 0], offset: 1 };
 
 /** The parts of the scene that images leave out: groups of spheres, and all beyond a plane across an axis. */
 export class Cut {
-  readonly hidden = new Set<number>(); // numbers of groups
-  side: Side = "none"; // the axis across which the plane lies
-  share = 0.5; // of the bounds along the axis, from the low end
-  flipped = false; // the high end is shown
-  /** Grows with each change of `hidden`. */
-  version = 0;
+  @observed accessor hidden: ReadonlySet<number> = new Set(); // numbers of groups; another set after each change
+  @observed accessor side: Side = "none"; // the axis across which the plane lies
+  @observed accessor share = 0.5; // of the bounds along the axis, from the low end
+  @observed accessor flipped = false; // the high end is shown
   private readonly kept: HalfSpace = { normal: [0, 0, 0], offset: 1 };
 
   /** The half-space that is shown; the next call changes it. */
@@ -35,21 +34,22 @@ export class Cut {
 
   show(group: number, shown: boolean): void {
     if (shown === !this.hidden.has(group)) return;
-    if (shown) this.hidden.delete(group);
-    else this.hidden.add(group);
-    this.version += 1;
+    const hidden = new Set(this.hidden);
+    if (shown) hidden.delete(group);
+    else hidden.add(group);
+    this.hidden = hidden;
   }
 
   /** Shows one group alone, or all groups if it is already alone. `groups`: their number. */
   isolate(group: number, groups: number): void {
-    const isAlone = !this.hidden.has(group) && this.hidden.size === groups - 1;
-    for (let other = 0; other < groups; other++) this.show(other, isAlone || other === group);
+    const others = Array.from({ length: groups }, (_, other) => other).filter((other) => other !== group);
+    const isAlone = !this.hidden.has(group) && this.hidden.size === others.length;
+    this.hidden = new Set(isAlone ? [] : others);
   }
 
   /** Shows everything. */
   reset(): void {
-    if (this.hidden.size > 0) this.version += 1;
-    this.hidden.clear();
+    if (this.hidden.size > 0) this.hidden = new Set();
     this.side = "none";
     this.share = 0.5;
     this.flipped = false;

@@ -23,7 +23,7 @@ export interface Circumstances {
   refusal: string; // why the server refused this page; empty if it did not
   farewell: string; // why the server ended; empty once a server answers
   deviceLost: boolean; // with `farewell`: the device of the server is lost
-  facts: { population: { count: number } } | undefined;
+  spheres: number | undefined; // in the scene; undefined: no scene is known yet
 }
 
 /** The rules of this state for all parts of the page. */
@@ -54,7 +54,7 @@ export function pageStateOf(circumstances: Circumstances): PageState {
   return { situation, current, blockedReason: reasons[situation] };
 }
 
-function situationOf({ connection, attempted, refusal, farewell, deviceLost, facts }: Circumstances): Situation {
+function situationOf({ connection, attempted, refusal, farewell, deviceLost, spheres }: Circumstances): Situation {
   if (connection === "locked") return "locked";
   if (farewell) return deviceLost ? "lost" : "ended";
   if (connection === "waiting" || connection === "connecting") {
@@ -62,6 +62,6 @@ function situationOf({ connection, attempted, refusal, farewell, deviceLost, fac
     return connection === "waiting" || attempted ? "offline" : "connecting";
   }
   if (connection === "silent") return "silent";
-  if (!facts) return "waiting";
-  return facts.population.count > 0 ? "live" : "empty";
+  if (spheres === undefined) return "waiting";
+  return spheres > 0 ? "live" : "empty";
 }

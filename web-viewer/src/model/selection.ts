@@ -1,10 +1,11 @@
+import { observed } from "../observed";
 import type { Population } from "./population";
 
 /** The selected sphere. It stays selected as long as it exists. */
 export class Selection {
-  id: number | undefined; // undefined: no sphere is selected
-  place: number | undefined; // of the sphere in frames
-  followed = false; // the camera follows the sphere
+  @observed accessor id: number | undefined; // undefined: no sphere is selected
+  @observed accessor place: number | undefined; // of the sphere in frames
+  @observed accessor followed = false; // the camera follows the sphere
 
   /** Selects the sphere at a place; deselects if there is none. */
   select(population: Population | undefined, place: number | undefined): void {

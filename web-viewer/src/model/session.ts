@@ -1,3 +1,4 @@
+import { batch, computed } from "@preact/signals-core";
 import { sharedNow } from "../clock";
 import { isLocal } from "../connection/messages";
 import type { CommandCase, DrawOrder, FromWorker, LinkChange, LinkState } from "../connection/messages";
@@ -16,10 +17,13 @@ import type {
 import type { Diagnostics, Dial } from "../gen/spherule/v1/diagnostics_pb";
 import type { Population as PopulationChange, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import type { Status } from "../gen/spherule/v1/frame_pb";
+import { observed } from "../observed";
 import { markFirst } from "../perf_marks";
 import { DelayMeter } from "./delay";
 import { factsOf } from "./facts";
 import type { Facts } from "./facts";
+import { pageStateOf } from "./page_state";
+import type { PageState } from "./page_state";
 import type { TimeAdvance } from "./playout";
 import { differences, PendingChanges, Population } from "./population";
 import type { Run } from "./population";
@@ -49,9 +53,6 @@ export interface SessionEvents {
   orderChanged(order: DrawOrder): void;
   /** `changed`: the places whose sphere has changed. */
   populationChanged(facts: Facts, changed: Run[]): void;
-  settingsChanged(settings: Settings): void;
-  dialChanged(dial: Dial): void;
-  diagnosticsReceived(diagnostics: Diagnostics): void;
   eventReceived(event: Event): void;
   recordingChanged(recording: Recording, before: Recording | undefined): void;
   messageUnreadable(reason: string): void;
@@ -63,34 +64,40 @@ export interface SessionEvents {
 
 /** The page's end of its session: all that it knows of the server and the simulation. */
 export class Session {
-  link: LinkState = "connecting";
-  linkReason = "";
-  attempted = false; // an attempt to connect has failed, or a connection has ended
-  refusal = ""; // why the server refused this page; empty if it did not
-  retryAt = 0; // ms, as sharedNow() counts
-  silentSince: number | undefined; // ms: the connection is open, but the server does not answer
-  farewell = ""; // why the server ended; empty once a server answers
-  deviceLost = false; // with `farewell`: the server's device is lost
-  divergence: Event | undefined; // positions became non-finite, and the world has not gone on since then
-  welcome: Welcome | undefined;
-  facts: Facts | undefined;
-  settings: Settings | undefined;
-  status: Status | undefined;
-  dial: Dial | undefined;
-  diagnostics: Diagnostics | undefined;
-  stream: Stream | undefined; // that the server sends; undefined: unknown
-  timeline: Timeline | undefined; // of the recording that is played; undefined: the server simulates
-  control: Control | undefined; // undefined: every client may send commands, or the holder is unknown
-  recording: Recording | undefined; // of the server; undefined: it cannot record
-  change: Change | undefined; // a long command in progress
-  past: PastRange | undefined; // that the page can show again; undefined: none
-  replay: ReplayState | undefined; // undefined: the page shows what the server sends
+  @observed accessor link: LinkState = "connecting";
+  @observed accessor linkReason = "";
+  @observed accessor attempted = false; // an attempt to connect has failed, or a connection has ended
+  @observed accessor refusal = ""; // why the server refused this page; empty if it did not
+  @observed accessor retryAt = 0; // ms, as sharedNow() counts
+  @observed accessor silentSince: number | undefined; // ms: the connection is open, but the server does not answer
+  @observed accessor farewell = ""; // why the server ended; empty once a server answers
+  @observed accessor deviceLost = false; // with `farewell`: the server's device is lost
+  /** Positions became non-finite, and the world has not gone on since then. */
+  @observed accessor divergence: Event | undefined;
+  @observed accessor tokenHeld = false; // this tab has a token for the server
+  @observed accessor welcome: Welcome | undefined;
+  @observed accessor facts: Facts | undefined;
+  @observed accessor revision = 0; // grows with each change of the population of these facts
+  @observed accessor settings: Settings | undefined;
+  @observed accessor status: Status | undefined;
+  @observed accessor dial: Dial | undefined;
+  @observed accessor diagnostics: Diagnostics | undefined;
+  @observed accessor stream: Stream | undefined; // that the server sends; undefined: unknown
+  @observed accessor timeline: Timeline | undefined; // of the recording that is played; undefined: the server simulates
+  /** Undefined: every client may send commands, or the holder is unknown. */
+  @observed accessor control: Control | undefined;
+  @observed accessor recording: Recording | undefined; // of the server; undefined: it cannot record
+  @observed accessor change: Change | undefined; // a long command in progress
+  @observed accessor past: PastRange | undefined; // that the page can show again; undefined: none
+  @observed accessor replay: ReplayState | undefined; // undefined: the page shows what the server sends
   frames = 0; // states received since the page was loaded
   lost = 0; // frames that could not be decoded since the page was loaded
   readonly traffic = new Traffic();
   readonly delay = new DelayMeter();
   readonly samples = new Samples(); // of the present run
   readonly states: States;
+  private readonly computedState = computed(() => pageStateOf(this));
+  private readonly computedPaused = computed(() => this.isPaused());
   private lastArrival = 0; // ms, of a frame of this epoch
   private epochStart = 0; // ms: when the facts of this epoch arrived
   private restarts = true; // the next scene does not continue the present one: it is of another connection or time
@@ -105,6 +112,10 @@ export class Session {
   }
 
   handle(message: FromWorker): void {
+    batch(() => this.take(message));
+  }
+
+  private take(message: FromWorker): void {
     switch (message.kind) {
       case "link":
         this.linkChanged(message);
@@ -131,7 +142,6 @@ export class Session {
       case "settings":
         this.settings = message.settings;
         if (!message.settings.paused) this.divergence = undefined;
-        this.events.settingsChanged(message.settings);
         break;
       case "order":
         this.events.orderChanged(message.order);
@@ -169,12 +179,10 @@ export class Session {
         break;
       case "dial":
         this.dial = message.dial;
-        this.events.dialChanged(message.dial);
         break;
       case "diagnostics":
         this.diagnostics = message.diagnostics;
         this.samples.add(message.diagnostics, this.status?.realTimeFactor, this.delay.newest);
-        this.events.diagnosticsReceived(message.diagnostics);
         break;
       case "event":
         this.eventReceived(message.event);
@@ -214,11 +222,30 @@ export class Session {
     return this.silentSince === undefined ? this.link : "silent";
   }
 
+  /** Spheres in the scene; undefined: no scene is known yet. */
+  get spheres(): number | undefined {
+    return this.revision >= 0 ? this.facts?.population.count : undefined; // reads `revision`, to follow it
+  }
+
+  /** Whether the server plays a recording. */
+  get playing(): boolean {
+    return this.timeline !== undefined;
+  }
+
   get live(): boolean {
     return this.connection === "open";
   }
 
+  /** The situation of the page. */
+  get state(): PageState {
+    return this.computedState.value;
+  }
+
   get paused(): boolean {
+    return this.computedPaused.value;
+  }
+
+  private isPaused(): boolean {
     if (this.replay) return this.replay.paused;
     const setting = this.settings?.paused;
     return (this.timeline ? setting : (this.status?.paused ?? setting)) ?? false;
@@ -286,6 +313,7 @@ export class Session {
     if (!facts) return [];
     const before = facts.population;
     facts.population = new Population(scene);
+    this.revision += 1;
     return differences(before, facts.population);
   }
 
@@ -306,7 +334,10 @@ export class Session {
     if (!this.isDescribed(frame)) return this.drop(frame);
     const changed = this.pending.applyTo(frame.population);
     if (changed) this.states.carryBack(frame, changed);
-    if (changed && this.facts) this.events.populationChanged(this.facts, changed);
+    if (changed && this.facts) {
+      this.revision += 1;
+      this.events.populationChanged(this.facts, changed);
+    }
     this.states.push(frame, this.timeAdvance);
     markFirst("arrived", arrival);
     markFirst("decoded");

@@ -28,7 +28,9 @@ export const goals: Record<GoalName, Goal> = {
   },
 };
 
-export const goalNames = Object.fromEntries(Object.entries(goals).map(([key, { name }]) => [name, key]));
+export const goalNames: Record<string, GoalName> = Object.fromEntries(
+  Object.entries(goals).map(([key, { name }]) => [name, key as GoalName]),
+);
 
 /** Converts a goal in the unit shown to a message. */
 export function toAuto(name: GoalName, goal: number): MessageInitShape<typeof AutoSchema> {

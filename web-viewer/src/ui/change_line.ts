@@ -1,5 +1,6 @@
 import type { Change } from "../gen/spherule/v1/control_pb";
-import { h, setText } from "./dom";
+import { live, liveText } from "./bindings";
+import { h } from "./dom";
 
 const deeds: Record<string, string> = {
   load: "Loading",
@@ -18,30 +19,26 @@ export function changeText({ what, doing, share }: Pick<Change, "what" | "doing"
   return `${deed}: ${work}${Math.floor(100 * Math.min(1, Math.max(0, share)))}\u00a0%`;
 }
 
-/** Shows the progress of a long command, with a button to cancel it. */
+type Work = Pick<Change, "what" | "doing" | "share">;
+
+/** Shows the progress of long work, with a button to cancel it. */
 export class ChangeLine {
-  private readonly text = h("p", {});
-  private readonly bar = h("progress", { max: "1", value: "0", "aria-label": "Progress" });
-  private readonly cancel: HTMLButtonElement;
   readonly element: HTMLElement;
 
-  /** `id`: for tests. */
-  constructor(cancel: () => void, id = "change") {
-    this.cancel = h("button", { type: "button", "data-testid": `${id}-cancel`, click: cancel }, "Cancel");
-    this.element = h(
-      "section",
-      { class: "steering", hidden: true, "aria-label": "Command in progress", "data-testid": id },
-      h("div", { class: "row" }, this.text, this.bar, this.cancel),
-    );
-  }
-
-  /** `blockedReason`: why this page may not send commands; empty if it may. */
-  update(change: Pick<Change, "what" | "doing" | "share"> | undefined, blockedReason: string): void {
-    this.element.hidden = change === undefined;
-    if (!change) return;
-    setText(this.text, changeText(change));
-    this.bar.value = change.share;
-    this.cancel.disabled = blockedReason !== "";
-    this.cancel.title = blockedReason;
+  /**
+   * `work`: undefined if there is none. `blocked`: why the user may not cancel it; empty if they may. `id`: for tests.
+   */
+  constructor(work: () => Work | undefined, blocked: () => string, cancel: () => void, id = "change") {
+    const bar = h("progress", { max: "1", value: "0", "aria-label": "Progress" });
+    const button = h("button", { type: "button", "data-testid": `${id}-cancel`, click: cancel }, "Cancel");
+    live(bar, { value: () => work()?.share ?? 0 });
+    live(button, { disabled: () => blocked() !== "", title: blocked });
+    const text = liveText(() => {
+      const present = work();
+      return present ? changeText(present) : "";
+    });
+    const attributes = { class: "steering", "aria-label": "Command in progress", "data-testid": id };
+    const row = h("div", { class: "row" }, h("p", {}, text), bar, button);
+    this.element = live(h("section", attributes, row), { hidden: () => !work() });
   }
 }

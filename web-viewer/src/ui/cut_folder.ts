@@ -1,14 +1,18 @@
-import type GUI from "lil-gui";
+import { effect } from "@preact/signals-core";
 import { css } from "../colour/rgb";
 import { count } from "../format";
 import { sides } from "../model/cut";
-import type { Cut } from "../model/cut";
+import type { Cut, Side } from "../model/cut";
 import type { Facts } from "../model/facts";
 import type { Group } from "../model/population";
-import { tag } from "./controllers";
+import type { Session } from "../model/session";
 import { h, setText } from "./dom";
+import { Folder } from "./folder";
 
-const sideNames = Object.fromEntries(sides.map((side) => [side === "none" ? "nothing" : side, side]));
+const sideNames: Record<string, Side> = Object.fromEntries(
+  sides.map((side) => [side === "none" ? "nothing" : side, side]),
+);
+const shownSides = { "low side": false, "high side": true };
 const most = 40; // groups with a row
 
 interface Row {
@@ -19,7 +23,7 @@ interface Row {
 
 /** The folder of the panel that chooses what images leave out: groups, and all beyond a plane. */
 export class CutFolder {
-  private readonly at = { percent: 50 };
+  readonly folder = new Folder("Show", { folded: true });
   private readonly list = h("ul", { class: "groups", "data-testid": "groups", "aria-label": "Groups that are shown" });
   private readonly more = h("p", { class: "note", hidden: true });
   private rows: Row[] = [];
@@ -27,26 +31,36 @@ export class CutFolder {
   private length = 0; // of `known` when the rows were made
 
   constructor(
-    private readonly folder: GUI,
+    session: Session,
     private readonly cut: Cut,
   ) {
-    const side = tag("cut-side", folder.add(cut, "side", sideNames).name("Cut across"));
-    side.domElement.title = "Shows only what lies on one side of a plane across this axis";
-    const at = folder.add(this.at, "percent", 0, 100, 0.5).name("Cut at, %");
-    tag("cut-at", at).domElement.title = "Place of the plane, from the low end of the bounds to their high end";
-    at.onChange((percent: number) => (cut.share = percent / 100));
-    tag("cut-flipped", folder.add(cut, "flipped", { "low side": false, "high side": true }).name("Shown"));
-    folder.$children.append(this.list, this.more);
+    const { folder } = this;
+    folder.choice("cut-side", "Cut across", {
+      title: "Shows only what lies on one side of a plane across this axis",
+      options: sideNames,
+      get: () => cut.side,
+      set: (side) => (cut.side = side),
+    });
+    folder.number("cut-at", "Cut at, %", {
+      title: "Place of the plane, from the low end of the bounds to their high end",
+      get: () => 100 * cut.share,
+      set: (percent) => (cut.share = percent / 100),
+      rule: () => ({ unit: "%", least: 0, most: 100 }),
+      slider: [0, 100, 0.5],
+      whileDragged: true,
+    });
+    folder.choice("cut-flipped", "Shown", {
+      options: shownSides,
+      get: () => cut.flipped,
+      set: (flipped) => (cut.flipped = flipped),
+    });
+    folder.body.append(this.list, this.more);
+    effect(() => {
+      if (session.spheres !== undefined && session.facts) this.show(session.facts); // follows the counts of groups
+    });
   }
 
-  /** Call when another scene is shown. */
-  reset(): void {
-    this.cut.reset();
-    this.at.percent = 50;
-    for (const controller of this.folder.controllers) controller.updateDisplay();
-  }
-
-  update({ population: { groups } }: Facts): void {
+  private show({ population: { groups } }: Facts): void {
     if (groups !== this.known || groups.length !== this.length) this.build(groups);
     this.rows.forEach(({ box, figure, element }, number) => {
       const group = groups[number];

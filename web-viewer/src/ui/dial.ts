@@ -1,5 +1,9 @@
-import type { Settings } from "../gen/spherule/v1/control_pb";
+import { effect } from "@preact/signals-core";
+import type { Outcome } from "../connection/link";
 import type { Dial as DialMessage, DialPosition } from "../gen/spherule/v1/diagnostics_pb";
+import type { Session } from "../model/session";
+import { observed } from "../observed";
+import { live } from "./bindings";
 import { costFigures, errorFigures, modelName, models, nearest, substepLabel } from "./dial_labels";
 import { h, setText } from "./dom";
 import { Figures } from "./figures";
@@ -28,52 +32,43 @@ export class Dial {
     this.figures.element,
     this.note,
   );
-  private dial: DialMessage | undefined;
-  private settings: Settings | undefined;
-  private dragging = false; // the user moves the slider: messages of the server do not move it
+  @observed private accessor dragging = false; // the user moves the slider: messages of the server do not move it
 
-  constructor(turned: (position: DialPosition) => void) {
+  /** `blocked`: why the user may not turn the dial; empty if they may. */
+  constructor(
+    private readonly session: Session,
+    blocked: () => string,
+    turned: (position: DialPosition) => Promise<Outcome>,
+  ) {
     this.slider.addEventListener("input", () => {
       this.dragging = true;
       this.describe();
     });
     this.slider.addEventListener("change", () => {
+      const position = this.session.dial?.positions[this.slider.valueAsNumber];
+      if (!position) return;
+      void turned(position).then((outcome) => {
+        if (outcome.case !== "applied") this.show();
+      });
       this.dragging = false;
-      const position = this.dial?.positions[this.slider.valueAsNumber];
-      if (position) turned(position);
     });
     // There is no change event if the slider is released where it was.
     for (const end of ["pointerup", "keyup", "blur"]) {
-      this.slider.addEventListener(end, () => {
-        this.dragging = false;
-        this.show();
-      });
+      this.slider.addEventListener(end, () => (this.dragging = false));
     }
-  }
-
-  setDial(dial: DialMessage): void {
-    this.dial = dial;
-    this.slider.max = String(Math.max(0, dial.positions.length - 1));
-    this.drawScale(dial);
-    this.show();
-  }
-
-  setSettings(settings: Settings): void {
-    this.settings = settings;
-    this.show();
-  }
-
-  /** An empty reason enables the dial. */
-  restrict(blockedReason: string): void {
-    this.slider.disabled = blockedReason !== "";
-    this.slider.title = blockedReason;
-    if (blockedReason) this.dragging = false; // a disabled slider has no further events
-    this.show();
+    live(this.element, { hidden: () => !session.dial || !session.settings });
+    live(this.slider, { disabled: () => blocked() !== "", title: blocked });
+    effect(() => {
+      if (session.dial) this.drawScale(session.dial);
+    });
+    effect(() => {
+      if (blocked()) this.dragging = false; // a disabled slider has no further events
+    });
+    effect(() => this.show());
   }
 
   private show(): void {
-    const { dial, settings } = this;
-    this.element.hidden = !dial || !settings;
+    const { dial, settings } = this.session;
     if (!dial || !settings) return;
     if (!this.dragging) this.slider.valueAsNumber = Math.max(0, nearest(dial, settings.model, settings.substeps));
     this.describe();
@@ -81,7 +76,7 @@ export class Dial {
 
   /** Shows the position under the slider while it is dragged, else the present settings. */
   private describe(): void {
-    const { dial, settings } = this;
+    const { dial, settings } = this.session;
     if (!dial || !settings) return;
     const index = this.dragging ? this.slider.valueAsNumber : nearest(dial, settings.model, settings.substeps);
     const position = dial.positions[index];
@@ -105,6 +100,7 @@ export class Dial {
   }
 
   private drawScale({ positions }: DialMessage): void {
+    this.slider.max = String(Math.max(0, positions.length - 1));
     const share = (index: number): string => `left: ${(100 * index) / Math.max(1, positions.length - 1)}%`;
     const ticks = positions.map((_, i) => h("i", { style: share(i) }));
     const names = models.flatMap(({ model, name }) => {

@@ -1,20 +1,14 @@
 import { clientName } from "../connection/protocol";
-import { blockedReasonOf } from "../model/control_state";
-import type { ControlState } from "../model/control_state";
 import type { Graphics } from "../model/page_state";
 import type { Session } from "../model/session";
-import { h, icon, setText, setTitle } from "./dom";
+import { live, liveText } from "./bindings";
+import { h, icon, setText } from "./dom";
+import type { Steering } from "./steering";
 
 const info = "M10 3.2a6.8 6.8 0 1 1 0 13.6 6.8 6.8 0 0 1 0-13.6zM10 9.2v4.2M10 6.6v.1";
 
 /** Shows the scene's name and the state of the connection. */
 export class Header {
-  private readonly scene = h("h1", { dir: "auto", "data-testid": "scene-name" }, "Spherule");
-  private readonly description = h("p", {
-    class: "description",
-    dir: "auto",
-    "data-testid": "scene-description",
-  });
   private readonly about = h(
     "button",
     {
@@ -23,45 +17,46 @@ export class Header {
       title: "About the scene",
       "aria-label": "About the scene",
       "data-testid": "about",
-      hidden: true,
       click: () => this.describe(!this.element.classList.contains("described")),
     },
     icon(info),
   );
   private readonly dot = h("i");
   private readonly text = h("span", { "data-testid": "connection" });
-  private readonly role = h("span", { class: "role", "data-testid": "role", hidden: true }, "watching");
   private readonly link: HTMLButtonElement;
   readonly element: HTMLElement;
 
   constructor(
     private readonly session: Session,
+    steering: Steering,
     retry: () => void,
   ) {
-    const attributes = { class: "link", type: "button", "data-testid": "retry", click: retry };
-    this.link = h("button", attributes, this.dot, this.text);
+    const linkAttributes = { class: "link", type: "button", "data-testid": "retry", click: retry };
+    this.link = h("button", linkAttributes, this.dot, this.text);
+    const role = live(h("span", { class: "role", "data-testid": "role" }, "watching"), {
+      hidden: () => steering.state.kind !== "watching",
+      title: () => steering.blockedReason,
+    });
     const product = [h("span", { class: "mark" }), h("span", { class: "product" }, "Spherule")];
-    const brand = h("div", { class: "brand" }, ...product, this.link, this.role);
-    const title = h("div", { class: "title" }, this.scene, this.about);
-    this.element = h("header", {}, brand, title, this.description);
+    const brand = h("div", { class: "brand" }, ...product, this.link, role);
+    const name = (): string => session.facts?.name ?? "Spherule";
+    const about = (): string => session.facts?.description ?? "";
+    const scene = live(h("h1", { dir: "auto", "data-testid": "scene-name" }, liveText(name)), { title: name });
+    const attributes = { class: "description", dir: "auto", "data-testid": "scene-description" };
+    const description = live(h("p", attributes, liveText(about)), { title: about });
+    live(this.about, { hidden: () => about() === "" });
+    const title = h("div", { class: "title" }, scene, this.about);
+    this.element = h("header", {}, brand, title, description);
     this.describe(false);
   }
 
-  /** `now`: ms, as sharedNow() counts. */
-  update(now: number, control: ControlState, graphics: Graphics): void {
+  /** Call several times a second. `now`: ms, as sharedNow() counts. */
+  update(now: number, graphics: Graphics): void {
     const { session } = this;
     const state = session.replay?.source ?? (graphics === "lost" ? "lost" : session.connection);
     this.link.dataset.state = state;
     this.link.title = titleFor(state, session);
     setText(this.text, this.textFor(state, now));
-    this.role.hidden = control.kind !== "watching";
-    this.role.title = blockedReasonOf(control);
-    if (!session.facts) return;
-    setText(this.scene, session.facts.name);
-    setTitle(this.scene, session.facts.name);
-    setText(this.description, session.facts.description);
-    setTitle(this.description, session.facts.description);
-    this.about.hidden = this.description.hidden || session.facts.description === "";
   }
 
   /** Shows or hides the description where the screen has no room for it. */

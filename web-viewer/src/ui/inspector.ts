@@ -5,7 +5,9 @@ import type { Facts } from "../model/facts";
 import { shownPosition } from "../model/positions";
 import { modes, quantityOf } from "../model/quantities";
 import { Selection } from "../model/selection";
+import type { Session } from "../model/session";
 import type { Shown } from "../model/states";
+import { live } from "./bindings";
 import { focusWhileScrolling, h, setText, setTitle } from "./dom";
 
 const contactsShown = 6;
@@ -17,13 +19,15 @@ export class Inspector {
   private readonly lines = h("div");
   private readonly contacts = h("p", { class: "contacts", "data-testid": "contacts", hidden: true });
   private contactsKey = "";
-  private readonly removal: HTMLButtonElement;
-  private readonly following: HTMLButtonElement;
   private removing = false; // the command has no result yet
   readonly element: HTMLElement;
 
-  /** `remove` is given the id of the sphere to remove. */
-  constructor(private readonly remove: (id: number) => Promise<Outcome>) {
+  /** `remove` is given the id of the sphere to remove. `blocked`: why the user may not; empty if they may. */
+  constructor(
+    session: Session,
+    private readonly remove: (id: number) => Promise<Outcome>,
+    blocked: () => string,
+  ) {
     const deselect = {
       type: "button",
       class: "close",
@@ -32,10 +36,15 @@ export class Inspector {
       click: () => this.selection.clear(),
     };
     const click = (): void => void this.removeSelected();
-    this.removal = h("button", { type: "button", "data-testid": "remove", click }, "Remove");
+    const removal = live(h("button", { type: "button", "data-testid": "remove", click }, "Remove"), {
+      hidden: () => session.playing,
+      disabled: () => blocked() !== "",
+      title: () => blocked() || "Remove the sphere (Del)",
+    });
     const follow = (): void => this.toggleFollowed();
-    this.following = h("button", { type: "button", "data-testid": "follow", click: follow }, "Follow");
-    this.following.title = "The camera follows the sphere (G)";
+    const following = h("button", { type: "button", "data-testid": "follow", click: follow }, "Follow");
+    following.title = "The camera follows the sphere (G)";
+    live(following, { "aria-pressed": () => String(this.selection.followed) });
     const body = h("div", { class: "body" }, this.lines, this.contacts);
     focusWhileScrolling(body);
     this.element = h(
@@ -43,7 +52,7 @@ export class Inspector {
       { class: "inspector", hidden: true, "aria-label": "Selected sphere" },
       h("div", { class: "row" }, this.name, h("button", deselect, "×")),
       body,
-      h("div", { class: "actions" }, this.following, this.removal),
+      h("div", { class: "actions" }, following, removal),
     );
   }
 
@@ -61,17 +70,8 @@ export class Inspector {
     if (outcome.case === "applied" && this.selection.id === id) this.selection.clear();
   }
 
-  /**
-   * `playing`: the server plays a recording. `blockedReason`: why the user may not remove it; empty if they may.
-   * `inspected`: the present state of the sphere; undefined: unknown.
-   */
-  update(
-    facts: Facts | undefined,
-    shown: Shown | undefined,
-    playing: boolean,
-    blockedReason: string,
-    inspected?: Inspected,
-  ): void {
+  /** Call several times a second. `inspected`: the present state of the sphere; undefined: unknown. */
+  update(facts: Facts | undefined, shown: Shown | undefined, inspected?: Inspected): void {
     const { id, place } = this.selection;
     const known = facts && shown && id !== undefined && place !== undefined && place < shown.to.count;
     this.element.hidden = !known;
@@ -82,10 +82,6 @@ export class Inspector {
     const more = inspected ? linesOf(inspected) : [];
     this.show([`at ${vector(shownPosition(facts, shown, place), 3)} m`, ...lines, ...more]);
     this.showContacts(facts, inspected);
-    this.following.setAttribute("aria-pressed", String(this.selection.followed));
-    this.removal.hidden = playing;
-    this.removal.disabled = blockedReason !== "";
-    this.removal.title = blockedReason || "Remove the sphere (Del)";
   }
 
   /** The bodies that the sphere touches; a click on a sphere selects it. */

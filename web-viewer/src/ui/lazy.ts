@@ -3,10 +3,11 @@ import type { Ray } from "../camera/ray";
 import type { View } from "../camera/view";
 import type { Commands } from "../connection/commands";
 import type { Gallery } from "../gallery/gallery";
+import type { Choices } from "./choices";
 import type { Selection } from "../model/selection";
 import type { Session } from "../model/session";
 import type { Shown } from "../model/states";
-import type { Choices, Panel } from "./panel";
+import type { Panel } from "./panel";
 import { loadPart } from "./parts";
 import type { Toasts } from "./toasts";
 

@@ -1,3 +1,4 @@
+import { effect } from "@preact/signals-core";
 import type { Camera } from "../camera/camera";
 import type { Box } from "../camera/free_part";
 import type { DrawClock } from "../clock";
@@ -7,15 +8,16 @@ import type { ControlMessage } from "../connection/messages";
 import { sentence } from "../format";
 import type { Event, Recording } from "../gen/spherule/v1/control_pb";
 import { Quantity } from "../gen/spherule/v1/frame_pb";
+import type { Choices } from "./choices";
 import type { ColourRanges } from "../model/colour_ranges";
 import { Inspection } from "../model/inspection";
 import { modes, quantityOf } from "../model/quantities";
-import { pageStateOf } from "../model/page_state";
-import type { Graphics, PageState } from "../model/page_state";
+import type { Graphics } from "../model/page_state";
 import type { Session } from "../model/session";
 import type { Shown } from "../model/states";
-import type { ThemeName } from "../renderer/theme";
+import { observed } from "../observed";
 import { announcementOf } from "./announcements";
+import { liveClass } from "./bindings";
 import { ChangeLine } from "./change_line";
 import { h } from "./dom";
 import { Files } from "./files";
@@ -34,7 +36,7 @@ import type { Notice, NoticeAction } from "./notices";
 import { Panel } from "./panel";
 import { loadPart } from "./parts";
 import type { LoadPart } from "./parts";
-import type { Choices, PanelActions } from "./panel";
+import type { PanelActions } from "./panel";
 import { Playback } from "./playback";
 import { Prompt } from "./prompt";
 import { RecordButton, recordingEnd } from "./record";
@@ -80,21 +82,17 @@ export class Page {
   covered: readonly Box[] = [];
   private readonly header: Header;
   private readonly inspection: Inspection;
-  private readonly change: ChangeLine;
-  private readonly drawing: ChangeLine;
   private makesPicture = false;
-  private picture: number | undefined; // completed share of the picture that is made; undefined: none, or cancelled
+  /** The completed share of the picture that is made. Undefined: none is, or it was cancelled. */
+  @observed private accessor picture: number | undefined;
   private readonly notices: Notices;
   private readonly outside = new OutsideCount();
-  private readonly record: RecordButton;
-  private readonly transport: Transport;
   private readonly gauge = new Gauge();
   private readonly legend: Legend;
   private readonly status: StatusLine;
   private readonly characters = new CharacterKeys(() => localStorage);
   private readonly help = new Help(this.characters);
   private readonly keys: () => Key[];
-  private playing = false; // the server plays a recording
   private lastUpdate = 0; // ms
   private lastFigures = 0; // ms
 
@@ -110,21 +108,13 @@ export class Page {
     const { container } = this;
     const suffix = own || !host.ariaLabel ? "" : ` (${host.ariaLabel})`; // tells the regions of several viewers apart
     const themed = own ? document.documentElement : host;
-    const showTheme = (theme: ThemeName): void => {
-      themed.dataset.theme = theme;
-      actions.themeChanged(theme);
-    };
-    const themeChanged = (theme: ThemeName): void => {
-      choices.themeChosen = true;
-      showTheme(theme);
-    };
+    effect(() => void (themed.dataset.theme = choices.theme));
     whenSystemThemeChanges((theme) => {
-      if (choices.themeChosen) return;
-      choices.theme = theme;
-      showTheme(theme);
-      this.panel.refresh();
+      if (!choices.themeChosen) choices.theme = theme;
     });
-    const showScenes = (): void => void this.lazy.showGallery(this.steering.blockedReason);
+    this.steering = new Steering(session, this.toasts, actions.sendControl);
+    const blocked = (): string => this.steering.blockedReason;
+    const showScenes = (): void => void this.lazy.showGallery(blocked());
     const editScene = (text?: Promise<string>): void => {
       if (!this.steering.blocked("load")) void this.lazy.editScene(text);
     };
@@ -142,19 +132,19 @@ export class Page {
     const load: LoadPart = (name) => loadPart(name, this.toasts);
     const savePicture = (width: number, height: number): void => void this.savePicture(width, height);
     const files = { openFile, saveScene, editScene: () => editScene(), savePicture };
-    const more = { themeChanged, showScenes, copyLink, loadPart: load };
-    this.panel = new Panel(commands, choices, { ...actions, ...files, ...more });
-    this.inspector = new Inspector((id) => commands.remove(id));
+    const more = { showScenes, copyLink, loadPart: load };
+    this.panel = new Panel(session, commands, this.steering, choices, { ...actions, ...files, ...more });
+    this.inspector = new Inspector(session, (id) => commands.remove(id), blocked);
     this.inspection = new Inspection(session, (id) => commands.inspect(id));
     this.links = new Links(session, this.toasts, site, {
       camera: actions.camera,
       selection: this.inspector.selection,
       colour: () => choices.mode,
-      colourBy: (mode) => this.panel.colourBy(mode),
+      colourBy: (mode) => choices.colourBy(mode),
     });
-    this.header = new Header(session, () => (session.replay ? actions.present() : actions.retry()));
+    this.header = new Header(session, this.steering, () => (session.replay ? actions.present() : actions.retry()));
     this.legend = new Legend(ranges, load, () => {
-      this.panel.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
+      choices.colourBy(modes[(modes.indexOf(choices.mode) + 1) % modes.length] ?? "speed");
     });
     this.status = new StatusLine(session);
     const shared = {
@@ -172,11 +162,10 @@ export class Page {
       ...shared,
       camera: actions.camera,
       present: () => actions.present(),
-      colour: (mode) => this.panel.colourBy(mode),
+      colour: (mode) => choices.colourBy(mode),
       push: () => {
         if (this.steering.blocked()) return;
         choices.tool = choices.tool === "push" ? "select" : "push";
-        this.panel.refresh();
       },
       middle: () => {
         const { width, height } = actions.camera.last;
@@ -194,11 +183,9 @@ export class Page {
       },
     };
     this.prompt = new Prompt(site.server.host, (text) => actions.submitToken(text));
-    const restrict = (blocked: string, away: string): void => this.panel.restrict(blocked, away);
-    this.steering = new Steering(session, this.toasts, actions.sendControl, restrict);
     const keys = { live: keysFor(keyActions, false), playing: keysFor(keyActions, true) };
     const typing = (): boolean => this.prompt.open || this.lazy.dialog;
-    this.keys = () => (typing() ? [] : this.playing ? keys.playing : keys.live);
+    this.keys = () => (typing() ? [] : session.playing ? keys.playing : keys.live);
     listenForKeys(host, () => this.keys(), this.characters);
     this.lazy = new Lazy({
       container,
@@ -211,39 +198,48 @@ export class Page {
       toasts: this.toasts,
       blocked: () => this.steering.blocked(),
     });
-    this.record = new RecordButton(commands);
-    this.change = new ChangeLine(() => void commands.cancel());
-    this.drawing = new ChangeLine(() => (this.picture = undefined), "drawing");
+    const record = new RecordButton(session, commands, blocked);
+    const change = new ChangeLine(
+      () => session.change,
+      blocked,
+      () => void commands.cancel(),
+    );
+    const drawing = new ChangeLine(
+      () => (this.picture === undefined ? undefined : { what: "picture", doing: "", share: this.picture }),
+      () => "",
+      () => (this.picture = undefined),
+      "drawing",
+    );
     this.notices = new Notices((action, { id }) => {
       if (action === "retry" || action === "token") actions.retry();
       else if (action === "dismiss") this.dismiss(id);
       else this.act(action);
     });
-    this.transport = new Transport(this.record.element, shared, suffix);
+    const transport = new Transport(session, blocked, record.element, shared, suffix);
     this.playback = new Playback(session, commands, () => this.quantity !== Quantity.QUANTITY_UNSPECIFIED, {
       present: () => actions.present(),
       save: () => actions.save(),
     });
     const { header, legend, inspector, panel, status, toasts, help, steering } = this;
     const facts = h("aside", { class: "facts" }, this.gauge.element, inspector.element, legend.element);
-    const parts = [this.notices, this.change, this.drawing, steering, this.playback, this.transport];
+    const parts = [this.notices, change, drawing, steering, this.playback, transport];
     const lines = parts.map(({ element }) => element);
     const controls = h("div", { class: "controls" }, ...lines);
     const deck = h("div", { class: "deck" }, controls);
     const foot = h("div", { class: "foot" }, h("div", { class: "beside" }, facts, deck));
     const dialogs = [help, this.prompt].map(({ element }) => element);
     container.append(header.element, foot, panel.element, status.element, toasts.element, ...dialogs);
-    panel.element.setAttribute("role", "region");
-    panel.element.setAttribute("aria-label", "Controls");
-    for (const part of container.querySelectorAll(":is(section, .lil-root)[aria-label]:not(.transport)")) {
+    for (const part of container.querySelectorAll(":is(section, .panel)[aria-label]:not(.transport)")) {
       part.ariaLabel = `${part.ariaLabel ?? ""}${suffix}`;
     }
     const covering = [header, this.gauge, inspector, legend, panel, status].map(({ element }) => element);
     this.observe([...covering, controls]);
-    themed.dataset.theme = choices.theme;
     this.showPanel(host.clientWidth > 720 && host.clientHeight > 480);
     host.append(container);
-    this.help.describe(this.keys(), this.playing);
+    effect(() => this.help.describe(session.playing ? keys.playing : keys.live, session.playing));
+    liveClass(container, "playing", () => session.playing);
+    liveClass(container, "old", () => !session.state.current);
+    liveClass(site.view, "aiming", () => choices.tool !== "select");
   }
 
   /** The quantity that the page needs in frames; unspecified: none. */
@@ -256,32 +252,21 @@ export class Page {
   update(now: number, shown: Shown | undefined, clock: DrawClock, graphics: Graphics): void {
     if (now - this.lastUpdate < updatePeriod) return;
     this.lastUpdate = now;
-    this.setPlaying(this.session.timeline !== undefined);
-    this.steering.update();
     const { blockedReason } = this.steering;
-    const state = pageStateOf(this.session);
-    this.container.classList.toggle("old", !state.current);
     this.container.classList.toggle("no-graphics", graphics === "none");
-    this.showNotices(state, graphics, now);
+    this.showNotices(graphics, now);
     const inspected = this.inspection.update(this.inspector.selection.id, now);
-    this.inspector.update(this.session.facts, shown, this.playing, blockedReason, inspected);
-    this.change.update(this.session.change, blockedReason);
-    const { picture: share } = this;
-    this.drawing.update(share === undefined ? undefined : { what: "picture", doing: "", share }, "");
-    this.transport.update(this.session.paused, this.session.replay !== undefined, blockedReason);
+    this.inspector.update(this.session.facts, shown, inspected);
     this.playback.update(now, shown, blockedReason);
-    this.record.update(this.playing ? undefined : this.session.recording, blockedReason);
     this.gauge.update(this.actions.camera, this.session.facts !== undefined);
     this.legend.update(this.choices.mode, this.session.facts);
     this.lazy.gallery?.update(blockedReason);
     this.lazy.tools?.refresh(this.actions.camera.last);
-    this.site.view.classList.toggle("aiming", this.choices.tool !== "select");
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
-    this.header.update(now, this.steering.state, graphics);
-    this.status.update(now, clock.imagesPerSecond, state.current);
+    this.header.update(now, graphics);
+    this.status.update(now, clock.imagesPerSecond, this.session.state.current);
     this.panel.stream.update(this.session, now);
-    if (this.session.facts) this.panel.cut.update(this.session.facts);
     this.panel.charts.update(this.session.samples);
   }
 
@@ -332,14 +317,14 @@ export class Page {
   }
 
   eventReceived(event: Event): void {
-    const announcement = announcementOf(event, this.playing);
+    const announcement = announcementOf(event, this.session.playing);
     if (announcement) this.toasts.show(announcement.who, announcement.what, "plain", { topic: announcement.who });
     else this.toasts.show("Server", event.text, "plain");
   }
 
-  private showNotices(state: PageState, graphics: Graphics, now: number): void {
-    const { refusal, farewell, status, divergence, facts } = this.session;
-    const outside = this.playing ? 0 : this.outside.due(status?.outside ?? 0);
+  private showNotices(graphics: Graphics, now: number): void {
+    const { state, refusal, farewell, status, divergence, facts, playing } = this.session;
+    const outside = playing ? 0 : this.outside.due(status?.outside ?? 0);
     const more = { outside, link: this.links.wanted, diverged: divergence !== undefined, known: facts !== undefined };
     const notices = noticesFor({ state, graphics, host: this.site.server.host, refusal, farewell, ...more });
     this.notices.update(notices, now, this.steering.blockedReason);
@@ -357,15 +342,6 @@ export class Page {
     if (action === "drop") this.panel.dropNow();
     if (action === "load") void this.commands.load(this.links.wanted?.name ?? "");
     if (action === "choose") void this.lazy.showGallery(this.steering.blockedReason);
-  }
-
-  private setPlaying(playing: boolean): void {
-    if (playing === this.playing) return;
-    this.playing = playing;
-    this.container.classList.toggle("playing", playing);
-    this.transport.setPlaying(playing);
-    this.panel.setPlaying(playing);
-    this.help.describe(this.keys(), playing);
   }
 
   /** Measures where the elements cover the canvas. They move only if one of them or the page changes its size. */

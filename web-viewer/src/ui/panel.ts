@@ -1,27 +1,26 @@
-import GUI from "lil-gui";
-import type { Controller, NumberController } from "lil-gui";
+import { effect } from "@preact/signals-core";
 import type { Commands, Drop } from "../connection/commands";
 import type { Outcome } from "../connection/link";
 import type { ViewRequest } from "../connection/messages";
-import type { Settings } from "../gen/spherule/v1/control_pb";
-import type { Diagnostics, Dial as DialMessage } from "../gen/spherule/v1/diagnostics_pb";
-import type { Cut } from "../model/cut";
-import type { Facts } from "../model/facts";
+import type { DialPosition } from "../gen/spherule/v1/diagnostics_pb";
+import type { Choices, RotationChoice, ToolName } from "./choices";
+import type { Facts, Vec3 } from "../model/facts";
 import { defaultMode, modes, quantityOf } from "../model/quantities";
 import type { Mode } from "../model/quantities";
+import type { Session } from "../model/session";
 import { largestSide } from "../renderer/picture";
 import type { RenderQualityChoice } from "../renderer/render_quality";
 import type { ThemeName } from "../renderer/theme";
 import { fromAuto, goalNames, goals, toAuto } from "./auto_goal";
 import type { GoalName } from "./auto_goal";
 import { ChartFolder } from "./chart_folder";
-import { nameFolders, Restriction, tag } from "./controllers";
+import { Controls } from "./controls";
 import { CutFolder } from "./cut_folder";
 import { Dial } from "./dial";
 import { h } from "./dom";
-import { Entry } from "./entry";
 import type { EntryRule } from "./entry";
-import { rememberFolders } from "./folders";
+import { Folder, rememberFolders } from "./folder";
+import type { NumberField } from "./number_field";
 import type { LoadPart } from "./parts";
 import {
   customGravity,
@@ -37,26 +36,10 @@ import {
 } from "./presets";
 import { refusalText } from "./refusals";
 import { StatisticsFolders } from "./statistics_folders";
+import type { Steering } from "./steering";
 import { StreamFolder } from "./stream_folder";
 
-/** Choices of the user that concern only this page. */
-export interface Choices {
-  mode: Mode;
-  modeChosen: boolean; // false: the scene determines the mode
-  rotation: "auto" | "shown" | "hidden"; // the pattern that turns with the spheres
-  quality: RenderQualityChoice;
-  theme: ThemeName;
-  themeChosen: boolean; // false: the system determines the theme
-  tool: "select" | "push" | "pull" | "drop"; // the effect of a click or a drag on the picture
-  impulse: number; // N s
-  view: ViewRequest;
-  cut: Cut;
-  trace: boolean; // the path of the selected sphere is shown
-}
-
 export interface PanelActions {
-  themeChanged(theme: ThemeName): void;
-  qualityChanged(quality: RenderQualityChoice): void;
   viewRequested(view: ViewRequest): void;
   forgetToken(): void;
   showScenes(): void;
@@ -68,167 +51,75 @@ export interface PanelActions {
   loadPart: LoadPart;
 }
 
-const rotationNames = { Automatic: "auto", Shown: "shown", Hidden: "hidden" };
-const qualityNames = { Automatic: "auto", Full: "full", Light: "light" };
+const tools: Record<string, ToolName> = { Select: "select", Push: "push", Pull: "pull", Drop: "drop" };
+const rotations: Record<string, RotationChoice> = { Automatic: "auto", Shown: "shown", Hidden: "hidden" };
+const qualities: Record<string, RenderQualityChoice> = { Automatic: "auto", Full: "full", Light: "light" };
+const themes: Record<string, ThemeName> = { Light: "light", Dark: "dark" };
+const paths = { Shown: true, Hidden: false };
+const colours: Record<string, Mode> = Object.fromEntries(modes.map((mode) => [quantityOf(mode).label, mode]));
 const gravityRule: EntryRule = { unit: "m/s²", least: -1e6, most: 1e6 };
-const capital = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
-const toolNames = { Select: "select", Push: "push", Pull: "pull", Drop: "drop" };
-const themeNames = { Light: "light", Dark: "dark" };
+const countRule: EntryRule = { unit: "", whole: true, least: 1, most: 16_000_000 };
+const sizeRule: EntryRule = { unit: "px", whole: true, least: 16, most: largestSide };
+const axes = ["x", "y", "z"] as const;
 
-/**
- * The panel at the side. It sends a command when a control is released, and shows the settings that the server reports.
- */
+/** The control panel. Its controls follow the session and the choices of the user. */
 export class Panel {
   readonly element: HTMLElement;
   readonly stream: StreamFolder;
-  readonly cut: CutFolder;
   readonly charts: ChartFolder;
-  private readonly gui: GUI;
-  private readonly statistics: StatisticsFolders;
-  private readonly world = {
-    gravity: "Earth",
-    x: 0,
-    y: 0,
-    z: 0,
-    restitution: 0.5,
-    friction: 0,
-    speed: 1,
-    auto: "off" as GoalName,
-    goal: 0, // in the unit shown
-  };
-  private readonly picture = { width: 3840, height: 2160 }; // px
-  private readonly drop = { count: 200, radius: 0.05 };
-  private readonly steering: GUI[] = []; // folders whose controls send commands
-  private readonly simulated: GUI[] = []; // folders that are hidden for a recording
-  private playback!: GUI; // the folder of which a recording uses the speed
-  private readonly access: GUI; // hidden while there is no token
-  private readonly restriction: Restriction;
-  private readonly saving: Restriction; // viewers may save, too
-  private readonly scenes: Controller;
-  private readonly save: Controller;
-  private readonly edit: Controller;
   /** Room for the arrow of gravity, which is loaded later. */
   readonly arrowRoom = h("div", { class: "arrow-room" });
-  private readonly dial = new Dial(
-    ({ model, substeps, own }) => void this.change("Quality", own ? { model } : { model, substeps }),
-  );
-  private goal!: NumberController;
-  private rotation!: Controller; // hidden while no sphere rotates
-  private readonly entries = new Map<string, Entry>(); // by the name of the control
-  private facts: Facts | undefined;
-  private settings: Settings | undefined;
+  private readonly fields: NumberField[] = [];
+  private dropCount!: NumberField;
+  private dropRadius!: NumberField;
+  private impulse!: NumberField;
 
   constructor(
+    private readonly session: Session,
     private readonly commands: Commands,
-    readonly choices: Choices,
+    private readonly steering: Steering,
+    private readonly choices: Choices,
     private readonly actions: PanelActions,
   ) {
-    this.gui = new GUI({ autoPlace: false, injectStyles: false, touchStyles: 0, title: "Controls", width: 288 });
-    this.element = this.gui.domElement;
-    this.element.dataset.testid = "panel";
-    this.scenes = tag("scenes", this.gui.add({ act: () => actions.showScenes() }, "act").name("Scenes…"));
-    const open = tag("open-file", this.gui.add({ act: () => actions.openFile() }, "act").name("Open…"));
-    open.domElement.title = "Plays a recording (.sph) or loads a scene (.json). Both can also be dropped on the page";
-    const copy = tag("copy-link", this.gui.add({ act: () => actions.copyLink() }, "act").name("Copy link"));
-    copy.domElement.title = "Copies an address that opens this view";
-    this.save = tag("save-scene", this.gui.add({ act: () => actions.saveScene() }, "act").name("Save scene"));
-    this.save.domElement.title = "Saves the spheres as they are now, as a scene file (.json)";
-    this.edit = tag("edit-scene", this.gui.add({ act: () => actions.editScene() }, "act").name("Write a scene…"));
-    this.addDrop();
-    this.addPush();
-    this.addGravity();
-    this.addQuality();
-    this.addWorld();
-    this.addLook();
-    const cut = this.gui.addFolder("Show");
-    this.cut = new CutFolder(cut, choices.cut);
-    const requested = (view: ViewRequest): void => actions.viewRequested(view);
-    const stream = this.gui.addFolder("Stream");
-    this.stream = new StreamFolder(stream, choices.view, requested);
-    const now = this.addSimulated("Now");
-    const statistics = this.addSimulated("Statistics");
-    this.statistics = new StatisticsFolders(now, statistics, actions.loadPart);
-    const charts = this.gui.addFolder("Charts");
-    this.charts = new ChartFolder(charts, actions.loadPart);
-    this.access = this.gui.addFolder("Access").hide();
-    const forget = this.access.add({ act: () => actions.forgetToken() }, "act").name("Forget token");
-    tag("forget-token", forget).domElement.title = "This tab remembers the token until it is closed";
-    nameFolders(this.gui);
-    rememberFolders(this.gui, [cut, stream, now, statistics, charts], () => localStorage);
-    this.restriction = new Restriction([this.edit, ...this.steering.flatMap((folder) => folder.controllers)]);
-    this.saving = new Restriction([this.save]);
+    const cut = new CutFolder(session, choices.cut);
+    this.stream = new StreamFolder(choices, (view) => actions.viewRequested(view));
+    const hidden = (): boolean => session.playing;
+    const now = new Folder("Now", { hidden, folded: true });
+    const rest = new Folder("Statistics", { hidden, folded: true });
+    new StatisticsFolders(now, rest, session, actions.loadPart);
+    this.charts = new ChartFolder(actions.loadPart);
+    const folders = [
+      this.dropFolder(),
+      this.toolFolder(),
+      this.gravityFolder(),
+      this.qualityFolder(),
+      this.worldFolder(),
+      this.lookFolder(),
+      ...[cut.folder, this.stream.folder, now, rest, this.charts.folder],
+      this.accessFolder(),
+    ];
+    rememberFolders(folders, () => localStorage);
+    const elements = [this.files(), ...folders.map(({ element }) => element)];
+    const attributes = { class: "panel", "data-testid": "panel", role: "region", "aria-label": "Controls" };
+    this.element = h("div", attributes, h("div", { class: "folders" }, ...elements));
+    effect(() => {
+      if (steering.blockedReason || session.playing) choices.tool = "select";
+    });
+    effect(() => {
+      const { most = Infinity } = impulseRule(session.settings);
+      choices.impulse = Math.min(choices.impulse, most);
+    });
   }
 
-  /** Disables all controls that send commands; an empty reason enables them. */
-  restrict(blockedReason: string, awayReason: string): void {
-    if (blockedReason) this.choices.tool = "select";
-    this.restriction.set(blockedReason);
-    this.saving.set(awayReason);
-    this.dial.restrict(blockedReason);
-    this.refresh();
-  }
-
-  setTokenHeld(held: boolean): void {
-    this.access.show(held);
-  }
-
-  /** `playing`: the server plays a recording. Hides the controls that then have no effect. */
-  setPlaying(playing: boolean): void {
-    if (playing) this.choices.tool = "select";
-    for (const scene of [this.scenes, this.save, this.edit]) scene.show(!playing);
-    for (const folder of this.simulated) folder.show(!playing);
-    for (const controller of this.playback.controllers) controller.show(!playing || controller.property === "speed");
-    this.playback.title(playing ? "Recording" : "World");
-    this.refresh();
-  }
-
-  /** `another`: it is another scene than before. */
-  setFacts(facts: Facts, another: boolean): void {
-    this.facts = facts;
-    if (another) {
-      this.cut.reset();
-      for (const entry of this.entries.values()) entry.restore();
-      this.drop.radius = dropRadiusFor(facts);
-      this.drop.count = dropCountFor(facts, this.drop.radius);
-      this.choices.impulse = impulseFor(this.drop.radius);
-      if (!this.choices.modeChosen) this.choices.mode = defaultMode(facts.population.groups);
-    }
-    this.refresh();
-  }
-
-  setSettings(settings: Settings): void {
-    this.settings = settings;
-    const [x = 0, y = 0, z = 0] = settings.gravity;
-    const { restitution, friction, speed } = settings;
-    const gravity = gravityPresetOf([x, y, z]);
-    const values = { x, y, z, gravity, restitution, friction, speed, ...fromAuto(settings.auto) };
-    const edited = this.edited();
-    if (edited) delete (values as Partial<typeof values>)[edited as keyof typeof values];
-    Object.assign(this.world, values);
-    this.choices.impulse = Math.min(this.choices.impulse, impulseRule(settings).most ?? Infinity);
-    this.dial.setSettings(settings);
-    this.rotation.show(settings.rotates);
-    this.goal.show(this.world.auto !== "off").name(goals[this.world.auto].label);
-    this.refresh();
-  }
-
-  setDial(dial: DialMessage): void {
-    this.dial.setDial(dial);
-  }
-
-  setDiagnostics(diagnostics: Diagnostics): void {
-    this.statistics.show(diagnostics, this.settings);
-  }
-
-  /** Shows values that have been changed outside of the panel. */
-  refresh(): void {
-    for (const controller of this.gui.controllersRecursive()) controller.updateDisplay();
-  }
-
-  colourBy(mode: Mode): void {
-    this.choices.mode = mode;
-    this.choices.modeChosen = true;
-    this.refresh();
+  /** Call when another scene is shown. Sets all values that depend on the scene. */
+  sceneChanged(facts: Facts): void {
+    const { choices } = this;
+    choices.cut.reset();
+    choices.dropRadius = dropRadiusFor(facts);
+    choices.dropCount = dropCountFor(facts, choices.dropRadius);
+    choices.impulse = impulseFor(choices.dropRadius);
+    if (!choices.modeChosen) choices.mode = defaultMode(facts.population.groups);
+    for (const field of this.fields) field.restore();
   }
 
   dropNow(): void {
@@ -237,154 +128,228 @@ export class Panel {
 
   /** Whether the impulse can be sent. If not, its field says why. */
   checkImpulse(): boolean {
-    return this.entries.get("impulse")?.check() ?? true;
+    return this.impulse.check();
   }
 
   /** Shows at the field of the impulse why the server refused a push. */
   pushed(outcome: Outcome): void {
     if (outcome.case !== "refused" || outcome.value.field !== "push.impulse") return;
-    this.entries.get("impulse")?.refuse(refusalText(outcome.value));
+    this.impulse.refuse(refusalText(outcome.value));
   }
 
   /** Drops spheres in the region that `place` returns for their number and radius. */
   async dropSpheres(place: (facts: Facts, count: number, radius: number) => Drop = dropFor): Promise<void> {
-    const [count, radius] = [this.entries.get("drop-count"), this.entries.get("drop-radius")];
-    if (!this.facts || !count?.check() || !radius?.check()) return;
-    const outcome = await this.commands.drop(place(this.facts, this.drop.count, this.drop.radius));
-    if (outcome.case === "applied") count.restore();
+    const { dropCount, dropRadius, choices } = this;
+    const { facts } = this.session;
+    if (!facts || !dropCount.check() || !dropRadius.check()) return;
+    const outcome = await this.commands.drop(place(facts, choices.dropCount, choices.dropRadius));
+    if (outcome.case === "applied") dropCount.restore();
     if (outcome.case !== "refused" || !outcome.value.field) return;
     const ofCount = outcome.value.field.endsWith(".count");
-    (ofCount ? count : radius).refuse(refusalText(outcome.value));
+    (ofCount ? dropCount : dropRadius).refuse(refusalText(outcome.value));
   }
 
-  /** Sends a change of settings. If the server refuses it, the setting stays, and the field at `entry` says why. */
-  private async change(name: string, settings: Parameters<Commands["set"]>[1], entry = ""): Promise<void> {
-    const outcome = await this.commands.set(name, settings);
-    if (outcome.case === "refused" && outcome.value.field) this.entries.get(entry)?.refuse(refusalText(outcome.value));
-    if (outcome.case !== "applied" && this.settings) this.setSettings(this.settings);
+  /** A folder whose controls send commands. It is hidden for a recording, which has no such settings. */
+  private simulated(name: string): Folder {
+    return new Folder(name, {
+      hidden: () => this.session.playing,
+      blocked: () => this.steering.blockedReason,
+    });
   }
 
-  /** A number field that answers wrong entries. `below`: the element below which it does, else the field. */
-  private number(id: string, controller: Controller, rule: () => EntryRule, below?: HTMLElement): NumberController {
-    const tagged = tag(id, controller) as NumberController;
-    this.entries.set(id, new Entry(tagged, rule, below));
-    return tagged;
+  private number(folder: Folder, ...rest: Parameters<Folder["number"]>): NumberField {
+    const field = folder.number(...rest);
+    this.fields.push(field);
+    return field;
   }
 
-  /** The setting that the user types or drags at present: messages of the server do not change it. */
-  private edited(): string | undefined {
-    const held = this.element.querySelector(".lil-slider.lil-active") ?? document.activeElement;
-    const isEditing = held?.matches("input:not([type=checkbox]), .lil-slider");
-    const control = isEditing && held?.closest<HTMLElement>("[data-control]");
-    return control ? control.dataset.control?.replace("gravity-", "") : undefined;
+  /** The buttons at the top: scenes, files and links. */
+  private files(): HTMLElement {
+    const { actions, steering, session } = this;
+    const hidden = (): boolean => session.playing;
+    const controls = new Controls(() => steering.blockedReason);
+    const blocked = (): string => ""; // the page itself acts
+    controls.action("scenes", "Scenes…", () => actions.showScenes(), { hidden, blocked });
+    const open = "Plays a recording (.sph) or loads a scene (.json). Both can also be dropped on the page";
+    controls.action("open-file", "Open…", () => actions.openFile(), { title: open, blocked });
+    const link = "Copies an address that opens this view";
+    controls.action("copy-link", "Copy link", () => actions.copyLink(), { title: link, blocked });
+    controls.action("save-scene", "Save scene", () => actions.saveScene(), {
+      title: "Saves the spheres as they are now, as a scene file (.json)",
+      hidden,
+      blocked: () => steering.awayReason,
+    });
+    controls.action("edit-scene", "Write a scene…", () => actions.editScene(), { hidden });
+    return controls.body;
   }
 
-  private addSimulated(name: string): GUI {
-    const folder = this.gui.addFolder(name);
-    this.simulated.push(folder);
+  private dropFolder(): Folder {
+    const { choices, session } = this;
+    const folder = this.simulated("Drop spheres");
+    this.dropCount = this.number(folder, "drop-count", "Count", {
+      get: () => choices.dropCount,
+      set: (count) => (choices.dropCount = count),
+      rule: () => countRule,
+    });
+    this.dropRadius = this.number(folder, "drop-radius", "Radius, m", {
+      get: () => choices.dropRadius,
+      set: (radius) => (choices.dropRadius = radius),
+      rule: () => dropRadiusRule(session.facts),
+    });
+    folder.action("drop", "Drop", () => this.dropNow());
     return folder;
   }
 
-  private addGravity(): void {
-    const { world } = this;
-    const folder = this.addSimulated("Gravity");
-    folder.$children.append(this.arrowRoom);
-    this.steering.push(folder);
-    const setGravity = (entry?: string): void =>
-      void this.change("Gravity", { gravity: [world.x, world.y, world.z] }, entry);
-    const presetNames = [...Object.keys(gravityPresets), customGravity];
-    const preset = tag("gravity-preset", folder.add(world, "gravity", presetNames).name("Preset, m/s²"));
-    preset.onFinishChange((name: string) => {
-      const gravity = gravityPresets[name];
-      if (!gravity) return;
-      [world.x, world.y, world.z] = gravity;
-      setGravity();
+  private toolFolder(): Folder {
+    const { choices, session } = this;
+    const folder = this.simulated("Click and drag");
+    folder.choice("tool", "Tool", {
+      title: "Select a sphere, push it, drag it by a spring, or drop spheres at the place of a click",
+      options: tools,
+      get: () => choices.tool,
+      set: (tool) => (choices.tool = tool),
     });
-    const axes = ["x", "y", "z"] as const;
-    const parts = axes.map((axis) => folder.add(world, axis).step(0.01).name(axis));
-    parts.forEach((part, i) => {
-      const id = `gravity-${axes[i]}`;
-      const name = `${preset.$name.id} ${part.$name.id}`;
-      part.domElement.querySelector("input")?.setAttribute("aria-labelledby", name);
-      this.number(id, part, () => gravityRule, parts[2]?.domElement).onFinishChange(() => setGravity(id));
+    this.impulse = this.number(folder, "impulse", "Push, N s", {
+      title: impulseNote,
+      get: () => choices.impulse,
+      set: (impulse) => (choices.impulse = impulse),
+      rule: () => impulseRule(session.settings),
     });
+    return folder;
   }
 
-  private addWorld(): void {
-    const { world } = this;
-    const folder = this.gui.addFolder("World");
-    this.playback = folder;
-    this.steering.push(folder);
-    folder.domElement.classList.add("playback");
-    const add = (id: "restitution" | "friction" | "speed", [low, high, step]: number[], rule: EntryRule): void => {
-      const name = rule.unit ? `${capital(id)}, ${rule.unit}` : capital(id);
-      const control = this.number(id, folder.add(world, id, low, high, step).name(name), () => rule);
-      control.onFinishChange((value: number) => void this.change(capital(id), { [id]: value }, id));
+  private gravityFolder(): Folder {
+    const { session, commands } = this;
+    const folder = this.simulated("Gravity");
+    const gravity = (): Vec3 => (session.settings?.gravity ?? [0, 0, 0]) as Vec3;
+    const set = (value: Vec3): Promise<Outcome> => commands.set("Gravity", { gravity: value });
+    const preset = folder.choice("gravity-preset", "Preset, m/s²", {
+      options: gravityPresets,
+      other: customGravity,
+      get: () => gravityPresets[gravityPresetOf(gravity())],
+      send: set,
+    });
+    const fields = axes.map((axis, k) => {
+      const field = this.number(folder, `gravity-${axis}`, axis, {
+        get: () => gravity()[k] as number,
+        send: () => set(fields.map(({ value }) => value) as Vec3),
+        rule: () => gravityRule,
+      });
+      field.input.setAttribute("aria-label", `Gravity, ${axis}, m/s²`);
+      return field;
+    });
+    preset.setAttribute("aria-label", "Preset of gravity, m/s²");
+    folder.body.append(this.arrowRoom);
+    return folder;
+  }
+
+  private qualityFolder(): Folder {
+    const { session, commands, steering } = this;
+    const folder = this.simulated("Quality");
+    const turned = ({ model, substeps, own }: DialPosition): Promise<Outcome> =>
+      commands.set("Quality", own ? { model } : { model, substeps });
+    const dial = new Dial(session, () => steering.blockedReason, turned);
+    folder.body.append(dial.element);
+    const goal = (): GoalName => fromAuto(session.settings?.auto).auto;
+    folder.choice("auto", "Automatic", {
+      title: "Adjusts the substeps to hold a step time or a mean overlap",
+      options: goalNames,
+      get: goal,
+      send: (name) => commands.set("Automatic", { auto: toAuto(name, goals[name].first) }),
+    });
+    this.number(folder, "goal", () => goals[goal()].label, {
+      get: () => fromAuto(session.settings?.auto).goal,
+      send: (value) => commands.set("Automatic", { auto: toAuto(goal(), value) }),
+      rule: () => goals[goal()].rule,
+      hidden: () => goal() === "off",
+    });
+    return folder;
+  }
+
+  /** The settings of the simulation; of a recording, the speed. */
+  private worldFolder(): Folder {
+    const { session, commands, steering } = this;
+    const title = (): string => (session.playing ? "Recording" : "World");
+    const folder = new Folder("World", { title, blocked: () => steering.blockedReason });
+    const hidden = (): boolean => session.playing;
+    this.number(folder, "restitution", "Restitution", {
+      get: () => session.settings?.restitution ?? 0,
+      send: (restitution) => commands.set("Restitution", { restitution }),
+      rule: () => ({ unit: "", least: 0, most: 1 }),
+      slider: [0, 1, 0.01],
+      hidden,
+    });
+    this.number(folder, "friction", "Friction", {
+      get: () => session.settings?.friction ?? 0,
+      send: (friction) => commands.set("Friction", { friction }),
+      rule: () => ({ unit: "", least: 0, most: 100 }),
+      slider: [0, 1, 0.01],
+      hidden,
+    });
+    this.number(folder, "speed", "Speed, ×", {
+      get: () => session.settings?.speed ?? 1,
+      send: (speed) => commands.set("Speed", { speed }),
+      rule: () => ({ unit: "×", least: 0.001, most: 1000 }),
+      slider: [0.05, 4, 0.05],
+    });
+    return folder;
+  }
+
+  private lookFolder(): Folder {
+    const { actions, choices, session } = this;
+    const folder = new Folder("Look");
+    folder.choice("colour", "Colour by", {
+      options: colours,
+      get: () => choices.mode,
+      set: (mode) => choices.colourBy(mode),
+    });
+    folder.choice("trace", "Path", {
+      title: "Shows the path of the selected sphere",
+      options: paths,
+      get: () => choices.trace,
+      set: (shown) => (choices.trace = shown),
+    });
+    folder.choice("rotation", "Rotation", {
+      title: "Shows how spheres turn. Automatic: in full quality, up to 10,000 spheres",
+      options: rotations,
+      get: () => choices.rotation,
+      set: (rotation) => (choices.rotation = rotation),
+      hidden: () => !session.settings?.rotates,
+    });
+    folder.choice("quality", "Image quality", {
+      options: qualities,
+      get: () => choices.quality,
+      set: (quality) => (choices.quality = quality),
+    });
+    const width = this.number(folder, "picture-width", "Picture width, px", {
+      get: () => choices.pictureWidth,
+      set: (size) => (choices.pictureWidth = size),
+      rule: () => sizeRule,
+    });
+    const height = this.number(folder, "picture-height", "Picture height, px", {
+      get: () => choices.pictureHeight,
+      set: (size) => (choices.pictureHeight = size),
+      rule: () => sizeRule,
+    });
+    const save = (): void => {
+      if (width.check() && height.check()) actions.savePicture(choices.pictureWidth, choices.pictureHeight);
     };
-    add("restitution", [0, 1, 0.01], { unit: "", least: 0, most: 1 });
-    add("friction", [0, 1, 0.01], { unit: "", least: 0, most: 100 });
-    add("speed", [0.05, 4, 0.05], { unit: "×", least: 0.001, most: 1000 });
-  }
-
-  private addQuality(): void {
-    const { world } = this;
-    const folder = this.addSimulated("Quality");
-    this.steering.push(folder);
-    folder.$children.append(this.dial.element);
-    const setAuto = (): void => void this.change("Automatic", { auto: toAuto(world.auto, world.goal) }, "goal");
-    const auto = tag("auto", folder.add(world, "auto", goalNames).name("Automatic"));
-    auto.onFinishChange((name: GoalName) => {
-      world.goal = goals[name].first;
-      setAuto();
+    const title = "Saves what the page shows, without its controls, as a PNG file";
+    folder.action("save-picture", "Save picture", save, { title });
+    folder.choice("theme", "Theme", {
+      options: themes,
+      get: () => choices.theme,
+      set: (theme) => choices.chooseTheme(theme),
     });
-    auto.domElement.title = "Adjusts the substeps to hold a step time or a mean overlap";
-    this.goal = this.number("goal", folder.add(world, "goal").min(0).name(""), () => goals[world.auto].rule);
-    this.goal.onFinishChange(setAuto).hide();
+    return folder;
   }
 
-  private addDrop(): void {
-    const folder = this.addSimulated("Drop spheres");
-    this.steering.push(folder);
-    const countRule: EntryRule = { unit: "", whole: true, least: 1, most: 16_000_000 };
-    this.number("drop-count", folder.add(this.drop, "count", 1, 5000, 1).name("Count"), () => countRule);
-    const radius = folder.add(this.drop, "radius").min(0).name("Radius, m");
-    this.number("drop-radius", radius, () => dropRadiusRule(this.facts));
-    tag("drop", folder.add({ act: () => this.dropNow() }, "act").name("Drop"));
-  }
-
-  private addPush(): void {
-    const folder = this.addSimulated("Click and drag");
-    this.steering.push(folder);
-    const tool = tag("tool", folder.add(this.choices, "tool", toolNames).name("Tool"));
-    tool.domElement.title = "Select a sphere, push it, drag it by a spring, or drop spheres at the place of a click";
-    const impulse = folder.add(this.choices, "impulse").min(0).name("Push, N s");
-    impulse.domElement.title = impulseNote;
-    this.number("impulse", impulse, () => impulseRule(this.settings));
-  }
-
-  private savePicture(): void {
-    const sizes = ["picture-width", "picture-height"].map((id) => this.entries.get(id));
-    if (sizes.every((size) => size?.check())) this.actions.savePicture(this.picture.width, this.picture.height);
-  }
-
-  private addLook(): void {
-    const { actions, choices } = this;
-    const folder = this.gui.addFolder("Look");
-    const names = Object.fromEntries(modes.map((mode) => [quantityOf(mode).label, mode]));
-    const mode = tag("colour", folder.add(choices, "mode", names).name("Colour by"));
-    mode.onChange((value: Mode) => this.colourBy(value));
-    const trace = tag("trace", folder.add(choices, "trace", { Shown: true, Hidden: false }).name("Path"));
-    trace.domElement.title = "Shows the path of the selected sphere";
-    this.rotation = tag("rotation", folder.add(choices, "rotation", rotationNames).name("Rotation"));
-    this.rotation.domElement.title = "Shows how spheres turn. Automatic: in full quality, up to 10,000 spheres";
-    const quality = tag("quality", folder.add(choices, "quality", qualityNames).name("Image quality"));
-    quality.onChange((value: RenderQualityChoice) => actions.qualityChanged(value));
-    const sizeRule: EntryRule = { unit: "px", whole: true, least: 16, most: largestSide };
-    this.number("picture-width", folder.add(this.picture, "width", 16).name("Picture width, px"), () => sizeRule);
-    this.number("picture-height", folder.add(this.picture, "height", 16).name("Picture height, px"), () => sizeRule);
-    const save = tag("save-picture", folder.add({ act: () => this.savePicture() }, "act").name("Save picture"));
-    save.domElement.title = "Saves what the page shows, without its controls, as a PNG file";
-    const theme = tag("theme", folder.add(choices, "theme", themeNames).name("Theme"));
-    theme.onChange((value: ThemeName) => actions.themeChanged(value));
+  /** Hidden while there is no token. */
+  private accessFolder(): Folder {
+    const { actions, session } = this;
+    const folder = new Folder("Access", { hidden: () => !session.tokenHeld });
+    const title = "This tab remembers the token until it is closed";
+    folder.action("forget-token", "Forget token", () => actions.forgetToken(), { title });
+    return folder;
   }
 }

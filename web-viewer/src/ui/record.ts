@@ -1,54 +1,45 @@
 import type { Commands } from "../connection/commands";
 import type { Recording } from "../gen/spherule/v1/control_pb";
 import { bytes, clockTime } from "../format";
-import { h, setText } from "./dom";
+import type { Session } from "../model/session";
+import { observed } from "../observed";
+import { live, liveText } from "./bindings";
+import { h } from "./dom";
 
 /** A button that starts and stops a recording on the server, and shows its duration and size. */
 export class RecordButton {
-  private readonly label = h("span", { "data-testid": "record-words" });
-  readonly element = h(
-    "button",
-    { type: "button", class: "record", "data-testid": "record", click: () => void this.toggle() },
-    h("i"),
-    this.label,
-  );
-  private recording: Recording | undefined;
-  private blockedReason = "";
-  private pending = false; // a command has no result yet: a second click would revert it
+  readonly element: HTMLElement;
+  @observed private accessor pending = false; // a command has no result yet: a second click would revert it
 
-  constructor(private readonly commands: Commands) {
-    this.update(undefined, "");
-  }
-
-  /** `recording` is undefined if the server cannot record. An empty reason enables the button. */
-  update(recording: Recording | undefined, blockedReason: string): void {
-    const same = recording === this.recording && blockedReason === this.blockedReason;
-    if (same && this.element.title) return;
-    this.recording = recording;
-    this.blockedReason = blockedReason;
-    this.enable();
-    this.element.hidden = !recording;
-    const active = recording?.active ?? false;
-    const title = active ? `Stop recording ${recording?.file ?? ""}`.trim() : "Record the simulation, on the server";
-    this.element.title = blockedReason || title;
-    this.element.setAttribute("aria-label", title);
-    this.element.setAttribute("aria-pressed", String(active));
-    this.label.hidden = !active;
-    const progress = recording && `${clockTime(recording.duration)} · ${bytes(Number(recording.bytes))}`;
-    setText(this.label, (active && progress) || "");
+  /** `blocked`: why the user may not send commands; empty if they may. */
+  constructor(
+    private readonly session: Session,
+    private readonly commands: Commands,
+    blocked: () => string,
+  ) {
+    const active = (): boolean => session.recording?.active ?? false;
+    const title = (): string =>
+      active() ? `Stop recording ${session.recording?.file ?? ""}`.trim() : "Record the simulation, on the server";
+    const progress = (): string => {
+      const { duration = 0, bytes: size = 0n } = session.recording ?? {};
+      return active() ? `${clockTime(duration)} · ${bytes(Number(size))}` : "";
+    };
+    const words = h("span", { "data-testid": "record-words" }, liveText(progress));
+    const attributes = { type: "button", class: "record", "data-testid": "record", click: () => void this.toggle() };
+    this.element = live(h("button", attributes, h("i"), live(words, { hidden: () => !active() })), {
+      hidden: () => session.playing || !session.recording,
+      disabled: () => this.pending || blocked() !== "",
+      title: () => blocked() || title(),
+      "aria-label": title,
+      "aria-pressed": () => String(active()),
+    });
   }
 
   private async toggle(): Promise<void> {
-    const { commands, recording } = this;
+    const { commands, session } = this;
     this.pending = true;
-    this.enable();
-    await (recording?.active ? commands.stopRecording() : commands.startRecording());
+    await (session.recording?.active ? commands.stopRecording() : commands.startRecording());
     this.pending = false;
-    this.enable();
-  }
-
-  private enable(): void {
-    this.element.disabled = this.pending || this.blockedReason !== "";
   }
 }
 

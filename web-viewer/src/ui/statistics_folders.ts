@@ -1,37 +1,29 @@
-import type GUI from "lil-gui";
-import type { Settings } from "../gen/spherule/v1/control_pb";
-import type { Diagnostics } from "../gen/spherule/v1/diagnostics_pb";
+import { effect } from "@preact/signals-core";
+import type { Session } from "../model/session";
+import { observed } from "../observed";
 import type { StatisticsLists } from "../statistics/statistics";
+import type { Folder } from "./folder";
 import type { LoadPart } from "./parts";
 
-/** The folders of the panel for diagnostics. Their lists are loaded when one of them is first open. */
+/** The content of the folders for diagnostics. Its lists are loaded when one of the folders is first open. */
 export class StatisticsFolders {
-  private lists: StatisticsLists | undefined;
+  @observed private accessor lists: StatisticsLists | undefined;
   private loading = false;
-  private diagnostics: Diagnostics | undefined; // the newest
-  private settings: Settings | undefined; // of that moment
 
   /** `quality`: for the figures that belong to the dial; `rest`: for the others. */
   constructor(
-    private readonly quality: GUI,
-    private readonly rest: GUI,
+    private readonly quality: Folder,
+    private readonly rest: Folder,
+    session: Session,
     private readonly load: LoadPart,
   ) {
-    for (const folder of [quality, rest]) folder.onOpenClose(() => this.update());
-  }
-
-  show(diagnostics: Diagnostics, settings: Settings | undefined): void {
-    this.diagnostics = diagnostics;
-    this.settings = settings;
-    this.update();
-  }
-
-  private update(): void {
-    const { diagnostics, settings, lists } = this;
-    const isOpen = !this.quality._closed || !this.rest._closed;
-    if (!diagnostics) return; // the panel is still being made
-    if (lists) lists.show(diagnostics, settings);
-    else if (isOpen && !this.loading) void this.begin();
+    effect(() => {
+      const { diagnostics, settings } = session;
+      const isOpen = quality.open || rest.open;
+      if (!diagnostics || !isOpen) return;
+      if (this.lists) this.lists.show(diagnostics, settings);
+      else if (!this.loading) void this.begin();
+    });
   }
 
   private async begin(): Promise<void> {
@@ -39,9 +31,9 @@ export class StatisticsFolders {
     const part = await this.load<{ StatisticsLists: new () => StatisticsLists }>("statistics");
     this.loading = false;
     if (!part) return;
-    this.lists = new part.StatisticsLists();
-    this.quality.$children.append(this.lists.quality.element);
-    this.rest.$children.append(this.lists.rest.element);
-    this.update();
+    const lists = new part.StatisticsLists();
+    this.quality.body.append(lists.quality.element);
+    this.rest.body.append(lists.rest.element);
+    this.lists = lists;
   }
 }

@@ -1,3 +1,5 @@
+import { effect } from "@preact/signals-core";
+import type { Session } from "../model/session";
 import { h, icon } from "./dom";
 
 const icons = {
@@ -34,13 +36,11 @@ export class Transport {
     "data-testid": "step-count",
   });
   private readonly unit: HTMLButtonElement;
-  private playing = false; // a recording
-  private paused = false;
-  private replay = false; // the page shows the past or a file: pause and steps act on that
-  private blockedReason = ""; // why the user may not send commands; empty if they may
 
-  /** `suffix`: of the name of its region. */
+  /** `blocked`: why the user may not send commands; empty if they may. `suffix`: of the name of its region. */
   constructor(
+    private readonly session: Session,
+    private readonly blocked: () => string,
     record: HTMLElement,
     actions: TransportActions,
     private readonly suffix: string,
@@ -81,28 +81,14 @@ export class Transport {
         "Controls (C)",
       ),
     );
-    this.describe();
-  }
-
-  /** Sets the buttons' names for a recording or for a simulation. */
-  setPlaying(playing: boolean): void {
-    this.playing = playing;
-    this.describe();
-  }
-
-  /** `replay`: the page shows the past or a file, and pause and steps act on that. */
-  update(paused: boolean, replay: boolean, blockedReason: string): void {
-    if (paused === this.paused && replay === this.replay && blockedReason === this.blockedReason) return;
-    this.paused = paused;
-    this.replay = replay;
-    this.blockedReason = blockedReason;
-    this.describe();
+    effect(() => this.describe());
   }
 
   private describe(): void {
-    const { playing, paused, replay, blockedReason } = this;
+    const { playing, paused, replay } = this.session;
+    const blockedReason = this.blocked();
     const unit = playing || replay ? "frame" : "step";
-    const reason = replay ? "" : blockedReason; // of pause and steps
+    const reason = replay ? "" : blockedReason; // of pause and steps; in a replay, they need no server
     this.element.setAttribute("aria-label", (playing ? "Playback" : "Simulation") + this.suffix);
     named(this.step, `One ${unit} (.)`, reason);
     this.steps.title = reason || `Number of ${unit}s`;
