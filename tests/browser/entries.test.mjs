@@ -70,6 +70,32 @@ test("a corrected entry is sent, and a value beyond the slider is not clamped", 
   await when(page, () => spherule.session.settings.friction === 1.5);
 });
 
+test("a slider moves its field, and sends its value when it is released; arrow keys move both", async () => {
+  const restitution = () => page.evaluate(() => spherule.session.settings.restitution);
+  const is = (value) => when(page, (wanted) => spherule.session.settings.restitution === wanted, value);
+  await enter("restitution", "x");
+  const { x, y, width, height } = await page.locator(control("restitution-slider")).boundingBox();
+  const before = await restitution();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + width - 1, y + height / 2, { steps: 3 });
+  assert.equal(await page.inputValue(control("restitution")), "1");
+  assert.equal(await restitution(), before);
+  await page.mouse.up();
+  await is(1);
+  await expectRight("restitution", "1");
+  await page.focus(control("restitution-slider"));
+  await page.keyboard.press("ArrowLeft");
+  await is(0.99);
+  await page.focus(control("restitution"));
+  await page.keyboard.press("ArrowUp");
+  await is(1);
+  await page.keyboard.press("ArrowUp"); // there is no larger value
+  await page.keyboard.press("Shift+ArrowDown");
+  await is(0.9);
+  assert.equal(await page.inputValue(control("restitution")), "0.9");
+});
+
 test("the goal of automatic quality is checked by its own range", async () => {
   await page.selectOption(control("auto"), "Hold overlap");
   await when(page, () => spherule.session.settings.auto?.goal.case === "overlap");

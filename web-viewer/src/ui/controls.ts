@@ -57,7 +57,6 @@ export class Controls {
     return select;
   }
 
-  /** `below`: the control below which a message about a wrong entry stands; undefined: this one. */
   number(id: string, name: string | (() => string), options: NumberOptions & ControlOptions): NumberField {
     const field = new NumberField(id, options, () => this.reason(options) !== "");
     const { input, slider } = field;
@@ -69,6 +68,7 @@ export class Controls {
     return field;
   }
 
+  /** Why a control is disabled; empty: it is enabled. */
   private reason({ blocked = this.blocked }: ControlOptions): string {
     return blocked();
   }

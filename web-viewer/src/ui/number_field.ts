@@ -50,6 +50,9 @@ export class NumberField {
     });
     if (options.slider) this.slider = live(this.createSlider(options.slider), { disabled });
     effect(() => {
+      if (disabled()) this.dragged = false; // a disabled slider has no further events
+    });
+    effect(() => {
       options.get();
       this.sent = undefined;
       this.show();

@@ -35,7 +35,7 @@ import {
   impulseRule,
 } from "./presets";
 import { refusalText } from "./refusals";
-import { StatisticsFolders } from "./statistics_folders";
+import { fillStatistics } from "./statistics_folders";
 import type { Steering } from "./steering";
 import { StreamFolder } from "./stream_folder";
 
@@ -86,7 +86,7 @@ export class Panel {
     const hidden = (): boolean => session.playing;
     const now = new Folder("Now", { hidden, folded: true });
     const rest = new Folder("Statistics", { hidden, folded: true });
-    new StatisticsFolders(now, rest, session, actions.loadPart);
+    fillStatistics(now, rest, session, actions.loadPart);
     this.charts = new ChartFolder(actions.loadPart);
     const folders = [
       this.dropFolder(),

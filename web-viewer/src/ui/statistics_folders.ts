@@ -1,39 +1,30 @@
-import { effect } from "@preact/signals-core";
+import { effect, signal } from "@preact/signals-core";
 import type { Session } from "../model/session";
-import { observed } from "../observed";
 import type { StatisticsLists } from "../statistics/statistics";
 import type { Folder } from "./folder";
 import type { LoadPart } from "./parts";
 
-/** The content of the folders for diagnostics. Its lists are loaded when one of the folders is first open. */
-export class StatisticsFolders {
-  @observed private accessor lists: StatisticsLists | undefined;
-  private loading = false;
-
-  /** `quality`: for the figures that belong to the dial; `rest`: for the others. */
-  constructor(
-    private readonly quality: Folder,
-    private readonly rest: Folder,
-    session: Session,
-    private readonly load: LoadPart,
-  ) {
-    effect(() => {
-      const { diagnostics, settings } = session;
-      const isOpen = quality.open || rest.open;
-      if (!diagnostics || !isOpen) return;
-      if (this.lists) this.lists.show(diagnostics, settings);
-      else if (!this.loading) void this.begin();
-    });
-  }
-
-  private async begin(): Promise<void> {
-    this.loading = true;
-    const part = await this.load<{ StatisticsLists: new () => StatisticsLists }>("statistics");
-    this.loading = false;
+/**
+ * Fills the folders for diagnostics. The lists are loaded when one of the folders is first open. `now`: for the figures
+ * that belong to the dial; `rest`: for the others.
+ */
+export function fillStatistics(now: Folder, rest: Folder, session: Session, load: LoadPart): void {
+  const lists = signal<StatisticsLists | undefined>(undefined);
+  let loading = false;
+  const begin = async (): Promise<void> => {
+    loading = true;
+    const part = await load<{ StatisticsLists: new () => StatisticsLists }>("statistics");
+    loading = false;
     if (!part) return;
-    const lists = new part.StatisticsLists();
-    this.quality.body.append(lists.quality.element);
-    this.rest.body.append(lists.rest.element);
-    this.lists = lists;
-  }
+    const made = new part.StatisticsLists();
+    now.body.append(made.quality.element);
+    rest.body.append(made.rest.element);
+    lists.value = made;
+  };
+  effect(() => {
+    const { diagnostics, settings } = session;
+    if (!diagnostics || !(now.open || rest.open)) return;
+    if (lists.value) lists.value.show(diagnostics, settings);
+    else if (!loading) void begin();
+  });
 }
