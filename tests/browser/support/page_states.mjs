@@ -169,9 +169,9 @@ export const states = {
   toasts: cradle({
     arrange: async (page, server) => {
       await showPanel(page, true);
-      await page.fill(control("drop-radius"), "0.5");
-      await page.press(control("drop-radius"), "Enter");
-      await page.click(control("drop")); // too large: a toast with details
+      await page.fill(control("drop-count"), "16000");
+      await page.press(control("drop-count"), "Enter");
+      await page.click(control("drop")); // too many: a toast with details
       await page.waitForSelector(`${control("toast")}[data-tone="bad"]`);
       await showPanel(page, false);
       await server.ctl("set", "friction", "0.1");
@@ -277,6 +277,7 @@ export const states = {
   controlled: async ({ browser }) => {
     const server = await serve("cradle", { tokens });
     const other = await join(server, "Ada Lovelace");
+    other.send(JSON.stringify({ command: { id: 1, pause: {} } })); // takes control
     const page = await enter(browser, server, tokens.controller);
     await page.waitForSelector(`${control("control")}[data-state="taken"]`, { state: "attached" });
     return { page, end: () => other.close() };
