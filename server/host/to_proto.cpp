@@ -74,6 +74,7 @@ v1::ServerMessage factsMessage(const sim::Simulation& simulation, std::uint32_t 
         if (scene.bounds.periodic[static_cast<std::size_t>(axis)])
             facts.add_periodic(static_cast<v1::Axis>(axis + v1::X));
     setObstacles(facts, scene);
+    for (const scene::Material& material : scene.materials) facts.add_materials(material.name);
     setSpheres(facts, scene, plan.features.has(sim::Feature::Radii));
     scene::setVector(*facts.mutable_camera()->mutable_eye(), scene.camera.eye);
     scene::setVector(*facts.mutable_camera()->mutable_target(), scene.camera.target);

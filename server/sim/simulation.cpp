@@ -316,8 +316,9 @@ void Simulation::limitMotionOf(const State& state) {
     limitMotionPerSubstep(largestMotion(scene_, state, scene_.step / substeps_));
 }
 
-// Raises the number of substeps at once when the fastest sphere has moved too far in a substep. Lowers it gradually
-// when no sphere does. After each reduction that was too early, waits longer before the next.
+// Raises the number of substeps at once when the fastest sphere has moved too far in a substep, and gives notice only
+// if the most substeps are too few. Lowers it gradually when no sphere does. After each reduction that was too early,
+// waits longer before the next.
 void Simulation::limitMotionPerSubstep(double radiiPerSubstep) {
     constexpr double reduction = 0.8;
     constexpr std::uint32_t maxBackoff = 256;  // steps
@@ -339,14 +340,11 @@ void Simulation::limitMotionPerSubstep(double radiiPerSubstep) {
         lowered_ = true;
     }
     if (target == substeps_) return;
-    if (substeps_ == requested)
-        notices_.push_back(
-            fmt::format("at step {}, a sphere moves {:.2g} radii in a substep: {} substeps per step in "
-                        "place of {} while anything is so fast{}",
-                        steps_, radiiPerSubstep, target, requested,
-                        withinLimit ? "" : "; even so it may pass through what it should hit"));
-    else if (target == requested)
-        notices_.push_back(fmt::format("at step {}, back to {} substeps per step", steps_, requested));
+    if (substeps_ == requested && !withinLimit)
+        notices_.push_back(fmt::format(
+            "at step {}, a sphere moves {:.2g} radii in a substep: even with {} substeps per step in place of {}, "
+            "it may pass through what it should hit",
+            steps_, radiiPerSubstep, target, requested));
     useSubsteps(target);
 }
 

@@ -1,8 +1,9 @@
 // The memory that the page's own thread allocates for an image of a moving world, from a moving camera.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { open, when } from "./support/browser.mjs";
+import { control, open, when } from "./support/browser.mjs";
 import { gasScene } from "./support/gas.mjs";
+import { showPanel } from "./support/layout.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -21,8 +22,10 @@ const suite = browserSuite(async (browser, folder) => {
   server = await serve(await gasScene(folder));
 });
 
-test("an image of a moving world, from a moving camera, allocates at most 4 kB", async () => {
+/** Checks the bytes of an image. `arrange(page)` runs before the page moves. */
+async function expectFrugal(arrange = () => {}) {
   const page = await open(suite.browser, server.url, { size: [160, 120] });
+  await arrange(page);
   await page.evaluate(() => {
     const turn = () => window.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
     setInterval(turn, 50);
@@ -46,4 +49,16 @@ test("an image of a moving world, from a moving camera, allocates at most 4 kB",
   assert.ok(each < 4096, `${each.toFixed(0)} bytes for each of ${count} images`);
   assert.deepEqual(page.faults, []);
   await page.close();
+}
+
+test("an image of a moving world, from a moving camera, allocates at most 4 kB", () => expectFrugal());
+
+test("it does not allocate more while the rotation of spheres is shown", async () => {
+  await server.ctl("set", "friction", "0.3"); // spheres rotate
+  await expectFrugal(async (page) => {
+    await showPanel(page, true);
+    await page.selectOption(control("rotation"), { label: "Shown" });
+    await showPanel(page, false);
+    await when(page, () => spherule.session.newest.columns.turn !== undefined);
+  });
 });

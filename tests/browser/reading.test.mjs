@@ -1,9 +1,10 @@
-// Reading the scene: colours by contacts, overlap and energy, the selected sphere, the ends of a scale, charts.
+// Reading the scene: colours by a quantity, the selected sphere, the ends of a scale, charts.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { beforeEach, test } from "node:test";
-import { clickSphere, control, open, says, unfold, when } from "./support/browser.mjs";
+import { cameraRests, clickSphere, control, open, says, settled, unfold, when } from "./support/browser.mjs";
+import { pictureOf } from "./support/picture.mjs";
 import { serve } from "./support/server.mjs";
 import { browserSuite } from "./support/suite.mjs";
 
@@ -15,7 +16,7 @@ const places = [0, 0.095, 0.19, 0.285, 0.6].map((x) => [x - 0.3, 0, 0]);
 
 let server;
 let page;
-browserSuite(async (browser, folder) => {
+const suite = browserSuite(async (browser, folder) => {
   const spheres = places.map((position, id) => ({ position, velocity: [0, 0, id === 4 ? 2 : 0] }));
   const scene = {
     name: "row",
@@ -128,5 +129,85 @@ test("charts are loaded when their folder is opened, and begin again with a new 
   await server.ctl("reset");
   await when(page, () => spherule.session.samples.list.length === 1);
   await says(page, "chart-values", /at 0.00 s/);
+  assert.deepEqual(page.faults, []);
+});
+
+/** A low sphere and two high ones that stand still, of groups with these colours and of different materials. */
+function shelf(low, high) {
+  const group = (name, places, colour, material) => ({
+    name,
+    list: { spheres: places.map((position) => ({ position })) },
+    radius: { constant: 0.1 },
+    fixed: true,
+    colour,
+    material,
+  });
+  return {
+    name: `shelf ${low}`,
+    bounds: { min: [-1, -1, 5], max: [1, 1, 8] },
+    camera: { eye: [0, -7, 6.3], target: [0, 0, 6.3] },
+    materials: [{ name: "felt" }, { name: "rubber" }, { name: "steel" }],
+    groups: [
+      group("low", [[0, 0, 5.1]], low, "steel"),
+      group(
+        "high",
+        [
+          [0, 0, 6.9],
+          [0.5, 0, 6.9],
+        ],
+        high,
+        "rubber",
+      ),
+    ],
+  };
+}
+
+/** Loads the scene, chooses the colour mode, and returns the colours of the low sphere and a high one. */
+async function coloursOf(scene, mode, arrange = () => {}) {
+  const file = path.join(suite.folder, "shelf.json");
+  writeFileSync(file, JSON.stringify(scene));
+  await server.ctl("load", file);
+  await when(page, (name) => spherule.session.facts.name === name && spherule.session.newest, scene.name);
+  await page.selectOption(control("colour"), { label: mode });
+  await arrange();
+  await cameraRests(page);
+  await settled(page);
+  const { at } = await pictureOf(page);
+  const middles = await page.evaluate(() => spherule.positions([0, 1]).positions.map(spherule.project));
+  return middles.map(([x, y]) => at(x, y));
+}
+
+function expectSame(colours, expected) {
+  const differences = colours.flat().map((part, k) => Math.abs(part - expected.flat()[k]));
+  assert.ok(Math.max(...differences) <= 3, `${JSON.stringify(colours)} instead of ${JSON.stringify(expected)}`);
+}
+
+test("colours by height reach from one end of the scale to the other", async () => {
+  const ends = ["#2f4858", "#f1e3a6"]; // of the ramp
+  const expected = await coloursOf(shelf(...ends), "Group");
+  const colours = await coloursOf(shelf("#ff0000", "#0000ff"), "Height", async () => {
+    await says(page, "legend-low", /^0 m$/);
+    await says(page, "legend-high", /^2 m$/); // above 1.9 m, the height of the high spheres
+    await page.click(control("legend-low"));
+    for (const [end, height] of [
+      ["low", "0.1"],
+      ["high", "1.9"],
+    ]) {
+      await page.fill(control(`range-${end}`), height);
+      await page.keyboard.press("Enter");
+    }
+    await says(page, "legend-low", /^10 cm$/);
+    await says(page, "legend-high", /^1.9 m$/);
+  });
+  expectSame(colours, expected);
+});
+
+test("colours by material have a legend with the names and the numbers of spheres", async () => {
+  const [second, third] = ["#b16d42", "#37a286"]; // of the palette
+  const expected = await coloursOf(shelf(third, second), "Group");
+  const colours = await coloursOf(shelf("#ff0000", "#0000ff"), "Material");
+  const entries = await page.locator(".legend .swatch").allTextContents();
+  assert.deepEqual(entries, ["rubber2", "steel1"]);
+  expectSame(colours, expected);
   assert.deepEqual(page.faults, []);
 });

@@ -40,19 +40,21 @@ TEST(FastMotion, FloorStopsFastSpheresInEveryModel) {
     }
 }
 
-TEST(FastMotion, RaisesSubstepsTemporarilyAndReportsIt) {
+TEST(FastMotion, RaisesSubstepsTemporarilyWithoutANotice) {
     scene::Scene scene = shots(scene::Model::Balanced, 200, {0});
     setRestitution(scene, 0);
     const auto simulation = simulate(scene);
     EXPECT_GE(simulation->substeps(), 130U) << "200 m/s over 1/60 s in steps of half a radius";
-    const auto raised = simulation->takeNotices();
-    ASSERT_EQ(raised.size(), 1U);
-    EXPECT_NE(raised[0].find("substeps per step in place of 8"), std::string::npos) << raised[0];
     run(*simulation, 0.5);
     EXPECT_EQ(simulation->substeps(), 8U);
-    const auto lowered = simulation->takeNotices();
-    ASSERT_EQ(lowered.size(), 1U);
-    EXPECT_NE(lowered[0].find("back to 8 substeps"), std::string::npos) << lowered[0];
+    EXPECT_TRUE(simulation->takeNotices().empty()) << "no sphere can pass through another";
+}
+
+TEST(FastMotion, GivesNoticeIfTheMostSubstepsAreTooFew) {
+    const auto simulation = simulate(shots(scene::Model::Balanced, 20'000, {0}));
+    const auto notices = simulation->takeNotices();
+    ASSERT_EQ(notices.size(), 1U);
+    EXPECT_NE(notices[0].find("may pass through"), std::string::npos) << notices[0];
 }
 
 TEST(FastMotion, DoesNotAffectARunAfterReset) {
@@ -64,7 +66,7 @@ TEST(FastMotion, DoesNotAffectARunAfterReset) {
     EXPECT_EQ(sim::hashOf(simulation->snapshot()), first);
 }
 
-TEST(FastMotion, IsReportedRepeatedlyButNotAtEveryStep) {
+TEST(FastMotion, TriesFewerSubstepsAgainButNotAtEveryStep) {
     // 0.6 radii per step: two substeps are enough, one is not.
     scene::Scene scene = shots(scene::Model::Fast, 0, {0});
     scene.forces.gravity = {};
@@ -73,10 +75,14 @@ TEST(FastMotion, IsReportedRepeatedlyButNotAtEveryStep) {
     scene.quality = {.model = scene::Model::Fast, .substeps = 1, .substepsFixed = true};
     scene.spheres[0].velocity = {0, 0, -0.6F * 0.05F * 60};
     const auto simulation = simulate(scene);
-    run(*simulation, 5);
-    const auto notices = simulation->takeNotices();
-    EXPECT_GE(notices.size(), 2U) << "it is tried whether one is enough by now";
-    EXPECT_LE(notices.size(), 20U) << "of 300 steps";
+    int changes = 0;
+    for (int step = 0; step < 300; ++step) {
+        const std::uint32_t before = simulation->substeps();
+        ASSERT_TRUE(simulation->step());
+        if (simulation->substeps() != before) ++changes;
+    }
+    EXPECT_GE(changes, 2) << "it is tried whether one is enough by now";
+    EXPECT_LE(changes, 20) << "of 300 steps";
 }
 
 TEST(FastMotion, AfterAPushRaisesSubstepsBeforeTheNextStep) {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { groupColour } from "../src/colour/groups";
+import { groupColour, materialColour, palette } from "../src/colour/palette";
 import { AutoRange, niceAbove } from "../src/colour/range";
 import * as ramps from "../src/colour/ramp";
 import { rampColour, speedRamp } from "../src/colour/ramp";
@@ -84,12 +84,20 @@ const vision = {
   ],
 };
 
-/** The lightness L* of a colour, from 0 to 100. */
-function lightness(colour: Rgb, seen: number[][]): number {
+/** L*, a* and b* of a colour; L* is the lightness, from 0 to 100. */
+function labOf(colour: Rgb, seen: number[][]): [number, number, number] {
   const linear = colour.map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
   const [r = 0, g = 0, b = 0] = seen.map((row) => row.reduce((sum, weight, k) => sum + weight * (linear[k] ?? 0), 0));
-  const luminance = Math.max(0, 0.2126 * r + 0.7152 * g + 0.0722 * b);
-  return luminance > 0.008856 ? 116 * Math.cbrt(luminance) - 16 : 903.3 * luminance;
+  const [x, y, z] = [
+    (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505,
+    0.2126 * r + 0.7152 * g + 0.0722 * b,
+    (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089,
+  ].map((part) => (part > 0.008856 ? Math.cbrt(part) : (903.3 * Math.max(0, part) + 16) / 116)) as [
+    number,
+    number,
+    number,
+  ];
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
 }
 
 test("the lightness of every ramp rises clearly from stop to stop, for colour-blind people too", () => {
@@ -98,7 +106,7 @@ test("the lightness of every ramp rises clearly from stop to stop, for colour-bl
   assert.equal(used.length / 6, all.length);
   for (const [name, stops] of all as [string, ramps.Ramp][]) {
     for (const [kind, seen] of Object.entries(vision)) {
-      const steps = Array.from({ length: 21 }, (_, k) => lightness(rampColour(stops, k / 20), seen));
+      const steps = Array.from({ length: 21 }, (_, k) => labOf(rampColour(stops, k / 20), seen)[0]);
       for (let k = 4; k <= 20; k += 4) {
         const rise = (steps[k] ?? 0) - (steps[k - 4] ?? 0);
         assert.ok(rise >= 6, `${name}, ${kind}: rises by ${rise.toFixed(1)} before stop ${k / 4}`);
@@ -106,6 +114,19 @@ test("the lightness of every ramp rises clearly from stop to stop, for colour-bl
       const falls = steps.findIndex((step, k) => k > 0 && step <= (steps[k - 1] ?? 0));
       assert.equal(falls, -1, `${name}, ${kind}: falls at ${falls / 20}`);
     }
+  }
+});
+
+test("colours of groups and materials are different, for colour-blind people too", () => {
+  const colours = palette.map((_, index) => materialColour(index));
+  for (const [kind, seen] of Object.entries(vision)) {
+    const places = colours.map((colour) => labOf(colour, seen));
+    places.forEach((one, i) => {
+      places.slice(i + 1).forEach((other, k) => {
+        const difference = Math.hypot(...one.map((part, axis) => part - (other[axis] ?? 0)));
+        assert.ok(difference > 20, `${kind}: ${difference.toFixed(1)} between ${palette[i]} and ${palette[i + 1 + k]}`);
+      });
+    });
   }
 });
 

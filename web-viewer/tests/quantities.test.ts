@@ -1,6 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { materialColour } from "../src/colour/palette";
 import { heightRamp, radiusRamp, speedRamp } from "../src/colour/ramp";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { Quantity } from "../src/gen/spherule/v1/frame_pb";
@@ -104,6 +105,28 @@ test("a legend has a bar with its ends, or swatches and notes", () => {
   const range = { bar: radiusRamp, low: "25 cm", high: "50 cm" };
   assert.deepEqual(legendOf("radius", facts({ radius: 0, count: 2, radii })), range);
   assert.deepEqual(legendOf("cell", facts()), { swatches: [], notes: ["this scene has no grid"] });
+});
+
+test("the legend of materials names the materials of groups, with their spheres", () => {
+  const some = facts({
+    materials: ["steel", "", "wall", "glass"],
+    groups: [
+      { name: "a", first: 0, count: 3, material: 3 },
+      { name: "b", first: 3, count: 4, material: 0 },
+      { name: "c", first: 7, count: 1, material: 3 },
+      { name: "d", first: 8, count: 0, material: 1 },
+    ],
+  });
+  const swatches = (of: Facts): string[] => {
+    const legend = legendOf("material", of);
+    return "swatches" in legend
+      ? [...legend.swatches.map(({ name, figure }) => `${name} ${figure}`), ...legend.notes]
+      : [];
+  };
+  assert.deepEqual(swatches(some), ["steel 4", "material 2 0", "glass 4"]);
+  const colours = some.population.materials.map(({ colour }) => colour);
+  assert.deepEqual(colours, [0, 1, 3].map(materialColour));
+  assert.deepEqual(swatches(facts()), ["no spheres whose material is known"], "the server is older");
 });
 
 test("the legend of groups lists six of them, and counts the others", () => {

@@ -52,7 +52,7 @@ test("a change of the population uploads only what has changed, after the first 
     [500, 3],
     [500, 3],
   ]; // radii, ids and groups
-  const looks = [[0, 2]];
+  const looks = [[0, 3]];
   const values = [
     [7, 1],
     [500, 3],

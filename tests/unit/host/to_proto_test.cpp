@@ -166,6 +166,15 @@ TEST(ResultOf, ContainsTheHitSphereOrTheStatistics) {
     EXPECT_EQ(asked.applied().statistics().spheres(), 2U);
 }
 
+TEST(FactsMessage, NamesTheMaterialsOfGroups) {
+    auto world = SimulationHost::open("cpu:1", "billiards", {});
+    ASSERT_TRUE(world);
+    const v1::SceneFacts facts = factsMessage((*world)->simulation(), 1).scene();
+    const std::vector<std::string> names(facts.materials().begin(), facts.materials().end());
+    EXPECT_EQ(names, (std::vector<std::string>{"ball", "cloth", "cushion"}));
+    for (const v1::GroupFacts& group : facts.groups()) EXPECT_EQ(group.material(), 0U) << group.name();
+}
+
 TEST(StatisticsMessage, HasNoRestitutionWithoutImpacts) {
     sim::Statistics statistics;
     EXPECT_FALSE(statisticsMessage(statistics).has_restitution());

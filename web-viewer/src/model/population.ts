@@ -1,4 +1,4 @@
-import { groupColour } from "../colour/groups";
+import { groupColour, materialColour } from "../colour/palette";
 import type { Rgb } from "../colour/rgb";
 import type { GroupFacts, Places, Population as Change, SceneFacts } from "../gen/spherule/v1/facts_pb";
 
@@ -15,9 +15,17 @@ export interface Group {
   count: number; // spheres at present
   colour: Rgb;
   own: boolean; // the colour is given by the scene
+  material: number | undefined; // its number in the scene; undefined: the server does not tell it
   fixed: boolean; // nothing moves its spheres
   roughness: number; // of the surface, 0..1
   metal: number; // 0..1
+}
+
+/** A material of spheres. */
+export interface Material {
+  name: string;
+  count: number; // spheres at present
+  colour: Rgb;
 }
 
 const unused = -1; // id at a place without a sphere
@@ -29,6 +37,7 @@ export class Population {
   number: number; // of the last change that the tables include
   count = 0; // places in use
   readonly groups: Group[];
+  private readonly materialNames: readonly string[]; // of all materials of the scene
   readonly radius: number; // m, of every sphere; 0 if they differ
 
   /** Radius at each place (m), 0 if it is not in use. Undefined: all places are in use and all radii are equal. */
@@ -46,6 +55,7 @@ export class Population {
     this.places = scene.count;
     this.number = scene.population;
     this.radius = scene.radius;
+    this.materialNames = scene.materials;
     const radii = scene.radius > 0 ? undefined : floats(scene.radii, scene.count);
     this.groupNumbers = new Uint32Array(scene.count).fill(noGroup);
     if (scene.places.length > 0) {
@@ -85,6 +95,20 @@ export class Population {
 
   groupOf(place: number): Group | undefined {
     return this.groups[this.groupNumbers[place] ?? noGroup];
+  }
+
+  /** The materials of all groups that the server tells, in the order of the scene. */
+  get materials(): Material[] {
+    const counts = new Map<number, number>();
+    for (const { material, count } of this.groups) {
+      if (material !== undefined) counts.set(material, (counts.get(material) ?? 0) + count);
+    }
+    return [...counts]
+      .sort(([one], [other]) => one - other)
+      .map(([number, count]) => {
+        const name = this.materialNames[number] || `material ${number + 1}`;
+        return { name, count, colour: materialColour(number) };
+      });
   }
 
   /** The smallest and the largest radius (m); zeros if there are no spheres. */
@@ -260,9 +284,9 @@ export function joined(runs: readonly Run[], gap: number): Run[] {
 }
 
 function groupFrom(group: GroupFacts, index: number, count: number): Group {
-  const { name, fixed, roughness = 0.45, metal } = group;
+  const { name, material, fixed, roughness = 0.45, metal } = group;
   const { colour, own } = groupColour(group.colour, index);
-  return { name: name || `group ${index + 1}`, count, colour, own, fixed, roughness, metal };
+  return { name: name || `group ${index + 1}`, count, colour, own, material, fixed, roughness, metal };
 }
 
 /** `bytes`: float32 little endian. Missing values are 0. */

@@ -38,8 +38,16 @@ export interface Quantity {
   describe?(facts: Facts, shown: Shown, place: number): string;
 }
 
-const groupsShown = 6; // in the legend
+const entriesShown = 6; // in a legend
 const negligible = 0.01; // error of a speed, as a share of it
+
+/** A legend of the first of these groups or materials. `unknown`: said if there are none. */
+function listOf(entries: readonly { colour: Rgb; name: string; count: number }[], unknown: string): LegendContent {
+  const swatches = entries.slice(0, entriesShown).map((one) => ({ ...one, figure: count(one.count) }));
+  const more = entries.length - swatches.length;
+  const notes = more > 0 ? [`and ${more} more`] : [];
+  return { swatches, notes: entries.length > 0 ? notes : [unknown] };
+}
 
 /** The values of a quantity that the server sends, for a scale. */
 function sent(quantity: Sent): (facts: Facts, shown: Shown, place: number) => number {
@@ -94,12 +102,7 @@ export const quantities = {
   group: {
     label: "Group",
     glsl: "lookOf(place).colour",
-    legend: ({ population: { groups } }) => {
-      const shown = groups.slice(0, groupsShown);
-      const more = groups.length - shown.length;
-      const swatches = shown.map((group) => ({ colour: group.colour, name: group.name, figure: count(group.count) }));
-      return { swatches, notes: more > 0 ? [`and ${more} more`] : [] };
-    },
+    legend: ({ population }) => listOf(population.groups, "this scene has no groups"),
   },
   contacts: {
     label: "Contacts",
@@ -127,6 +130,11 @@ export const quantities = {
     glsl: "colourOf(position.z - u_bottom)",
     scale: { ramp: heightRamp, unit: "m", value: heightOf, least: 1e-9 },
     legend: (_, [low, high]) => ({ bar: heightRamp, low: length(low), high: length(high) }),
+  },
+  material: {
+    label: "Material",
+    glsl: "lookOf(place).material",
+    legend: ({ population }) => listOf(population.materials, "no spheres whose material is known"),
   },
 } satisfies Record<string, Quantity>;
 

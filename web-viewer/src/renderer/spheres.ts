@@ -1,5 +1,6 @@
 import { bufferOf, columnFormats, columnNames } from "../columns";
 import type { ColumnName } from "../columns";
+import { materialColour } from "../colour/palette";
 import type { Facts } from "../model/facts";
 import { capacity } from "../model/playout";
 import { joined } from "../model/population";
@@ -16,7 +17,7 @@ interface Resident {
   used: number; // value of `turn` at its last use
 }
 
-const texelsPerLook = 2;
+const texelsPerLook = 3;
 const fromSamplers = new Map(columnNames.map((name): [ColumnName, Sampler] => [name, `u_${name}From`]));
 const toSamplers = new Map(columnNames.map((name): [ColumnName, Sampler] => [name, `u_${name}To`]));
 
@@ -201,11 +202,12 @@ export class SphereData {
     return this.shownRadii;
   }
 
-  /** Two texels per group: colour (sRGB) and roughness; metal, and 1 if the group is fixed. */
+  /** Three texels per group, as in shaders/colour.glsl. */
   private uploadLooks({ groups }: Population): void {
     const values = new Float32Array(4 * texelsPerLook * Math.max(1, groups.length));
-    groups.forEach(({ colour, roughness, metal, fixed }, group) => {
-      values.set([...colour, roughness, metal, Number(fixed)], 4 * texelsPerLook * group);
+    groups.forEach(({ colour, roughness, metal, fixed, material }, group) => {
+      const texels = [...colour, roughness, metal, Number(fixed), 0, 0, ...materialColour(material)];
+      values.set(texels, 4 * texelsPerLook * group);
     });
     this.looks.fit(values.length / 4);
     this.looks.upload(values, { first: 0, count: values.length / 4 });

@@ -99,7 +99,7 @@ const nudge = 40; // px of the drag that corresponds to one press of an arrow ke
 /** The keys of the page. `playing`: the server plays a recording. The help shows the same list. */
 export function keysFor(actions: KeyActions, playing: boolean): Key[] {
   const { camera } = actions;
-  const colours = Object.fromEntries(modes.map((mode, i) => [String(i + 1), mode]));
+  const colours = Object.fromEntries(modes.map((mode, i) => [String((i + 1) % 10), mode]));
   const colourNames = modes.map((mode) => quantityOf(mode).label.toLowerCase()).join(", ");
   const arrows: Record<string, [number, number]> = {
     ArrowLeft: [nudge, 0],
@@ -134,7 +134,7 @@ export function keysFor(actions: KeyActions, playing: boolean): Key[] {
     one(".", playing ? "one frame" : "one step", () => actions.step(1)),
     one("r", playing ? "go to the beginning" : "reset the scene", actions.reset),
     ...(playing ? [] : simulated),
-    ...each(`1 – ${modes.length}`, `colour by ${colourNames}`, colours, actions.colour),
+    ...each(`1 – ${modes.length % 10}`, `colour by ${colourNames}`, colours, actions.colour),
     one("l", "lock the colour range", actions.lock),
     one("f", "reset the view", actions.home),
     one("g", "follow the selected sphere", actions.follow),

@@ -6,13 +6,14 @@ import { reductionLabel } from "./stream_labels";
 /** The status line at the foot of the page. */
 export class StatusLine {
   private readonly fields = new Map<string, HTMLElement>();
+  private readonly spheresUnit = h("span", {}, "spheres");
   readonly element: HTMLElement;
 
   constructor(private readonly session: Session) {
     this.element = h(
       "footer",
       { "data-testid": "status" },
-      this.field("spheres", "spheres", "Spheres in the scene"),
+      this.field("spheres", this.spheresUnit, "Spheres in the scene"),
       this.field("time", "simulated", "Simulated time since the start of the scene"),
       this.field("factor", "real time", "Simulated seconds per second; lower than requested if the server is slow"),
       this.field("steps", "steps/s", "Steps per second"),
@@ -31,6 +32,7 @@ export class StatusLine {
     const { facts, status, welcome, newest } = session;
     const spheres = facts?.population.count;
     this.set("spheres", spheres === undefined ? "–" : count(spheres));
+    setText(this.spheresUnit, spheres === 1 ? "sphere" : "spheres");
     this.set("time", newest ? seconds(newest.simTime) : "–");
     const plays = session.timeline !== undefined; // a recording: nothing is simulated
     const factor = plays ? session.settings?.speed : status?.realTimeFactor;
@@ -51,10 +53,10 @@ export class StatusLine {
     if (welcome) this.setTitle("renderer", `Device of the simulation: ${welcome.reason}`);
   }
 
-  private field(id: string, label: string, title: string): HTMLElement {
+  private field(id: string, label: string | HTMLElement, title: string): HTMLElement {
     const value = h("b", { "data-testid": `status-${id}` });
     this.fields.set(id, value);
-    return h("span", { class: `field ${id}`, title }, value, h("span", {}, label));
+    return h("span", { class: `field ${id}`, title }, value, typeof label === "string" ? h("span", {}, label) : label);
   }
 
   private setTitle(id: string, title: string): void {

@@ -3,7 +3,7 @@
 uniform highp sampler2D u_id;
 uniform bool u_idsGiven;              // false: the id is the number of the place
 uniform highp usampler2D u_group;     // number of the group at each place
-uniform highp sampler2D u_looks;      // two texels per group: colour (sRGB) and roughness; metal and 1 if it is fixed
+uniform highp sampler2D u_looks;      // three texels per group: colour and roughness; metal and 1 if fixed; material
 
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
@@ -20,14 +20,16 @@ struct Look {
     float roughness;    // 0..1
     float metal;        // 0..1
     bool moves;
+    vec3 material;      // its colour, sRGB
 };
 
 Look lookOf(int place) {
     uint group = texelFetch(u_group, texelOf(place), 0).r;
-    if (group == 0xffffffffu) return Look(vec3(0.63), 0.5, 0.0, true);
-    vec4 first = texelFetch(u_looks, texelOf(2 * int(group)), 0);
-    vec2 second = texelFetch(u_looks, texelOf(2 * int(group) + 1), 0).rg;
-    return Look(first.rgb, first.a, second.r, second.g == 0.0);
+    if (group == 0xffffffffu) return Look(vec3(0.63), 0.5, 0.0, true, vec3(0.63));
+    vec4 first = texelFetch(u_looks, texelOf(3 * int(group)), 0);
+    vec2 second = texelFetch(u_looks, texelOf(3 * int(group) + 1), 0).rg;
+    vec3 material = texelFetch(u_looks, texelOf(3 * int(group) + 2), 0).rgb;
+    return Look(first.rgb, first.a, second.r, second.g == 0.0, material);
 }
 
 vec3 rampAt(float at) {
