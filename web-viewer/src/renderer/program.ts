@@ -33,10 +33,11 @@ export type Sampler = (typeof samplers)[number];
 /** GLSL: the tables of all columns, and functions of a place: its values in both states. */
 export const columnDeclarations = columnNames
   .map((name) => {
-    const [type, parts] = columnFormats[name].components === 1 ? ["float", "r"] : ["vec3", "rgb"];
+    const { components, whole } = columnFormats[name];
+    const [type, parts] = components === 1 ? ["float", "r"] : [whole ? "ivec3" : "vec3", "rgb"];
     const fetch = (end: string): string => `texelFetch(u_${name}${end}, texelOf(place), 0).${parts}`;
     return [
-      `uniform highp sampler2D u_${name}From, u_${name}To;`,
+      `uniform highp ${whole ? "i" : ""}sampler2D u_${name}From, u_${name}To;`,
       `${type} ${name}From(int place) { return ${fetch("From")}; }`,
       `${type} ${name}To(int place) { return ${fetch("To")}; }`,
     ].join("\n");

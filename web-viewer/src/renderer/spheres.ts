@@ -1,10 +1,11 @@
 import { bufferOf, columnFormats, columnNames } from "../columns";
 import type { ColumnName } from "../columns";
-import type { Facts } from "../model/facts";
+import type { Facts, Vec3 } from "../model/facts";
 import { capacity } from "../model/playout";
 import { joined } from "../model/population";
 import type { Population, Run } from "../model/population";
 import type { DrawOrder, Shown, State } from "../model/states";
+import { Grids } from "./grids";
 import { bindTexture } from "./program";
 import type { Program, Sampler } from "./program";
 import { Table } from "./table";
@@ -35,6 +36,7 @@ export class SphereData {
   private readonly nothing: Table;
   private facts: Facts | undefined;
   private images: Image[] = [];
+  private readonly grids = new Grids();
   private readonly periods = new Float32Array(3); // m
   private readonly perLength = new Float32Array(3); // 1/m
   private tabled = false; // the tables hold ids, and radii even if all are equal
@@ -99,11 +101,13 @@ export class SphereData {
     this.order.upload(places, { first: 0, count: places.length });
   }
 
-  /** Selects the states to draw, and uploads those that are new. */
-  show(shown: Shown): void {
+  /** Selects the states to draw, and uploads those that are new. `eye`: relative to the centre of the bounds (m). */
+  show(shown: Shown, eye: Vec3): void {
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.population.places ?? 0);
     this.bindState(fromSamplers, shown.from);
     this.bindState(toSamplers, shown.to);
+    this.grids.set(0, shown.from.columns.position, eye);
+    this.grids.set(1, shown.to.columns.position, eye);
     bindTexture(this.gl, "u_order", this.order.texture);
     bindTexture(this.gl, "u_radius", this.radii.texture);
     bindTexture(this.gl, "u_id", this.ids.texture);
@@ -115,6 +119,7 @@ export class SphereData {
   prepare(program: Program, mix: number): void {
     const { gl, facts } = this;
     if (!facts) return;
+    this.grids.fill(gl, program);
     gl.uniform1f(program.at("u_mix"), mix);
     const isSame = !this.tabled && this.hidden.size === 0;
     gl.uniform1f(program.at("u_sameRadius"), isSame ? facts.population.radius : 0);
@@ -169,10 +174,11 @@ export class SphereData {
     return found;
   }
 
-  private uploadColumn({ tables }: Resident, name: ColumnName, values: Float32Array, count: number): void {
+  private uploadColumn({ tables }: Resident, name: ColumnName, values: Float32Array | Int32Array, count: number): void {
     let table = tables.get(name);
     if (!table) {
-      table = new Table(this.gl, columnFormats[name].components === 1 ? 1 : 3);
+      const { components, whole } = columnFormats[name];
+      table = new Table(this.gl, components === 1 ? 1 : 3, whole);
       tables.set(name, table);
     }
     table.fit(count);

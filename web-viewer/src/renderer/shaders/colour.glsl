@@ -56,7 +56,8 @@ vec3 sentColour(int place) {
 // m/s; 0 if it is unknown. See shownSpeed() of model/positions.ts.
 float speedNow(int place) {
     if (u_valuesSent) return mix(valueFrom(place), valueTo(place), u_mix);
-    return length(shortest(positionTo(place) - positionFrom(place))) * u_inverseTime;
+    vec3 from = fromEye(positionFrom(place), 0);
+    return length(shortest(fromEye(positionTo(place), 1) - from)) * u_inverseTime;
 }
 
 // The hue of a cell is random; its lightness alternates between neighbours.

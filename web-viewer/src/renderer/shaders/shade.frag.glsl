@@ -18,18 +18,18 @@ void main() {
     }
     int place = placeOf(code);
     float radius = radiusOf(place);
-    vec3 centre = imageOf(positionNow(place), axesOf(code));
+    vec3 to = spotOf(place, axesOf(code)).to;
     Ray ray = rayAt(v_at);
-    Meeting found = meet(ray, centre - eye.xyz, radius);
+    Meeting found = meet(ray, to, radius);
     vec3 near = ray.origin + found.along * ray.direction;
     gl_FragDepth = depthOf(near);
     vec3 position = eye.xyz + near;
-    vec3 normal = found.open ? kept.xyz : (found.within ? -1.0 : 1.0) * normalize(position - centre);
+    vec3 normal = found.open ? kept.xyz : (found.within ? -1.0 : 1.0) * normalize(near - to);
     vec3 toEye = -ray.direction;
 
     Look look = lookOf(place);
     float tint = 0.96 + 0.08 * float(scrambled(uint(place)) & 255u) / 255.0;
-    vec3 albedo = colourNow(place, centre);
+    vec3 albedo = colourNow(place, eye.xyz + to);
     albedo *= albedo * tint;
     float facing = dot(normal, toEye);
     if (!found.open && look.moves) albedo *= patternNow(place, normal, radius / pixelAt(length(near)), facing);

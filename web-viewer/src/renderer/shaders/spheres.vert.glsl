@@ -19,8 +19,8 @@ out vec2 v_corner;         // 1: the outline
 void main() {
     int place = int(texelFetch(u_order, texelOf(u_first + gl_InstanceID), 0).r);
     float radius = radiusOf(place);
-    vec3 position = positionNow(place);
-    vec3 to = imageOf(position, u_image) - eye.xyz;
+    Spot spot = spotOf(place, u_image);
+    vec3 to = spot.to;
     v_code = codeOf(place, u_imageBits);
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 #ifdef ROUND
@@ -29,7 +29,7 @@ void main() {
 #else
     v_corner = vec2(0.0);
 #endif
-    if (radius <= 0.0 || !isInside(position, radius, u_image)) return;
+    if (radius <= 0.0 || !isInside(spot, radius, u_image)) return;
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     float far = length(to);
 #ifdef ROUND
