@@ -5,6 +5,7 @@ import { capacity } from "../model/playout";
 import { joined } from "../model/population";
 import type { Population, Run } from "../model/population";
 import type { DrawOrder, Shown, State } from "../model/states";
+import { axes } from "../model/units";
 import { Grids } from "./grids";
 import { bindTexture } from "./program";
 import type { Program, Sampler } from "./program";
@@ -39,6 +40,7 @@ export class SphereData {
   private readonly grids = new Grids();
   private readonly periods = new Float32Array(3); // m
   private readonly perLength = new Float32Array(3); // 1/m
+  private readonly faces = new Float32Array(6); // m, relative to the eye
   private tabled = false; // the tables hold ids, and radii even if all are equal
   private hidden: ReadonlySet<number> = new Set(); // numbers of groups
   private shownRadii = new Float32Array(0); // m; 0 for hidden spheres; used if a group is hidden
@@ -108,6 +110,11 @@ export class SphereData {
     this.bindState(toSamplers, shown.to);
     this.grids.set(0, shown.from.columns.position, eye);
     this.grids.set(1, shown.to.columns.position, eye);
+    for (const axis of axes) {
+      const half = 0.5 * (this.facts?.periods[axis] || 1e30);
+      this.faces[axis] = -half - eye[axis];
+      this.faces[axis + 3] = half - eye[axis];
+    }
     bindTexture(this.gl, "u_order", this.order.texture);
     bindTexture(this.gl, "u_radius", this.radii.texture);
     bindTexture(this.gl, "u_id", this.ids.texture);
@@ -126,6 +133,7 @@ export class SphereData {
     gl.uniform1i(program.at("u_idsGiven"), this.tabled ? 1 : 0);
     gl.uniform3fv(program.at("u_period"), this.periods);
     gl.uniform3fv(program.at("u_perLength"), this.perLength);
+    gl.uniform3fv(program.at("u_faces"), this.faces);
   }
 
   /**

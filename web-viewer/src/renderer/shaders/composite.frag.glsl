@@ -34,7 +34,7 @@ float openness(float here) {
 // The share of this pixel that a sphere covers.
 float coverageOf(uint code) {
     int place = placeOf(code);
-    vec3 to = spotOf(place, axesOf(code)).to;
+    vec3 to = placeNow(place, axesOf(code));
     Meeting found = meet(rayAt(v_at), to, radiusOf(place));
     return found.visible ? clamp(found.outline / pixelAt(length(to)) + 0.5, 0.0, 1.0) : 0.0;
 }

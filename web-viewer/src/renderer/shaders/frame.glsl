@@ -40,11 +40,15 @@ Ray rayTo(vec3 point) {
     return Ray(vec3(0.0), normalize(point));
 }
 
-// The ray through a point of the image, 0..1 on both axes.
-Ray rayAt(vec2 at) {
-    vec4 point = fromClip * vec4(2.0 * at - 1.0, 1.0, 1.0);
-    return rayTo(point.xyz / point.w);
+// The point (m, relative to the eye) at a point of clip space, between the near and the far plane. In float32, the far
+// plane of a large scene is at infinity.
+vec3 pointAt(vec2 at) {
+    vec4 point = fromClip * vec4(at, 0.0, 1.0);
+    return point.xyz / point.w;
 }
+
+// The ray through a point of the image, 0..1 on both axes.
+Ray rayAt(vec2 at) { return rayTo(pointAt(2.0 * at - 1.0)); }
 
 // The depth, as the depth buffer holds it, of a point (m, relative to the eye).
 float depthOf(vec3 point) {

@@ -1,24 +1,20 @@
-// Where spheres are drawn: between two states, and again across the faces of periodic axes.
+// Where spheres are drawn: between two states, and again across the faces of periodic axes. Relative to the eye (m).
 
-// A sphere, or its image across the faces of some periodic axes.
-struct Spot {
-    vec3 inside;    // m, relative to the centre of the bounds: the sphere itself, which is in the bounds
-    vec3 to;        // m, relative to the eye
-};
+uniform vec3 u_faces[2];    // low and high faces of periodic axes; beyond all spheres for other axes
 
-// `axes`: 1 for the axes across whose faces the image is, else 0. All lengths of axes are subtracted at once: near the
-// eye there are none, and the position keeps its precision.
-Spot spotOf(int place, vec3 axes) {
+// `axes`: 1 for the axes across whose faces an image of the sphere is, else 0. All lengths of axes are subtracted at
+// once: near the eye there are none, and the position keeps its precision.
+vec3 placeNow(int place, vec3 axes) {
     vec3 from = fromEye(positionFrom(place), 0);
     vec3 near = from + u_mix * shortest(fromEye(positionTo(place), 1) - from);
     vec3 turns = turnsIn(eye.xyz + near);
-    vec3 inside = eye.xyz + near - u_period * turns;
-    return Spot(inside, near - u_period * (turns + axes * sign(inside)));
+    vec3 side = sign(eye.xyz + near - u_period * turns);
+    return near - u_period * (turns + axes * side);
 }
 
-// Whether an image of a sphere reaches into the bounds. The sphere itself is always drawn.
-bool isInside(Spot spot, float radius, vec3 axes) {
-    return all(greaterThanEqual(abs(spot.inside) + radius, 0.5 * axes * u_period));
+// Whether a sphere or an image of it reaches into the bounds.
+bool isInside(vec3 to, float radius) {
+    return all(greaterThanEqual(to + radius, u_faces[0])) && all(lessThanEqual(to - radius, u_faces[1]));
 }
 
 // The code of a sphere in the image of codes: bit 31 is set, bits 24 to 26 are the axes of the image, and the others

@@ -18,7 +18,7 @@ void main() {
     }
     int place = placeOf(code);
     float radius = radiusOf(place);
-    vec3 to = spotOf(place, axesOf(code)).to;
+    vec3 to = placeNow(place, axesOf(code));
     Ray ray = rayAt(v_at);
     Meeting found = meet(ray, to, radius);
     vec3 near = ray.origin + found.along * ray.direction;

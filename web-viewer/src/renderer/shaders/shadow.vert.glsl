@@ -13,8 +13,8 @@ void main() {
     v_corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     int place = int(texelFetch(u_order, texelOf(u_first + gl_InstanceID), 0).r);
     float radius = radiusOf(place);
-    Spot spot = spotOf(place, u_image);
-    bool drawn = radius > 0.0 && isInside(spot, radius, u_image) && !isCut(spot.to);
-    vec3 at = eye.xyz + spot.to + radius * (v_corner.x * u_right + v_corner.y * u_up);
+    vec3 to = placeNow(place, u_image);
+    bool drawn = radius > 0.0 && isInside(to, radius) && !isCut(to);
+    vec3 at = eye.xyz + to + radius * (v_corner.x * u_right + v_corner.y * u_up);
     gl_Position = drawn ? u_light * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }
