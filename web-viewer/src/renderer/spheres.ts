@@ -106,8 +106,11 @@ export class SphereData {
   /** Selects the states to draw, and uploads those that are new. `eye`: relative to the centre of the bounds (m). */
   show(shown: Shown, eye: Vec3): void {
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.population.places ?? 0);
-    this.bindState(fromSamplers, shown.from);
-    this.bindState(toSamplers, shown.to);
+    const from = this.resident(shown.from);
+    const to = this.resident(shown.to);
+    // An upload binds its table, which may be of integers, in place of another: so no table is bound before.
+    this.bindState(fromSamplers, from);
+    this.bindState(toSamplers, to);
     this.grids.set(0, shown.from.columns.position, eye);
     this.grids.set(1, shown.to.columns.position, eye);
     for (const axis of axes) {
@@ -153,10 +156,9 @@ export class SphereData {
     }
   }
 
-  private bindState(samplers: ReadonlyMap<ColumnName, Sampler>, state: State): void {
-    const { tables } = this.resident(state);
+  private bindState(samplers: ReadonlyMap<ColumnName, Sampler>, { tables, state }: Resident): void {
     samplers.forEach((sampler, name) => {
-      const table = state.columns[name] ? tables.get(name) : undefined;
+      const table = state?.columns[name] ? tables.get(name) : undefined;
       bindTexture(this.gl, sampler, (table ?? this.nothing).texture);
     });
   }
