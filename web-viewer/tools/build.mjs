@@ -55,7 +55,7 @@ const shortShaders = {
         .map((line) => (line.startsWith("#") ? line : short(line.trim())))
         .filter((line) => line !== "")
         .join("\n")
-        .replace(/([;{}])\n(?!#)/g, "$1");
+        .replace(/([;{},(&|=+])\n(?!#)/g, "$1");
       return { contents, loader: "text" };
     });
   },

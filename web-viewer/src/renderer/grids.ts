@@ -25,7 +25,7 @@ export class Grids {
   fill(gl: WebGL2RenderingContext, program: Program): void {
     gl.uniform3fv(program.at("u_quanta"), this.quanta);
     gl.uniform3fv(program.at("u_rest"), this.rest);
-    gl.uniform3iv(program.at("u_turnUnits"), this.turns);
-    gl.uniform3iv(program.at("u_eyeUnits"), this.eye);
+    gl.uniform3iv(program.at("u_lengths"), this.turns);
+    gl.uniform3iv(program.at("u_eyes"), this.eye);
   }
 }

@@ -2,11 +2,11 @@
 const int tableWidth = 2048;    // as in renderer/table.ts
 
 // Positions are whole numbers of quanta, relative to the centre of the bounds. Each of the two states has quanta of its
-// own. In both, the eye is at u_eyeUnits * u_quanta + u_rest. See renderer/grids.ts.
+// own. In both, the eye is at u_eyes * u_quanta + u_rest. See renderer/grids.ts.
 uniform vec3 u_quanta[2];            // m
 uniform vec3 u_rest[2];              // m
-uniform ivec3 u_eyeUnits[2];
-uniform ivec3 u_turnUnits[2];        // length of each periodic axis; 0: positions do not repeat
+uniform ivec3 u_eyes[2];
+uniform ivec3 u_lengths[2];        // length of each periodic axis; 0: positions do not repeat
 uniform highp sampler2D u_radius;    // 0: no sphere is at this place
 uniform float u_sameRadius;          // of all spheres; 0: see u_radius
 uniform float u_mix;                 // between the two states
@@ -30,7 +30,7 @@ vec3 shortest(vec3 distance) { return distance - u_period * turnsIn(distance); }
 // distance from the eye, not from the centre of the bounds. Positions of both states are relative to the same eye, so
 // they can be mixed, whatever their quanta.
 vec3 fromEye(ivec3 units, int end) {
-    ivec3 off = units - u_eyeUnits[end];
+    ivec3 off = units - u_eyes[end];
     vec3 turns = clamp(turnsIn(vec3(off) * u_quanta[end] - u_rest[end]), -1.0, 1.0);
-    return vec3(off - ivec3(turns) * u_turnUnits[end]) * u_quanta[end] - u_rest[end];
+    return vec3(off - ivec3(turns) * u_lengths[end]) * u_quanta[end] - u_rest[end];
 }
