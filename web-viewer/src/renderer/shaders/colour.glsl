@@ -1,9 +1,9 @@
 // The expressions of model/quantities.ts may use the functions of this file, spheres.glsl and place.glsl. They may use
 // `place`, and `position`: the centre of the sphere (m, relative to the centre of the bounds).
-uniform highp sampler2D u_id;
+uniform sampler2D u_id;
 uniform bool u_idsGiven;              // false: the id is the number of the place
-uniform highp usampler2D u_group;     // number of the group at each place
-uniform highp sampler2D u_looks;      // two texels per group: colour (sRGB) and roughness; metal and 1 if it is fixed
+uniform usampler2D u_group;     // number of the group at each place
+uniform sampler2D u_looks;      // two texels per group: colour (sRGB) and roughness; metal and 1 if it is fixed
 
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB

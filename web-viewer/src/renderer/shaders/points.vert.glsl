@@ -1,5 +1,5 @@
 // One point per sphere that is smaller than a pixel.
-uniform highp usampler2D u_order;    // as in spheres.vert.glsl
+uniform usampler2D u_order;    // as in spheres.vert.glsl
 uniform int u_first;
 uniform vec3 u_image;
 uniform uint u_imageBits;

@@ -1,8 +1,8 @@
 // Shades each pixel once. The image of codes says which sphere a pixel shows. Floor and obstacles have their colour
 // already. Writes the depth of the surfaces, because small spheres were drawn as discs.
-uniform highp usampler2D u_code;
-uniform highp sampler2D u_forward;    // colours of floor and obstacles
-uniform highp sampler2D u_depth;      // of discs, floor and obstacles
+uniform usampler2D u_code;
+uniform sampler2D u_forward;    // colours of floor and obstacles
+uniform sampler2D u_depth;      // of discs, floor and obstacles
 uniform int u_selected;               // place; negative: none
 
 in vec2 v_at;

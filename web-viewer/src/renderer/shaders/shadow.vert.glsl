@@ -1,5 +1,5 @@
 // Spheres are drawn as discs through their centres that face the light, so that no sphere shades its own lit side.
-uniform highp usampler2D u_order;
+uniform usampler2D u_order;
 uniform int u_first;
 uniform vec3 u_image;
 uniform uint u_imageBits;

@@ -3,15 +3,15 @@ const int tableWidth = 2048;    // as in renderer/table.ts
 
 // Positions are whole numbers of quanta, relative to the centre of the bounds. Each of the two states has quanta of its
 // own. In both, the eye is at u_eyes * u_quanta + u_rest. See renderer/grids.ts.
-uniform vec3 u_quanta[2];            // m
-uniform vec3 u_rest[2];              // m
+uniform vec3 u_quanta[2];    // m
+uniform vec3 u_rest[2];      // m
 uniform ivec3 u_eyes[2];
-uniform ivec3 u_lengths[2];        // length of each periodic axis; 0: positions do not repeat
-uniform highp sampler2D u_radius;    // 0: no sphere is at this place
-uniform float u_sameRadius;          // of all spheres; 0: see u_radius
-uniform float u_mix;                 // between the two states
-uniform vec3 u_period;               // length of each periodic axis; 0: not periodic
-uniform vec3 u_perLength;            // 1/m: 1 over these lengths, or 0
+uniform ivec3 u_lengths[2];  // length of each periodic axis; 0: positions do not repeat
+uniform sampler2D u_radius;  // 0: no sphere is at this place
+uniform float u_sameRadius;  // of all spheres; 0: see u_radius
+uniform float u_mix;         // between the two states
+uniform vec3 u_period;       // length of each periodic axis; 0: not periodic
+uniform vec3 u_perLength;    // 1/m: 1 over these lengths, or 0
 
 ivec2 texelOf(int place) { return ivec2(place & (tableWidth - 1), place / tableWidth); }
 

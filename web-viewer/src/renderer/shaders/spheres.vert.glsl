@@ -3,7 +3,7 @@
 //
 // ROUND: the fragments have the depth of the surface. Else the square is a disc at the polar plane of the eye, which
 // lies in the sphere; of bodies that do not overlap, it hides the right ones.
-uniform highp usampler2D u_order;    // place of each sphere, in the order of drawing
+uniform usampler2D u_order;    // place of each sphere, in the order of drawing
 uniform int u_first;                 // number of the first sphere of this call
 uniform vec3 u_image;                // 1 for the axes across whose faces images are drawn, else 0
 uniform uint u_imageBits;
