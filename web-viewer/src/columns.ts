@@ -1,14 +1,29 @@
 import { Quantity } from "./gen/spherule/v1/frame_pb";
 import type { Frame } from "./gen/spherule/v1/frame_pb";
+import type { Turns } from "./codec/turns";
 
 /** The per-sphere values that frames carry. Each column is a chain of codec SPB with its own quantum. */
 
 /** The values of all spheres in one state. */
 export interface Column {
   values: Float32Array; // `components` per sphere, by place
-  quantum: number; // a position is off by at most half of it; for a quantity or angular velocities: their unit
-  quantity?: Quantity | undefined; // that the values are; undefined: positions
+  quantum: number; // unit of the quantity or of the angular velocities
+  quantity?: Quantity | undefined; // that the values are; undefined: orientations
 }
+
+/**
+ * The positions of all spheres in one state, as the codec's whole numbers. model/units.ts makes metres of them for
+ * the page, and renderer/shaders/spheres.glsl for the image.
+ */
+export interface Positions {
+  values: Int32Array; // x y z (quanta, relative to the centre of the bounds) per sphere, by place
+  quantum: number; // m: a position is off by at most half of it
+  quanta: Quanta;
+  turns: Turns; // values in the length of each periodic axis; 0: the axis is not periodic, or values do not repeat
+}
+
+/** m per unit of each axis. A periodic axis has its own: its length is a whole number of them. */
+export type Quanta = [number, number, number];
 
 export interface EncodedColumn {
   quantum: number;
@@ -18,14 +33,14 @@ export interface EncodedColumn {
 
 interface ColumnFormat {
   components: number; // values per sphere, at most 3
+  whole?: true; // values are whole numbers, else floats
   /** Undefined: the frame does not have the column. */
   encoded(frame: Frame): EncodedColumn | undefined;
 }
 
 /** A column of this name has tables in the shaders: u_<name>From and u_<name>To (renderer/program.ts). */
 export const columnFormats: { position: ColumnFormat; value: ColumnFormat; turn: ColumnFormat } = {
-  // x y z (m), relative to the centre of the bounds
-  position: { components: 3, encoded: ({ quantum, spb }) => ({ quantum, spb }) },
+  position: { components: 3, whole: true, encoded: ({ quantum, spb }) => ({ quantum, spb }) },
   // a quantity; within 1 %
   value: {
     components: 1,
@@ -42,7 +57,7 @@ export const columnFormats: { position: ColumnFormat; value: ColumnFormat; turn:
 export type ColumnName = keyof typeof columnFormats;
 
 /** The columns of one state. They share one buffer, one after another. */
-export type Columns = { position: Column } & Partial<Record<ColumnName, Column>>;
+export type Columns = { position: Positions; value?: Column; turn?: Column };
 
 export const columnNames = Object.keys(columnFormats) as ColumnName[];
 

@@ -14,6 +14,7 @@ import type { Shown, State } from "../src/model/states";
 import { Detail, SphereBlocks } from "../src/renderer/blocks";
 import type { DrawState } from "../src/renderer/draw_state";
 import { pixelOf } from "../src/renderer/frame_uniforms";
+import { positionsAt } from "./support/positions";
 
 const places = 3 * blockPlaces - 100;
 const bounds = { boundsMin: [-100, -100, -100], boundsMax: [100, 100, 100] };
@@ -23,8 +24,8 @@ const order = { epoch: 1, number: 4, places: Uint32Array.from({ length: places }
 
 /** A state whose blocks have these centres, and a size of 2 m. */
 function state(number: number, ...centres: Vec3[]): State {
-  const boxes = Float32Array.from(centres.flatMap((at) => [...at.map((x) => x - 1), ...at.map((x) => x + 1)]));
-  const columns = { position: { values: new Float32Array(3 * places), quantum: 0.01 } };
+  const boxes = Float64Array.from(centres.flatMap((at) => [...at.map((x) => x - 1), ...at.map((x) => x + 1)]));
+  const columns = { position: positionsAt(new Array<number>(3 * places).fill(0)) };
   return { sequence: 1, epoch: 1, step: 1, simTime: 0, count: places, columns, order: number, boxes };
 }
 
@@ -122,7 +123,7 @@ test("the boxes of blocks hold the positions, and are unbounded along periodic a
   const count = blockPlaces + 3;
   const units = Int32Array.from({ length: 3 * count }, (_, k) => ((k * 7919) % 2001) - 1000);
   units.set([5, -6, 7, 5, -8, 9, 5, -7, 8], 3 * blockPlaces);
-  const boxes = new Float32Array(12);
+  const boxes = new Float64Array(12);
   boxesOf(units, count, [0.5, 0.25, 1], [0, 0, 0], boxes);
   assert.deepEqual([...boxes.subarray(6)], [2.5, -2, 7, 2.5, -1.5, 9]);
   for (let k = 0; k < blockPlaces; k++) {

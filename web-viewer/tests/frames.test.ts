@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { BufferPool } from "../src/connection/buffer_pool";
 import { Frames } from "../src/connection/frames";
 import { idsOf, scatter } from "../src/connection/order";
+import type { Positions } from "../src/columns";
 import { Quantity, Tier } from "../src/gen/spherule/v1/frame_pb";
 import type { Frame } from "../src/gen/spherule/v1/frame_pb";
 import { frameOf, keyframe, orderOf, still } from "./support/chain";
@@ -24,17 +25,21 @@ function begun(buffers = new BufferPool()): Frames {
   return frames;
 }
 
-function positionsOf(frames: Frames, frame: Frame): Float32Array {
+function columnOf(frames: Frames, frame: Frame): Positions {
   const decoded = frames.decode(frame);
   assert.ok(decoded.kind === "state", decoded.kind);
-  return decoded.content.columns.position.values;
+  return decoded.content.columns.position;
 }
 
-test("a frame is decoded to metres in id order", () => {
+const positionsOf = (frames: Frames, frame: Frame): Int32Array => columnOf(frames, frame).values;
+
+test("a frame is decoded to whole numbers of its quantum, in id order", () => {
   const frames = begun();
-  const metres = [-2, 2.5, 300, 3.5, 4, -4.5, 0.5, 1, 1.5];
-  assert.deepEqual([...positionsOf(frames, first())], metres);
-  assert.deepEqual([...positionsOf(frames, next(2))], metres);
+  const units = [-4, 5, 600, 7, 8, -9, 1, 2, 3];
+  assert.deepEqual([...positionsOf(frames, first())], units);
+  const { values, quantum, quanta, turns } = columnOf(frames, next(2));
+  assert.deepEqual([...values], units);
+  assert.deepEqual([quantum, quanta, turns], [0.5, [0.5, 0.5, 0.5], [0, 0, 0]]);
 });
 
 test("speeds are decoded from their codes, in id order, and end with the chain that has them", () => {
@@ -96,14 +101,14 @@ test("the golden frames are decoded in the given order", () => {
   const frames = new Frames(new BufferPool());
   frames.setScene(3, count);
   frames.setOrder(orderOf(ids));
-  let positions: Float32Array = new Float32Array(0);
+  let positions: Int32Array = new Int32Array(0);
   for (let k = 0; k < 8; k++) {
     positions = positionsOf(frames, frameOf(golden(`frame-${k}.spb`), { count, quantum: 0.25 }));
   }
   const units = new Int32Array(golden("positions.i32").buffer);
   ids.forEach((id, k) => {
     for (let axis = 0; axis < 3; axis++) {
-      assert.equal(positions[3 * id + axis], Math.fround(0.25 * (units[3 * k + axis] ?? NaN)));
+      assert.equal(positions[3 * id + axis], units[3 * k + axis]);
     }
   });
 });
@@ -112,7 +117,7 @@ test("a larger used buffer is reused, and its old content is not visible", () =>
   const buffers = new BufferPool();
   buffers.release(new Uint8Array(600).fill(255).buffer);
   const positions = positionsOf(begun(buffers), first());
-  assert.deepEqual([positions.length, positions.buffer.byteLength, positions[0]], [9, 600, -2]);
+  assert.deepEqual([positions.length, positions.buffer.byteLength, positions[0]], [9, 600, -4]);
 });
 
 test("frames of another epoch or order are ignored", () => {
@@ -131,8 +136,8 @@ test("a keyframe starts another chain, and ends the previous one", () => {
   const frames = begun();
   positionsOf(frames, first());
   assert.equal(frames.decode(next(2, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind");
-  const fine = positionsOf(frames, first({ tier: Tier.FINE, quantum: 0.125 }));
-  assert.equal(fine[0], -0.5);
+  const fine = columnOf(frames, first({ tier: Tier.FINE, quantum: 0.125 }));
+  assert.deepEqual([fine.values[0], fine.quanta], [-4, [0.125, 0.125, 0.125]]);
   positionsOf(frames, next(2, { tier: Tier.FINE, quantum: 0.125 }));
   assert.equal(frames.decode(next(3)).kind, "behind");
   assert.equal(frames.decode(next(3, { tier: Tier.FINE, quantum: 0.125 })).kind, "behind", "a lost chain stays lost");
@@ -143,7 +148,7 @@ test("a new order starts with a keyframe", () => {
   positionsOf(frames, first());
   frames.setOrder(orderOf([0, 1, 2], { number: 2 }));
   assert.equal(frames.decode(next(2, { order: 2 })).kind, "behind");
-  assert.deepEqual([...positionsOf(frames, first({ order: 2 }))].slice(0, 3), [0.5, 1, 1.5]);
+  assert.deepEqual([...positionsOf(frames, first({ order: 2 }))].slice(0, 3), [1, 2, 3]);
 });
 
 test("a new connection starts with a keyframe", () => {
@@ -162,7 +167,7 @@ test("a new epoch with more spheres gets a new decoder", () => {
   frames.setScene(4, 4);
   frames.setOrder(orderOf([3, 2, 1, 0], { epoch: 4 }));
   const more = frameOf(keyframe(9, [...ends, [1, 1, 1]]), { epoch: 4, count: 4 });
-  assert.deepEqual([...positionsOf(frames, more)].slice(0, 3), [0.5, 0.5, 0.5]);
+  assert.deepEqual([...positionsOf(frames, more)].slice(0, 3), [1, 1, 1]);
 });
 
 test("a malformed frame ends the chain, and a keyframe restores it", () => {
@@ -192,13 +197,9 @@ test("an order that is no permutation of the ids is refused", () => {
 
 test("values are scattered from frame order to id order", () => {
   const units = Int32Array.of(1, 2, 3, 4, 5, 6);
-  const scattered = (components: number): number[] => {
-    const values = new Float32Array(2 * components);
-    scatter(units, Uint32Array.of(1, 0), components, [0.5, 0.5, 0.5], values);
-    return [...values];
-  };
-  assert.deepEqual(scattered(3), [2, 2.5, 3, 0.5, 1, 1.5]);
-  assert.deepEqual(scattered(1), [2, 0.5]);
+  const values = new Int32Array(6);
+  scatter(units, Uint32Array.of(1, 0), values);
+  assert.deepEqual([...values], [4, 5, 6, 1, 2, 3]);
 });
 
 test("after a refused order, frames are ignored until a valid order arrives", () => {
@@ -216,6 +217,14 @@ test("a periodic axis has its own quantum", () => {
   frames.setScene(3, 64, [25, 0, 0]);
   frames.setOrder(orderOf(Array.from({ length: 64 }, (_, k) => k)));
   const words = [0x05015053, 64, 1, 0, 100, 0, 0, 6, 1, 0x000f, 0, 49, 6, 0xfffffff9];
-  const positions = positionsOf(frames, frameOf(new Uint8Array(Uint32Array.from(words).buffer), { count: 64 }));
-  assert.deepEqual([...positions.subarray(0, 3)], [49 / 4, 6 / 2, -7 / 2]);
+  const spb = new Uint8Array(Uint32Array.from(words).buffer);
+  const { values, quanta, turns } = columnOf(frames, frameOf(spb, { count: 64 }));
+  assert.deepEqual([...values.subarray(0, 3)], [49, 6, -7]);
+  assert.deepEqual(
+    [quanta, turns],
+    [
+      [1 / 4, 1 / 2, 1 / 2],
+      [100, 0, 0],
+    ],
+  );
 });

@@ -5,11 +5,14 @@ import { test } from "node:test";
 import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { ColourRanges, highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
+import type { Facts } from "../src/model/facts";
 import { differences, joined, Population } from "../src/model/population";
 import type { Run } from "../src/model/population";
+import { positionOf } from "../src/model/positions";
 import { quantityOf } from "../src/model/quantities";
 import { Selection } from "../src/model/selection";
 import type { State } from "../src/model/states";
+import { positionsAt } from "./support/positions";
 import { createSession } from "./support/session";
 
 const floats = (...values: number[]): Uint8Array => new Uint8Array(Float32Array.from(values).buffer);
@@ -229,8 +232,8 @@ test("places without a sphere are not measured, and the legend counts spheres", 
 test("automatic colour ranges ignore places without a sphere", () => {
   const scene = factsOf(create(SceneFactsSchema, facts));
   const at = (simTime: number, xs: number[]): State => {
-    const position = { values: Float32Array.from(xs.flatMap((x) => [x, 0, 0])), quantum: 0.01 };
-    const drawing = { order: 1, boxes: new Float32Array(0) };
+    const position = positionsAt(xs.flatMap((x) => [x, 0, 0]));
+    const drawing = { order: 1, boxes: new Float64Array(0) };
     return { sequence: 1, epoch: 3, step: 1, simTime, count: 6, columns: { position }, ...drawing };
   };
   const ranges = new ColourRanges();
@@ -341,11 +344,21 @@ test("a new sphere does not fly from the position of another, and a removed one 
   });
   frame(1, [9, -1, 3, -3, -4, 6]);
   const xs = (state: State | undefined): number[] =>
-    [...(state?.columns.position.values ?? [])].filter((_, k) => k % 3 === 0);
+    [0, 1, 2, 3, 4, 5].map((place) => positionOf(session.facts as Facts, state as State, place)[0]);
   assert.deepEqual(xs(earliest), [9, -1, 2, -3, -4, 5]);
   assert.deepEqual(xs(latest), [9, -1, 2.5, -3, -4, 5.5]);
   assert.equal(session.states.newest?.sequence, 3);
   assert.equal(session.facts?.population.placeOf(10), undefined);
+});
+
+test("a new sphere keeps its position in states of another tier", () => {
+  const { session, population, scene, frame } = createSession();
+  scene(facts);
+  frame(0, [0, 1, 2, 0, 0, 5], 3, 0.25);
+  const earlier = session.states.newest;
+  population(1, { added: [{ first: 3, count: 1, id: 50n, group: 0 }] });
+  frame(1, [0, 1, 2, -3.375, 0, 5], 3, 0.125);
+  assert.deepEqual([...(earlier?.columns.position.values ?? [])].slice(6, 12), [8, 0, 0, -13, 0, 0]); // quarters
 });
 
 test("an older server, without places and numbers, is followed as before", () => {

@@ -8,6 +8,8 @@ import { highOf } from "../src/model/colour_ranges";
 import { factsOf } from "../src/model/facts";
 import { positionOf, sentValue, shownPosition, shownSpeed, speedOf } from "../src/model/positions";
 import type { Shown, State } from "../src/model/states";
+import { copyPositions } from "../src/model/units";
+import { positionsAt } from "./support/positions";
 
 const facts = factsOf(
   create(SceneFactsSchema, {
@@ -20,14 +22,46 @@ const facts = factsOf(
   }),
 );
 
-function state(simTime: number, metres: number[]): State {
-  const position = { values: Float32Array.from(metres), quantum: 0.25 };
-  const drawing = { order: 1, boxes: new Float32Array(0) };
+function state(simTime: number, metres: number[], quantum = 0.25): State {
+  const position = positionsAt(metres, quantum);
+  const drawing = { order: 1, boxes: new Float64Array(0) };
   return { sequence: 1, epoch: 3, step: 1, simTime, count: metres.length / 3, columns: { position }, ...drawing };
 }
 
 test("a position is relative to the centre of the bounds", () => {
   assert.deepEqual(positionOf(facts, state(2, [0, 0, 0, 1, 2, 3]), 1), [0.5, 2.5, 5]);
+});
+
+test("a position far from the centre of the bounds is as exact as its quantum", () => {
+  const far = state(2, [0, 0, 0, 4e5 + 0.001, -4e5, 4e5 - 0.003], 0.001);
+  const error = positionOf(facts, far, 1).map((x, axis) => x - ([4e5 - 0.499, -4e5 + 0.5, 4e5 + 1.997][axis] ?? NaN));
+  assert.ok(
+    error.every((part) => Math.abs(part) < 1e-9),
+    String(error),
+  );
+});
+
+test("positions are copied to a state with other quanta as its nearest units", () => {
+  const from = positionsAt([1, 2, 3, -0.375, 0.625, 1.25], 0.125);
+  const to = positionsAt([0, 0, 0, 0, 0, 0], 0.5);
+  copyPositions(from, to, { first: 1, count: 1 });
+  assert.deepEqual([...to.values], [0, 0, 0, -1, 1, 3]);
+  copyPositions(from, to, { first: 0, count: 1 });
+  assert.deepEqual([...to.values], [2, 4, 6, -1, 1, 3]);
+  const far = positionsAt([2 ** 27, -(2 ** 27), 0], 0.125);
+  const fine = positionsAt([0, 0, 0], 0.0625);
+  copyPositions(far, fine, { first: 0, count: 1 });
+  assert.deepEqual([...fine.values], [2 ** 30 - 1, 1 - 2 ** 30, 0], "the ends of the codec's grid");
+});
+
+test("between states with different quanta, a sphere is where their positions say", () => {
+  const shown = {
+    from: state(1, [0, 0, 0, 0.75, -1.5, 2.25], 0.75),
+    to: state(2, [0, 0, 0, 1, -1, 2]),
+    mix: 0.5,
+    moving: true,
+  };
+  assert.deepEqual(shownPosition(facts, shown, 1), [0.375, -0.75, 4.125]);
 });
 
 test("radii are read as float32", () => {

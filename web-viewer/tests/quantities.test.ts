@@ -11,6 +11,7 @@ import type { Facts } from "../src/model/facts";
 import { modes, quantityOf } from "../src/model/quantities";
 import type { LegendContent, Mode } from "../src/model/quantities";
 import type { State } from "../src/model/states";
+import { positionsAt } from "./support/positions";
 
 const groups = Array.from({ length: 8 }, (_, k) => ({ name: `g${k}`, first: k, count: 1 }));
 
@@ -23,8 +24,8 @@ function legendOf(mode: Mode, of: Facts): LegendContent {
 }
 
 function state(sequence: number, simTime: number, x: number): State {
-  const position = { values: Float32Array.of(x, 0, 0), quantum: 0.01 };
-  const drawing = { order: 1, boxes: new Float32Array(0) };
+  const position = positionsAt([x, 0, 0]);
+  const drawing = { order: 1, boxes: new Float64Array(0) };
   return { sequence, epoch: 1, step: sequence, simTime, count: 1, columns: { position }, ...drawing };
 }
 
@@ -76,7 +77,7 @@ test("each mode with a quantity of the server asks for it, and its legend has th
 
 test("heights are those of the image, above the lower face of the bounds", () => {
   const at = (sequence: number, z: number): State => {
-    const position = { values: Float32Array.of(3, 4, z), quantum: 0.01 };
+    const position = positionsAt([3, 4, z]);
     return { ...state(sequence, sequence, 0), columns: { position } };
   };
   const { scale } = quantityOf("height");

@@ -3,11 +3,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { PopulationSchema, SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { factsOf } from "../src/model/facts";
+import type { Vec3 } from "../src/model/facts";
 import type { State } from "../src/model/states";
 import { SphereData } from "../src/renderer/spheres";
 import { Table } from "../src/renderer/table";
+import { positionsAt } from "./support/positions";
 
 const places = 1000;
+const eye: Vec3 = [0, 0, 0];
 const groups = [{ name: "a", count: places }];
 const scene = create(SceneFactsSchema, { epoch: 3, count: places, radius: 0.5, groups });
 
@@ -24,8 +27,8 @@ function createContext() {
 }
 
 function state(sequence: number): State {
-  const columns = { position: { values: new Float32Array(3 * places), quantum: 0.01 } };
-  const drawing = { order: 1, boxes: new Float32Array(0) };
+  const columns = { position: positionsAt(new Array<number>(3 * places).fill(0)) };
+  const drawing = { order: 1, boxes: new Float64Array(0) };
   return { sequence, epoch: 3, step: sequence, simTime: sequence, count: places, columns, ...drawing };
 }
 
@@ -35,7 +38,7 @@ test("a change of the population uploads only what has changed, after the first 
   const data = new SphereData(gl);
   data.setFacts(facts);
   const [from, to] = [state(1), state(2)];
-  data.show({ from, to, mix: 0, moving: true });
+  data.show({ from, to, mix: 0, moving: true }, eye);
   const change = (fields: object): void => {
     uploads.length = 0;
     data.updatePopulation(facts.population.apply(create(PopulationSchema, { epoch: 3, ...fields })));
@@ -79,9 +82,9 @@ test("a state that is shown again is not uploaded again", () => {
   const data = new SphereData(gl);
   data.setFacts(factsOf(scene));
   const [from, to] = [state(1), state(2)];
-  data.show({ from, to, mix: 0, moving: true });
+  data.show({ from, to, mix: 0, moving: true }, eye);
   uploads.length = 0;
-  data.show({ from, to, mix: 0.5, moving: true });
+  data.show({ from, to, mix: 0.5, moving: true }, eye);
   assert.deepEqual(uploads, []);
 });
 
@@ -91,7 +94,7 @@ test("a state whose buffer has returned to the worker is not uploaded again", ()
   const data = new SphereData(gl);
   data.setFacts(facts);
   const [gone, present] = [state(1), state(2)];
-  data.show({ from: gone, to: present, mix: 0, moving: true });
+  data.show({ from: gone, to: present, mix: 0, moving: true }, eye);
   structuredClone(0, { transfer: [gone.columns.position.values.buffer] });
   uploads.length = 0;
   const change = create(PopulationSchema, { epoch: 3, number: 1, removed: [{ first: 4, count: 1 }] });

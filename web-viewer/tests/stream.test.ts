@@ -53,7 +53,7 @@ test("each decoded frame is passed on, and acknowledged with its decode time", (
   );
   assert.ok(acks.every(({ decodeMs = -1 }) => decodeMs >= 0));
   const [state] = states;
-  assert.deepEqual([...(state?.columns.position.values ?? [])], [1, 2, 3]);
+  assert.deepEqual([...(state?.columns.position.values ?? [])], [2, 4, 6]);
   assert.deepEqual([state?.sequence, state?.step, state?.simTime, state?.columns.position.quantum], [10, 120, 2, 0.5]);
   assert.deepEqual(
     states.map(({ population }) => population),

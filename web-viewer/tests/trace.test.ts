@@ -6,6 +6,7 @@ import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { factsOf } from "../src/model/facts";
 import type { Shown, State } from "../src/model/states";
 import { capacity, Trace } from "../src/model/trace";
+import { positionsAt } from "./support/positions";
 
 const bounds = { boundsMin: [0, 0, 0], boundsMax: [4, 2, 2] };
 const facts = factsOf(create(SceneFactsSchema, { epoch: 1, count: 2, radius: 0.1, ...bounds }));
@@ -13,8 +14,8 @@ const looped = factsOf(create(SceneFactsSchema, { epoch: 1, count: 2, radius: 0.
 
 /** Sphere 1 is at x (m from the centre of the bounds); sphere 0 rests. */
 function stateAt(simTime: number, x: number): State {
-  const columns = { position: { values: Float32Array.of(0, 0, 0, x, 0.5, 0), quantum: 0.01 } };
-  return { sequence: 1, epoch: 1, step: 1, simTime, count: 2, columns, order: 1, boxes: new Float32Array(6) };
+  const columns = { position: positionsAt([0, 0, 0, x, 0.5, 0], 2 ** -12) };
+  return { sequence: 1, epoch: 1, step: 1, simTime, count: 2, columns, order: 1, boxes: new Float64Array(6) };
 }
 
 const between = (from: State, to: State, mix: number): Shown => ({ from, to, mix, moving: true });

@@ -6,7 +6,9 @@ import { Camera } from "../src/camera/camera";
 import { rayThrough } from "../src/camera/ray";
 import type { Ray } from "../src/camera/ray";
 import { SceneFactsSchema } from "../src/gen/spherule/v1/facts_pb";
+import { noTurns } from "../src/codec/turns";
 import { blockPlaces } from "../src/columns";
+import type { Quanta } from "../src/columns";
 import { boxesOf } from "../src/connection/order";
 import type { DrawState } from "../src/renderer/draw_state";
 import { everything } from "../src/model/cut";
@@ -88,21 +90,17 @@ function own(count: number, full: boolean): Subject {
   renderer.setQuality(quality, width, height);
   const places = Uint32Array.from({ length: count }, (_, k) => k);
   renderer.setFacts(facts, themes.light, { epoch: 1, number: 1, places });
-  const boxes = new Float32Array(6 * Math.ceil(count / blockPlaces));
-  boxesOf(
-    Int32Array.from(positions, (x) => Math.round(1e6 * x)),
-    count,
-    [1e-6, 1e-6, 1e-6],
-    [0, 0, 0],
-    boxes,
-  );
+  const quanta: Quanta = [1e-6, 1e-6, 1e-6];
+  const units = Int32Array.from(positions, (x) => Math.round(1e6 * x));
+  const boxes = new Float64Array(6 * Math.ceil(count / blockPlaces));
+  boxesOf(units, count, quanta, [0, 0, 0], boxes);
   const state = (sequence: number): State => ({
     sequence,
     epoch: 1,
     step: sequence,
     simTime: sequence,
     count,
-    columns: { position: { values: positions, quantum: 1e-6 } },
+    columns: { position: { values: units, quantum: quanta[0], quanta, turns: noTurns } },
     order: 1,
     boxes,
   });

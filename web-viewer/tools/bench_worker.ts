@@ -1,6 +1,5 @@
 // Decodes the frames at the given addresses in several rounds, as the page's worker does. Replies with the times in ms.
 import { Decoder } from "../src/codec/decoder";
-import { columnFormats } from "../src/columns";
 import { scatter } from "../src/connection/order";
 
 const fetched = async (address: string): Promise<ArrayBuffer> => (await fetch(address)).arrayBuffer();
@@ -11,19 +10,18 @@ onmessage = async ({ data }: MessageEvent<{ frames: string[]; order: string; rou
   for (const frame of frames) frame[3] = (frame[3] as number) & ~2;
   const ids = new Uint32Array(await fetched(data.order));
   const decoder = new Decoder(ids.length);
-  const { components } = columnFormats.position;
-  const metres = new Float32Array(components * ids.length);
-  const times: Record<string, number[]> = { keyframe: [], delta: [], metres: [] };
+  const values = new Int32Array(3 * ids.length);
+  const times: Record<string, number[]> = { keyframe: [], delta: [], places: [] };
   for (let round = 0; round <= data.rounds; round++) {
     for (const frame of frames) {
       const begin = performance.now();
       const { keyframe } = decoder.apply(frame);
       const decoded = performance.now();
-      scatter(decoder.newest, ids, components, 0.001, metres);
+      scatter(decoder.newest, ids, values);
       const done = performance.now();
       if (round === 0) continue; // warm-up: the engine compiles the code
       times[keyframe ? "keyframe" : "delta"]?.push(decoded - begin);
-      times["metres"]?.push(done - decoded);
+      times["places"]?.push(done - decoded);
     }
   }
   postMessage(times);

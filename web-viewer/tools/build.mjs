@@ -11,7 +11,7 @@ import { options, root } from "./options.mjs";
 
 const limit = 117_000; // bytes; with the headers of the responses, a first visit loads less than 120,000
 
-/** Removes comments, indentation and spaces around punctuation from shaders. */
+/** Removes comments, indentation, most ends of lines, spaces around punctuation and needless zeros from shaders. */
 const shortShaders = {
   name: "short shaders",
   setup(build) {
@@ -19,11 +19,17 @@ const shortShaders = {
       const lines = readFileSync(file, "utf8")
         .replace(/\s*\/\/.*$/gm, "")
         .split("\n");
-      const short = (line) => (line.startsWith("#") ? line : line.replace(/\s*([=*/(){},;?:<>])\s*/g, "$1"));
+      const short = (line) =>
+        line
+          .replace(/\s*([=*/(){},;?:<>+&|])\s*/g, "$1")
+          .replace(/ - (?!-)/g, "-")
+          .replace(/\b0(\.\d)/g, "$1")
+          .replace(/(\d\.)0\b/g, "$1");
       const contents = lines
-        .map((line) => short(line.trim()))
+        .map((line) => (line.startsWith("#") ? line : short(line.trim())))
         .filter((line) => line !== "")
-        .join("\n");
+        .join("\n")
+        .replace(/([;{},(&|=+])\n(?!#)/g, "$1");
       return { contents, loader: "text" };
     });
   },

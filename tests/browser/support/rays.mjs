@@ -45,7 +45,7 @@ export function placesSeen({ eye, toClip }, spheres, width, height, kept = { nor
   const placeAt = (column, row) => {
     const [x, y] = [(2 * column) / width - 1, 1 - (2 * row) / height];
     const near = unprojected(fromClip, x, y, -1);
-    const along = minus(unprojected(fromClip, x, y, 1), near);
+    const along = minus(unprojected(fromClip, x, y, 0), near);
     const length = Math.hypot(...along);
     const direction = along.map((part) => part / length);
     const steep = dot(kept.normal, direction);

@@ -10,13 +10,13 @@ export interface Ray {
 
 /** The ray through a point of the canvas (CSS pixels from its upper left corner): from the eye, or the near plane. */
 export function rayThrough(view: View, x: number, y: number): Ray {
-  const clip = vec4.fromValues((2 * x) / view.width - 1, 1 - (2 * y) / view.height, 1, 1);
+  const clip = vec4.fromValues((2 * x) / view.width - 1, 1 - (2 * y) / view.height, 0, 1);
   vec4.transformMat4(clip, clip, view.fromClip);
-  const far: Vec3 = [clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]];
+  const to: Vec3 = [clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]];
   const { eye, forward } = view;
-  if (!view.orthographic) return { origin: eye, direction: vec3.normalize([0, 0, 0], far) as Vec3 };
-  const start = vec3.add([0, 0, 0], eye, far);
-  const back = view.near - vec3.dot(far, forward);
+  if (!view.orthographic) return { origin: eye, direction: vec3.normalize([0, 0, 0], to) as Vec3 };
+  const start = vec3.add([0, 0, 0], eye, to);
+  const back = view.near - vec3.dot(to, forward);
   return { origin: vec3.scaleAndAdd([0, 0, 0], start, forward, back) as Vec3, direction: forward };
 }
 

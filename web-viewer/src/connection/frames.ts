@@ -3,14 +3,14 @@ import type { ChainState } from "../codec/decoder";
 import { isKeyframe } from "../codec/head";
 import { Orientations } from "../codec/orientations";
 import { valuesOf } from "../codec/quantity_values";
+import { noTurns } from "../codec/turns";
 import type { Turns } from "../codec/turns";
 import { blockPlaces, columnFormats, columnNames } from "../columns";
-import type { ColumnName, Columns, EncodedColumn } from "../columns";
+import type { Column, ColumnName, Columns, EncodedColumn, Positions, Quanta } from "../columns";
 import type { Frame, Order } from "../gen/spherule/v1/frame_pb";
 import type { BufferPool } from "./buffer_pool";
 import type { DrawOrder, State } from "./messages";
 import { boxesOf, idsOf, scatter } from "./order";
-import type { Quanta } from "./order";
 import type { Periods } from "./periods";
 
 /** The values of a state. */
@@ -18,9 +18,9 @@ export type Content = Pick<State, "columns" | "order" | "boxes">;
 
 /** The content of a state that is not shown. */
 export const noContent: Content = {
-  columns: { position: { values: new Float32Array(0), quantum: 0 } },
+  columns: { position: { values: new Int32Array(0), quantum: 0, quanta: [0, 0, 0], turns: noTurns } },
   order: -1,
-  boxes: new Float32Array(0),
+  boxes: new Float64Array(0),
 };
 
 /**
@@ -28,6 +28,8 @@ export const noContent: Content = {
  * ignored. `behind`: the chain is lost, and decoding needs a keyframe.
  */
 export type Decoded = { kind: "state"; keyframe: boolean; content: Content } | { kind: "foreign" } | { kind: "behind" };
+
+const bytesPerValue = 4;
 
 /** The meaning of the numbers of a column. */
 type Grid = Omit<NamedColumn, "spb">;
@@ -171,24 +173,34 @@ export class Frames {
   /** The content of the newest frame. */
   private contentOf(order: number): Content {
     const valuesPerSphere = this.grids.reduce((sum, { name }) => sum + columnFormats[name].components, 0);
-    const boxFloats = 6 * Math.ceil(this.count / blockPlaces);
-    const floats = valuesPerSphere * this.count + boxFloats;
-    const buffer = this.buffers.acquire(Float32Array.BYTES_PER_ELEMENT * floats);
-    let at = 0;
-    const filled = this.grids.map(({ name, quantum, quantity }) => {
-      const { components } = columnFormats[name];
-      const values = new Float32Array(buffer, at, components * this.count);
-      const decoder = this.decoderOf(name);
-      if (name === "value") valuesOf(decoder.newest, this.ids, quantum, values);
-      else if (name === "turn") values.set(this.orientations?.values ?? []);
-      else scatter(decoder.newest, this.ids, components, this.quantaOf(decoder, quantum), values);
-      at += values.byteLength;
-      return [name, { values, quantum, quantity }];
+    const boxValues = 6 * Math.ceil(this.count / blockPlaces);
+    const bytes = Float64Array.BYTES_PER_ELEMENT * boxValues + bytesPerValue * valuesPerSphere * this.count;
+    const buffer = this.buffers.acquire(bytes);
+    const boxes = new Float64Array(buffer, 0, boxValues);
+    let at = boxes.byteLength;
+    const filled = this.grids.map((grid) => {
+      const column = this.columnOf(grid, buffer, at);
+      at += column.values.byteLength;
+      return [grid.name, column];
     });
-    const positions = this.decoderOf("position");
-    const boxes = new Float32Array(buffer, at, boxFloats);
-    boxesOf(positions.newest, this.count, this.quantaOf(positions, this.grid.quantum), this.periods, boxes);
-    return { columns: Object.fromEntries(filled) as Columns, order, boxes };
+    const columns = Object.fromEntries(filled) as Columns;
+    boxesOf(this.decoderOf("position").newest, this.count, columns.position.quanta, this.periods, boxes);
+    return { columns, order, boxes };
+  }
+
+  /** A column of the newest frame, with its values at a byte of a buffer. */
+  private columnOf({ name, quantum, quantity }: Grid, buffer: ArrayBuffer, at: number): Column | Positions {
+    const decoder = this.decoderOf(name);
+    const length = columnFormats[name].components * this.count;
+    if (name === "position") {
+      const values = new Int32Array(buffer, at, length);
+      scatter(decoder.newest, this.ids, values);
+      return { values, quantum, quanta: this.quantaOf(decoder, quantum), turns: decoder.turns };
+    }
+    const values = new Float32Array(buffer, at, length);
+    if (name === "value") valuesOf(decoder.newest, this.ids, quantum, values);
+    else values.set(this.orientations?.values ?? []);
+    return { values, quantum, quantity };
   }
 }
 

@@ -64,7 +64,7 @@ export interface State {
    * The boxes of the centres in each block of the order: low and high corner (m, relative to the centre of the bounds).
    * They are unbounded along periodic axes.
    */
-  boxes: Float32Array;
+  boxes: Float64Array;
 }
 
 export interface Received extends State {

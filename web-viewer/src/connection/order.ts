@@ -1,4 +1,5 @@
 import { blockPlaces } from "../columns";
+import type { Quanta } from "../columns";
 
 const idBytes = 3;
 
@@ -22,40 +23,27 @@ export function idsOf(bytes: Uint8Array, count: number): Uint32Array {
   return ids;
 }
 
-/** The quantum of each axis. */
-export type Quanta = [number, number, number];
-
-/**
- * Multiplies the first `components` values of each sphere by their quanta. `units`: three values per sphere, in frame
- * order. `values`: `components` values per sphere, by place. `ids`: see idsOf(). A loop over the components would
- * take a third more time.
- */
-export function scatter(
-  units: Int32Array,
-  ids: Uint32Array,
-  components: number,
-  [x, y, z]: Quanta,
-  values: Float32Array,
-): void {
+/** Copies three values per sphere from frame order to `values`, by place. `ids`: see idsOf(). */
+export function scatter(units: Int32Array, ids: Uint32Array, values: Int32Array): void {
   for (let k = 0, from = 0; k < ids.length; k++, from += 3) {
-    const to = components * (ids[k] as number);
-    values[to] = x * (units[from] as number);
-    if (components > 1) values[to + 1] = y * (units[from + 1] as number);
-    if (components > 2) values[to + 2] = z * (units[from + 2] as number);
+    const to = 3 * (ids[k] as number);
+    values[to] = units[from] as number;
+    values[to + 1] = units[from + 1] as number;
+    values[to + 2] = units[from + 2] as number;
   }
 }
 
 /**
- * Writes the box of the positions in each block of the frame order: low and high corner, six values per block. They are
- * unbounded along periodic axes, where a position may belong to any image. `units`: three values per sphere, in frame
- * order. `periods`: the length of each periodic axis, else 0.
+ * Writes the box of the positions in each block of the frame order: low and high corner (m), six values per block. They
+ * are unbounded along periodic axes, where a position may belong to any image. `units`: three values per sphere, in
+ * frame order. `periods`: the length of each periodic axis, else 0.
  */
 export function boxesOf(
   units: Int32Array,
   count: number,
   quanta: Quanta,
   periods: readonly number[],
-  boxes: Float32Array,
+  boxes: Float64Array,
 ): void {
   for (let axis = 0; axis < 3; axis++) {
     const periodic = (periods[axis] ?? 0) > 0;

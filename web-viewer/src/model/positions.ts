@@ -1,13 +1,12 @@
 import { Quantity } from "../gen/spherule/v1/frame_pb";
 import type { Facts, Vec3 } from "./facts";
 import type { Shown, State } from "./states";
+import { axes, coordinate } from "./units";
 
 /** The position of the sphere at a place in a state (m). It is off by at most half a quantum on each axis. */
-export function positionOf(facts: Facts, state: State, place: number): Vec3 {
-  const at = 3 * place;
-  const { origin } = facts;
-  const { values } = state.columns.position;
-  return [origin[0] + (values[at] ?? 0), origin[1] + (values[at + 1] ?? 0), origin[2] + (values[at + 2] ?? 0)];
+export function positionOf({ origin }: Facts, { columns: { position } }: State, place: number): Vec3 {
+  const [x, y, z] = origin;
+  return [x + coordinate(position, place, 0), y + coordinate(position, place, 1), z + coordinate(position, place, 2)];
 }
 
 /** The distance along an axis by the shortest way (m). `period`: length of the axis if it is periodic, else 0. */
@@ -24,21 +23,20 @@ export function shownPosition(facts: Facts, shown: Shown, place: number): Vec3 {
 
 /** Writes the position between two states (m, relative to the centre of the bounds) to `into`; `mix`: as in Shown. */
 export function writePosition(into: Vec3, { periods }: Facts, { from, to }: Shown, place: number, mix: number): Vec3 {
-  const { values: a } = from.columns.position;
-  const { values: b } = to.columns.position;
-  for (let axis = 0; axis < 3; axis++) {
-    const period = periods[axis] as number;
-    const begin = a[3 * place + axis] ?? 0;
-    into[axis] = shortest(begin + mix * shortest((b[3 * place + axis] ?? 0) - begin, period), period);
+  for (const axis of axes) {
+    const period = periods[axis];
+    const begin = coordinate(from.columns.position, place, axis);
+    const end = coordinate(to.columns.position, place, axis);
+    into[axis] = shortest(begin + mix * shortest(end - begin, period), period);
   }
   return into;
 }
 
 /** The height of a sphere's centre above the lower face of the bounds (m). It allocates nothing. */
 export function heightOf({ min, origin }: Facts, { from, to, mix }: Shown, place: number): number {
-  const at = 3 * place + 2;
-  const begin = from.columns.position.values[at] ?? NaN;
-  const end = to.columns.position.values[at] ?? NaN;
+  if (place >= from.count || place >= to.count) return NaN;
+  const begin = coordinate(from.columns.position, place, 2);
+  const end = coordinate(to.columns.position, place, 2);
   return begin + mix * (end - begin) + origin[2] - min[2];
 }
 
@@ -65,13 +63,12 @@ export function speedOf(facts: Facts, shown: Shown, place: number): number {
   const { from, to } = shown;
   const time = to.simTime - from.simTime;
   if (!(time > 0)) return NaN;
-  const at = 3 * place;
-  const { values: a } = from.columns.position;
-  const { values: b } = to.columns.position;
+  const { position: a } = from.columns;
+  const { position: b } = to.columns;
   const { periods } = facts;
-  const dx = shortest((b[at] ?? 0) - (a[at] ?? 0), periods[0]);
-  const dy = shortest((b[at + 1] ?? 0) - (a[at + 1] ?? 0), periods[1]);
-  const dz = shortest((b[at + 2] ?? 0) - (a[at + 2] ?? 0), periods[2]);
+  const dx = shortest(coordinate(b, place, 0) - coordinate(a, place, 0), periods[0]);
+  const dy = shortest(coordinate(b, place, 1) - coordinate(a, place, 1), periods[1]);
+  const dz = shortest(coordinate(b, place, 2) - coordinate(a, place, 2), periods[2]);
   return Math.sqrt(dx * dx + dy * dy + dz * dz) / time;
 }
 

@@ -1,7 +1,9 @@
 import type { DrawOrder, Received, State } from "../connection/messages";
+import { columnFormats } from "../columns";
 import { PlayoutBuffer } from "./playout";
 import type { TimeAdvance } from "./playout";
 import type { Run } from "./population";
+import { copyPositions } from "./units";
 
 export type { DrawOrder, State };
 
@@ -61,14 +63,14 @@ export class States {
   carryBack(frame: State, places: readonly Run[]): void {
     for (const state of this.byKey.values()) {
       growBoxes(state, frame);
-      for (const [name, { values, quantity }] of Object.entries(frame.columns)) {
-        const column = state.columns[name as keyof State["columns"]];
-        if (!column || column.quantity !== quantity) continue;
-        const earlier = column.values;
-        const components = values.length / frame.count;
+      for (const run of places) copyPositions(frame.columns.position, state.columns.position, run);
+      for (const name of ["value", "turn"] as const) {
+        const [column, earlier] = [frame.columns[name], state.columns[name]];
+        if (!column || !earlier || column.quantity !== earlier.quantity) continue;
+        const { components } = columnFormats[name];
         for (const { first, count } of places) {
           const begin = components * first;
-          earlier.set(values.subarray(begin, begin + components * count), begin);
+          earlier.values.set(column.values.subarray(begin, begin + components * count), begin);
         }
       }
     }

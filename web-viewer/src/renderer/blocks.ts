@@ -33,7 +33,7 @@ export class SphereBlocks {
   private facts: Facts | undefined;
   private order: DrawOrder | undefined;
   private radii = new Float32Array(0); // m, the largest of each block
-  private boxes = new Float32Array(0); // m, low and high corner of each block in the states shown
+  private boxes = new Float64Array(0); // m, low and high corner of each block in the states shown
   private from: State | undefined;
   private to: State | undefined;
   private known = false; // the boxes belong to the states shown
@@ -47,7 +47,7 @@ export class SphereBlocks {
     const { population } = facts;
     const blocks = Math.ceil(population.places / blockPlaces);
     if (this.radii.length !== blocks) this.radii = new Float32Array(blocks);
-    if (this.boxes.length !== 6 * blocks) this.boxes = new Float32Array(6 * blocks);
+    if (this.boxes.length !== 6 * blocks) this.boxes = new Float64Array(6 * blocks);
     this.radii.fill(population.radius);
     if (!order || !population.radii) return;
     for (let k = 0; k < order.places.length; k++) {

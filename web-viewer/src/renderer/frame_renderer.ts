@@ -118,10 +118,10 @@ export class FrameRenderer {
   draw(shown: Shown | undefined, state: DrawState, output: WebGLFramebuffer | null = null): void {
     const { facts, light, theme, target, scene, spheres, shadow, post, data, environment, eye } = this;
     if (!facts || !light || !theme || !target || !scene || !spheres || !shadow || !post) return;
-    if (shown) data.show(shown);
-    else data.count = 0;
     const { view, kept } = state;
     for (let axis = 0; axis < 3; axis++) eye[axis] = (view.eye[axis] as number) - (facts.origin[axis] as number);
+    if (shown) data.show(shown, eye);
+    else data.count = 0;
     const pixel = pixelOf(view, target.height);
     this.uniforms.fill(view, eye, pixel, kept);
     this.castShadows(shadow, light, shown, kept);

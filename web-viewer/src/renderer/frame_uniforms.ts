@@ -1,3 +1,4 @@
+import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { View } from "../camera/view";
 import type { HalfSpace } from "../model/cut";
 import type { Vec3 } from "../model/facts";
@@ -55,7 +56,7 @@ export class FrameUniforms {
     data[at + 1] = view.far;
     at += vectorFloats;
     data.set(kept.normal, at);
-    data[at + 3] = kept.offset;
+    data[at + 3] = kept.offset - vec3.dot(kept.normal, eye);
     at += vectorFloats;
     data[at] = view.part.x;
     data[at + 1] = view.part.y;

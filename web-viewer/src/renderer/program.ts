@@ -33,10 +33,11 @@ export type Sampler = (typeof samplers)[number];
 /** GLSL: the tables of all columns, and functions of a place: its values in both states. */
 export const columnDeclarations = columnNames
   .map((name) => {
-    const [type, parts] = columnFormats[name].components === 1 ? ["float", "r"] : ["vec3", "rgb"];
+    const { components, whole } = columnFormats[name];
+    const [type, parts] = components === 1 ? ["float", "r"] : [whole ? "ivec3" : "vec3", "rgb"];
     const fetch = (end: string): string => `texelFetch(u_${name}${end}, texelOf(place), 0).${parts}`;
     return [
-      `uniform highp sampler2D u_${name}From, u_${name}To;`,
+      `uniform ${whole ? "i" : ""}sampler2D u_${name}From, u_${name}To;`,
       `${type} ${name}From(int place) { return ${fetch("From")}; }`,
       `${type} ${name}To(int place) { return ${fetch("To")}; }`,
     ].join("\n");
@@ -69,7 +70,8 @@ export function program(
   defines: string[] = [],
 ): Program {
   const linked = gl.createProgram();
-  const precision = ["precision highp float;", "precision highp int;"];
+  const precise = ["float", "int", "sampler2D", "isampler2D", "usampler2D", "sampler2DShadow"];
+  const precision = precise.map((type) => `precision highp ${type};`);
   const head = ["#version 300 es", ...precision, ...defines.map((name) => `#define ${name}`)];
   for (const [type, parts] of [
     [gl.VERTEX_SHADER, vertex],

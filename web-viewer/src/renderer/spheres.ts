@@ -1,11 +1,13 @@
 import { bufferOf, columnFormats, columnNames } from "../columns";
 import type { ColumnName } from "../columns";
 import { materialColour } from "../colour/palette";
-import type { Facts } from "../model/facts";
+import type { Facts, Vec3 } from "../model/facts";
 import { capacity } from "../model/playout";
 import { joined } from "../model/population";
 import type { Population, Run } from "../model/population";
 import type { DrawOrder, Shown, State } from "../model/states";
+import { axes } from "../model/units";
+import { Grids } from "./grids";
 import { bindTexture } from "./program";
 import type { Program, Sampler } from "./program";
 import { Table } from "./table";
@@ -36,8 +38,10 @@ export class SphereData {
   private readonly nothing: Table;
   private facts: Facts | undefined;
   private images: Image[] = [];
+  private readonly grids = new Grids();
   private readonly periods = new Float32Array(3); // m
   private readonly perLength = new Float32Array(3); // 1/m
+  private readonly faces = new Float32Array(6); // m, relative to the eye
   private tabled = false; // the tables hold ids, and radii even if all are equal
   private hidden: ReadonlySet<number> = new Set(); // numbers of groups
   private shownRadii = new Float32Array(0); // m; 0 for hidden spheres; used if a group is hidden
@@ -100,11 +104,21 @@ export class SphereData {
     this.order.upload(places, { first: 0, count: places.length });
   }
 
-  /** Selects the states to draw, and uploads those that are new. */
-  show(shown: Shown): void {
+  /** Selects the states to draw, and uploads those that are new. `eye`: relative to the centre of the bounds (m). */
+  show(shown: Shown, eye: Vec3): void {
     this.count = Math.min(shown.from.count, shown.to.count, this.facts?.population.places ?? 0);
-    this.bindState(fromSamplers, shown.from);
-    this.bindState(toSamplers, shown.to);
+    const from = this.resident(shown.from);
+    const to = this.resident(shown.to);
+    // An upload binds its table, which may be of integers, in place of another: so no table is bound before.
+    this.bindState(fromSamplers, from);
+    this.bindState(toSamplers, to);
+    this.grids.set(0, shown.from.columns.position, eye);
+    this.grids.set(1, shown.to.columns.position, eye);
+    for (const axis of axes) {
+      const half = 0.5 * (this.facts?.periods[axis] || 1e30);
+      this.faces[axis] = -half - eye[axis];
+      this.faces[axis + 3] = half - eye[axis];
+    }
     bindTexture(this.gl, "u_order", this.order.texture);
     bindTexture(this.gl, "u_radius", this.radii.texture);
     bindTexture(this.gl, "u_id", this.ids.texture);
@@ -116,12 +130,14 @@ export class SphereData {
   prepare(program: Program, mix: number): void {
     const { gl, facts } = this;
     if (!facts) return;
+    this.grids.fill(gl, program);
     gl.uniform1f(program.at("u_mix"), mix);
     const isSame = !this.tabled && this.hidden.size === 0;
     gl.uniform1f(program.at("u_sameRadius"), isSame ? facts.population.radius : 0);
     gl.uniform1i(program.at("u_idsGiven"), this.tabled ? 1 : 0);
     gl.uniform3fv(program.at("u_period"), this.periods);
     gl.uniform3fv(program.at("u_perLength"), this.perLength);
+    gl.uniform3fv(program.at("u_faces"), this.faces);
   }
 
   /**
@@ -141,10 +157,9 @@ export class SphereData {
     }
   }
 
-  private bindState(samplers: ReadonlyMap<ColumnName, Sampler>, state: State): void {
-    const { tables } = this.resident(state);
+  private bindState(samplers: ReadonlyMap<ColumnName, Sampler>, { tables, state }: Resident): void {
     samplers.forEach((sampler, name) => {
-      const table = state.columns[name] ? tables.get(name) : undefined;
+      const table = state?.columns[name] ? tables.get(name) : undefined;
       bindTexture(this.gl, sampler, (table ?? this.nothing).texture);
     });
   }
@@ -170,10 +185,11 @@ export class SphereData {
     return found;
   }
 
-  private uploadColumn({ tables }: Resident, name: ColumnName, values: Float32Array, count: number): void {
+  private uploadColumn({ tables }: Resident, name: ColumnName, values: Float32Array | Int32Array, count: number): void {
     let table = tables.get(name);
     if (!table) {
-      table = new Table(this.gl, columnFormats[name].components === 1 ? 1 : 3);
+      const { components, whole } = columnFormats[name];
+      table = new Table(this.gl, components === 1 ? 1 : 3, whole);
       tables.set(name, table);
     }
     table.fit(count);

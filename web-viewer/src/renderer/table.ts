@@ -3,18 +3,18 @@ import type { Run } from "../model/population";
 /** Texels per row of a table; shaders/spheres.glsl has the same number. Every device has textures of this width. */
 const width = 2048;
 
-type Values = Float32Array | Uint32Array;
+type Values = Float32Array | Int32Array | Uint32Array;
 
 /** A table on the device: a texture with one texel per place, row after row. */
 export class Table {
   texture: WebGLTexture;
   private rows = 0;
 
-  /** `components`: values per place, 1, 3 or 4, which are integers if `integer` is true, else floats. */
+  /** `components`: values per place. `whole`: they are integers, one without or three with a sign; else floats. */
   constructor(
     private readonly gl: WebGL2RenderingContext,
     private readonly components: 1 | 3 | 4,
-    private readonly integer = false,
+    private readonly whole = false,
   ) {
     this.texture = this.create(1, 1);
   }
@@ -47,7 +47,8 @@ export class Table {
 
   private layout(): [format: number, type: number, stored: number] {
     const { gl, components } = this;
-    if (this.integer) return [gl.RED_INTEGER, gl.UNSIGNED_INT, gl.R32UI];
+    if (this.whole && components === 3) return [gl.RGB_INTEGER, gl.INT, gl.RGB32I];
+    if (this.whole) return [gl.RED_INTEGER, gl.UNSIGNED_INT, gl.R32UI];
     if (components === 1) return [gl.RED, gl.FLOAT, gl.R32F];
     return components === 3 ? [gl.RGB, gl.FLOAT, gl.RGB32F] : [gl.RGBA, gl.FLOAT, gl.RGBA32F];
   }

@@ -5,6 +5,7 @@ import { PopulationSchema, SceneFactsSchema } from "../../src/gen/spherule/v1/fa
 import type { Run } from "../../src/model/population";
 import { Session } from "../../src/model/session";
 import type { State } from "../../src/model/states";
+import { positionsAt } from "./positions";
 
 const cube = { boundsMin: [-1, -1, -1], boundsMax: [1, 1, 1] };
 
@@ -41,11 +42,14 @@ export function createSession() {
       session.handle({ kind: "population", population: create(PopulationSchema, { epoch: 3, number, ...fields }) });
     },
     /** A frame a tenth of a second after the last one, with a sphere at each of `xs` on the x axis. */
-    frame(population: number, xs: number[], epoch = 3): void {
+    frame(population: number, xs: number[], epoch = 3, quantum = 0.25): void {
       sequence += 1;
       const times = { sequence, step: sequence, simTime: sequence / 10, arrival: 100 * sequence, ready: 0 };
-      const position = { values: Float32Array.from(xs.flatMap((x) => [x, 0, 0])), quantum: 0.01 };
-      const drawing = { columns: { position }, order: 1, boxes: new Float32Array(0) };
+      const position = positionsAt(
+        xs.flatMap((x) => [x, 0, 0]),
+        quantum,
+      );
+      const drawing = { columns: { position }, order: 1, boxes: new Float64Array(0) };
       const rest = { count: xs.length, ...drawing, bytes: 0, decodeMs: 0, status: undefined };
       session.handle({ kind: "frame", frame: { ...times, ...rest, epoch, population } });
     },

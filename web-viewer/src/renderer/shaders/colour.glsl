@@ -1,9 +1,9 @@
 // The expressions of model/quantities.ts may use the functions of this file, spheres.glsl and place.glsl. They may use
 // `place`, and `position`: the centre of the sphere (m, relative to the centre of the bounds).
-uniform highp sampler2D u_id;
+uniform sampler2D u_id;
 uniform bool u_idsGiven;              // false: the id is the number of the place
-uniform highp usampler2D u_group;     // number of the group at each place
-uniform highp sampler2D u_looks;      // three texels per group: colour and roughness; metal and 1 if fixed; material
+uniform usampler2D u_group;     // number of the group at each place
+uniform sampler2D u_looks;      // three texels per group: colour and roughness; metal and 1 if fixed; material
 
 uniform int u_mode;             // index of model/quantities.ts
 uniform vec3 u_ramp[6];         // sRGB
@@ -58,7 +58,8 @@ vec3 sentColour(int place) {
 // m/s; 0 if it is unknown. See shownSpeed() of model/positions.ts.
 float speedNow(int place) {
     if (u_valuesSent) return mix(valueFrom(place), valueTo(place), u_mix);
-    return length(shortest(positionTo(place) - positionFrom(place))) * u_inverseTime;
+    vec3 from = fromEye(positionFrom(place), 0);
+    return length(shortest(fromEye(positionTo(place), 1) - from)) * u_inverseTime;
 }
 
 // The hue of a cell is random; its lightness alternates between neighbours.

@@ -1,12 +1,12 @@
 // Copies the shaded scene to the canvas. FULL: smooths the outlines of spheres by the share of the pixel that they
 // cover, and other edges by their contrast. Darkens surfaces that lie behind another one at its edge, or in a hollow.
-uniform highp sampler2D u_scene;
+uniform sampler2D u_scene;
 uniform float u_dim;     // 0..1: how stale the image is
 uniform float u_haze;    // grey over a stale image
 #ifdef FULL
-uniform highp usampler2D u_code;
-uniform highp sampler2D u_depth;
-uniform highp sampler2D u_openness;
+uniform usampler2D u_code;
+uniform sampler2D u_depth;
+uniform sampler2D u_openness;
 uniform float u_reach;    // m: a surface so far behind another one has the darkest outline
 #endif
 in vec2 v_at;
@@ -34,7 +34,7 @@ float openness(float here) {
 // The share of this pixel that a sphere covers.
 float coverageOf(uint code) {
     int place = placeOf(code);
-    vec3 to = imageOf(positionNow(place), axesOf(code)) - eye.xyz;
+    vec3 to = placeNow(place, axesOf(code));
     Meeting found = meet(rayAt(v_at), to, radiusOf(place));
     return found.visible ? clamp(found.outline / pixelAt(length(to)) + 0.5, 0.0, 1.0) : 0.0;
 }

@@ -1,5 +1,5 @@
 in vec3 v_position;
 
 void main() {
-    if (isCut(v_position)) discard;
+    if (isCut(v_position - eye.xyz)) discard;
 }

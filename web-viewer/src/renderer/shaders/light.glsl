@@ -1,4 +1,4 @@
-uniform highp sampler2DShadow u_shadow;
+uniform sampler2DShadow u_shadow;
 
 // Light is linear in the shaders, and stored as its square root, which is close to sRGB and much cheaper.
 vec3 encode(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }

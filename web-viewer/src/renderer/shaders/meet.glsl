@@ -20,7 +20,7 @@ Meeting meet(Ray ray, vec3 centre, float radius) {
     float along = within ? middle + depth : middle - depth;
     bool open = false;
     float steep = dot(kept.xyz, ray.direction);
-    float ahead = kept.w - dot(kept.xyz, eye.xyz + ray.origin);    // m; negative: the origin is cut off
+    float ahead = kept.w - dot(kept.xyz, ray.origin);    // m; negative: the origin is cut off
     if (steep < 0.0 && ahead < 0.0) {
         float begin = ahead / steep;
         open = begin > middle - depth;

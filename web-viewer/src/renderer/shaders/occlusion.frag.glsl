@@ -1,6 +1,6 @@
 // Ambient occlusion from the depth buffer, after the "Alchemy" estimator of McGuire et al. 2011: the mean height of
 // neighbours above the tangent plane, over their squared distance.
-uniform highp sampler2D u_depth;
+uniform sampler2D u_depth;
 uniform mat4 u_unproject;    // inverse of the projection
 uniform float u_reach;       // m
 out vec4 o_share;

@@ -1,16 +1,20 @@
-// Where spheres are drawn: between two states, and again across the faces of periodic axes.
+// Where spheres are drawn: between two states, and again across the faces of periodic axes. Relative to the eye (m).
 
-vec3 positionNow(int place) {
-    vec3 from = positionFrom(place);
-    return shortest(from + u_mix * shortest(positionTo(place) - from));
+uniform vec3 u_faces[2];    // low and high faces of periodic axes; beyond all spheres for other axes
+
+// `axes`: 1 for the axes across whose faces an image of the sphere is, else 0. All lengths of axes are subtracted at
+// once: near the eye there are none, and the position keeps its precision.
+vec3 placeNow(int place, vec3 axes) {
+    vec3 from = fromEye(positionFrom(place), 0);
+    vec3 near = from + u_mix * shortest(fromEye(positionTo(place), 1) - from);
+    vec3 turns = turnsIn(eye.xyz + near);
+    vec3 side = sign(eye.xyz + near - u_period * turns);
+    return near - u_period * (turns + axes * side);
 }
 
-// The image across the faces of some periodic axes. `axes`: 1 for these axes, else 0.
-vec3 imageOf(vec3 position, vec3 axes) { return position - axes * u_period * sign(position); }
-
-// Whether an image of a sphere reaches into the bounds. The sphere itself is always drawn.
-bool isInside(vec3 position, float radius, vec3 axes) {
-    return all(greaterThanEqual(abs(position) + radius, 0.5 * axes * u_period));
+// Whether a sphere or an image of it reaches into the bounds.
+bool isInside(vec3 to, float radius) {
+    return all(greaterThanEqual(to + radius, u_faces[0])) && all(lessThanEqual(to - radius, u_faces[1]));
 }
 
 // The code of a sphere in the image of codes: bit 31 is set, bits 24 to 26 are the axes of the image, and the others

@@ -1,8 +1,8 @@
 // Shades each pixel once. The image of codes says which sphere a pixel shows. Floor and obstacles have their colour
 // already. Writes the depth of the surfaces, because small spheres were drawn as discs.
-uniform highp usampler2D u_code;
-uniform highp sampler2D u_forward;    // colours of floor and obstacles
-uniform highp sampler2D u_depth;      // of discs, floor and obstacles
+uniform usampler2D u_code;
+uniform sampler2D u_forward;    // colours of floor and obstacles
+uniform sampler2D u_depth;      // of discs, floor and obstacles
 uniform int u_selected;               // place; negative: none
 
 in vec2 v_at;
@@ -18,18 +18,18 @@ void main() {
     }
     int place = placeOf(code);
     float radius = radiusOf(place);
-    vec3 centre = imageOf(positionNow(place), axesOf(code));
+    vec3 to = placeNow(place, axesOf(code));
     Ray ray = rayAt(v_at);
-    Meeting found = meet(ray, centre - eye.xyz, radius);
+    Meeting found = meet(ray, to, radius);
     vec3 near = ray.origin + found.along * ray.direction;
     gl_FragDepth = depthOf(near);
     vec3 position = eye.xyz + near;
-    vec3 normal = found.open ? kept.xyz : (found.within ? -1.0 : 1.0) * normalize(position - centre);
+    vec3 normal = found.open ? kept.xyz : (found.within ? -1.0 : 1.0) * normalize(near - to);
     vec3 toEye = -ray.direction;
 
     Look look = lookOf(place);
     float tint = 0.96 + 0.08 * float(scrambled(uint(place)) & 255u) / 255.0;
-    vec3 albedo = colourNow(place, centre);
+    vec3 albedo = colourNow(place, eye.xyz + to);
     albedo *= albedo * tint;
     float facing = dot(normal, toEye);
     if (!found.open && look.moves) albedo *= patternNow(place, normal, radius / pixelAt(length(near)), facing);

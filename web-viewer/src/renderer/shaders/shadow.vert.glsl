@@ -1,5 +1,5 @@
 // Spheres are drawn as discs through their centres that face the light, so that no sphere shades its own lit side.
-uniform highp usampler2D u_order;
+uniform usampler2D u_order;
 uniform int u_first;
 uniform vec3 u_image;
 uniform uint u_imageBits;
@@ -13,9 +13,8 @@ void main() {
     v_corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     int place = int(texelFetch(u_order, texelOf(u_first + gl_InstanceID), 0).r);
     float radius = radiusOf(place);
-    vec3 position = positionNow(place);
-    vec3 image = imageOf(position, u_image);
-    bool drawn = radius > 0.0 && isInside(position, radius, u_image) && !isCut(image);
-    vec3 at = image + radius * (v_corner.x * u_right + v_corner.y * u_up);
+    vec3 to = placeNow(place, u_image);
+    bool drawn = radius > 0.0 && isInside(to, radius) && !isCut(to);
+    vec3 at = eye.xyz + to + radius * (v_corner.x * u_right + v_corner.y * u_up);
     gl_Position = drawn ? u_light * vec4(at, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }

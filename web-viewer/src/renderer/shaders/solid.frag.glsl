@@ -6,10 +6,11 @@ uniform float u_opacity;    // factor
 layout(location = 0) out vec4 o_colour;
 
 void main() {
-    if (isCut(v_position)) discard;
-    vec3 toEye = -rayTo(v_position - eye.xyz).direction;
+    vec3 to = v_position - eye.xyz;
+    if (isCut(to)) discard;
+    vec3 toEye = -rayTo(to).direction;
     vec3 normal = normalize(v_normal);
-    float lift = 2.0 * pixelAt(length(v_position - eye.xyz));
+    float lift = 2.0 * pixelAt(length(to));
     float share = dot(normal, light.xyz) > 0.0 ? lit(v_position, normal, lift) : 0.0;
     o_colour = vec4(encode(shade(Surface(v_colour.rgb, 0.6, 0.0), normal, toEye, share)), v_colour.a * u_opacity);
 }

@@ -3,7 +3,7 @@
 //
 // ROUND: the fragments have the depth of the surface. Else the square is a disc at the polar plane of the eye, which
 // lies in the sphere; of bodies that do not overlap, it hides the right ones.
-uniform highp usampler2D u_order;    // place of each sphere, in the order of drawing
+uniform usampler2D u_order;    // place of each sphere, in the order of drawing
 uniform int u_first;                 // number of the first sphere of this call
 uniform vec3 u_image;                // 1 for the axes across whose faces images are drawn, else 0
 uniform uint u_imageBits;
@@ -19,8 +19,7 @@ out vec2 v_corner;         // 1: the outline
 void main() {
     int place = int(texelFetch(u_order, texelOf(u_first + gl_InstanceID), 0).r);
     float radius = radiusOf(place);
-    vec3 position = positionNow(place);
-    vec3 to = imageOf(position, u_image) - eye.xyz;
+    vec3 to = placeNow(place, u_image);
     v_code = codeOf(place, u_imageBits);
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 #ifdef ROUND
@@ -29,13 +28,12 @@ void main() {
 #else
     v_corner = vec2(0.0);
 #endif
-    if (radius <= 0.0 || !isInside(position, radius, u_image)) return;
+    if (radius <= 0.0 || !isInside(to, radius)) return;
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     float far = length(to);
 #ifdef ROUND
     if (!isOrthographic() && far <= radius * 1.05) {
-        vec4 there = fromClip * vec4(corner, 1.0, 1.0);
-        v_at = there.xyz / there.w;
+        v_at = pointAt(corner);
         gl_Position = vec4(corner, 0.0, 1.0);
         return;
     }
