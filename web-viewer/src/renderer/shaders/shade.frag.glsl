@@ -38,6 +38,10 @@ void main() {
     float share = dot(normal, light.xyz) > 0.0 ? lit(position, normal, 0.05 * radius) : 0.0;
     vec3 colour = shade(Surface(albedo, look.roughness, look.metal), normal, toEye, share);
     float rim = 1.0 - max(dot(normal, toEye), 0.0);
-    if (selected) colour = mix(colour, vec3(1.0, 0.98, 0.9), smoothstep(0.55, 0.75, rim));
+    // A light ring with a dark edge: one of the two differs from the colour behind the sphere.
+    if (selected) {
+        colour = mix(colour, vec3(1.0, 0.98, 0.9), smoothstep(0.42, 0.5, rim));
+        colour = mix(colour, vec3(0.01, 0.015, 0.02), smoothstep(0.66, 0.72, rim));
+    }
     o_colour = vec4(encode(colour), 1.0);
 }
