@@ -78,6 +78,8 @@ test("a sphere does not fly across the picture when it crosses a seam", async ()
     for (let crossing = 0; crossing < 12 && pictures < 1; crossing++) {
       await when(page, crosses, [length, speed]);
       const before = await shownTime();
+      const drawn = await page.evaluate(() => spherule.drawn);
+      await when(page, (earlier) => spherule.drawn >= earlier + 2, drawn); // the picture is not of an earlier time
       const blue = await bluePlaces(page);
       const after = await shownTime();
       if (after < before || after - before > 0.1) continue; // the machine was busy

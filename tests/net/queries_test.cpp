@@ -1,5 +1,6 @@
 // Viewers that send queries at the highest allowed rate, and a controller, with the real server and simulation.
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <stop_token>
 #include <thread>
@@ -119,13 +120,6 @@ class Controller {
     std::uint64_t id_ = 0;
 };
 
-template <class T>
-T medianOf(std::vector<T> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 class FromFortyViewers : public testing::TestWithParam<Viewers::Query> {};
 
 // The simulation runs without pauses, so a command waits for the end of a step. A step of 400 substeps is longer than
@@ -135,18 +129,16 @@ TEST_P(FromFortyViewers, DoNotDelayCommands) {
     Viewers viewers(host->port(), 40, GetParam());
     Controller controller(host->port());
     (void)controller.give(R"("set":{"speed":100,"substeps":400})");
-    // Short turns, so that a change of the machine's load affects both sides of most ratios.
-    std::vector<double> ratios;
-    for (int round = 0; round < 9; ++round) {
-        double times[2]{};
+    // Other load of the machine only adds time, so the shortest times are compared.
+    double shortest[2]{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    for (int round = 0; round < 12; ++round) {
         for (const bool asked : {false, true}) {
             viewers.ask(asked);
             (void)controller.give(R"("set":{"speed":100})");  // earlier queries end
-            times[asked ? 1 : 0] = controller.timePerStep();
+            shortest[asked] = std::min(shortest[asked], controller.timePerStep());
         }
-        ratios.push_back(times[1] / times[0]);
     }
-    EXPECT_LE(medianOf(ratios), 1.5) << testing::PrintToString(ratios);
+    EXPECT_LE(shortest[1] / shortest[0], 1.5);
     EXPECT_TRUE(host->drain());
 }
 
