@@ -25,7 +25,7 @@ const usable = (page) =>
     const local = [...look, "scenes", "open-file", "copy-link", "timeline", "save"];
     const elements = document.querySelectorAll(".page :is(button, input, select)[data-testid]");
     return Array.from(elements)
-      .filter((one) => one.offsetParent && !one.disabled && !one.closest("dialog, [data-notice], .legend"))
+      .filter((one) => one.checkVisibility() && !one.disabled && !one.closest("dialog, [data-notice], .legend"))
       .map(({ dataset }) => dataset.testid)
       .filter((id) => !local.includes(id) && id !== "retry");
   });
