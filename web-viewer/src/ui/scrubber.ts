@@ -30,6 +30,7 @@ export class Scrubber {
   private newest = 0; // s: of the newest state, or the target of a seek; the handle moves towards it
   private still = false; // paused, and no seek is in progress
   private held = false; // the user holds the handle: no state moves it
+  private atEnd = false; // the handle was dragged to the end, which may have moved on since then
 
   constructor(private readonly actions: ScrubberActions) {
     const { slider } = this;
@@ -170,7 +171,9 @@ export class Scrubber {
   /** Goes to the time at the handle. */
   private go(released: boolean): void {
     const { time, track, actions } = this;
-    if (track?.live && time >= track.end) actions.present();
+    const isEnd = time >= (track?.end ?? Infinity) || (released && this.atEnd);
+    this.atEnd = isEnd && !released;
+    if (track?.live && isEnd) actions.present();
     else actions.seek(time, released);
   }
 }
