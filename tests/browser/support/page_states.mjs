@@ -39,7 +39,7 @@ function panel(share) {
   const arrange = async (page) => {
     await showPanel(page, true);
     await page.evaluate((at) => {
-      const list = document.querySelector(".lil-root > .lil-children");
+      const list = document.querySelector(".panel .folders");
       list.scrollTop = at * (list.scrollHeight - list.clientHeight);
     }, share);
   };
