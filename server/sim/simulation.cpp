@@ -106,6 +106,7 @@ void Simulation::install(Preparation& preparation) {
     quietSteps_ = 0;
     backoff_ = 0;
     lowered_ = false;
+    tooFast_ = false;
     pairsExhausted_ = false;
     if (const auto& resolved = preparation.resolvedOverlaps_)
         notices_.push_back(fmt::format(
@@ -339,13 +340,13 @@ void Simulation::limitMotionPerSubstep(double radiiPerSubstep) {
         target = std::max(requested, static_cast<std::uint32_t>(reduction * substeps_));
         lowered_ = true;
     }
-    if (target == substeps_) return;
-    if (substeps_ == requested && !withinLimit)
+    if (withinLimit && target == requested) tooFast_ = false;
+    if (!withinLimit && !std::exchange(tooFast_, true))
         notices_.push_back(fmt::format(
             "at step {}, a sphere moves {:.2g} radii in a substep: even with {} substeps per step in place of {}, "
             "it may pass through what it should hit",
             steps_, radiiPerSubstep, target, requested));
-    useSubsteps(target);
+    if (target != substeps_) useSubsteps(target);
 }
 
 // On failure, cell groups without room go on without lists, and no further attempt is made for this scene.

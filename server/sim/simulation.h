@@ -195,6 +195,7 @@ class Simulation {
     std::uint32_t quietSteps_ = 0;   // steps since a sphere moved too far
     std::uint32_t backoff_ = 0;      // quiet steps before substeps are lowered
     bool lowered_ = false;           // since a sphere last moved too far
+    bool tooFast_ = false;           // notice was given that the most substeps are too few
     std::vector<PullSpring> pulls_;
     std::vector<std::string> notices_;
     SlotState lastFinite_;  // the last state that was found finite

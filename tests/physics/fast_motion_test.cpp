@@ -57,6 +57,18 @@ TEST(FastMotion, GivesNoticeIfTheMostSubstepsAreTooFew) {
     EXPECT_NE(notices[0].find("may pass through"), std::string::npos) << notices[0];
 }
 
+TEST(FastMotion, GivesNoticeOnceIfTheMostSubstepsBecomeTooFew) {
+    scene::Scene scene = shots(scene::Model::Balanced, 370, {0});
+    scene.quality.substeps = 1;
+    scene.forces.gravity = {0, 0, -1e4F};
+    setRestitution(scene, 1);
+    const auto simulation = simulate(scene);
+    EXPECT_GT(simulation->substeps(), 240U);
+    EXPECT_TRUE(simulation->takeNotices().empty()) << "256 substeps are enough";
+    run(*simulation, 0.15);
+    EXPECT_EQ(simulation->takeNotices().size(), 1U) << "near the floor, the sphere has up to 420 m/s";
+}
+
 TEST(FastMotion, DoesNotAffectARunAfterReset) {
     const auto simulation = simulate(shots(scene::Model::Balanced, 200, {0, 0.3, 0.5}));
     run(*simulation, 0.3);
