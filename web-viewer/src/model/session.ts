@@ -112,7 +112,9 @@ export class Session {
   }
 
   handle(message: FromWorker): void {
-    batch(() => this.take(message));
+    // Frames are frequent, and a batch allocates.
+    if (message.kind === "frame") this.take(message);
+    else batch(() => this.take(message));
   }
 
   private take(message: FromWorker): void {
