@@ -14,7 +14,7 @@ import type { Shown, State } from "../src/model/states";
 import { Detail, SphereBlocks } from "../src/renderer/blocks";
 import type { DrawState } from "../src/renderer/draw_state";
 import { pixelOf } from "../src/renderer/frame_uniforms";
-import { positionsAt } from "./support/positions";
+import { positionsAt } from "./support/session";
 
 const places = 3 * blockPlaces - 100;
 const bounds = { boundsMin: [-100, -100, -100], boundsMax: [100, 100, 100] };

@@ -12,8 +12,7 @@ import { positionOf } from "../src/model/positions";
 import { quantityOf } from "../src/model/quantities";
 import { Selection } from "../src/model/selection";
 import type { State } from "../src/model/states";
-import { positionsAt } from "./support/positions";
-import { createSession } from "./support/session";
+import { createSession, positionsAt } from "./support/session";
 
 const floats = (...values: number[]): Uint8Array => new Uint8Array(Float32Array.from(values).buffer);
 

@@ -9,7 +9,7 @@ import { factsOf } from "../src/model/facts";
 import { positionOf, sentValue, shownPosition, shownSpeed, speedOf } from "../src/model/positions";
 import type { Shown, State } from "../src/model/states";
 import { copyPositions } from "../src/model/units";
-import { positionsAt } from "./support/positions";
+import { positionsAt } from "./support/session";
 
 const facts = factsOf(
   create(SceneFactsSchema, {

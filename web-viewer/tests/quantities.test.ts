@@ -11,7 +11,7 @@ import type { Facts } from "../src/model/facts";
 import { modes, quantityOf } from "../src/model/quantities";
 import type { LegendContent, Mode } from "../src/model/quantities";
 import type { State } from "../src/model/states";
-import { positionsAt } from "./support/positions";
+import { positionsAt } from "./support/session";
 
 const groups = Array.from({ length: 8 }, (_, k) => ({ name: `g${k}`, first: k, count: 1 }));
 

@@ -7,7 +7,7 @@ import type { Vec3 } from "../src/model/facts";
 import type { State } from "../src/model/states";
 import { SphereData } from "../src/renderer/spheres";
 import { Table } from "../src/renderer/table";
-import { positionsAt } from "./support/positions";
+import { positionsAt } from "./support/session";
 
 const places = 1000;
 const eye: Vec3 = [0, 0, 0];

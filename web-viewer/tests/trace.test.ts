@@ -6,7 +6,7 @@ import { Axis } from "../src/gen/spherule/v1/scene_pb";
 import { factsOf } from "../src/model/facts";
 import type { Shown, State } from "../src/model/states";
 import { capacity, Trace } from "../src/model/trace";
-import { positionsAt } from "./support/positions";
+import { positionsAt } from "./support/session";
 
 const bounds = { boundsMin: [0, 0, 0], boundsMax: [4, 2, 2] };
 const facts = factsOf(create(SceneFactsSchema, { epoch: 1, count: 2, radius: 0.1, ...bounds }));

@@ -1,13 +1,20 @@
-// A session without a connection: the test plays the worker.
+// A session without a connection, and the positions of its states: the test plays the worker.
 import { create } from "@bufbuild/protobuf";
 import type { MessageInitShape } from "@bufbuild/protobuf";
+import { noTurns } from "../../src/codec/turns";
+import type { Positions } from "../../src/columns";
 import { PopulationSchema, SceneFactsSchema } from "../../src/gen/spherule/v1/facts_pb";
 import type { Run } from "../../src/model/population";
 import { Session } from "../../src/model/session";
 import type { State } from "../../src/model/states";
-import { positionsAt } from "./positions";
 
 const cube = { boundsMin: [-1, -1, -1], boundsMax: [1, 1, 1] };
+
+/** Positions in a state, from coordinates (m, relative to the centre of the bounds). */
+export function positionsAt(metres: readonly number[], quantum = 0.01): Positions {
+  const values = Int32Array.from(metres, (x) => Math.round(x / quantum));
+  return { values, quantum, quanta: [quantum, quantum, quantum], turns: noTurns };
+}
 
 export function createSession() {
   const changes: Run[][] = [];
