@@ -23,9 +23,10 @@ const usable = (page) =>
     const picture = ["trace", "picture-width", "picture-height", "save-picture"];
     const look = [...picture, "tier", "rate", "fixed", "colour", "quality", "theme", "home", "help", "panel-toggle"];
     const local = [...look, "scenes", "open-file", "copy-link", "timeline", "save"];
-    const elements = document.querySelectorAll(".page :is(button, input, select)[data-testid]");
+    const elements = document.querySelectorAll(".page :is(button, input, select, svg[role])[data-testid]");
+    const blocked = (one) => one.disabled || one.ariaDisabled === "true";
     return Array.from(elements)
-      .filter((one) => one.checkVisibility() && !one.disabled && !one.closest("dialog, [data-notice], .legend"))
+      .filter((one) => one.checkVisibility() && !blocked(one) && !one.closest("dialog, [data-notice], .legend"))
       .map(({ dataset }) => dataset.testid)
       .filter((id) => !local.includes(id) && id !== "retry");
   });
@@ -85,13 +86,17 @@ test("a page without a connection looks like one: nothing can be used, and no fi
 test("a server that does not answer blocks the controls until it does", async () => {
   const server = await serve("billiards");
   const page = await open(suite.browser, server.url);
+  await page.mouse.move(10, 10); // the page loads the tools
+  const some = ["pause", "gravity-arrow", "gravity-down"];
+  for (const id of some) await page.waitForSelector(control(id));
   server.freeze();
   await notices(page, "silent");
   assert.deepEqual(await usable(page), []);
   assert.equal(await reasonOf(page, "pause"), "The server does not answer");
   server.thaw();
   await notices(page);
-  assert.ok((await usable(page)).includes("pause"));
+  const again = await usable(page);
+  for (const id of some) assert.ok(again.includes(id), id);
   await page.close();
   await server.stop();
 });
@@ -143,8 +148,11 @@ test("a lost WebGL context is told until the browser gives it back", async () =>
     window.loss.loseContext();
   });
   await notices(page, "graphics-lost");
+  const opacity = () => page.evaluate(() => getComputedStyle(document.querySelector("canvas")).opacity);
+  assert.equal(await opacity(), "0"); // else it is white
   await page.evaluate(() => window.loss.restoreContext());
   await notices(page);
+  await when(page, () => getComputedStyle(document.querySelector("canvas")).opacity === "1");
   await page.close();
   await server.stop();
 });

@@ -79,20 +79,15 @@ const notice = (page, id) => page.waitForSelector(`[data-notice="${id}"]`);
 const receive = (page, kind, text) =>
   page.evaluate((event) => spherule.session.handle({ kind: "event", event }), { kind, text });
 
-/** A page whose server is struck before it connects for the first time. `id`: of the notice that it shows. */
-function unreachable(strike, id) {
-  return async ({ browser }) => {
-    const server = await serve("cradle");
-    const page = await browser.newPage();
-    await page.route("**/worker.js", async (route) => {
-      const response = await route.fetch();
-      await strike(server);
-      await route.fulfill({ response });
-    });
-    await page.goto(server.url);
-    await notice(page, id);
-    return { page };
-  };
+/** The page of a server of its own. `workerOf(response, server)` returns what differs in the worker that it gets. */
+async function withWorker(browser, workerOf) {
+  const server = await serve("cradle");
+  const page = await browser.newPage();
+  await page.route("**/worker.js", async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, ...(await workerOf(response, server)) });
+  });
+  return { server, page };
 }
 
 /**
@@ -149,7 +144,11 @@ export const states = {
       await showPanel(page, true);
       await page.selectOption(control("tool"), "Drop");
     },
-    arrange: (page) => showPanel(page, false),
+    arrange: async (page) => {
+      await showPanel(page, false);
+      const { x, y, width, height } = await page.locator(control("picture")).boundingBox();
+      await page.mouse.move(x + width / 2, y + height / 2);
+    },
   }),
   pull: cradle({
     once: async (page) => {
@@ -217,8 +216,23 @@ export const states = {
     await notice(page, "empty");
     return { page };
   },
-  connecting: unreachable((server) => server.freeze(), "connecting"),
-  unreachable: unreachable((server) => server.kill(), "offline"),
+  connecting: async ({ browser }) => {
+    const { server, page } = await withWorker(browser, async (response) => ({
+      body: `self.WebSocket = class { close() {} }; ${await response.text()}`, // never opens
+    }));
+    // The page gives up after 10 s, so each picture is of a new visit.
+    const arrange = async () => {
+      await page.goto(server.url);
+      await notice(page, "connecting");
+    };
+    return { page, arrange };
+  },
+  unreachable: async ({ browser }) => {
+    const { server, page } = await withWorker(browser, (_, { kill }) => kill());
+    await page.goto(server.url);
+    await notice(page, "offline");
+    return { page };
+  },
   silent: cradle({
     once: async (page, server) => {
       server.freeze();

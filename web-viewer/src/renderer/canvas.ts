@@ -47,6 +47,7 @@ export class Canvas {
       event.preventDefault(); // asks the browser to restore the context
       this.renderer = undefined;
       this.graphics = "lost";
+      element.classList.add("empty");
     });
     element.addEventListener("webglcontextrestored", () => {
       this.renderer = new FrameRenderer(gl);

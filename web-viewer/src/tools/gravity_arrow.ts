@@ -21,6 +21,7 @@ export class GravityArrow {
   private readonly svg = document.createElementNS(svgName, "svg");
   private readonly line = document.createElementNS(svgName, "path");
   private readonly text = h("span", { class: "strength" });
+  private readonly buttons: HTMLButtonElement[];
   private shown: Vec3 = [0, 0, -earth]; // m/s²
   private strength = earth; // m/s²: of the last gravity that was not zero
   private direction: Vec3 = [0, 0, -1]; // of the same
@@ -72,20 +73,23 @@ export class GravityArrow {
       { passive: false },
     );
     svg.addEventListener("keydown", (event) => this.pressed(event));
-    const button = (name: string, id: string, gravity: () => Vec3): HTMLElement => {
+    const button = (name: string, id: string, gravity: () => Vec3): HTMLButtonElement => {
       const click = (): void => {
         if (!this.blocked()) this.ask(gravity());
       };
       return h("button", { type: "button", "data-testid": id, click }, name);
     };
-    const down = button("Down", "gravity-down", () => [0, 0, -this.strength]);
-    const zero = button("Zero", "gravity-zero", () => [0, 0, 0]);
-    this.element = h("div", { class: "gravity-arrow" }, h("div", { class: "side" }, this.text, down, zero));
+    this.buttons = [
+      button("Down", "gravity-down", () => [0, 0, -this.strength]),
+      button("Zero", "gravity-zero", () => [0, 0, 0]),
+    ];
+    this.element = h("div", { class: "gravity-arrow" }, h("div", { class: "side" }, this.text, ...this.buttons));
     this.element.prepend(svg);
   }
 
-  /** `gravity`: as the server has it. */
-  update(view: View, gravity: readonly number[] | undefined): void {
+  /** `gravity`: as the server has it. `blockedReason`: why the user may not change it; empty if they may. */
+  update(view: View, gravity: readonly number[] | undefined, blockedReason: string): void {
+    if (blockedReason !== this.element.title) this.block(blockedReason);
     const [x = 0, y = 0, z = 0] = this.wanted ?? gravity ?? [];
     this.shown = [x, y, z];
     const strength = length(this.shown);
@@ -97,6 +101,12 @@ export class GravityArrow {
     if (key === this.drawn) return;
     this.drawn = key;
     this.draw(view, strength);
+  }
+
+  private block(reason: string): void {
+    this.element.title = reason;
+    this.svg.setAttribute("aria-disabled", String(reason !== ""));
+    for (const button of this.buttons) button.disabled = reason !== "";
   }
 
   private draw(view: View, strength: number): void {

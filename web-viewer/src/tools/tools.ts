@@ -87,8 +87,8 @@ export class Tools implements LazyTools {
     void panel.dropSpheres((_, count, radius) => dropAbove(facts, settings?.gravity, at, clear, count, radius));
   }
 
-  refresh(view: View): void {
-    this.arrow.update(view, this.stage.session.settings?.gravity);
+  refresh(view: View, blockedReason: string): void {
+    this.arrow.update(view, this.stage.session.settings?.gravity, blockedReason);
   }
 
   update(view: View, shown: Shown | undefined): void {

@@ -35,8 +35,8 @@ export interface Tools {
   letGo(): boolean;
   /** Drops spheres above the place that the picture shows on a ray. `place`: of the sphere there. */
   drop(ray: Ray, place: number | undefined): void;
-  /** Updates the tools' elements in the panel. */
-  refresh(view: View): void;
+  /** Updates the tools' elements in the panel. `blockedReason`: why the user may not use them; empty if they may. */
+  refresh(view: View, blockedReason: string): void;
   /** Call at every tick. */
   update(view: View, shown: Shown | undefined): void;
 }

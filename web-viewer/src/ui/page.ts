@@ -261,7 +261,7 @@ export class Page {
     this.gauge.update(this.actions.camera, this.session.facts !== undefined);
     this.legend.update(this.choices.mode, this.session.facts);
     this.lazy.gallery?.update(blockedReason);
-    this.lazy.tools?.refresh(this.actions.camera.last);
+    this.lazy.tools?.refresh(this.actions.camera.last, blockedReason);
     if (now - this.lastFigures < figurePeriod) return;
     this.lastFigures = now;
     this.header.update(now, graphics);
