@@ -97,10 +97,11 @@ export class GravityArrow {
       this.strength = strength;
       this.direction = this.shown.map((part) => part / strength) as Vec3;
     }
-    const key = [...this.shown, ...view.forward, view.toClip[1], view.toClip[5]].join();
+    const known = this.wanted !== undefined || gravity !== undefined;
+    const key = [known, ...this.shown, ...view.forward, view.toClip[1], view.toClip[5]].join();
     if (key === this.drawn) return;
     this.drawn = key;
-    this.draw(view, strength);
+    this.draw(view, strength, known);
   }
 
   private block(reason: string): void {
@@ -109,7 +110,7 @@ export class GravityArrow {
     for (const button of this.buttons) button.disabled = reason !== "";
   }
 
-  private draw(view: View, strength: number): void {
+  private draw(view: View, strength: number, known: boolean): void {
     const { right, up, away } = axesOf(view);
     const part = (axis: Vec3): number => axis.reduce((sum, a, k) => sum + a * (this.direction[k] ?? 0), 0);
     const [across, upwards, depth] = [part(right), part(up), part(away)];
@@ -125,7 +126,7 @@ export class GravityArrow {
       path = `M${middle} ${middle}L${tip[0]} ${tip[1]}${barb(1)}${barb(-1)}`;
     }
     this.line.setAttribute("d", path);
-    const text = strength > 0 ? `${figure(strength)} m/s²` : "no gravity";
+    const text = strength > 0 ? `${figure(strength)} m/s²` : known ? "no gravity" : "unknown";
     setText(this.text, text);
     this.svg.setAttribute("aria-valuenow", String(Number(strength.toPrecision(4))));
     const aside = flat < 0.15 ? "" : across > 0.4 * flat ? " right" : across < -0.4 * flat ? " left" : "";
