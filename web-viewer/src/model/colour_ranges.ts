@@ -47,9 +47,9 @@ export class ColourRanges {
 
   /** The range of a mode. */
   of(mode: Mode, facts: Facts | undefined): Range {
-    const [low, high] = this.automaticOf(mode, facts);
+    const automatic = this.automaticOf(mode, facts);
     const given = this.givenOf(mode);
-    return [given.low ?? low, given.high ?? high];
+    return [given.low ?? automatic[0], given.high ?? automatic[1]];
   }
 
   /** The range of a mode if the user gives none; 0 to 1 if there is no scale, or no scene yet. */

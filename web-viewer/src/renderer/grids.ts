@@ -1,6 +1,6 @@
 import type { Positions } from "../columns";
 import type { Vec3 } from "../model/facts";
-import { axes, unitsOf } from "../model/units";
+import { unitsOf } from "../model/units";
 import type { Program } from "./program";
 
 /** How the whole numbers of both states become metres relative to the eye: see shaders/spheres.glsl. */
@@ -12,7 +12,9 @@ export class Grids {
 
   /** `end`: 0 for the first state, 1 for the second one. `eye`: relative to the centre of the bounds (m). */
   set(end: 0 | 1, { quanta, turns }: Positions, eye: Vec3): void {
-    for (const axis of axes) {
+    // Runs for every image: an iterator would be new memory each time.
+    for (let k = 0; k < 3; k++) {
+      const axis = k as 0 | 1 | 2;
       const at = 3 * end + axis;
       const units = unitsOf(eye[axis], quanta[axis]);
       this.quanta[at] = quanta[axis];

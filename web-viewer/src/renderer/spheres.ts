@@ -6,7 +6,6 @@ import { capacity } from "../model/playout";
 import { joined } from "../model/population";
 import type { Population, Run } from "../model/population";
 import type { DrawOrder, Shown, State } from "../model/states";
-import { axes } from "../model/units";
 import { Grids } from "./grids";
 import { bindTexture } from "./program";
 import type { Program, Sampler } from "./program";
@@ -114,7 +113,9 @@ export class SphereData {
     this.bindState(toSamplers, to);
     this.grids.set(0, shown.from.columns.position, eye);
     this.grids.set(1, shown.to.columns.position, eye);
-    for (const axis of axes) {
+    // Runs for every image: an iterator would be new memory each time.
+    for (let k = 0; k < 3; k++) {
+      const axis = k as 0 | 1 | 2;
       const half = 0.5 * (this.facts?.periods[axis] || 1e30);
       this.faces[axis] = -half - eye[axis];
       this.faces[axis + 3] = half - eye[axis];
@@ -149,9 +150,10 @@ export class SphereData {
     const { gl } = this;
     if (count === 0) return;
     gl.uniform1i(program.at("u_first"), first);
-    for (const { axes, bits } of this.images) {
-      gl.uniform3fv(program.at("u_image"), axes);
-      gl.uniform1ui(program.at("u_imageBits"), bits);
+    for (let k = 0; k < this.images.length; k++) {
+      const image = this.images[k] as (typeof this.images)[number];
+      gl.uniform3fv(program.at("u_image"), image.axes);
+      gl.uniform1ui(program.at("u_imageBits"), image.bits);
       if (points) gl.drawArrays(gl.POINTS, 0, count);
       else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     }

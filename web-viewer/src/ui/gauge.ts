@@ -45,11 +45,15 @@ export class Gauge {
   private drawAxes(azimuth: number, elevation: number): void {
     this.azimuth = azimuth;
     this.elevation = elevation;
-    const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
+    const ca = Math.cos(azimuth);
+    const sa = Math.sin(azimuth);
+    const ce = Math.cos(elevation);
+    const se = Math.sin(elevation);
     const right = [-sa, ca, 0]; // the directions of the picture, in the axes of the scene
     const up = [-se * ca, -se * sa, ce];
     for (let axis = 0; axis < 3; axis++) {
-      const [x, y] = [right[axis] as number, -(up[axis] as number)];
+      const x = right[axis] as number;
+      const y = -(up[axis] as number);
       place(this.lines[axis], "x2", "y2", size / 2 + arm * x, size / 2 + arm * y);
       place(this.labels[axis], "x", "y", size / 2 + (arm + 7) * x, size / 2 + (arm + 7) * y);
     }
