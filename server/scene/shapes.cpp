@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "scene/check.h"
 #include "spherule/v1/scene.pb.h"
@@ -23,6 +27,65 @@ constexpr std::array types = {
 #include "shapes.def"
 #undef SHAPE
 
+// A shape that is turned, then moved.
+class Placed final : public Shape {
+  public:
+    Placed(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation)
+        : shape_(std::move(shape)),
+          rotation_(rotation),
+          frame_{glm::mat3_cast(glm::angleAxis(glm::radians(rotation.degrees), glm::normalize(rotation.axis))),
+                 translation} {}
+
+    [[nodiscard]] ShapeKind kind() const override { return shape_->kind(); }
+    [[nodiscard]] std::uint32_t parts() const override { return shape_->parts(); }
+    [[nodiscard]] double distance(const glm::dvec3& point) const override {
+        return shape_->distance(frame_.inside(point));
+    }
+    [[nodiscard]] std::optional<glm::dvec3> normalOfHalfSpace() const override {
+        const std::optional<glm::dvec3> normal = shape_->normalOfHalfSpace();
+        if (!normal) return std::nullopt;
+        return frame_.turn * *normal;
+    }
+    [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
+        return shape_->largestCoordinate(glm::dvec3(0)) + glm::distance(frame_.origin, origin);
+    }
+    [[nodiscard]] Row row(const glm::dvec3& origin) const override {
+        // A half-space needs no frame: it is given by its normal.
+        if (const std::optional<glm::dvec3> normal = normalOfHalfSpace())
+            return planeShape(origin - distance(origin) * *normal, *normal)->row(origin);
+        Row row = shape_->row(glm::dvec3(0));
+        const Frame placed{frame_.turn, frame_.origin - origin};
+        row.frame = row.frame ? placed * *row.frame : placed;
+        return row;
+    }
+    void write(v1::Obstacle& message) const override {
+        shape_->write(message);
+        setVector(*message.mutable_rotation()->mutable_axis(), rotation_.axis);
+        message.mutable_rotation()->set_degrees(rotation_.degrees);
+        setVector(*message.mutable_translation(), frame_.origin);
+    }
+
+  private:
+    ShapePointer shape_;
+    Rotation rotation_;
+    Frame frame_;
+};
+
+ShapePointer readPlace(Check& check, const v1::Obstacle& message, const std::string& field, ShapePointer shape) {
+    if (!message.has_rotation() && message.translation().empty()) return shape;
+    Rotation rotation;
+    if (message.has_rotation()) {
+        rotation.axis = check.vector(message.rotation().axis(), at(field, "rotation.axis"));
+        rotation.degrees = check.within(message.rotation().degrees(), -360, 360, at(field, "rotation.degrees"), "°");
+        if (!(glm::length(rotation.axis) > 0)) {
+            check.refuse(at(field, "rotation.axis"), "is zero, must have a direction");
+            rotation.axis = {0, 0, 1};
+        }
+    }
+    const glm::dvec3 to = check.vectorOr(message.translation(), {}, at(field, "translation"));
+    return placedShape(std::move(shape), rotation, to);
+}
+
 std::string fieldNames() {
     const auto* const shapes = v1::Obstacle::descriptor()->FindOneofByName("shape");
     std::string names = shapes->field(0)->name();
@@ -34,9 +97,39 @@ std::string fieldNames() {
 
 ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field) {
     for (const ShapeType* type : types)
-        if (type->field == message.shape_case()) return type->read(check, message, field);
+        if (type->field == message.shape_case())
+            return readPlace(check, message, field, type->read(check, message, field));
     check.refuse(field, fmt::format("has no shape, must have one of {}", fieldNames()));
     return nullptr;
+}
+
+ShapePointer placedShape(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation) {
+    return std::make_shared<Placed>(std::move(shape), rotation, translation);
+}
+
+double Ends::half() const {
+    return 0.5 * glm::distance(from, to);
+}
+
+Frame Ends::frame() const {
+    const glm::dvec3 z = glm::normalize(to - from);
+    const glm::dvec3 other = std::abs(z.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(other, z));
+    return {glm::dmat3(x, glm::cross(z, x), z), centre()};
+}
+
+Ends readEnds(Check& check, const Numbers& from, const Numbers& to, const std::string& field) {
+    constexpr double shortest = 1e-9;  // m
+    Ends ends{check.vector(from, at(field, "from")), check.vector(to, at(field, "to"))};
+    if (glm::distance(ends.from, ends.to) < shortest) {
+        check.refuse(at(field, "to"), fmt::format("is {}, must differ from `from`", shown(ends.to)));
+        ends.to = ends.from + glm::dvec3(0, 0, 1);
+    }
+    return ends;
+}
+
+void refuseHollow(Check& check, bool hollow, const std::string& field) {
+    if (hollow) check.refuse(field, "is true with `open`, whose both sides are free; leave one of them out");
 }
 
 std::uint32_t surfacesOf(const Scene& scene) {

@@ -5,6 +5,9 @@
 #include <optional>
 #include <string>
 
+#include <google/protobuf/repeated_field.h>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -25,6 +28,17 @@ enum class ShapeKind : std::uint8_t {
 #undef SHAPE
 };
 
+// Coordinates that are turned, then moved: x in the frame is turn * x + origin outside.
+struct Frame {
+    glm::dmat3 turn{1};   // orthogonal
+    glm::dvec3 origin{};  // m
+
+    [[nodiscard]] glm::dvec3 outside(const glm::dvec3& x) const { return turn * x + origin; }
+    [[nodiscard]] glm::dvec3 inside(const glm::dvec3& x) const { return glm::transpose(turn) * (x - origin); }
+    // Returns the frame of a frame that is given in these coordinates.
+    [[nodiscard]] Frame operator*(const Frame& other) const { return {turn * other.turn, outside(other.origin)}; }
+};
+
 // The shape of an obstacle in world coordinates (m). It bounds the solid that spheres cannot enter. Immutable, so that
 // scenes share it.
 class Shape {
@@ -42,10 +56,12 @@ class Shape {
     // `origin`; 0 if it is no larger than the coordinates of the spheres.
     [[nodiscard]] virtual double largestCoordinate(const glm::dvec3& /*origin*/) const { return 0; }
 
-    // The members a and b of its row for kernels, where positions are relative to `origin`: see shaders/shapes/.
+    // The members a and b of its row for kernels: see shaders/shapes/. Without a frame, positions are relative to
+    // `origin`; with one, they are in the frame's coordinates.
     struct Row {
-        glm::vec4 a;
-        glm::vec4 b;
+        glm::vec4 a{};
+        glm::vec4 b{};
+        std::optional<Frame> frame{};
     };
     [[nodiscard]] virtual Row row(const glm::dvec3& origin) const = 0;
     // Writes the shape in the form in which scenes give it.
@@ -57,6 +73,24 @@ using ShapePointer = std::shared_ptr<const Shape>;
 // Reads the shape of an obstacle, whose field in the scene is `field`. Refuses an obstacle without one.
 ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field);
 
+// The ends of a shape along a line: two points that differ.
+struct Ends {
+    glm::dvec3 from{};
+    glm::dvec3 to{};
+
+    [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (from + to); }
+    [[nodiscard]] double half() const;  // half of its length (m)
+    // Returns the frame whose origin is the centre, and whose z axis leads from `from` to `to`.
+    [[nodiscard]] Frame frame() const;
+};
+Ends readEnds(Check& check, const google::protobuf::RepeatedField<double>& from,
+              const google::protobuf::RepeatedField<double>& to, const std::string& field);
+
+// Refuses a hollow shape that is open: both of its sides are free.
+void refuseHollow(Check& check, bool hollow, const std::string& field);
+
+constexpr std::uint32_t partsAroundAxis = 5;  // AROUND_AXIS in shaders/shared/shapes.h
+
 // Returns a shape of this kind with a size of about 1 m, whose solid is below the plane z = `top`.
 ShapePointer exampleOf(ShapeKind kind, double top);
 
@@ -66,7 +100,17 @@ std::uint32_t surfacesOf(const Scene& scene);
 
 // A half-space. `normal` is of unit length and points to the free side.
 ShapePointer planeShape(const glm::dvec3& point, const glm::dvec3& normal);
-ShapePointer boxShape(const Box& box);
+ShapePointer boxShape(const Box& box, bool hollow = false);
+
+// The side of a cone or cylinder without ends, in the form in which scenes give it.
+ShapePointer openCone(const Ends& ends, double fromRadius, double toRadius);
+ShapePointer openCylinder(const Ends& ends, double radius);
+// A shape in a frame of its own. `rotation`: as in the scene.
+struct Rotation {
+    glm::dvec3 axis{0, 0, 1};  // of any length but zero
+    double degrees = 0;
+};
+ShapePointer placedShape(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation);
 
 // How one kind of shape is read and made. Defined in its file in scene/shapes/.
 struct ShapeType {

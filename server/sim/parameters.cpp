@@ -79,12 +79,19 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         const scene::Shape::Row row = obstacle.shape->row(scene.bounds.centre());
         const std::uint32_t parts = obstacle.shape->parts();
+        const scene::Frame frame = row.frame.value_or(scene::Frame());
+        const auto axis = [&](int k) { return glm::vec4(glm::dvec4(frame.turn[k], frame.origin[k])); };
         rows.push_back({.a = row.a,
                         .b = row.b,
+                        .frameX = axis(0),
+                        .frameY = axis(1),
+                        .frameZ = axis(2),
                         .shape = static_cast<std::uint32_t>(obstacle.shape->kind()),
                         .parts = parts,
                         .surface = surface,
-                        .material = obstacle.material});
+                        .material = obstacle.material,
+                        .framed = row.frame ? 1U : 0U,
+                        .unusedUints = {}});
         surface += parts;
     }
     return rows;

@@ -1,5 +1,17 @@
-// A box along the axes. a, b: its corners (m).
+// A box along the axes: solid, or the space around a hollow one, whose six parts are its faces. a, b: its corners (m);
+// the w of a is -1 if it is hollow.
 ANY_REAL4 boxAt(Obstacle box, uint part, ANY_REAL3 point) {
+    if (box.a.w < 0.0f) {
+        uint axis = part / 2u;
+        ANY_REAL place = axis == 0u ? point.x : axis == 1u ? point.y : point.z;
+        float low = axis == 0u ? box.a.x : axis == 1u ? box.a.y : box.a.z;
+        float high = axis == 0u ? box.b.x : axis == 1u ? box.b.y : box.b.z;
+        float inward = part % 2u == 0u ? 1.0f : -1.0f;
+        ANY_REAL zero = min(abs(point.x), 0.0f);
+        ANY_REAL along = zero + inward;
+        return row4(axis == 0u ? along : zero, axis == 1u ? along : zero, axis == 2u ? along : zero,
+                    part % 2u == 0u ? place - low : high - place);
+    }
     ANY_REAL dx = point.x - min(max(point.x, box.a.x), box.b.x);
     ANY_REAL dy = point.y - min(max(point.y, box.a.y), box.b.y);
     ANY_REAL dz = point.z - min(max(point.z, box.a.z), box.b.z);

@@ -70,14 +70,20 @@ struct ContactParams {
     vec4 stiffness;      // of the model `accurate`: normal (Pa), damping ratio, tangential (Pa), 0
 };
 
-// A solid obstacle. Its shape's function in shapes/ says what is in `a` and `b`.
+// An obstacle. Its shape's function in shapes/ says what is in `a` and `b`. With a frame, the shape lies in the
+// frame's own coordinates.
 struct Obstacle {
     vec4 a;
     vec4 b;
+    vec4 frameX;         // the direction of the frame's x axis; w: x of its origin (m)
+    vec4 frameY;
+    vec4 frameZ;
     uint shape;          // its number in shapes.def
     uint parts;          // surfaces that a sphere may touch at the same time
     uint surface;        // number of the first of them
     uint material;
+    uint framed;         // 1: it has a frame
+    uint unusedUints[3];
 };
 
 // The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the

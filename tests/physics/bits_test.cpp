@@ -147,6 +147,24 @@ TEST_P(Bits, OfAMixtureAmongRoundObstaclesAreTheSameOnAllDevices) {
     expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
 }
 
+// In a turned, hollow box, above obstacles of all shapes that have a frame.
+TEST_P(Bits, OfAMixtureAmongTurnedObstaclesAreTheSameOnAllDevices) {
+    scene::Scene scene = mixture(GetParam());
+    scene.obstacles.clear();
+    for (const char* const shape :
+         {R"("box": {"min": [-0.5, -0.5, -0.4], "max": [0.5, 0.5, 0.6], "hollow": true},
+             "rotation": {"axis": [1, 2, 0], "degrees": 4})",
+          R"("cone": {"from": [0, 0, 0], "to": [0, 0, 0.2], "fromRadius": 0.15, "toRadius": 0.05},
+             "translation": [0.2, 0.1, -0.4])",
+          R"("cone": {"from": [-0.25, 0.2, -0.2], "to": [-0.25, 0.2, 0.1], "fromRadius": 0.03, "toRadius": 0.2,
+             "open": true})",
+          R"("disc": {"centre": [-0.2, -0.25, -0.2], "normal": [1, 0, 3], "radius": 0.2, "hole": 0.05})",
+          R"("cylinder": {"from": [0.1, -0.3, -0.3], "to": [0.4, -0.2, -0.2], "radius": 0.1, "open": true})",
+          R"("capsule": {"from": [0, -0.1, -0.35], "to": [0.1, 0.2, -0.25], "radius": 0.04})"})
+        scene.obstacles.push_back(obstacleFrom(std::string("{") + shape + "}"));
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
+}
+
 TEST_P(Bits, AcrossSeamsAreTheSameOnAllDevices) {
     for (const double ratio : {1.0, 10.0})
         expectTheSameBits(periodicMixture(GetParam(), ratio), GetParam() == scene::Model::Accurate ? 0.06 : 0.25);

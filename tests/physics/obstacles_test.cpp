@@ -1,8 +1,9 @@
-// Spheres and cylinders as obstacles, solid and hollow, in each model, against exact paths in double precision.
+// Obstacles of all shapes but planes, solid, hollow and open, in each model, against exact paths in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 
@@ -38,6 +39,54 @@ scene::Obstacle cylinder(const glm::dvec3& from, const glm::dvec3& to, double si
     return obstacleFrom(fmt::format(R"({{"cylinder":{{"from":{},"to":{},"radius":{:.17g},"hollow":{}}}}})", text(from),
                                     text(to), size, hollow));
 }
+
+// An obstacle around the z axis of its coordinates, in these coordinates turned and moved at random.
+struct Turned {
+    glm::dvec3 axis;
+    double degrees;
+    glm::dvec3 to;
+
+    explicit Turned(scene::Random& random)
+        : axis(randomDirection(random)),
+          degrees(random.uniform(-360, 360)),
+          to(random.uniform(0, 2) * randomDirection(random)) {}
+
+    [[nodiscard]] scene::Obstacle obstacle(const std::string& shape) const {
+        return obstacleFrom(fmt::format(R"({{{},"rotation":{{"axis":{},"degrees":{:.17g}}},"translation":{}}})", shape,
+                                        text(axis), degrees, text(to)));
+    }
+    // Returns the vector that the turn makes of v, by the formula of Rodrigues.
+    [[nodiscard]] glm::dvec3 turn(const glm::dvec3& v) const {
+        const double angle = degrees * std::numbers::pi / 180;
+        return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
+               axis * glm::dot(axis, v) * (1 - std::cos(angle));
+    }
+    [[nodiscard]] glm::dvec3 place(const glm::dvec3& point) const { return turn(point) + to; }
+};
+
+// A shape of about 1 m around the z axis.
+std::string randomShape(unsigned kind, scene::Random& random) {
+    const double h = random.uniform(0.2, 0.8);
+    const double a = random.uniform(0.2, 0.8);
+    const double b = random.uniform(0.2, 0.8);
+    const std::string ends = fmt::format(R"("from":[0,0,{}],"to":[0,0,{}])", -h, h);
+    const std::string box = fmt::format(R"("box":{{"min":[{},{},{}],"max":[{},{},{}])", -a, -b, -h, a, b, h);
+    const std::string cone = fmt::format(R"("cone":{{{},"fromRadius":{},"toRadius":{})", ends, a, b);
+    const std::string capsule = fmt::format(R"("capsule":{{{},"radius":{})", ends, a);
+    const std::string disc = fmt::format(R"("disc":{{"centre":[0,0,0],"normal":[0,0,2],"radius":{})", 0.5 + a);
+    const std::string shapes[] = {box,
+                                  box + R"(,"hollow":true)",
+                                  cone,
+                                  cone + R"(,"hollow":true)",
+                                  cone + R"(,"open":true)",
+                                  disc,
+                                  disc + fmt::format(R"(,"hole":{})", a - 0.1),
+                                  fmt::format(R"("cylinder":{{{},"radius":{},"open":true)", ends, a),
+                                  capsule,
+                                  capsule + R"(,"hollow":true)"};
+    return shapes[kind] + "}";
+}
+constexpr unsigned shapeKinds = 10;
 
 // One sphere in open space, with steps of one substep of 1/480 s; `accurate` with substeps of 1/14,400 s.
 scene::Scene oneSphere(scene::Model model, const glm::dvec3& place, const glm::dvec3& velocity) {
@@ -86,35 +135,41 @@ double meetingTime(const scene::Shape& shape, const Motion& start) {
     return 10;
 }
 
-// Obstacles of a random place and direction, and spheres that come from random places at random times.
-TEST_P(Obstacles, ReboundsAreThoseOfTheNormal) {
+struct Target {
+    scene::Obstacle obstacle;
+    glm::dvec3 centre;
+    double size;  // m
+};
+
+// Spheres that come from random places, within the target or around it, at random times. `softSubsteps`: of `accurate`.
+// `targetOf`: the target of a case.
+void expectReboundsOfTheNormal(scene::Model model, scene::Random& random, unsigned cases, unsigned softSubsteps,
+                               const std::function<Target(unsigned)>& targetOf) {
     constexpr double seconds = 0.02;  // after the rebound
-    scene::Random random(21);
     unsigned met = 0;
     double worst = 0;  // error of the speed after the rebound, over the speed before
-    while (met < (GetParam() == scene::Model::Accurate ? 16U : 60U)) {
-        const glm::dvec3 centre = randomDirection(random) * random.uniform(0, 2);
-        const glm::dvec3 half = randomDirection(random) * random.uniform(0.2, 1);
-        const double size = random.uniform(0.2, 1);
-        const bool hollow = met % 2 == 1;
-        const scene::Obstacle obstacle =
-            met % 4 < 2 ? ball(centre, size, hollow) : cylinder(centre - half, centre + half, size, hollow);
-        const glm::dvec3 from = centre + randomDirection(random) * (hollow ? random.uniform(0, 0.1) : 3.0);
-        const glm::dvec3 aim = centre + randomDirection(random) * random.uniform(0, 0.9) * size;
+    while (met < cases) {
+        const Target target = targetOf(met);
+        const scene::Shape& shape = *target.obstacle.shape;
+        const bool inside = random.uniform() < 0.5;
+        const glm::dvec3 from = target.centre + randomDirection(random) * (inside ? random.uniform(0, 0.1) : 3.0);
+        const glm::dvec3 aim = target.centre + randomDirection(random) * random.uniform(0, 0.9) * target.size;
         const glm::dvec3 v = glm::normalize(aim - from) * random.uniform(0.5, 4);
-        if (obstacle.shape->distance(from) < 1.5 * radius) continue;
-        const double meeting = meetingTime(*obstacle.shape, {from, v});
+        if (shape.distance(from) < 1.5 * radius) continue;
+        const double meeting = meetingTime(shape, {from, v});
         if (meeting > 2) continue;
         const double time = std::min(meeting, random.uniform(0.005, 0.03));
         const Motion start{from + v * (meeting - time), v};
         const double e = random.uniform(0, 1);
         const glm::dvec3 place = start.x + start.v * time;
-        const glm::dvec3 n = normalAt(*obstacle.shape, place);
+        const glm::dvec3 n = normalAt(shape, place);
         const glm::dvec3 after = start.v - (1 + e) * glm::dot(start.v, n) * n;
-        if (meetingTime(*obstacle.shape, {place + after * 1e-3, after}) < 2 * seconds) continue;  // in a corner
+        if (meetingTime(shape, {place + after * 1e-3, after}) < 2 * seconds) continue;  // in a corner
         ++met;
-        scene::Scene scene = oneSphere(GetParam(), start.x, start.v);
-        scene.obstacles.push_back(obstacle);
+        scene::Scene scene = oneSphere(model, start.x, start.v);
+        // While a soft contact at an edge lasts, its normal turns: here contacts are short.
+        if (model == scene::Model::Accurate) scene.quality.substeps = softSubsteps;
+        scene.obstacles.push_back(target.obstacle);
         setRestitution(scene, e);
         const auto simulation = simulate(scene);
         run(*simulation, time + seconds);
@@ -123,12 +178,101 @@ TEST_P(Obstacles, ReboundsAreThoseOfTheNormal) {
         EXPECT_NEAR(glm::length(end.v), glm::length(after), 0.01 * speed) << met;
         worst = std::max(worst, std::abs(glm::length(end.v) - glm::length(after)) / speed);
         // During a soft contact the sphere moves along the surface, and the normal turns.
-        const bool soft = GetParam() == scene::Model::Accurate;
+        const bool soft = model == scene::Model::Accurate;
         EXPECT_LT(glm::distance(end.v, after), (soft ? 0.03 : 0.01) * speed) << met;
         const glm::dvec3 there = place + after * (simulation->time() - time);
         EXPECT_LT(glm::distance(end.x, there), soft ? radius : 4e-5 * speed + 2e-5) << met;
     }
-    RecordProperty("worst", std::to_string(worst * 1e6) + "e-6");
+    testing::Test::RecordProperty("worst", std::to_string(worst * 1e6) + "e-6");
+}
+
+TEST_P(Obstacles, ReboundsAreThoseOfTheNormal) {
+    scene::Random random(21);
+    const unsigned cases = GetParam() == scene::Model::Accurate ? 16 : 60;
+    expectReboundsOfTheNormal(GetParam(), random, cases, 30, [&](unsigned k) -> Target {
+        const glm::dvec3 centre = randomDirection(random) * random.uniform(0, 2);
+        const glm::dvec3 half = randomDirection(random) * random.uniform(0.2, 1);
+        const double size = random.uniform(0.2, 1);
+        const bool hollow = k % 2 == 1;
+        return {k % 4 < 2 ? ball(centre, size, hollow) : cylinder(centre - half, centre + half, size, hollow), centre,
+                size};
+    });
+}
+
+TEST_P(Obstacles, ReboundsFromTurnedShapesAreThoseOfTheNormal) {
+    scene::Random random(22);
+    const unsigned cases = (GetParam() == scene::Model::Accurate ? 2 : 8) * shapeKinds;
+    expectReboundsOfTheNormal(GetParam(), random, cases, 300, [&](unsigned k) -> Target {
+        const Turned turned(random);
+        return {turned.obstacle(randomShape(k % shapeKinds, random)), turned.to, 0.5};
+    });
+}
+
+// A sphere slides or rolls down the face of a turned box as down a plane.
+TEST_P(Obstacles, TheFaceOfATurnedBoxIsAPlane) {
+    scene::Random random(26);
+    double worst = 0;  // distance between the spheres, m
+    for (int k = 0; k < (GetParam() == scene::Model::Accurate ? 2 : 8); ++k) {
+        const Turned turned(random);
+        const glm::dvec3 up = turned.turn({0, 0, 1});
+        const glm::dvec3 start = turned.place({random.uniform(-1, 1), random.uniform(-1, 1), 3 + radius});
+        glm::dvec3 ends[2];
+        for (const bool box : {false, true}) {
+            scene::Scene scene = oneSphere(GetParam(), start, 0.5 * turned.turn({1, 0.3, 0}));
+            scene.forces.gravity = -earth * up + 2.0 * turned.turn({0.3, -1, 0});
+            scene.materials[0].friction = 0.3;
+            scene.obstacles.push_back(box ? turned.obstacle(R"("box":{"min":[-4,-4,2],"max":[4,4,3]})")
+                                          : turned.obstacle(R"("plane":{"point":[0,0,3],"normal":[0,0,1]})"));
+            const auto simulation = simulate(scene);
+            run(*simulation, GetParam() == scene::Model::Accurate ? 0.3 : 1);
+            ends[box ? 1 : 0] = stateOf(*simulation).x;
+        }
+        worst = std::max(worst, glm::distance(ends[0], ends[1]));
+    }
+    EXPECT_LT(worst, 1e-3 * radius);
+    RecordProperty("worst", std::to_string(worst * 1e9) + "e-9 m");
+}
+
+// A sphere lies on the edge of a hole, in the tip of an open cone, or in the tip of a hollow one, and stays there. Its
+// centre is sqrt(r^2 - q^2) above a hole of radius q. Its distance from a tip is r / sin of half the angle.
+TEST_P(Obstacles, SphereStaysInAHoleAndInATip) {
+    const bool soft = GetParam() == scene::Model::Accurate;
+    scene::Random random(27);
+    double farthest = 0;  // from the start, m
+    double drift = 0;     // after a tenth of the time, m
+    for (int k = 0; k < (soft ? 3 : 9); ++k) {
+        const Turned turned(random);
+        const double hole = random.uniform(0.3, 0.8) * radius;
+        const double slope = random.uniform(0.5, 2);  // height of the cone over its radius
+        const double tip = radius * std::sqrt(1 + slope * slope);
+        const char* const open = k % 3 == 1 ? "\"open\":true" : "\"hollow\":true";
+        const double height = k % 3 == 0 ? std::sqrt(radius * radius - hole * hole) : tip;
+        scene::Scene scene = oneSphere(GetParam(), turned.place({0, 0, height}), {});
+        scene.obstacles.push_back(turned.obstacle(
+            k % 3 == 0
+                ? fmt::format(R"("disc":{{"centre":[0,0,0],"normal":[0,0,1],"radius":1,"hole":{:.17g}}})", hole)
+                : fmt::format(R"("cone":{{"from":[0,0,0],"to":[0,0,{:.17g}],"toRadius":0.5,{}}})", 0.5 * slope, open)));
+        scene.forces.gravity = -earth * turned.turn({0, 0, 1});
+        scene.materials[0].friction = 0.5;
+        setRestitution(scene, 0);
+        scene.sleep.enabled = false;
+        if (soft) scene.quality.substeps = 100;
+        const auto simulation = simulate(scene);
+        const glm::dvec3 start = stateOf(*simulation).x;
+        const int tenths = soft ? 20 : 600;
+        glm::dvec3 settled{};
+        for (int tenth = 0; tenth < tenths; ++tenth) {
+            run(*simulation, 0.1);
+            const glm::dvec3 now = stateOf(*simulation).x;
+            farthest = std::max(farthest, glm::distance(now, start));
+            if (tenth == tenths / 10) settled = now;
+            if (tenth > tenths / 10) drift = std::max(drift, glm::distance(now, settled));
+        }
+    }
+    EXPECT_LT(farthest, (soft ? 0.05 : 5e-3) * radius);
+    EXPECT_LT(drift, 1e-4 * radius);
+    RecordProperty("farthest", std::to_string(farthest * 1e9) + "e-9 m");
+    RecordProperty("drift", std::to_string(drift * 1e9) + "e-9 m");
 }
 
 // A sphere without bounce in a hollow of radius `size`, in contact, where gravity pulls along `down`.

@@ -21,6 +21,14 @@ test("a ray meets the far side of the bounds, or an obstacle before it", () => {
     [{ case: "sphere", value: { centre: [0.3, 0, 0.5], radius: 0.25, hollow: false } }, 0.75],
     [{ case: "sphere", value: { centre: [0.3, 0, 1], radius: 0.9, hollow: true } }, 1 - Math.sqrt(0.81)],
     [{ case: "cylinder", value: { from: [0.3, 0, 0], to: [0.3, 0, 0.4], radius: 0.2, hollow: false } }, 0.4],
+    [{ case: "cylinder", value: { from: [0.3, 0, 0], to: [0.3, 0, 0.4], radius: 0.2, open: true } }, 0],
+    [{ case: "cylinder", value: { from: [0, 0, 0.7], to: [1, 0, 0.7], radius: 0.2, open: true } }, 0.9],
+    [{ case: "cone", value: { from: [0, 0, 0], to: [0, 0, 0.6], fromRadius: 0.6, toRadius: 0 } }, 0.3],
+    [{ case: "cone", value: { from: [0, 0, 0], to: [0, 0, 0.6], fromRadius: 0, toRadius: 0.6, open: true } }, 0.3],
+    [{ case: "capsule", value: { from: [0.3, -1, 0.3], to: [0.3, 1, 0.3], radius: 0.2, hollow: false } }, 0.5],
+    [{ case: "disc", value: { centre: [0, 0, 0.5], normal: [-1, 0, 1], radius: 1, hole: 0.1 } }, 0.8],
+    [{ case: "disc", value: { centre: [0, 0, 0.5], normal: [0, 0, 1], radius: 1, hole: 0.4 } }, 0],
+    [{ case: "box", value: { min: [-1, -1, 0.2], max: [1, 1, 1.5], hollow: true } }, 0.2],
   ];
   for (const [shape, height] of cases) {
     close(placeOnRay({ ...box, obstacles: [shaped(shape)] }, down), [0.3, 0, height], 2e-3);

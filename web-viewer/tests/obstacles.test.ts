@@ -1,9 +1,11 @@
 import { create } from "@bufbuild/protobuf";
+import type { MessageInitShape } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ObstacleSchema } from "../src/gen/spherule/v1/scene_pb";
 import type { Obstacle } from "../src/gen/spherule/v1/scene_pb";
 import type { Vec3 } from "../src/model/facts";
+import { placementOf } from "../src/model/placement";
 import { surfaceOf } from "../src/renderer/obstacles";
 import { vertexFloats } from "../src/renderer/shapes";
 
@@ -12,9 +14,12 @@ const grey = [0.5, 0.5, 0.5, 1];
 
 type Vertex = { place: Vec3; normal: Vec3 };
 
-function drawn(shape: Obstacle["shape"]): { vertices: Vertex[]; oneSided: boolean } {
-  const { shape: made } = create(ObstacleSchema, { shape });
-  const { vertices, oneSided } = surfaceOf({ shape: made, colour: undefined }, grey, bounds);
+type Place = MessageInitShape<typeof ObstacleSchema>;
+
+function drawn(shape: Obstacle["shape"], place: Place = {}): { vertices: Vertex[]; oneSided: boolean } {
+  const made = create(ObstacleSchema, { ...place, shape });
+  const placement = placementOf(made);
+  const { vertices, oneSided } = surfaceOf({ shape: made.shape, placement, colour: undefined }, grey, bounds);
   const found: Vertex[] = [];
   for (let i = 0; i < vertices.length; i += vertexFloats) {
     const at = (k: number): number => vertices[i + k] ?? NaN;
@@ -48,7 +53,7 @@ for (const hollow of [false, true]) {
       [1, 0, 0],
       [1, 3, 4],
     ];
-    const value = { $typeName: "spherule.v1.CylinderShape" as const, from, to, radius: 0.5, hollow };
+    const value = { $typeName: "spherule.v1.CylinderShape" as const, from, to, radius: 0.5, hollow, open: false };
     const { vertices } = drawn({ case: "cylinder", value });
     const axis: Vec3 = [0, 0.6, 0.8];
     const seen = new Set<string>();
@@ -71,6 +76,86 @@ for (const hollow of [false, true]) {
   });
 }
 
+/** Of each vertex: its distance from an axis and along it, and the parts of its normal in these directions. */
+function around(vertices: Vertex[], from: Vec3, axis: Vec3): [number, number, number, number][] {
+  return vertices.map(({ place, normal }) => {
+    const way = minus(place, from);
+    const along = dot(way, axis);
+    const out: Vec3 = [way[0] - along * axis[0], way[1] - along * axis[1], way[2] - along * axis[2]];
+    const distance = Math.hypot(...out);
+    return [distance, along, distance > 0 ? dot(normal, out) / distance : 0, dot(normal, axis)];
+  });
+}
+
+const ends = { from: [1, 0, 0], to: [1, 3, 4] };
+const axis: Vec3 = [0, 0.6, 0.8];
+
+test("a cone is drawn with a slanted side, and an open one without ends, seen from inside", () => {
+  const value = { $typeName: "spherule.v1.ConeShape" as const, ...ends, fromRadius: 0.5, toRadius: 2, open: false };
+  for (const [hollow, open] of [
+    [false, false],
+    [true, false],
+    [false, true],
+  ] as const) {
+    const { vertices, oneSided } = drawn({ case: "cone", value: { ...value, hollow, open } });
+    assert.equal(oneSided, hollow || open);
+    const sign = oneSided ? -1 : 1;
+    const slant = Math.hypot(5, 1.5);
+    let onEnds = 0;
+    for (const [out, along, across, up] of around(vertices, [1, 0, 0], axis)) {
+      if (Math.abs(across * slant - sign * 5) < 1e-9) {
+        near(out, 0.5 + 0.3 * along);
+        near(up * slant, -sign * 1.5);
+      } else {
+        near(Math.abs(up), 1);
+        onEnds += 1;
+      }
+    }
+    assert.equal(onEnds > 0, !open);
+  }
+});
+
+test("a capsule is drawn at its distance from the line", () => {
+  const value = { $typeName: "spherule.v1.CapsuleShape" as const, ...ends, radius: 0.7, hollow: false };
+  const { vertices } = drawn({ case: "capsule", value });
+  for (const [out, along] of around(vertices, [1, 0, 0], axis)) {
+    near(Math.hypot(out, along - Math.min(Math.max(along, 0), 5)), 0.7);
+  }
+});
+
+test("a disc is drawn on both sides, with its hole", () => {
+  const value = {
+    $typeName: "spherule.v1.DiscShape" as const,
+    centre: [1, 0, 0],
+    normal: [0, 3, 4],
+    radius: 2,
+    hole: 0.5,
+  };
+  const { vertices, oneSided } = drawn({ case: "disc", value });
+  assert.ok(!oneSided);
+  const sides = around(vertices, [1, 0, 0], axis).map(([out, along, , up]) => {
+    near(along, 0);
+    assert.ok(out > 0.5 - 1e-9 && out < 2 + 1e-9);
+    return Math.round(up);
+  });
+  assert.deepEqual([...new Set(sides)].sort(), [-1, 1]);
+});
+
+test("an obstacle is drawn where its rotation and translation put it, a plane still within the bounds", () => {
+  const place = { rotation: { axis: [0, 0, 2], degrees: 90 }, translation: [1, 2, 3] };
+  const box = { $typeName: "spherule.v1.Box" as const, min: [0, 0, 0], max: [1, 2, 3], hollow: false };
+  const corners = drawn({ case: "box", value: box }, place).vertices.map(({ place: [x, y, z] }) => [x, y, z]);
+  for (const k of [0, 1, 2]) {
+    near(Math.min(...corners.map((corner) => corner[k] ?? NaN)), [-1, 2, 3][k] ?? NaN);
+    near(Math.max(...corners.map((corner) => corner[k] ?? NaN)), [1, 3, 6][k] ?? NaN);
+  }
+  const plane = { $typeName: "spherule.v1.Plane" as const, point: [0, 0, 0], normal: [1, 0, 0] };
+  for (const { place: at, normal } of drawn({ case: "plane", value: plane }, place).vertices) {
+    near(dot(normal, [0, 1, 0]), 1);
+    near(at[1], 2);
+  }
+});
+
 test("a plane is drawn within the bounds, and its normal has unit length", () => {
   const value = { $typeName: "spherule.v1.Plane" as const, point: [0, 0, 0], normal: [0, 3, 4] };
   const { vertices, oneSided } = drawn({ case: "plane", value });
@@ -84,7 +169,7 @@ test("a plane is drawn within the bounds, and its normal has unit length", () =>
 });
 
 test("a box is drawn with six sides", () => {
-  const value = { $typeName: "spherule.v1.Box" as const, min: [0, 0, 0], max: [1, 2, 3] };
+  const value = { $typeName: "spherule.v1.Box" as const, min: [0, 0, 0], max: [1, 2, 3], hollow: false };
   const { vertices } = drawn({ case: "box", value });
   assert.equal(vertices.length, 36);
 });
@@ -98,12 +183,29 @@ test("triangles are counter-clockwise as seen from the free side", () => {
   const cylinder = { $typeName: "spherule.v1.CylinderShape" as const, from: [0, 0, 0], to: [0, 1, 1], radius: 0.5 };
   const plane = { $typeName: "spherule.v1.Plane" as const, point: [0, 0, 0], normal: [1, 0, 1] };
   const box = { $typeName: "spherule.v1.Box" as const, min: [-1, -1, -1], max: [1, 1, 1] };
+  const cone = { $typeName: "spherule.v1.ConeShape" as const, ...ends, fromRadius: 0, toRadius: 2 };
+  const capsule = { $typeName: "spherule.v1.CapsuleShape" as const, ...ends, radius: 0.7 };
+  const disc = {
+    $typeName: "spherule.v1.DiscShape" as const,
+    centre: [1, 0, 0],
+    normal: [0, 3, 4],
+    radius: 2,
+    hole: 0.5,
+  };
   const shapes: Obstacle["shape"][] = [
     { case: "plane", value: plane },
-    { case: "box", value: box },
+    { case: "disc", value: disc },
+    { case: "cone", value: { ...cone, hollow: false, open: true } },
+    { case: "cylinder", value: { ...cylinder, hollow: false, open: true } },
   ];
   for (const hollow of [false, true]) {
-    shapes.push({ case: "sphere", value: { ...sphere, hollow } }, { case: "cylinder", value: { ...cylinder, hollow } });
+    shapes.push(
+      { case: "box", value: { ...box, hollow } },
+      { case: "sphere", value: { ...sphere, hollow } },
+      { case: "cylinder", value: { ...cylinder, hollow, open: false } },
+      { case: "cone", value: { ...cone, hollow, open: false } },
+      { case: "capsule", value: { ...capsule, hollow } },
+    );
   }
   for (const shape of shapes) {
     const { vertices } = drawn(shape);

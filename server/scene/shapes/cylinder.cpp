@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <spdlog/fmt/fmt.h>
 #include <glm/geometric.hpp>
 
 #include "scene/check.h"
@@ -56,16 +55,12 @@ class Cylinder final : public Shape {
 };
 
 ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field) {
-    constexpr double shortest = 1e-9;  // m
     const v1::CylinderShape& cylinder = message.cylinder();
-    const glm::dvec3 from = check.vector(cylinder.from(), at(field, "cylinder.from"));
-    glm::dvec3 to = check.vector(cylinder.to(), at(field, "cylinder.to"));
-    if (glm::distance(from, to) < shortest) {
-        check.refuse(at(field, "cylinder.to"), fmt::format("is {}, must differ from `from`", shown(to)));
-        to = from + glm::dvec3(0, 0, 1);
-    }
+    const Ends ends = readEnds(check, cylinder.from(), cylinder.to(), at(field, "cylinder"));
     const double radius = check.upTo(cylinder.radius(), largestComponent, at(field, "cylinder.radius"), " m");
-    return std::make_shared<Cylinder>(from, to, radius, cylinder.hollow());
+    if (!cylinder.open()) return std::make_shared<Cylinder>(ends.from, ends.to, radius, cylinder.hollow());
+    refuseHollow(check, cylinder.hollow(), at(field, "cylinder.hollow"));
+    return openCylinder(ends, radius);
 }
 
 }  // namespace

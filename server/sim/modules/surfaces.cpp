@@ -19,6 +19,11 @@ void addBelow(scene::Scene& scene) {
     scene.obstacles.push_back({.shape = scene::exampleOf(kind, scene.bounds.min.z - 1), .colour = ""});
 }
 
+void addTurnedBox(scene::Scene& scene) {
+    addBelow<scene::ShapeKind::Boxes>(scene);
+    scene.obstacles.back().shape = scene::placedShape(scene.obstacles.back().shape, {}, {});
+}
+
 void declareObstacles(PlanBuilder& plan) {
     plan.arrays({Array::ContactParams, Array::Obstacles, Array::ObstacleLists});
     if (!plan.has(Feature::Contacts)) return;
@@ -48,6 +53,18 @@ const Module moduleObstacles{
                 static_cast<std::uint32_t>(from.plan.bytesOf(Array::ObstacleLists) / sizeof(std::uint32_t));
         },
     .cost = {.reason = "the rows of the shapes contain it"},
+};
+
+// An obstacle lies in a frame of its own: it is turned or moved, or its shape is given along an axis.
+const Module moduleFrames{
+    .feature = Feature::Frames,
+    .required =
+        [](const scene::Scene& scene, const Features& /*others*/) {
+            return std::ranges::any_of(scene.obstacles, [](const scene::Obstacle& obstacle) {
+                return obstacle.shape->row(glm::dvec3(0)).frame.has_value();
+            });
+        },
+    .cost = {.name = "frames of obstacles", .without = addBelow<scene::ShapeKind::Boxes>, .with = addTurnedBox},
 };
 
 // One module for each shape. Only its function in the kernels depends on it.

@@ -93,13 +93,58 @@ TEST(SceneObstacles, PlanesHaveUnitNormals) {
 
 TEST(SceneObstacles, AreChecked) {
     EXPECT_EQ(refusalOf(R"("obstacles": [{}])"),
-              "obstacles[0]: has no shape, must have one of plane, box, sphere, cylinder");
+              "obstacles[0]: has no shape, must have one of plane, box, sphere, cylinder, disc, cone, capsule");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,0]}}])"),
               "obstacles[0].box.max[2]: is 0, must be above min, which is 0");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "material": "ice"}])"),
               R"(obstacles[0].material: is "ice", which is no material of the scene; it has none with a name)");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "colour": "x"}])"),
               R"(obstacles[0].colour: is "x", must be #rrggbb in hexadecimal)");
+}
+
+TEST(SceneObstacles, OfEachShapeAreChecked) {
+    const auto refusal = [](const std::string& obstacle) {
+        std::string text = refusalOf(R"("obstacles": [{)" + obstacle + "}]");
+        return text.starts_with("obstacles[0].") ? text.substr(13) : text;
+    };
+    const std::string ends = R"("from": [0,0,-1], "to": [0,0,-2])";
+    EXPECT_EQ(refusal(R"("cone": {)" + ends + "}"), "cone.fromRadius: is 0, as `toRadius`; one must be above 0");
+    EXPECT_EQ(refusal(R"("cone": {)" + ends + R"(, "fromRadius": -1})"), "cone.fromRadius: is -1, must be 0 to 1000000000 m");
+    EXPECT_EQ(refusal(R"("cone": {"from": [0,0,1], "to": [0,0,1], "toRadius": 1})"),
+              "cone.to: is (0, 0, 1), must differ from `from`");
+    EXPECT_EQ(refusal(R"("cone": {)" + ends + R"(, "toRadius": 1, "open": true, "hollow": true})"),
+              "cone.hollow: is true with `open`, whose both sides are free; leave one of them out");
+    EXPECT_EQ(refusal(R"("cylinder": {)" + ends + R"(, "radius": 1, "open": true, "hollow": true})"),
+              "cylinder.hollow: is true with `open`, whose both sides are free; leave one of them out");
+    EXPECT_EQ(refusal(R"("capsule": {)" + ends + "}"), "capsule.radius: is 0, must be positive");
+    EXPECT_EQ(refusal(R"("disc": {"centre": [0,0,-1], "normal": [0,0,0], "radius": 1})"),
+              "disc.normal: is zero, must have a direction");
+    EXPECT_EQ(refusal(R"("disc": {"centre": [0,0,-1], "normal": [0,0,1], "radius": 1, "hole": 1})"),
+              "disc.hole: is 1 m, must be below the radius of 1 m");
+    const std::string capsule = R"("capsule": {)" + ends + R"(, "radius": 0.1})";
+    EXPECT_EQ(refusal(capsule + R"(, "rotation": {"axis": [0,0,0], "degrees": 1})"),
+              "rotation.axis: is zero, must have a direction");
+    EXPECT_EQ(refusal(capsule + R"(, "rotation": {"axis": [0,0,1], "degrees": 361})"),
+              "rotation.degrees: is 361, must be -360 to 360°");
+    EXPECT_EQ(refusal(capsule + R"(, "translation": [0,0])"), "translation: has 2 numbers, must have three: x, y, z");
+    EXPECT_EQ(refusal(capsule), "accepted");
+}
+
+// The place of a shape is part of its distance: the box is turned onto its edge, 0.1 m above the origin.
+TEST(SceneObstacles, AreTurnedAndMoved) {
+    const Scene scene = sceneWith(R"("obstacles": [
+        {"box": {"min": [-0.1,-0.2,-0.1], "max": [0.1,0.2,0.1]},
+         "rotation": {"axis": [0,3,0], "degrees": 45}, "translation": [0.5,0.5,0.1]},
+        {"plane": {"point": [0,0,0], "normal": [0,0,1]},
+         "rotation": {"axis": [1,0,0], "degrees": 90}, "translation": [0,0.7,0]}])");
+    const Shape& box = *scene.obstacles[0].shape;
+    const double edge = 0.1 * std::sqrt(2.0);
+    EXPECT_NEAR(box.distance({0.5 + edge + 0.3, 0.5, 0.1}), 0.3, 1e-12);
+    EXPECT_NEAR(box.distance({0.5, 0.8, 0.1}), 0.1, 1e-12);
+    EXPECT_NEAR(box.distance({0.5, 0.5, 0.1}), -0.1, 1e-12);
+    const Shape& plane = *scene.obstacles[1].shape;
+    EXPECT_NEAR(glm::distance(plane.normalOfHalfSpace().value(), glm::dvec3(0, -1, 0)), 0, 1e-12);
+    EXPECT_NEAR(plane.distance({5, 0.5, 5}), 0.2, 1e-12);
 }
 
 TEST(SceneObstacles, HaveTheMaterialOfTheirName) {

@@ -114,7 +114,7 @@ TEST(SimArrays, InvalidBindingsAreRefusedWithAMessage) {
 
 TEST(SimLayout, WordsAreReadFromTheSource) {
     EXPECT_EQ(layout::wordsOf("ContactParams"), "rrrrrrrr");
-    EXPECT_EQ(layout::wordsOf("Obstacle"), "rrrrrrrruuuu");
+    EXPECT_EQ(layout::wordsOf("Obstacle"), "rrrrrrrrrrrrrrrrrrrruuuuuuuu");
     EXPECT_EQ(layout::wordsOf("Parameters").size() * 4, sizeof(layout::Parameters));
     EXPECT_EQ(layout::wordsOf("SphereStatistics").size() * 4, sizeof(layout::SphereStatistics));
     EXPECT_EQ(layout::wordsOf("Parameters", "codec_layout.h"), "rrrrrrrrrrrruuuuuuuuuuuuuuuu");

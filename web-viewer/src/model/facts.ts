@@ -4,12 +4,15 @@ import { Face } from "../gen/spherule/v1/scene_pb";
 import type { Light as LightMessage, Obstacle as Message } from "../gen/spherule/v1/scene_pb";
 import { hexToRgb } from "../colour/rgb";
 import type { Rgb } from "../colour/rgb";
+import { placementOf } from "./placement";
+import type { Placement } from "./placement";
 import { Population } from "./population";
 
 export type Vec3 = [number, number, number];
 
 export interface Obstacle {
   shape: Message["shape"]; // as in scene.proto
+  placement?: Placement | undefined;
   colour: Rgb | undefined;
 }
 
@@ -55,7 +58,7 @@ export function factsOf(scene: SceneFacts): Facts {
     max,
     open: new Set(scene.open),
     periods,
-    obstacles: scene.obstacles.map(({ shape, colour }) => ({ shape, colour: hexToRgb(colour) })),
+    obstacles: scene.obstacles.map(obstacleOf),
     population: new Population(scene),
     origin: between(min, max),
     cellSize: scene.cellSize,
@@ -66,6 +69,10 @@ export function factsOf(scene: SceneFacts): Facts {
     fieldOfView: scene.camera?.fieldOfView ?? 30,
     light: scene.light && lightOf(scene.light),
   };
+}
+
+function obstacleOf(message: Message): Obstacle {
+  return { shape: message.shape, placement: placementOf(message), colour: hexToRgb(message.colour) };
 }
 
 function lightOf({ direction, strength, colour, sky }: LightMessage): Light {

@@ -1,6 +1,8 @@
 import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Obstacle, Vec3 } from "../model/facts";
-import { across, faces, planeInBox, polygon } from "./shapes";
+import { placed, turned, unplaced } from "../model/placement";
+import type { Placement } from "../model/placement";
+import { across, faces, planeInBox, polygon, vertexFloats } from "./shapes";
 import type { Vertices } from "./shapes";
 
 /** How an obstacle looks: triangles whose normals point out of the solid. */
@@ -21,35 +23,100 @@ const surfaces: { [Case in NonNullable<Shape["case"]>]: Draw<Case> } = {
     const points = planeInBox({ point: point as Vec3, normal: unit }, min, max);
     return { vertices: polygon(points, unit, colour), oneSided: true };
   },
-  box: ({ min, max }, colour) => {
+  box: ({ min, max, hollow }, colour) => {
     const sides = faces(min as Vec3, max as Vec3);
-    return { vertices: sides.flatMap(({ normal, points }) => polygon(points, normal, colour)), oneSided: false };
+    const inward = (normal: Vec3): Vec3 => [-normal[0], -normal[1], -normal[2]];
+    const vertices = sides.flatMap(({ normal, points }) =>
+      hollow ? polygon(points.reverse(), inward(normal), colour) : polygon(points, normal, colour),
+    );
+    return { vertices, oneSided: hollow };
   },
   sphere: ({ centre, radius, hollow }, colour) => {
     const place = (direction: Vec3): Vec3 => vec3.scaleAndAdd([0, 0, 0], centre, direction, radius) as Vec3;
     return { vertices: round(meridian(), [0, 0, 1], place, hollow, colour), oneSided: hollow };
   },
-  cylinder: ({ from, to, radius, hollow }, colour) => {
-    const axis = vec3.subtract([0, 0, 0], to, from) as Vec3;
-    const unit = vec3.normalize([0, 0, 0], axis) as Vec3;
-    const outline: Outline = [
-      { across: 0, along: 0, normal: [0, -1] },
-      { across: radius, along: 0, normal: [0, -1] },
-      { across: radius, along: 0, normal: [1, 0] },
-      { across: radius, along: vec3.length(axis), normal: [1, 0] },
-      { across: radius, along: vec3.length(axis), normal: [0, 1] },
-      { across: 0, along: vec3.length(axis), normal: [0, 1] },
-    ];
-    const place = (way: Vec3): Vec3 => vec3.add([0, 0, 0], from, way) as Vec3;
-    return { vertices: round(outline, unit, place, hollow, colour), oneSided: hollow };
+  cylinder: ({ from, to, radius, hollow, open }, colour) =>
+    cone(from as Vec3, to as Vec3, [radius, radius], hollow, open, colour),
+  cone: ({ from, to, fromRadius, toRadius, hollow, open }, colour) =>
+    cone(from as Vec3, to as Vec3, [fromRadius, toRadius], hollow, open, colour),
+  capsule: ({ from, to, radius, hollow }, colour) => {
+    const length = vec3.distance(from, to);
+    const outline = meridian().map(({ across: out, along, normal }) => ({
+      across: radius * out,
+      along: radius * along + (along > 0 ? length : 0),
+      normal,
+    }));
+    return turnedAround(from as Vec3, to as Vec3, outline, hollow, colour);
+  },
+  // Both sides are seen.
+  disc: ({ centre, normal, radius, hole }, colour) => {
+    const vertices = [1, -1].flatMap((side) => {
+      const outline: Outline = [hole, radius].map((out) => ({ across: out, along: 0, normal: [0, -1] }));
+      const axis = vec3.scale([0, 0, 0], vec3.normalize([0, 0, 0], normal), side) as Vec3;
+      return round(outline, axis, (way) => vec3.add([0, 0, 0], centre, way) as Vec3, false, colour);
+    });
+    return { vertices, oneSided: false };
   },
 };
 
+/** A cone or a cylinder. An open one is seen as a hollow one without ends: one looks into it from outside. */
+function cone(
+  from: Vec3,
+  to: Vec3,
+  [low, high]: [number, number],
+  hollow: boolean,
+  open: boolean,
+  colour: number[],
+): Surface {
+  const length = vec3.distance(from, to);
+  const slant = Math.hypot(high - low, length);
+  const normal: [number, number] = [length / slant, (low - high) / slant];
+  const side: Outline = [
+    { across: low, along: 0, normal },
+    { across: high, along: length, normal },
+  ];
+  const outline: Outline = [
+    { across: 0, along: 0, normal: [0, -1] },
+    { across: low, along: 0, normal: [0, -1] },
+    ...side,
+    { across: high, along: length, normal: [0, 1] },
+    { across: 0, along: length, normal: [0, 1] },
+  ];
+  return turnedAround(from, to, open ? side : outline, hollow || open, colour);
+}
+
+/** An outline, whose places along the axis are counted from `from`, turned around the axis to `to`. */
+function turnedAround(from: Vec3, to: Vec3, outline: Outline, hollow: boolean, colour: number[]): Surface {
+  const axis = vec3.normalize([0, 0, 0], vec3.subtract([0, 0, 0], to, from)) as Vec3;
+  const place = (way: Vec3): Vec3 => vec3.add([0, 0, 0], from, way) as Vec3;
+  return { vertices: round(outline, axis, place, hollow, colour), oneSided: hollow };
+}
+
 /** Returns the surface of an obstacle in the colour (RGBA); an empty one if its shape is unknown to this page. */
-export function surfaceOf({ shape }: Obstacle, colour: number[], bounds: Bounds): Surface {
+export function surfaceOf({ shape, placement }: Obstacle, colour: number[], bounds: Bounds): Surface {
   if (shape.case === undefined) return { vertices: [], oneSided: false };
   const draw = surfaces[shape.case] as (shape: unknown, colour: number[], bounds: Bounds) => Surface;
-  return draw(shape.value, colour, bounds);
+  const { vertices, oneSided } = draw(shape.value, colour, placement ? around(bounds, placement) : bounds);
+  if (placement) place(vertices, placement);
+  return { vertices, oneSided };
+}
+
+/** The bounds in the coordinates of an obstacle: a box along its axes around them. */
+function around({ min, max }: Bounds, placement: Placement): Bounds {
+  const corners = Array.from({ length: 8 }, (_, i) =>
+    unplaced(placement, [0, 1, 2].map((k) => ((i >> k) & 1 ? max : min)[k] ?? 0) as Vec3),
+  );
+  const ends = (choose: (...values: number[]) => number): Vec3 =>
+    [0, 1, 2].map((k) => choose(...corners.map((corner) => corner[k] ?? 0))) as Vec3;
+  return { min: ends(Math.min), max: ends(Math.max) };
+}
+
+/** Moves vertices to where the obstacle lies. */
+function place(vertices: Vertices, placement: Placement): void {
+  for (let i = 0; i < vertices.length; i += vertexFloats) {
+    const at = (k: number): Vec3 => vertices.slice(i + k, i + k + 3) as Vec3;
+    vertices.splice(i, 6, ...placed(placement, at(0)), ...turned(placement, at(3)));
+  }
 }
 
 /** A line that is turned around an axis. normal: its parts across and along the axis. */

@@ -1,6 +1,7 @@
 import type { Ray } from "../camera/ray";
 import type { Drop } from "../connection/commands";
 import type { Facts, Obstacle, Vec3 } from "../model/facts";
+import { unplaced } from "../model/placement";
 
 type Bounds = Pick<Facts, "min" | "max">;
 
@@ -12,6 +13,7 @@ const along = ({ origin, direction }: Ray, distance: number): Vec3 =>
   origin.map((part, k) => part + distance * (direction[k] ?? 0)) as Vec3;
 const dot = (a: readonly number[], b: readonly number[]): number =>
   a.reduce((sum, part, k) => sum + part * (b[k] ?? 0), 0);
+const plus = (a: readonly number[], b: readonly number[]): Vec3 => a.map((part, k) => part + (b[k] ?? 0)) as Vec3;
 const minus = (a: readonly number[], b: readonly number[]): Vec3 => a.map((part, k) => part - (b[k] ?? 0)) as Vec3;
 
 /** Where the ray enters and leaves the bounds (m along it). */
@@ -28,7 +30,8 @@ function crossing({ min, max }: Bounds, { origin, direction }: Ray): [number, nu
 }
 
 /** The distance of a point from a body, or from the free space in a hollow one, or less (m); negative inside it. */
-function distanceFrom({ shape: { case: kind, value } }: Obstacle, p: Vec3): number {
+function distanceFrom({ shape: { case: kind, value }, placement }: Obstacle, place: Vec3): number {
+  const p = unplaced(placement, place);
   switch (kind) {
     case "plane": {
       const length = Math.hypot(...value.normal) || 1;
@@ -40,21 +43,49 @@ function distanceFrom({ shape: { case: kind, value } }: Obstacle, p: Vec3): numb
     }
     case "sphere":
       return Math.hypot(...minus(p, value.centre)) - value.radius;
-    case "cylinder": {
-      const axis = minus(value.to, value.from);
-      const length = Math.hypot(...axis) || 1;
-      const from = minus(p, value.from);
-      const height = dot(from, axis) / length;
-      const aside = Math.sqrt(Math.max(0, dot(from, from) - height * height));
-      return Math.max(aside - value.radius, -height, height - length);
+    case "cylinder":
+      return distanceFromCone(fromAxis(value.from, value.to, p), value.radius, value.radius, value.open);
+    case "cone":
+      return distanceFromCone(fromAxis(value.from, value.to, p), value.fromRadius, value.toRadius, value.open);
+    case "capsule": {
+      const { height, aside, length } = fromAxis(value.from, value.to, p);
+      return Math.hypot(aside, height - Math.min(Math.max(height, 0), length)) - value.radius;
+    }
+    case "disc": {
+      const { height, aside } = fromAxis(value.centre, plus(value.centre, value.normal), p);
+      return Math.hypot(height, Math.max(0, aside - value.radius, value.hole - aside));
     }
     default:
       return Infinity;
   }
 }
 
+interface FromAxis {
+  height: number; // m: along the axis, from its beginning
+  aside: number; // m: from the axis
+  length: number; // m: of the axis
+}
+
+function fromAxis(from: readonly number[], to: readonly number[], p: Vec3): FromAxis {
+  const axis = minus(to, from);
+  const length = Math.hypot(...axis) || 1;
+  const way = minus(p, from);
+  const height = dot(way, axis) / length;
+  return { height, aside: Math.sqrt(Math.max(0, dot(way, way) - height * height)), length };
+}
+
+/** `open`: of its side alone. Otherwise of the solid, or less. */
+function distanceFromCone({ height, aside, length }: FromAxis, low: number, high: number, open: boolean): number {
+  const slant = Math.hypot(high - low, length);
+  const [out, up] = [length / slant, (high - low) / slant];
+  const beyond = (aside - low) * out - height * up;
+  if (!open) return Math.max(beyond, -height, height - length);
+  const along = Math.min(Math.max((aside - low) * up + height * out, 0), slant);
+  return Math.hypot(aside - low - along * up, height - along * out);
+}
+
 const isHollow = ({ shape: { case: kind, value } }: Obstacle): boolean =>
-  (kind === "sphere" || kind === "cylinder") && value.hollow;
+  (kind === "box" || kind === "sphere" || kind === "cylinder" || kind === "cone" || kind === "capsule") && value.hollow;
 
 /** The first place on the ray at an obstacle, or else at the far side of the bounds (m). */
 export function placeOnRay(facts: Pick<Facts, "min" | "max" | "obstacles">, ray: Ray): Vec3 {
