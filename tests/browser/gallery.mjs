@@ -12,6 +12,8 @@ const views = {
   "rapids-6k": { time: 6 },
   "rapids-50k": { time: 4 },
   pour: { time: 0.8 },
+  hopper: { time: 3 },
+  galton: { time: 6, zoom: 1 },
   billiards: { time: 0.45, zoom: 1 },
   cradle: { time: 0.25 },
   "cradle-touching": { time: 0.25 },

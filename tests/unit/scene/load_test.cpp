@@ -31,8 +31,9 @@ TEST(SceneLoad, EveryNamedSceneLoads) {
 
 TEST(SceneLoad, NamesAreSortedAndIncludeTheExamples) {
     const std::vector<std::string> expected{
-        "billiards", "bounce", "box",       "box-10k",    "box-4k",    "box-50k",   "cradle",     "cradle-touching",
-        "pour",      "rapids", "rapids-3k", "rapids-50k", "rapids-6k", "stress-1m", "two-spheres"};
+        "billiards", "bounce",          "box",       "box-10k",   "box-4k",     "box-50k",
+        "cradle",    "cradle-touching", "galton",    "hopper",    "pour",       "rapids",
+        "rapids-3k", "rapids-50k",      "rapids-6k", "stress-1m", "two-spheres"};
     EXPECT_EQ(names(), expected);
 }
 
@@ -92,8 +93,9 @@ TEST(SceneLoad, UnknownNamesAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(
         load("bux", "gpu").error().text(),
         "\"bux\": is not the name of a scene; there are billiards, bounce, box, box-10k, box-4k, box-50k, cradle, "
-        "cradle-touching, pour, rapids, rapids-3k, rapids-50k, rapids-6k, stress-1m, two-spheres. A file is named with "
-        "its ending, .json");
+        "cradle-touching, galton, hopper, pour, rapids, rapids-3k, rapids-50k, rapids-6k, stress-1m, two-spheres. A "
+        "file "
+        "is named with its ending, .json");
 }
 
 TEST(SceneLoad, MissingFilesAreRefused) {
