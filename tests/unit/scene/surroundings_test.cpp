@@ -109,7 +109,8 @@ TEST(SceneObstacles, OfEachShapeAreChecked) {
     };
     const std::string ends = R"("from": [0,0,-1], "to": [0,0,-2])";
     EXPECT_EQ(refusal(R"("cone": {)" + ends + "}"), "cone.fromRadius: is 0, as `toRadius`; one must be above 0");
-    EXPECT_EQ(refusal(R"("cone": {)" + ends + R"(, "fromRadius": -1})"), "cone.fromRadius: is -1, must be 0 to 1000000000 m");
+    EXPECT_EQ(refusal(R"("cone": {)" + ends + R"(, "fromRadius": -1})"),
+              "cone.fromRadius: is -1, must be 0 to 1000000000 m");
     EXPECT_EQ(refusal(R"("cone": {"from": [0,0,1], "to": [0,0,1], "toRadius": 1})"),
               "cone.to: is (0, 0, 1), must differ from `from`");
     EXPECT_EQ(refusal(R"("cone": {)" + ends + R"(, "toRadius": 1, "open": true, "hollow": true})"),
