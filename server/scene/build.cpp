@@ -70,6 +70,11 @@ void readGroups(Check& check, const v1::Scene& message, const std::optional<std:
     }
 }
 
+Box readRegion(Check& check, const v1::Box& message, std::string_view field) {
+    if (message.hollow()) check.refuse(at(field, "hollow"), "is true; only the boxes of obstacles may be hollow");
+    return check.box(message.min(), message.max(), field);
+}
+
 std::vector<Box> readSinks(Check& check, const v1::Scene& message) {
     std::vector<Box> sinks;
     if (static_cast<std::size_t>(message.sinks_size()) > maxSinks)
@@ -78,7 +83,7 @@ std::vector<Box> readSinks(Check& check, const v1::Scene& message) {
         const std::string field = at(at("sinks", static_cast<std::size_t>(i)), "region");
         const v1::Box& region = message.sinks(i).region();
         if (!message.sinks(i).has_region()) check.refuse(field, "is missing; give min and max");
-        sinks.push_back(check.box(region.min(), region.max(), field));
+        sinks.push_back(readRegion(check, region, field));
     }
     return sinks;
 }
@@ -173,7 +178,7 @@ Result<glm::dvec3> vectorOf(const Numbers& values, std::string_view field) {
 
 Result<Box> boxOf(const v1::Box& message, std::string_view field) {
     Check check;
-    const Box box = check.box(message.min(), message.max(), field);
+    const Box box = readRegion(check, message, field);
     if (!check.ok()) return check.error();
     return box;
 }

@@ -47,6 +47,7 @@ class Placed final : public Shape {
         return frame_.turn * *normal;
     }
     [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
+        if (normalOfHalfSpace()) return 0;  // it needs no frame
         return shape_->largestCoordinate(glm::dvec3(0)) + glm::distance(frame_.origin, origin);
     }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {

@@ -19,9 +19,11 @@ std::vector<glm::dvec3> placesOf(sim::Simulation& simulation) {
     return places;
 }
 
+class Galton : public testing::TestWithParam<unsigned> {};  // by seed
+
 // The spheres turn left or right at each row of pegs, alike often.
-TEST(Galton, BallsSpreadEvenlyAroundTheMiddle) {
-    const auto simulation = simulate(named("galton"));
+TEST_P(Galton, BallsSpreadEvenlyAroundTheMiddle) {
+    const auto simulation = simulate(named("galton", {.seed = GetParam()}));
     run(*simulation, 15);
     double sum = 0;
     double squares = 0;
@@ -44,6 +46,8 @@ TEST(Galton, BallsSpreadEvenlyAroundTheMiddle) {
     EXPECT_GT(deviation, 0.5);
     EXPECT_LT(deviation, 0.9);
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, Galton, testing::Values(1U, 2U, 3U));
 
 // Funnel and pipe are shells of no thickness, below the weight of all spheres.
 TEST(Hopper, RunsOutThroughThePipeAlone) {

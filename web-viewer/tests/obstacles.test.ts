@@ -154,6 +154,13 @@ test("an obstacle is drawn where its rotation and translation put it, a plane st
     near(dot(normal, [0, 1, 0]), 1);
     near(at[1], 2);
   }
+  const slanted = { rotation: { axis: [1, 2, 3], degrees: 40 }, translation: [1, 1, 0] };
+  for (const { place: at } of drawn({ case: "plane", value: plane }, slanted).vertices) {
+    assert.ok(
+      at.every((part) => Math.abs(part) <= 5 + 1e-9),
+      `${at}`,
+    );
+  }
 });
 
 test("a plane is drawn within the bounds, and its normal has unit length", () => {

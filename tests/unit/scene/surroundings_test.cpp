@@ -131,6 +131,19 @@ TEST(SceneObstacles, OfEachShapeAreChecked) {
     EXPECT_EQ(refusal(capsule), "accepted");
 }
 
+TEST(SceneObstacles, AloneMayBeHollow) {
+    EXPECT_EQ(refusalOf(R"("sinks": [{"region": {"min": [0,0,0], "max": [1,1,1], "hollow": true}}])"),
+              "sinks[0].region.hollow: is true; only the boxes of obstacles may be hollow");
+}
+
+// A plane may be far away, also if it is moved there. A box that is moved lies in coordinates of its own.
+TEST(SceneObstacles, ThatAreMovedFarAreRefusedUnlessTheyArePlanes) {
+    const std::string far = R"(, "translation": [0, 0, -1000]}], )" + ballAt("[0.5, 0.5, 0.5]");
+    EXPECT_EQ(refusalOf(R"("obstacles": [{"plane": {"point": [0,0,0], "normal": [0,0,1]})" + far), "accepted");
+    EXPECT_NE(refusalOf(R"("obstacles": [{"box": {"min": [0,0,-1], "max": [1,1,0]})" + far).find("reaches 10"),
+              std::string::npos);
+}
+
 // The place of a shape is part of its distance: the box is turned onto its edge, 0.1 m above the origin.
 TEST(SceneObstacles, AreTurnedAndMoved) {
     const Scene scene = sceneWith(R"("obstacles": [

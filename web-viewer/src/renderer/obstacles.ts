@@ -1,6 +1,6 @@
 import * as vec3 from "gl-matrix/esm/vec3.js";
 import type { Obstacle, Vec3 } from "../model/facts";
-import { placed, turned, unplaced } from "../model/placement";
+import { placed, turned } from "../model/placement";
 import type { Placement } from "../model/placement";
 import { across, faces, planeInBox, polygon, vertexFloats } from "./shapes";
 import type { Vertices } from "./shapes";
@@ -14,15 +14,10 @@ export interface Surface {
 
 type Shape = Obstacle["shape"];
 type Bounds = { min: Vec3; max: Vec3 };
-type Draw<Case> = (shape: Extract<Shape, { case: Case }>["value"], colour: number[], bounds: Bounds) => Surface;
+type Draw<Case> = (shape: Extract<Shape, { case: Case }>["value"], colour: number[]) => Surface;
 
-/** One function for each shape of scene.proto. */
-const surfaces: { [Case in NonNullable<Shape["case"]>]: Draw<Case> } = {
-  plane: ({ point, normal }, colour, { min, max }) => {
-    const unit = vec3.normalize([0, 0, 0], normal) as Vec3;
-    const points = planeInBox({ point: point as Vec3, normal: unit }, min, max);
-    return { vertices: polygon(points, unit, colour), oneSided: true };
-  },
+/** One function for each shape of scene.proto that has an end. */
+const surfaces: { [Case in Exclude<NonNullable<Shape["case"]>, "plane">]: Draw<Case> } = {
   box: ({ min, max, hollow }, colour) => {
     const sides = faces(min as Vec3, max as Vec3);
     const inward = (normal: Vec3): Vec3 => [-normal[0], -normal[1], -normal[2]];
@@ -95,20 +90,20 @@ function turnedAround(from: Vec3, to: Vec3, outline: Outline, hollow: boolean, c
 /** Returns the surface of an obstacle in the colour (RGBA); an empty one if its shape is unknown to this page. */
 export function surfaceOf({ shape, placement }: Obstacle, colour: number[], bounds: Bounds): Surface {
   if (shape.case === undefined) return { vertices: [], oneSided: false };
-  const draw = surfaces[shape.case] as (shape: unknown, colour: number[], bounds: Bounds) => Surface;
-  const { vertices, oneSided } = draw(shape.value, colour, placement ? around(bounds, placement) : bounds);
-  if (placement) place(vertices, placement);
-  return { vertices, oneSided };
+  if (shape.case === "plane") {
+    const { point, normal } = shape.value;
+    return planeIn(bounds, placed(placement, point as Vec3), turned(placement, normal as Vec3), colour);
+  }
+  const draw = surfaces[shape.case] as (shape: unknown, colour: number[]) => Surface;
+  const surface = draw(shape.value, colour);
+  if (placement) place(surface.vertices, placement);
+  return surface;
 }
 
-/** The bounds in the coordinates of an obstacle: a box along its axes around them. */
-function around({ min, max }: Bounds, placement: Placement): Bounds {
-  const corners = Array.from({ length: 8 }, (_, i) =>
-    unplaced(placement, [0, 1, 2].map((k) => ((i >> k) & 1 ? max : min)[k] ?? 0) as Vec3),
-  );
-  const ends = (choose: (...values: number[]) => number): Vec3 =>
-    [0, 1, 2].map((k) => choose(...corners.map((corner) => corner[k] ?? 0))) as Vec3;
-  return { min: ends(Math.min), max: ends(Math.max) };
+/** The part of a plane that lies in the bounds. */
+function planeIn({ min, max }: Bounds, point: Vec3, normal: Vec3, colour: number[]): Surface {
+  const unit = vec3.normalize([0, 0, 0], normal) as Vec3;
+  return { vertices: polygon(planeInBox({ point, normal: unit }, min, max), unit, colour), oneSided: true };
 }
 
 /** Moves vertices to where the obstacle lies. */
