@@ -153,13 +153,11 @@ test("another scene brings its own values, and clears wrong entries", async () =
 });
 
 test("another client's change is told with its name, and one's own is not", async () => {
-  await server.ctl("set", "gravity", "0", "0", "-1.62");
-  const toast = page.locator(`${control("toast")}:has-text("spherule ctl")`);
-  await toast.first().waitFor();
-  assert.equal(await toast.first().locator(control("toast-text")).textContent(), "set gravity to Moon");
+  // A message may be gone before a slow command returns.
+  const told = (text) => page.locator(`${control("toast")}:has-text("spherule ctl"):has-text("${text}")`).waitFor();
+  await Promise.all([told("set gravity to Moon"), server.ctl("set", "gravity", "0", "0", "-1.62")]);
   await page.selectOption(control("gravity-preset"), "Zero");
   await when(page, () => spherule.session.settings.gravity[2] === 0);
-  await server.ctl("pause");
-  await page.locator(`${control("toast")}:has-text("paused the simulation")`).waitFor();
+  await Promise.all([told("paused the simulation"), server.ctl("pause")]);
   assert.equal(await page.locator(`${control("toast")}:has-text("gravity to Zero")`).count(), 0);
 });
