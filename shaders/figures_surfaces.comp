@@ -8,6 +8,7 @@ PARAMETERS
 #include "shared/separation.h"
 #include "shared/wrap.h"
 #include "shared/shapes.h"
+#include "shared/moving.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, velocity)
@@ -15,6 +16,7 @@ BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, obstacleLists)
 BUFFER(readonly, uvec2, nearObstacles)
 BUFFER(readonly, vec4, listReference)
+BUFFER(readonly, uint, counters)
 BUFFER(writeonly, uint, touching)  // walls and obstacles that each sphere touches
 BUFFER(writeonly, uint, deepest)   // bits of the largest depth / r of each sphere, at least 0
 
@@ -22,6 +24,10 @@ PRIVATE(vec3, spherePoint)
 PRIVATE(float, sphereRadius)
 PRIVATE(float, depth)
 PRIVATE(uint, touched)
+
+bool looksAhead() {
+    return false;
+}
 
 vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);

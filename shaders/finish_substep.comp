@@ -32,6 +32,7 @@ BUFFER(coherent, uint, surfaceSums)
 #include "shared/friction.h"
 #include "shared/limits.h"
 #include "shared/shapes.h"
+#include "shared/moving.h"
 #include "shared/outside.h"
 #include "shared/falling_frame.h"
 #include "shared/motion.h"
@@ -75,11 +76,18 @@ uints rowOfSurface(uint surface) {
     return found;
 }
 
+real3 relativeVelocity() {
+    if (!HAS(MOTION)) return sphereVelocity;
+    return sphereVelocity - surfaceVelocity;
+}
+
 void resistRollingAtWall(mask where, real3 n, real normalImpulse, real4 contact) {
-    real about = dot3(sphereSpin, n);
+    real3 spin = sphereSpin;
+    if (HAS(MOTION)) spin = spin - surfaceSpin;
+    real about = dot3(spin, n);
     real c = inverseMass / (sphereRadius * sphereRadius) * 2.5f;
     real most = normalImpulse * sphereRadius;
-    real3 moment = rollingMoment(sphereSpin - n * about, c, rollingResistanceOf(contact) * most) +
+    real3 moment = rollingMoment(spin - n * about, c, rollingResistanceOf(contact) * most) +
                    spinningMoment(n, about, c, spinningResistanceOf(contact) * most);
     momentOfRolling = moment;
     real3 change = select(where, moment * c, real3(0.0f, 0.0f, 0.0f));
@@ -121,6 +129,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     mask approaching = involved && speed < target;
     if (anyLane(approaching)) {
         real start = dot3(real3(startVelocity), n);
+        if (HAS(MOTION)) start = start - dot3(surfaceVelocity, n);
         real acceleration = sqrt(startVelocity.w);
         load = before - dot3(sphereVelocity + unheld, n) * mass;
         load = select(load > -start * mass * LEAST_LOAD, load, real(0.0f));
@@ -163,7 +172,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     if (HAS(FRICTION)) {
         // Before friction: a contact at rest holds the torque of its friction, which rolling resistance bears.
         if (HAS(ROLLING)) resistRollingAtWall(touching, n, normalImpulse, contact);
-        precise real3 slip = sphereVelocity - n * speed - cross3(sphereSpin, n) * sphereRadius;
+        precise real3 slip = relativeVelocity() - n * speed - cross3(sphereSpin, n) * sphereRadius;
         friction = frictionOfContact(tangential, slip, mass, frictionOf(contact) * normalImpulse);
         torque = cross3(n, friction);
         sphereSpin = select(touching, sphereSpin - (torque - heldTorque) * lever, sphereSpin);
@@ -205,12 +214,21 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)
 }
 
+bool looksAhead() {
+    return true;
+}
+
 real3 velocityAlong() {
     return sphereVelocity;
 }
 
 void visitSurface(mask where, real3 n, real separation, real recession, uint wallMaterial, uint surface) {
-    real speed = dot3(sphereVelocity, n);
+    real speed = dot3(relativeVelocity(), n);
+    if (HAS(MOTION)) {
+        real motion = -speed * params.substep;
+        mask unsafe = where && sphereAwake && separation < motion && motion > sphereRadius * SAFE_MOTION;
+        RAISE_TO(unsafe, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
+    }
     mask close = separation + min(speed + recession, real(0.0f)) * params.substep <= 0.0f;
     mask visited = where && sphereAwake && (close || containsPart(partsBefore, surface));
     if (anyLane(visited)) solveSurface(visited, close, n, separation, recession, speed, wallMaterial, surface);

@@ -7,6 +7,7 @@ PARAMETERS
 #include "shared/separation.h"
 #include "shared/wrap.h"
 #include "shared/shapes.h"
+#include "shared/moving.h"
 #include "shared/contact.h"
 
 BUFFER(readonly, vec4, position)
@@ -16,6 +17,7 @@ BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, obstacleLists)
 BUFFER(readonly, uvec2, nearObstacles)
 BUFFER(readonly, vec4, listReference)
+BUFFER(readonly, uint, counters)
 BUFFER(coherent, uint, inspected)  // number of contacts; then two words for each: see layout.h
 
 PRIVATE(vec3, spherePoint)
@@ -26,6 +28,10 @@ void note(uint body, float overlap) {
     if (place >= INSPECTED_MOST) return;
     inspected[1u + 2u * place] = body;
     inspected[2u + 2u * place] = floatBitsToUint(overlap);
+}
+
+bool looksAhead() {
+    return false;
 }
 
 vec3 velocityAlong() {

@@ -24,6 +24,7 @@ BUFFER(readonly, Obstacle, obstacles)
 
 #include "shared/drift.h"
 #include "shared/falling_frame.h"
+#include "shared/moving.h"
 #include "shared/motion.h"
 
 KERNEL(params.spheres) {

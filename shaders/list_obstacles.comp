@@ -31,6 +31,7 @@ KERNEL(params.spheres) {
     float radius = radiusOf(position[invocation]);
     // A contact that ended in the last substep is listed too, because the sphere must forget it.
     float reach = radius + LIST_REACH * params.margin + sqrt(dot3(v, v)) * params.substep;
+    if (HAS(MOTION)) reach = reach + OBSTACLE_SUBSTEPS * params.obstaclePath;
     float room = 1.0e18f;
     uint found = 0u;
     for (uint k = 0u; k < params.obstacles; ++k) {

@@ -12,6 +12,8 @@ BUFFER(writeonly, uint, bundles)
 #include "shared/drift.h"
 #include "shared/falling_frame.h"
 
+#define FEW_OBSTACLES 8u
+
 // Sets the path of the drift (m).
 void setDriftPath(vec3 to) {
     counters[COUNTER_DRIFT_PATH] = floatBitsToUint(to.x);
@@ -36,6 +38,13 @@ KERNEL(1u) {
     uint words = params.bundles * BUNDLE_WORDS;
     bundles[words + WORD_FASTEST] = 0u;
     bool rebuild = counters[COUNTER_REBUILD] != 0u;
+    if (HAS(MOTION)) {
+        float path = uintBitsToFloat(counters[COUNTER_OBSTACLE_PATH]) + params.obstaclePath;
+        // A sphere without a valid list visits all obstacles, which is no loss while they are few.
+        rebuild = rebuild || (params.obstacles > FEW_OBSTACLES &&
+                              path > max(params.margin, OBSTACLE_SUBSTEPS * params.obstaclePath));
+        counters[COUNTER_OBSTACLE_PATH] = floatBitsToUint(rebuild ? 0.0f : path);
+    }
     for (uint row = 0u; row < LAUNCH_ROWS; ++row) {
         bool launched = rebuild && row < LAUNCH_LOST_SPHERES;
         if (row == LAUNCH_UNLISTED) launched = counters[COUNTER_UNLISTED] != 0u;

@@ -9,6 +9,7 @@ PARAMETERS
 #include "shared/wrap.h"
 #include "shared/fields.h"
 #include "shared/shapes.h"
+#include "shared/moving.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -18,6 +19,7 @@ BUFFER(readonly, Obstacle, obstacles)
 BUFFER(readonly, uint, obstacleLists)
 BUFFER(readonly, uvec2, nearObstacles)
 BUFFER(readonly, vec4, listReference)
+BUFFER(readonly, uint, counters)
 BUFFER(writeonly, SphereStatistics, sphereSums)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
@@ -35,6 +37,10 @@ PRIVATE(float, springs)
 
 #include "shared/contact_params.h"
 #include "shared/spring.h"
+
+bool looksAhead() {
+    return false;
+}
 
 vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);

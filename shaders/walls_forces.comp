@@ -8,6 +8,7 @@ PARAMETERS
 #include "shared/fields.h"
 #include "shared/friction.h"
 #include "shared/shapes.h"
+#include "shared/moving.h"
 
 BUFFER(readonly, vec4, position)
 BUFFER(readonly, vec4, positionLow)
@@ -59,13 +60,19 @@ uint slipEntry(uint surface) {
     return freeEntry;
 }
 
+vec3 relativeVelocity() {
+    if (!HAS(MOTION)) return sphereVelocity;
+    return sphereVelocity - surfaceVelocity;
+}
+
 // `fall` is the velocity that gravity and fields have added since the middle of the last motion (m/s). `arm` is the
 // distance from the centre to the wall (m).
 void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 contact) {
     uint entry = slipEntry(surface);
     bool known = entry != NO_ENTRY && hasSlip(wallSlip[entry]);
     displacement = known ? rotateToPlane(vec3(wallSlip[entry]), n) : vec3(0.0f, 0.0f, 0.0f);
-    vec3 slip = sphereVelocity - n * dot3(sphereVelocity, n) - cross3(omega, n) * arm;
+    vec3 relative = relativeVelocity();
+    vec3 slip = relative - n * dot3(relative, n) - cross3(omega, n) * arm;
     vec3 path = slip;
     if (HAS(GRAVITY) || HAS(FIELDS)) path = slip - (fall - n * dot3(fall, n));
     float lever = arm / sphereRadius;
@@ -80,9 +87,11 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
     }
     if (HAS(ROLLING)) {
         float c = 2.5f * sphereInverseMass / (sphereRadius * sphereRadius);
-        float about = dot3(omega, n);
+        vec3 spin = omega;
+        if (HAS(MOTION)) spin = spin - surfaceSpin;
+        float about = dot3(spin, n);
         float maxMoment = sphereRadius * spring.impulse;
-        vec3 rolling = rollingMoment(omega - n * about, c, rollingResistanceOf(contact) * maxMoment);
+        vec3 rolling = rollingMoment(spin - n * about, c, rollingResistanceOf(contact) * maxMoment);
         vec3 spinning = spinningMoment(n, about, c, spinningResistanceOf(contact) * maxMoment);
         torque = torque + rolling + spinning;
         if (HAS(CONTACT_SUMS)) {
@@ -98,6 +107,10 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
     touchedWalls = touchedWalls | (1u << (entry - idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory));
 }
 
+bool looksAhead() {
+    return false;
+}
+
 vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);
 }
@@ -106,7 +119,11 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     float overlap = -separation - dot3(residual, normal);
     if (!(overlap > 0.0f)) return;
     uint index = wallContactIndex(sphereSlot, wallMaterial);
-    float speed = dot3(sphereVelocity, normal);
+    float speed = dot3(relativeVelocity(), normal);
+    if (HAS(MOTION)) {
+        float motion = -speed * params.substep;
+        RAISE_TO(motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
+    }
     vec3 fall = vec3(0.0f, 0.0f, 0.0f);
     if (HAS(GRAVITY) || HAS(FIELDS)) fall = accelerationAt(spherePoint) * (0.5f * params.substep);
     Spring spring = springOf(overlap, speed - dot3(fall, normal), speed, sphereRadius, sphereInverseMass,

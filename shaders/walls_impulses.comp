@@ -10,6 +10,7 @@ PARAMETERS
 #include "shared/fields.h"
 #include "shared/friction.h"
 #include "shared/shapes.h"
+#include "shared/moving.h"
 
 BUFFER(restrict, vec4, position)
 BUFFER(restrict, vec4, velocity)
@@ -20,6 +21,7 @@ BUFFER(readonly, uvec2, nearObstacles)
 BUFFER(readonly, vec4, listReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(readonly, ContactParams, contactParams)
+BUFFER(coherent, uint, counters)
 BUFFER(coherent, uint, surfaceSums)
 BUFFER(restrict, float, wallWork)  // by id: work of pushes out of walls against gravity and fields (J)
 
@@ -60,6 +62,10 @@ void addChanges(uint surface, vec3 velocityBefore, vec3 spinBefore) {
     addToSurfaceSums(sphereSlot, surface, impulse, moment);
 }
 
+bool looksAhead() {
+    return true;
+}
+
 vec3 velocityAlong() {
     return solvedVelocity;
 }
@@ -69,7 +75,11 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     touched = true;
     vec4 contact = contactParams[wallContactIndex(sphereSlot, wallMaterial)].contact;
     float push = max(-separation, 0.0f);
-    float speed = dot3(solvedVelocity, normal);
+    float speed = dot3(relativeVelocity(), normal);
+    if (HAS(MOTION)) {
+        float motion = -speed * params.substep;
+        RAISE_TO(motion > sphereRadius * SAFE_MOTION, counters[COUNTER_LARGEST_MOTION], motion / sphereRadius)
+    }
     if (speed >= 0.0f) {
         spherePoint = spherePoint + normal * push;
         pushedOut = pushedOut + normal * push;

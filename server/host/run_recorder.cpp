@@ -130,6 +130,7 @@ Result<void> RunRecorder::write(recording::Kind kind) {
     frame.set_epoch(epoch_);
     frame.set_step(simulation_.steps());
     frame.set_sim_time(simulation_.time());
+    setPoses(frame, simulation_.scene().obstacles, simulation_.time());
     frame.set_count(simulation_.count());
     frame.set_tier(options_.tier);
     frame.set_order(order);

@@ -71,7 +71,7 @@ void SceneSaver::serve(sim::Simulation& simulation) {
     std::vector<SavedScene::Run> groups;
     for (const scene::Group& group : scene.groups) groups.push_back({group.first, group.count});
     making_ = std::async(
-        std::launch::async, [this, made, claim = std::move(*claim), message = scene::describe(scene),
+        std::launch::async, [this, made, claim = std::move(*claim), message = scene::describe(scene, simulation.time()),
                              groups = std::move(groups), slots = simulation.pipeline().download(),
                              population = simulation.population(), centre = scene.bounds.centre()]() mutable {
             std::shared_ptr<SavedScene> document;

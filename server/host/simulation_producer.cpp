@@ -136,7 +136,9 @@ Result<void> SimulationProducer::advanceStep(Clock::time_point now) {
     // Sinks have taken energy with the spheres.
     const std::uint64_t population = host_.simulation().population().version();
     if (population != std::exchange(population_, population)) sampler_.invalidateBaseline();
-    if (host_.simulation().pulling()) sampler_.invalidateBaseline();
+    // Springs and obstacles that move do work on spheres.
+    if (host_.simulation().pulling() || scene::anyMoves(host_.simulation().scene().obstacles))
+        sampler_.invalidateBaseline();
     if (host_.paused()) commands_.discardAnswer();
     reportNotices();
     stopAtNonFinite();
@@ -185,6 +187,7 @@ v1::Frame SimulationProducer::head(Clock::time_point now) {
     v1::Frame head;
     head.set_step(host_.simulation().steps());
     head.set_sim_time(host_.simulation().time());
+    setPoses(head, host_.simulation().scene().obstacles, host_.simulation().time());
     *head.mutable_status() = status(now);
     return head;
 }

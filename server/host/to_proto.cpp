@@ -11,7 +11,7 @@
 #include "scene/check.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
-#include "scene/shapes.h"
+#include "scene/surroundings.h"
 #include "scene/view.h"
 
 namespace spherule::host {
@@ -19,11 +19,7 @@ namespace spherule::host {
 namespace {
 
 void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
-    for (const scene::Obstacle& obstacle : scene.obstacles) {
-        v1::Obstacle& message = *facts.add_obstacles();
-        message.set_colour(obstacle.colour);
-        obstacle.shape->write(message);
-    }
+    for (const scene::Obstacle& obstacle : scene.obstacles) scene::writeObstacle(*facts.add_obstacles(), obstacle);
 }
 
 void setGroup(v1::GroupFacts& message, const scene::Scene& scene, std::size_t number) {
@@ -185,6 +181,17 @@ v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool 
     settings.set_friction(scene.materials.front().friction);
     if (scene.quality.goal) *settings.mutable_auto_() = scene::messageOf(*scene.quality.goal);
     return message;
+}
+
+void setPoses(v1::Frame& frame, const std::vector<scene::Obstacle>& obstacles, double time) {
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        if (!obstacles[k].motion || obstacles[k].motion->staysInPlace()) continue;
+        const scene::Pose pose = obstacles[k].motion->poseAt(time);
+        v1::Pose& message = *frame.add_poses();
+        message.set_obstacle(static_cast<std::uint32_t>(k));
+        scene::setVector(*message.mutable_translation(), pose.frame().origin);
+        for (const double part : {pose.turn.x, pose.turn.y, pose.turn.z, pose.turn.w}) message.add_rotation(part);
+    }
 }
 
 v1::Statistics statisticsMessage(const sim::Statistics& s) {

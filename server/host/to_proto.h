@@ -27,6 +27,9 @@ v1::Welcome welcomeOf(const compute::DeviceInfo& device);
 v1::ServerMessage settingsMessage(const scene::Scene& scene, double speed, bool paused);
 v1::Statistics statisticsMessage(const sim::Statistics& statistics);
 
+// Sets the poses of the obstacles that may move. `time`: s simulated.
+void setPoses(v1::Frame& frame, const std::vector<scene::Obstacle>& obstacles, double time);
+
 // The answer to a command. The field of a refusal is a path that begins at the Command. The error's `where` begins at
 // the command's own message; if it names no field there, it becomes part of the reason.
 v1::CommandResult resultOf(const v1::Command& command, const Result<sim::Applied>& applied);

@@ -3,7 +3,7 @@
 #include "scene/check.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
-#include "scene/shapes.h"
+#include "scene/surroundings.h"
 
 namespace spherule::scene {
 
@@ -54,7 +54,7 @@ void setMaterials(v1::Scene& message, const Scene& scene) {
     }
 }
 
-void setBounds(v1::Scene& message, const Scene& scene) {
+void setBounds(v1::Scene& message, const Scene& scene, double time) {
     v1::Bounds& to = *message.mutable_bounds();
     setVector(*to.mutable_min(), scene.bounds.min);
     setVector(*to.mutable_max(), scene.bounds.max);
@@ -65,9 +65,10 @@ void setBounds(v1::Scene& message, const Scene& scene) {
     to.set_material(scene.materials[scene.bounds.material].name);
     for (const Obstacle& obstacle : scene.obstacles) {
         v1::Obstacle& one = *message.add_obstacles();
-        obstacle.shape->write(one);
+        writeObstacle(one, obstacle);
         one.set_material(scene.materials[obstacle.material].name);
-        one.set_colour(obstacle.colour);
+        // The scene begins where the motion is now.
+        if (obstacle.motion) one.mutable_motion()->set_begin(obstacle.motion->begin - time);
     }
     for (const Box& sink : scene.sinks) setBox(*message.add_sinks()->mutable_region(), sink);
 }
@@ -88,13 +89,13 @@ void setGroups(v1::Scene& message, const Scene& scene) {
 
 }  // namespace
 
-v1::Scene describe(const Scene& scene) {
+v1::Scene describe(const Scene& scene, double time) {
     v1::Scene message;
     message.set_name(scene.name);
     message.set_description(scene.description);
     setForces(message, scene.forces);
     setMaterials(message, scene);
-    setBounds(message, scene);
+    setBounds(message, scene, time);
     setGroups(message, scene);
     message.set_step(scene.step);
     v1::Quality& quality = *message.mutable_quality();

@@ -53,8 +53,7 @@ bool placeAll(Check& check, std::vector<Sphere>& spheres, const Box& region, con
             occupancy.addWork(1 + scene.obstacles.size());
             if (occupancy.work() > budget || !check.goesOn("placing spheres", placed, spheres.size())) return false;
             spheres[i].position = drawPlace(random, region, scene.bounds, radius);
-        } while (obstacleAt(scene.obstacles, spheres[i].position, radius) ||
-                 !occupancy.isFree(spheres[i].position, radius));
+        } while (obstacleAt(scene, spheres[i].position, radius) || !occupancy.isFree(spheres[i].position, radius));
         occupancy.add(spheres[i].position, radius);
         ++placed;
     }

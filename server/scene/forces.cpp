@@ -9,6 +9,10 @@ namespace spherule::scene {
 double strongestAcceleration(const Scene& scene) {
     constexpr std::size_t mostPlaces = 10'000;  // about a millisecond
     double strongest = glm::length(scene.forces.gravity);
+    double shaken = 0;  // spheres that obstacles carry
+    for (const Obstacle& obstacle : scene.obstacles)
+        if (obstacle.motion) shaken = std::max(shaken, obstacle.motion->speeds().acceleration);
+    strongest += shaken;
     const auto attracts = [](const Field& field) { return std::holds_alternative<Attraction>(field); };
     if (std::ranges::none_of(scene.forces.fields, attracts)) return strongest;
     const std::size_t stride = scene.spheres.size() / mostPlaces + 1;

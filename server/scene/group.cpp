@@ -94,7 +94,7 @@ void checkPlaces(Check& check, const v1::Group& message, const Scene& scene, con
         if (i % betweenMarks == 0 && !check.goesOn("checking places", i, spheres.size())) return;
         const auto radius = static_cast<double>(spheres[i].radius);
         std::optional<std::string> reason = whyOutside(scene.bounds, spheres[i].position, radius);
-        if (const auto hit = obstacleAt(scene.obstacles, spheres[i].position, radius); !reason && hit) {
+        if (const auto hit = obstacleAt(scene, spheres[i].position, radius); !reason && hit) {
             reason = fmt::format("reaches into {}", at("obstacles", *hit));
         }
         if (reason) return refuseSphere(check, message, source, i, spheres[i], *reason);

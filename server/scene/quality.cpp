@@ -179,6 +179,21 @@ Result<void> checkSpeeds(const Scene& scene, std::size_t first) {
     return {};
 }
 
+Result<void> checkObstacleSpeeds(const Scene& scene) {
+    const double most = maxSpeed(scene, smallestRadius(scene));
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
+        const double speed = scene.obstacles[k].largestSpeed(scene.bounds);
+        if (speed <= most || !(most > 0)) continue;
+        return fail(
+            ErrorKind::Input, at(at("obstacles", k), "motion"),
+            fmt::format("moves its surface at up to {:.6g} m/s, the fastest that this scene can compute with its "
+                        "smallest radius of {:g} m is {:.6g} m/s; make it slower, or shorten the step",
+                        speed, smallestRadius(scene), most),
+            Cause::Range, {.least = 0, .most = most});
+    }
+    return {};
+}
+
 std::uint32_t minSubstepsFor(const Scene& scene, Model model) {
     if (model != Model::Accurate) return 1;
     double fewest = 0;
@@ -233,6 +248,7 @@ void readQuality(Check& check, const v1::Quality& message, const Overrides& over
     if (const auto fits = fitSubsteps(scene); !fits) check.refuse(fits.error().where, fits.error().message);
     if (!check.ok()) return;
     if (const auto fits = checkSpeeds(scene); !fits) check.refuse(fits.error().where, fits.error().message);
+    if (const auto fits = checkObstacleSpeeds(scene); !fits) check.refuse(fits.error().where, fits.error().message);
 }
 
 }  // namespace spherule::scene

@@ -45,6 +45,9 @@ double maxSpeed(const Scene& scene, double radius);
 // Refuses spheres from id `first` on whose initial speed exceeds maxSpeed().
 Result<void> checkSpeeds(const Scene& scene, std::size_t first = 0);
 
+// Refuses obstacles whose surface moves faster than maxSpeed() for the smallest sphere.
+Result<void> checkObstacleSpeeds(const Scene& scene);
+
 // The range of substeps in which the model is useful for the scene, by measurement.
 struct SubstepRange {
     std::uint32_t fewest = 1;

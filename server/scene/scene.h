@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "scene/forces.h"
+#include "scene/motion.h"
 
 namespace spherule::scene {
 
@@ -130,7 +131,17 @@ struct Obstacle {
     std::shared_ptr<const Shape> shape;  // see scene/shapes.h
     std::uint8_t material = 0;
     std::string colour;
+    std::optional<Motion> motion{};  // nullopt: at rest
+
+    // Returns the distance of a point from the solid at this time (m), negative inside it.
+    [[nodiscard]] double distance(const glm::dvec3& point, double time) const;
+    // Returns the largest speed of a point of its surface at any time (m/s), without the belt's. A half-space counts
+    // within the bounds.
+    [[nodiscard]] double largestSpeed(const Bounds& bounds) const;
 };
+
+// Returns true if an obstacle moves.
+bool anyMoves(const std::vector<Obstacle>& obstacles);
 
 struct Camera {
     glm::dvec3 eye{};
@@ -170,6 +181,7 @@ struct Scene {
     std::vector<Box> sinks;  // spheres whose centre is inside at the end of a step are removed
     bool sphereContacts = true;
     bool contactSums = false;  // statistics have sums over the contacts of all substeps
+    double time = 0;           // s simulated: new spheres are placed beside obstacles as they are then
 };
 
 // Removes the spheres with these numbers, in ascending order, from the scene and its groups.

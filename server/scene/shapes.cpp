@@ -6,8 +6,6 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "scene/check.h"
 #include "spherule/v1/scene.pb.h"
@@ -31,10 +29,7 @@ constexpr std::array types = {
 class Placed final : public Shape {
   public:
     Placed(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation)
-        : shape_(std::move(shape)),
-          rotation_(rotation),
-          frame_{glm::mat3_cast(glm::angleAxis(glm::radians(rotation.degrees), glm::normalize(rotation.axis))),
-                 translation} {}
+        : shape_(std::move(shape)), rotation_(rotation), frame_{glm::mat3_cast(rotation.quaternion()), translation} {}
 
     [[nodiscard]] ShapeKind kind() const override { return shape_->kind(); }
     [[nodiscard]] std::uint32_t parts() const override { return shape_->parts(); }
@@ -45,6 +40,9 @@ class Placed final : public Shape {
         const std::optional<glm::dvec3> normal = shape_->normalOfHalfSpace();
         if (!normal) return std::nullopt;
         return frame_.turn * *normal;
+    }
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return shape_->farthest(frame_.inside(from));
     }
     [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
         if (normalOfHalfSpace()) return 0;  // it needs no frame
@@ -61,8 +59,7 @@ class Placed final : public Shape {
     }
     void write(v1::Obstacle& message) const override {
         shape_->write(message);
-        setVector(*message.mutable_rotation()->mutable_axis(), rotation_.axis);
-        message.mutable_rotation()->set_degrees(rotation_.degrees);
+        writeRotation(*message.mutable_rotation(), rotation_);
         setVector(*message.mutable_translation(), frame_.origin);
     }
 
@@ -74,15 +71,9 @@ class Placed final : public Shape {
 
 ShapePointer readPlace(Check& check, const v1::Obstacle& message, const std::string& field, ShapePointer shape) {
     if (!message.has_rotation() && message.translation().empty()) return shape;
-    Rotation rotation;
-    if (message.has_rotation()) {
-        rotation.axis = check.vector(message.rotation().axis(), at(field, "rotation.axis"));
-        rotation.degrees = check.within(message.rotation().degrees(), -360, 360, at(field, "rotation.degrees"), "°");
-        if (!(glm::length(rotation.axis) > 0)) {
-            check.refuse(at(field, "rotation.axis"), "is zero, must have a direction");
-            rotation.axis = {0, 0, 1};
-        }
-    }
+    const std::string rotationField = at(field, "rotation");
+    const Rotation rotation =
+        message.has_rotation() ? readRotation(check, message.rotation(), rotationField) : Rotation{};
     const glm::dvec3 to = check.vectorOr(message.translation(), {}, at(field, "translation"));
     return placedShape(std::move(shape), rotation, to);
 }

@@ -6,11 +6,10 @@
 #include <string>
 
 #include <google/protobuf/repeated_field.h>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "scene/frame.h"
 #include "scene/scene.h"
 
 namespace spherule::v1 {
@@ -28,17 +27,6 @@ enum class ShapeKind : std::uint8_t {
 #undef SHAPE
 };
 
-// Coordinates that are turned, then moved: x in the frame is turn * x + origin outside.
-struct Frame {
-    glm::dmat3 turn{1};   // orthogonal
-    glm::dvec3 origin{};  // m
-
-    [[nodiscard]] glm::dvec3 outside(const glm::dvec3& x) const { return turn * x + origin; }
-    [[nodiscard]] glm::dvec3 inside(const glm::dvec3& x) const { return glm::transpose(turn) * (x - origin); }
-    // Returns the frame of a frame that is given in these coordinates.
-    [[nodiscard]] Frame operator*(const Frame& other) const { return {turn * other.turn, outside(other.origin)}; }
-};
-
 // The shape of an obstacle in world coordinates (m). It bounds the solid that spheres cannot enter. Immutable, so that
 // scenes share it.
 class Shape {
@@ -52,9 +40,11 @@ class Shape {
     [[nodiscard]] virtual double distance(const glm::dvec3& point) const = 0;
     // Returns the normal of the surface if the solid is a half-space.
     [[nodiscard]] virtual std::optional<glm::dvec3> normalOfHalfSpace() const { return std::nullopt; }
+    // Returns the largest distance of a point of its surface from a point, or more (m); infinity for a half-space.
+    [[nodiscard]] virtual double farthest(const glm::dvec3& from) const = 0;
     // Returns the largest coordinate (m) that kernels round when they compute distances from this shape, relative to
     // `origin`; 0 if it is no larger than the coordinates of the spheres.
-    [[nodiscard]] virtual double largestCoordinate(const glm::dvec3& /*origin*/) const { return 0; }
+    [[nodiscard]] virtual double largestCoordinate(const glm::dvec3& origin) const { return farthest(origin); }
 
     // The members a and b of its row for kernels: see shaders/shapes/. Without a frame, positions are relative to
     // `origin`; with one, they are in the frame's coordinates.
@@ -105,11 +95,7 @@ ShapePointer boxShape(const Box& box, bool hollow = false);
 // The side of a cone or cylinder without ends, in the form in which scenes give it.
 ShapePointer openCone(const Ends& ends, double fromRadius, double toRadius);
 ShapePointer openCylinder(const Ends& ends, double radius);
-// A shape in a frame of its own. `rotation`: as in the scene.
-struct Rotation {
-    glm::dvec3 axis{0, 0, 1};  // of any length but zero
-    double degrees = 0;
-};
+// A shape in a frame of its own.
 ShapePointer placedShape(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation);
 
 // How one kind of shape is read and made. Defined in its file in scene/shapes/.

@@ -112,8 +112,8 @@ bool surfacesRub(const Scene& scene) {
     });
 }
 
-// Returns the part of `motion` that is parallel to all closed faces and planes. Returns 0 if there are other obstacles
-// or fixed spheres.
+// Returns the part of `motion` that is parallel to all closed faces and planes. Returns 0 if there are other obstacles,
+// obstacles that move, or fixed spheres.
 // A common motion of this kind has no effect on contacts.
 glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
     if (meetsFixed(scene)) return glm::dvec3(0);
@@ -129,7 +129,7 @@ glm::dvec3 alongSurfaces(const Scene& scene, const glm::dvec3& motion) {
     }
     for (const Obstacle& obstacle : scene.obstacles) {
         const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();
-        if (!normal) return glm::dvec3(0);
+        if (!normal || obstacle.motion) return glm::dvec3(0);
         block(*normal);
     }
     glm::dvec3 left = motion;
@@ -169,6 +169,12 @@ Meetings meetingsOf(const Scene& scene, const Extremes& extremes) {
     double speed = 0;
     for (const Sphere& sphere : scene.spheres)
         speed = std::max(speed, glm::length(glm::dvec3(sphere.velocity) - common));
+    // An obstacle throws a sphere at up to twice its own speed, and its belt carries one along.
+    double thrown = 0;
+    for (const Obstacle& obstacle : scene.obstacles)
+        if (obstacle.motion)
+            thrown = std::max(thrown, 2 * obstacle.largestSpeed(scene.bounds) + glm::length(obstacle.motion->belt));
+    speed += thrown;
     const double fall = stopped ? 2 * glm::length(scene.forces.gravity) * extremes.fall : 0;
     const double drop = fieldDrop(scene, extremes);
     if (scene.sphereContacts && scene.spheres.size() > 1)

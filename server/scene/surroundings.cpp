@@ -21,6 +21,11 @@ Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vect
     obstacle.shape = readShape(check, message, field);
     obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
     obstacle.colour = check.colour(message.colour(), at(field, "colour"));
+    if (message.has_motion() && check.ok()) {
+        // A shape is turned and moved about the origin of its coordinates.
+        const glm::dvec3 origin = check.vectorOr(message.translation(), {}, at(field, "translation"));
+        obstacle.motion = readMotion(check, message.motion(), origin, at(field, "motion"));
+    }
     return obstacle;
 }
 
@@ -73,7 +78,12 @@ void checkResolution(Check& check, const Scene& scene, double smallestRadius, st
                         "{:.3g} m: make them at most {:.6g} m long, or enlarge spheres",
                         longest, resolution, smallestRadius, allowed, allowed * 0x1p24));
     for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
-        const double largest = scene.obstacles[k].shape->largestCoordinate(scene.bounds.centre());
+        const Obstacle& obstacle = scene.obstacles[k];
+        // An obstacle that moves lies in a frame about its pivot.
+        const glm::dvec3 centre = scene.bounds.centre();
+        const double largest = obstacle.motion ? obstacle.shape->largestCoordinate(obstacle.motion->pivot) +
+                                                     glm::distance(obstacle.motion->pivot, centre)
+                                               : obstacle.shape->largestCoordinate(centre);
         if (largest * 0x1p-23 > allowed)
             check.refuse(
                 at("obstacles", k),
@@ -102,13 +112,35 @@ std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& ce
     return std::nullopt;
 }
 
-std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, const glm::dvec3& centre, double radius) {
+std::optional<std::size_t> obstacleAt(const Scene& scene, const glm::dvec3& centre, double radius) {
     const auto reaches = [&](const Obstacle& obstacle) {
-        return radius - obstacle.shape->distance(centre) > touchTolerance * radius;
+        return radius - obstacle.distance(centre, scene.time) > touchTolerance * radius;
     };
-    const auto found = std::find_if(obstacles.begin(), obstacles.end(), reaches);
-    if (found == obstacles.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - obstacles.begin());
+    const auto found = std::ranges::find_if(scene.obstacles, reaches);
+    if (found == scene.obstacles.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - scene.obstacles.begin());
+}
+
+double Obstacle::distance(const glm::dvec3& point, double time) const {
+    return shape->distance(motion ? motion->poseAt(time).frame().inside(point) : point);
+}
+
+double Obstacle::largestSpeed(const Bounds& bounds) const {
+    if (!motion) return 0;
+    double reach = shape->farthest(motion->pivot);
+    if (!std::isfinite(reach))
+        reach = glm::length(glm::max(glm::abs(bounds.min - motion->pivot), glm::abs(bounds.max - motion->pivot)));
+    return motion->speeds().at(reach);
+}
+
+bool anyMoves(const std::vector<Obstacle>& obstacles) {
+    return std::ranges::any_of(obstacles, [](const Obstacle& one) { return one.motion.has_value(); });
+}
+
+void writeObstacle(v1::Obstacle& message, const Obstacle& obstacle) {
+    obstacle.shape->write(message);
+    message.set_colour(obstacle.colour);
+    if (obstacle.motion) writeMotion(*message.mutable_motion(), *obstacle.motion);
 }
 
 }  // namespace spherule::scene

@@ -28,7 +28,10 @@ constexpr double touchTolerance = 1e-6;
 // axis, only the centre must be inside.
 std::optional<std::string> whyOutside(const Bounds& bounds, const glm::dvec3& centre, double radius);
 
-// Returns the first obstacle that a sphere reaches into; nullopt if there is none.
-std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, const glm::dvec3& centre, double radius);
+// Returns the first obstacle that a sphere reaches into at the scene's time; nullopt if there is none.
+std::optional<std::size_t> obstacleAt(const Scene& scene, const glm::dvec3& centre, double radius);
+
+// Writes the obstacle in the form in which scenes give it, without its material.
+void writeObstacle(v1::Obstacle& message, const Obstacle& obstacle);
 
 }  // namespace spherule::scene

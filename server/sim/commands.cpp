@@ -92,8 +92,9 @@ Result<void> setGoal(scene::Scene& scene, const Set& set) {
 }
 
 // Returns the scene with the spheres of the group added, and the states of all spheres. `state`: the states of the
-// present spheres.
-Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State state, Progress& progress) {
+// present spheres. `time`: s simulated.
+Result<SceneAndState> withGroup(const Spawn& spawn, scene::Scene scene, State state, double time, Progress& progress) {
+    scene.time = time;
     const glm::dvec3 centre = scene.bounds.centre();
     for (std::uint32_t id = 0; id < state.count(); ++id) {
         const glm::dvec3 now = glm::dvec3(state.position[id]);
@@ -182,6 +183,7 @@ Result<void> Simulation::chooseSubsteps(std::uint32_t substeps) {
 }
 
 Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool disturbs) {
+    changed.time = time();
     // The plan may have more features than the present spheres require, if some were removed.
     if (featuresOf(changed) == featuresOf(scene_)) {
         closeContactSums();
@@ -189,6 +191,7 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
         maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
         writeConstants(*pipeline_, scene_);
         useSubsteps(scene_.quality.substeps);
+        placeObstacles(time());
         openContactSums();
         // A change of the substeps alone wakes no sphere.
         if (disturbs) pipeline_->wakeAll();
@@ -214,10 +217,10 @@ Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Spawn& 
     if (!copies) return tl::unexpected(copies.error());
     auto live = simulation_.liveState();
     if (!live) return tl::unexpected(live.error());
-    return simulation_.prepareSpawn(
-        std::move(*copies), [spawn, scene = simulation_.scene_, state = std::move(*live)](Progress& progress) mutable {
-            return withGroup(spawn, std::move(scene), std::move(state), progress);
-        });
+    return simulation_.prepareSpawn(std::move(*copies), [spawn, scene = simulation_.scene_, state = std::move(*live),
+                                                         time = simulation_.time()](Progress& progress) mutable {
+        return withGroup(spawn, std::move(scene), std::move(state), time, progress);
+    });
 }
 
 Result<Simulation::Outcome> Simulation::CommandHandler::operator()(const Push& push) {

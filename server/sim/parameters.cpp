@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "scene/materials.h"
-#include "scene/shapes.h"
 #include "scene/stiffness.h"
 #include "sim/modules/module.h"
+#include "sim/obstacle_rows.h"
 
 namespace spherule::sim {
 
@@ -72,31 +72,6 @@ std::vector<layout::ContactParams> contactParamsTable(const scene::Scene& scene)
     return table;
 }
 
-std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
-    constexpr std::uint32_t faces = 6;
-    std::vector<layout::Obstacle> rows;
-    std::uint32_t surface = faces;
-    for (const scene::Obstacle& obstacle : scene.obstacles) {
-        const scene::Shape::Row row = obstacle.shape->row(scene.bounds.centre());
-        const std::uint32_t parts = obstacle.shape->parts();
-        const scene::Frame frame = row.frame.value_or(scene::Frame());
-        const auto axis = [&](int k) { return glm::vec4(glm::dvec4(frame.turn[k], frame.origin[k])); };
-        rows.push_back({.a = row.a,
-                        .b = row.b,
-                        .frameX = axis(0),
-                        .frameY = axis(1),
-                        .frameZ = axis(2),
-                        .shape = static_cast<std::uint32_t>(obstacle.shape->kind()),
-                        .parts = parts,
-                        .surface = surface,
-                        .material = obstacle.material,
-                        .framed = row.frame ? 1U : 0U,
-                        .unusedUints = {}});
-        surface += parts;
-    }
-    return rows;
-}
-
 std::vector<scene::Box> sinksOnDevice(const scene::Scene& scene) {
     const glm::dvec3 centre = scene.bounds.centre();
     std::vector<scene::Box> sinks;
@@ -107,7 +82,7 @@ std::vector<scene::Box> sinksOnDevice(const scene::Scene& scene) {
 
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
     if (pipeline.plan().has(Array::Obstacles)) {
-        pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
+        pipeline.write<layout::Obstacle>(Array::Obstacles, ObstacleRows(scene).rows());
         // An empty list, then the list of all obstacles.
         std::vector<std::uint32_t> lists{END_OF_LIST};
         for (std::uint32_t k = 0; k < scene.obstacles.size(); ++k) lists.push_back(k);

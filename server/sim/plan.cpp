@@ -76,7 +76,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::LaunchRow:
             return LAUNCH_ROWS;
         case Extent::Obstacle:
-            return scene.obstacles.size();
+            return scene.obstacles.size() + static_cast<std::uint64_t>(std::ranges::count_if(
+                                                scene.obstacles, [](const auto& one) { return one.motion.has_value(); }));
         case Extent::ObstacleListWord:
             return obstacleListWords(scene.obstacles.size(), plan.features.has(Feature::Contacts) ? n : 0);
         case Extent::MaterialPair:

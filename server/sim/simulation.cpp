@@ -114,8 +114,10 @@ void Simulation::install(Preparation& preparation) {
             "moved apart beforehand, to {:.2g}, in {} sweeps",
             steps_, resolved->before, scene::nameOf(scene_.quality.model), resolved->after, resolved->sweeps));
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
+    obstacleRows_.emplace(scene_);
     useSubsteps(scene_.quality.substeps);
     limitMotionOf(preparation.built_.state);
+    placeObstacles(time());
     openContactSums();
     saveLastFinite();
 }
@@ -211,14 +213,42 @@ Result<bool> Simulation::advance() {
         remainderSubsteps_ = substepsLeft_ = substeps_;
         stepObserved_ = observing_ && steps_ % observedEvery == 0;
     }
+    // `balanced` solves the contacts before the spheres move.
+    const SubstepTimes times = nextSubstep();
+    placeObstacles(scene_.quality.model == scene::Model::Balanced ? times.begin : times.end);
     pipeline_->substep(stepObserved_);
     if (--substepsLeft_ > 0) return false;
     pipeline_->endStep();
     ++steps_;
+    placeObstacles(time());
     // The next step has its full length again.
     if (std::exchange(remainderBegin_, 0) > 0) uploadParameters();
     if (auto done = checkStep(); !done) return tl::unexpected(done.error());
     return true;
+}
+
+// Returns the substep that is next, in s simulated.
+SubstepTimes Simulation::nextSubstep() const {
+    const double begin = time();
+    const double length =
+        substepsLeft_ > 0 ? (1 - remainderBegin_) * scene_.step / remainderSubsteps_ : scene_.step / substeps_;
+    return {begin, begin + length};
+}
+
+// Uploads where obstacles that move are at a time, and their motion in the next substep.
+void Simulation::placeObstacles(double framesAt) {
+    if (!obstacleRows_->anyMoves()) return;
+    obstacleRows_->place(scene_, nextSubstep(), framesAt);
+    obstacleRows_->upload(*pipeline_);
+}
+
+// Returns the largest motion of an obstacle in a substep of the next step, in radii of the smallest sphere.
+double Simulation::motionOfObstacles() const {
+    double fastest = 0;
+    for (const scene::Obstacle& obstacle : scene_.obstacles)
+        if (obstacle.motion && obstacle.motion->runsBetween(time(), time() + scene_.step))
+            fastest = std::max(fastest, obstacle.largestSpeed(scene_.bounds));
+    return fastest > 0 ? fastest * scene_.step / substeps_ / radii_.smallest : 0;
 }
 
 Statistics Simulation::statistics() {
@@ -261,7 +291,7 @@ Result<void> Simulation::checkStep() {
     const bool nearlyFull = counters_.pairs > plan().pairCapacity / 8 * 7;
     if ((counters_.unlisted > 0 || nearlyFull) && plan().features.has(Feature::Contacts) && !pairsExhausted_)
         growPairs();
-    limitMotionPerSubstep(counters_.largestMotion);
+    limitMotionPerSubstep(std::max(counters_.largestMotion, motionOfObstacles()));
     if (counters_.sunk > 0 && !counters_.nonFinite) emptySinks();
     const double since = static_cast<double>(steps_ - lastFiniteStep_) * scene_.step;
     if (!counters_.nonFinite && since > saveInterval - 0.5 * scene_.step) saveLastFinite();
@@ -314,7 +344,7 @@ void Simulation::rollback() {
 
 // Raises the number of substeps if one of these spheres moves too far in a substep.
 void Simulation::limitMotionOf(const State& state) {
-    limitMotionPerSubstep(largestMotion(scene_, state, scene_.step / substeps_));
+    limitMotionPerSubstep(std::max(largestMotion(scene_, state, scene_.step / substeps_), motionOfObstacles()));
 }
 
 // Raises the number of substeps at once when the fastest sphere has moved too far in a substep, and gives notice only

@@ -11,6 +11,7 @@
 #include "core/memory.h"
 #include "scene/scene.h"
 #include "sim/commands.h"
+#include "sim/obstacle_rows.h"
 #include "sim/pipeline.h"
 #include "sim/plan.h"
 #include "sim/population.h"
@@ -158,6 +159,9 @@ class Simulation {
     };
     [[nodiscard]] PullLimits pullLimits(double radius) const;
     [[nodiscard]] glm::dvec3 forceOf(const PullSpring& spring, std::uint32_t rank);
+    [[nodiscard]] SubstepTimes nextSubstep() const;
+    void placeObstacles(double framesAt);
+    [[nodiscard]] double motionOfObstacles() const;
     void limitMotionPerSubstep(double radiiPerSubstep);
     void limitMotionOf(const State& state);
     void saveLastFinite();
@@ -174,6 +178,7 @@ class Simulation {
     scene::Scene initial_;
     scene::Scene scene_;
     RadiusStats radii_;
+    std::optional<ObstacleRows> obstacleRows_;
     std::unique_ptr<Pipeline> pipeline_;
     Population population_;
     Counters counters_;

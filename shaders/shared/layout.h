@@ -61,7 +61,7 @@ struct Parameters {
     float gravityChange; // m/s: change of the velocity by gravity alone in a substep
     float substepRatio;  // present substep over the one before, while impulses are scaled to it
     float quietSpeed;    // m/s; a sphere that stays below it is quiet
-    float unusedReal2;
+    float obstaclePath;  // m: the most by which a surface of an obstacle moves in a substep
 };
 
 // The contact parameters of two materials: row a, column b of `contactParams`.
@@ -83,14 +83,23 @@ struct Obstacle {
     uint surface;        // number of the first of them
     uint material;
     uint framed;         // 1: it has a frame
-    uint unusedUints[3];
+    uint motion;         // the row of its motion; 0: it is at rest in this substep
+    uint unusedUints[2];
 };
+
+// Behind the rows of the obstacles, `obstacles` has a row for the motion of each obstacle that may move. In these rows, a
+// is the pivot (m), b its displacement in this substep (m), frameX the rotation in this substep: its axis, of the length
+// of the tangent of half its angle. frameY is the velocity of the belt (m/s). (They are no struct of their own, because
+// finish_substep.comp binds as many buffers as a kernel may.) In `balanced`, frames and pivots are as they are at the
+// beginning of a substep, in the other models as at its end.
 
 // The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the
 // list of all obstacles.
 #define NO_OBSTACLES 0u
 #define ALL_OBSTACLES 1u
 #define END_OF_LIST 0xffffffffu
+// The lists of obstacles near spheres hold for this number of substeps, however fast obstacles move.
+#define OBSTACLE_SUBSTEPS 8.0f
 
 // Springs that pull spheres, in the buffer `pulls`: two rows each. The first has the point (m), and as w the square root of
 // stiffness over mass (1/s), 0: there is no spring. The second has the largest acceleration that the spring gives (m/s^2),
@@ -157,7 +166,8 @@ struct SphereStatistics {
 #define COUNTER_NEAR_OBSTACLES 35u  // words of the lists of obstacles near spheres
 #define COUNTER_SUNK 36u        // spheres in sinks at the end of a step
 #define COUNTER_CUT_SHORT 37u   // cell groups whose lists the renderer cut short, since the start
-#define COUNTER_WORDS 38u
+#define COUNTER_OBSTACLE_PATH 38u // bits of a float (m): the most that obstacles have moved since the lists were built
+#define COUNTER_WORDS 39u
 
 // Bits of COUNTER_RESTING.
 #define RESTS 1u                // spheres sleep, have slept since the lists were built, or are fixed

@@ -1,5 +1,5 @@
 // Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
-// included shared/separation.h, shared/shapes.h, shared/fields.h, shared/outside.h, shared/drift.h and
+// included shared/separation.h, shared/shapes.h, shared/moving.h, shared/fields.h, shared/outside.h, shared/drift.h and
 // shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
@@ -23,11 +23,17 @@ bool mayMeetFace(uint face, float separation, vec3 normal) {
 }
 
 bool mayMeetObstacle(Obstacle obstacle, vec3 p) {
+    vec3 v = flightVelocity;
+    bool meets = false;
     for (uint part = 0u; part < obstacle.parts; ++part) {
         vec4 surface = surfaceAt(obstacle, part, p);
-        if (mayCloseGap(surface.w - ownRadius, vec3(surface))) return true;
+        vec3 normal = vec3(surface);
+        if (isMoving(obstacle))
+            flightVelocity = v - materialVelocity(obstacles[obstacle.motion], 0.0f, p - normal * surface.w);
+        meets = meets || mayCloseGap(surface.w - ownRadius, normal);
     }
-    return false;
+    flightVelocity = v;
+    return meets;
 }
 
 bool mayMeetSurface(vec3 p) {

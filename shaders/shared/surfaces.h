@@ -6,10 +6,11 @@
 // while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its
 // members, and glslang would need minutes.) Surfaces are numbered through faces and obstacles in the order of the scene.
 //
-// It also defines `real3 velocityAlong()`, the velocity with which the sphere meets curved surfaces (m/s). A solver that
-// needs no look ahead returns 0.
+// It also defines `bool looksAhead()`, which returns true for a solver that finds the moment of an impact, and
+// `real3 velocityAlong()`, the velocity with which the sphere meets curved surfaces then (m/s), otherwise 0.
 //
-// It binds `obstacles`, `obstacleLists`, `nearObstacles` and `listReference`, and has included shared/shapes.h.
+// It binds `obstacles`, `obstacleLists`, `nearObstacles`, `listReference` and `counters`, and has included
+// shared/shapes.h and shared/moving.h, whose variables describe the motion of the visited surface.
 
 void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
     // The springs of `accurate` need the difference of the places without rounding.
@@ -34,19 +35,34 @@ mask clearOfFaces(real reach) {
 uints obstaclesNear(uintRow at, real reach) {
     if (!HAS(CONTACTS)) return uints(ALL_OBSTACLES);
     real3 since = spherePoint - real3(ROW(listReference, at));
-    mask listed = sqrt(dot3(since, since)) + reach < uintBitsToFloat(MEMBER(nearObstacles, at, y));
+    real moved = sqrt(dot3(since, since)) + reach;
+    if (HAS(MOTION)) moved = moved + (uintBitsToFloat(counters[COUNTER_OBSTACLE_PATH]) + params.obstaclePath);
+    mask listed = moved < uintBitsToFloat(MEMBER(nearObstacles, at, y));
     return select(listed, MEMBER(nearObstacles, at, x), uints(ALL_OBSTACLES));
 }
 
-// Visits a curved part of an obstacle. Lanes in `close` may meet it in this substep: for them it is the plane that touches
-// it where they meet it. `surface` is the surface nearest to the sphere now.
-void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface) {
+// Returns a velocity relative to the material of the obstacle, at a share of the substep.
+real3 relativeTo(Obstacle obstacle, real share, real3 point, real3 v) {
+    if (!isMoving(obstacle)) return v;
+    return v - materialVelocity(obstacles[obstacle.motion], share, point);
+}
+
+// Returns the surface at a share of the substep.
+real4 laterSurfaceAt(Obstacle obstacle, uint part, real share, real3 point) {
+    if (!isMoving(obstacle)) return surfaceAt(obstacle, part, point);
+    return movedSurfaceAt(obstacle, obstacles[obstacle.motion], part, share, point);
+}
+
+// Visits a part of an obstacle that is curved or moves. Lanes in `close` may meet it in this substep: for them it is the
+// plane that touches it where they meet it. `surface` is the surface nearest to the sphere now. `relative` is the velocity
+// of the sphere relative to its material (m/s).
+void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface, real3 relative) {
     real h = real(params.substep);
     real3 v = velocityAlong();
     real3 normal = real3(surface);
     real separation = surface.w - sphereRadius;
     real recession = real(0.0f);
-    real closing = -dot3(v, normal);
+    real closing = -dot3(relative, normal);
     // `fast` has moved the sphere beyond the meeting, `balanced` has not moved it yet.
     mask meets = close && closing > 0.0f && (HAS(FAST) ? separation < 0.0f : separation > 0.0f);
     if (anyLane(meets)) {
@@ -55,10 +71,12 @@ void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 sur
         real time = separation / max(closing, real(1.0e-30f));
         for (uint k = 0u; k < 2u; ++k) {
             time = min(max(time, earliest), latest);
-            real4 there = surfaceAt(obstacle, part, spherePoint + v * time);
+            real3 point = spherePoint + v * time;
+            real share = time * params.perSubstep;
+            real4 there = laterSurfaceAt(obstacle, part, share, point);
             real3 n = real3(there);
             real gap = there.w - sphereRadius;
-            real speed = dot3(v, n);
+            real speed = dot3(relativeTo(obstacle, share, point, v), n);
             if (k == 1u) {
                 separation = select(meets, gap - speed * time, separation);
                 normal = select(meets, n, normal);
@@ -67,25 +85,35 @@ void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 sur
         }
     }
     if (HAS(BALANCED)) {
-        real3 along = v - normal * dot3(v, normal);
-        real4 end = surfaceAt(obstacle, part, spherePoint + along * h);
-        recession = select(close, dot3(real3(end), along) * 0.5f, recession);
+        real3 along = v - normal * dot3(relative, normal);
+        real3 point = spherePoint + along * h;
+        real4 end = laterSurfaceAt(obstacle, part, real(1.0f), point);
+        recession = select(close, dot3(real3(end), relativeTo(obstacle, real(1.0f), point, along)) * 0.5f, recession);
     }
     visitSurface(where, normal, separation, recession, obstacle.material, obstacle.surface + part);
 }
 
 void visitObstacle(mask where, uint number) {
     Obstacle obstacle = obstacles[number];
+    bool moving = isMoving(obstacle);
     for (uint part = 0u; part < obstacle.parts; ++part) {
         real4 surface = surfaceAt(obstacle, part, spherePoint);
         real separation = surface.w - sphereRadius;
         real3 v = velocityAlong();
+        if (moving) {
+            real3 normal = real3(surface);
+            real3 point = spherePoint - normal * surface.w;
+            surfaceVelocity = velocityOfSurface(obstacles[obstacle.motion], point, normal);
+            surfaceSpin = spinOf(obstacles[obstacle.motion], point);
+            if (looksAhead()) v = relativeTo(obstacle, real(0.0f), point, v);
+        }
         mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
-        if (isCurved(obstacle) && anyLane(close))
-            visitCurved(where, close, obstacle, part, surface);
+        if ((isCurved(obstacle) || moving) && anyLane(close))
+            visitCurved(where, close, obstacle, part, surface, v);
         else
             visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, obstacle.surface + part);
     }
+    if (moving) setSurfaceAtRest();
 }
 
 // Visits the lists of all lanes together, because spheres beside each other are near the same obstacles.
@@ -102,6 +130,7 @@ void visitObstacles(uints from) {
 
 // `near`: what obstaclesNear() returned.
 void visitSurfaces(uints near) {
+    if (HAS(MOTION)) setSurfaceAtRest();
     if (HAS(WALLS)) {
         visitFaces(0u, spherePoint.x, params.wallMin.x, params.wallMax.x, real3(1.0f, 0.0f, 0.0f));
         visitFaces(1u, spherePoint.y, params.wallMin.y, params.wallMax.y, real3(0.0f, 1.0f, 0.0f));

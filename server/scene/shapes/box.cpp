@@ -23,6 +23,11 @@ class BoxShape final : public Shape {
         if (hollow_) return -deepest;
         return deepest > 0 ? glm::length(glm::max(beyond, glm::dvec3(0))) : deepest;
     }
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return glm::length(glm::max(glm::abs(box_.min - from), glm::abs(box_.max - from)));
+    }
+    // Kernels compare coordinates of spheres with those of its faces.
+    [[nodiscard]] double largestCoordinate(const glm::dvec3& /*origin*/) const override { return 0; }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         return {.a = glm::vec4(glm::dvec4(box_.min - origin, hollow_ ? -1 : 0)),
                 .b = glm::vec4(glm::dvec4(box_.max - origin, 0))};

@@ -22,8 +22,8 @@ class Capsule final : public Shape {
         const double outside = glm::distance(point, ends_.from + along * line) - radius_;
         return hollow_ ? -outside : outside;
     }
-    [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
-        return glm::distance(ends_.centre(), origin) + ends_.half() + radius_;
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return glm::distance(ends_.centre(), from) + ends_.half() + radius_;
     }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         Frame frame = ends_.frame();

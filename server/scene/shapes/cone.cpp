@@ -39,8 +39,8 @@ class Cone final : public Shape {
         }
         return nearest;
     }
-    [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
-        return glm::distance(ends_.centre(), origin) + std::hypot(std::max(low_, high_), ends_.half());
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return glm::distance(ends_.centre(), from) + std::hypot(std::max(low_, high_), ends_.half());
     }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         const glm::dvec2 side(high_ - low_, 2 * ends_.half());

@@ -29,8 +29,8 @@ class Cylinder final : public Shape {
         return std::max(beyondSide, beyondEnd) > 0 ? std::hypot(std::max(beyondSide, 0.0), std::max(beyondEnd, 0.0))
                                                    : std::max(beyondSide, beyondEnd);
     }
-    [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
-        return glm::distance(centre(), origin) + std::hypot(radius_, halfLength());
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return glm::distance(centre(), from) + std::hypot(radius_, halfLength());
     }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         return {.a = glm::vec4(glm::dvec4(centre() - origin, hollow_ ? -radius_ : radius_)),

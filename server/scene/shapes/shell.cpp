@@ -33,8 +33,8 @@ class Shell final : public Shape {
         const glm::dvec2 line = glm::dvec2(high_, half()) - from;
         return glm::distance(p, from + std::clamp(glm::dot(p - from, line) / glm::dot(line, line), 0.0, 1.0) * line);
     }
-    [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
-        return glm::distance(along_.centre(), origin) + std::hypot(std::max(low_, high_), half());
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return glm::distance(along_.centre(), from) + std::hypot(std::max(low_, high_), half());
     }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         const glm::dvec2 line(high_ - low_, 2 * half());

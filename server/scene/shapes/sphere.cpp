@@ -19,8 +19,8 @@ class SphereShape final : public Shape {
         const double outside = glm::distance(point, centre_) - radius_;
         return hollow_ ? -outside : outside;
     }
-    [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
-        return glm::distance(centre_, origin) + radius_;
+    [[nodiscard]] double farthest(const glm::dvec3& from) const override {
+        return glm::distance(centre_, from) + radius_;
     }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         return {.a = glm::vec4(glm::dvec4(centre_ - origin, hollow_ ? -radius_ : radius_)), .b = glm::vec4(0)};

@@ -24,6 +24,11 @@ void addTurnedBox(scene::Scene& scene) {
     scene.obstacles.back().shape = scene::placedShape(scene.obstacles.back().shape, {}, {});
 }
 
+void addMovingBox(scene::Scene& scene) {
+    addTurnedBox(scene);
+    scene.obstacles.back().motion = scene::Motion{.spin = {0, 0, 1}};
+}
+
 void declareObstacles(PlanBuilder& plan) {
     plan.arrays({Array::ContactParams, Array::Obstacles, Array::ObstacleLists});
     if (!plan.has(Feature::Contacts)) return;
@@ -61,10 +66,28 @@ const Module moduleFrames{
     .required =
         [](const scene::Scene& scene, const Features& /*others*/) {
             return std::ranges::any_of(scene.obstacles, [](const scene::Obstacle& obstacle) {
-                return obstacle.shape->row(glm::dvec3(0)).frame.has_value();
+                return obstacle.motion || obstacle.shape->row(glm::dvec3(0)).frame.has_value();
             });
         },
     .cost = {.name = "frames of obstacles", .without = addBelow<scene::ShapeKind::Boxes>, .with = addTurnedBox},
+};
+
+// An obstacle moves. The host uploads its place in each substep, from which the kernels know the motion of its surface.
+const Module moduleMotion{
+    .feature = Feature::Motion,
+    .required = [](const scene::Scene& scene, const Features& /*others*/) { return scene::anyMoves(scene.obstacles); },
+    .declare =
+        [](PlanBuilder& plan) {
+            if (plan.has(Feature::Sleep)) plan.overSpheres(Stage::Activity, Pass::Sleep, "wake_by_obstacles.comp");
+        },
+    .upload =
+        [](const ParameterSource& from, layout::Parameters& p) {
+            double fastest = 0;
+            for (const scene::Obstacle& obstacle : from.scene.obstacles)
+                fastest = std::max(fastest, obstacle.largestSpeed(from.scene.bounds));
+            p.obstaclePath = static_cast<float>(fastest * from.substep);
+        },
+    .cost = {.name = "a moving obstacle", .without = addTurnedBox, .with = addMovingBox},
 };
 
 // One module for each shape. Only its function in the kernels depends on it.

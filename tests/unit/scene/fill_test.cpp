@@ -56,7 +56,7 @@ TEST(SceneFill, AvoidsEarlierGroupsAndObstacles) {
     EXPECT_EQ(scene.spheres.size(), 501U);
     EXPECT_EQ(overlapsIn(scene), 0U);
     for (const Sphere& s : scene.spheres) {
-        EXPECT_FALSE(obstacleAt(scene.obstacles, s.position, static_cast<double>(s.radius)));
+        EXPECT_FALSE(obstacleAt(scene, s.position, static_cast<double>(s.radius)));
     }
 }
 
