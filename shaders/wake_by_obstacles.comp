@@ -44,6 +44,7 @@ KERNEL(params.spheres) {
     spherePoint = vec3(x);
     sphereRadius = radiusOf(x);
     disturbed = false;
+    setSurfaceAtRest();
     uint near = obstaclesNear(invocation, wakeGap());
     if (near == NO_OBSTACLES) return;
     visitObstacles(near);

@@ -88,9 +88,9 @@ struct Obstacle {
 };
 
 // Behind the rows of the obstacles, `obstacles` has a row for the motion of each obstacle that may move. In these rows, a
-// is the pivot (m), b its displacement in this substep (m), frameX the rotation in this substep: its axis, of the length
-// of the tangent of half its angle. frameY is the velocity of the belt (m/s). (They are no struct of their own, because
-// finish_substep.comp binds as many buffers as a kernel may.) In `balanced`, frames and pivots are as they are at the
+// is the pivot (m), and b its displacement in this substep (m). frameX is the rotation in this substep: its axis, of the
+// length of the tangent of half its angle. frameY is the velocity of the belt (m/s). (They are no struct of their own,
+// because finish_substep.comp binds as many buffers as a kernel may.) In `balanced`, frames and pivots are as they are at the
 // beginning of a substep, in the other models as at its end.
 
 // The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the

@@ -6,8 +6,8 @@
 // while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its
 // members, and glslang would need minutes.) Surfaces are numbered through faces and obstacles in the order of the scene.
 //
-// It also defines `bool looksAhead()`, which returns true for a solver that finds the moment of an impact, and
-// `real3 velocityAlong()`, the velocity with which the sphere meets curved surfaces then (m/s), otherwise 0.
+// It also defines `bool looksAhead()`, which returns true in a solver that finds the moment of an impact. There
+// `real3 velocityAlong()` is the velocity with which the sphere meets curved surfaces (m/s), elsewhere it is 0.
 //
 // It binds `obstacles`, `obstacleLists`, `nearObstacles`, `listReference` and `counters`, and has included
 // shared/shapes.h and shared/moving.h, whose variables describe the motion of the visited surface.

@@ -26,7 +26,7 @@ class BoxShape final : public Shape {
     [[nodiscard]] double farthest(const glm::dvec3& from) const override {
         return glm::length(glm::max(glm::abs(box_.min - from), glm::abs(box_.max - from)));
     }
-    // Kernels compare coordinates of spheres with those of its faces.
+    // Kernels compare the coordinates of spheres with the faces.
     [[nodiscard]] double largestCoordinate(const glm::dvec3& /*origin*/) const override { return 0; }
     [[nodiscard]] Row row(const glm::dvec3& origin) const override {
         return {.a = glm::vec4(glm::dvec4(box_.min - origin, hollow_ ? -1 : 0)),
