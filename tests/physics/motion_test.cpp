@@ -317,9 +317,8 @@ TEST_P(Motion, SphereRestsInABoxThatMoves) {
 
 // A blade that turns at up to 30 m/s throws the spheres in its way forward: none passes through it.
 TEST_P(Motion, NoSpherePassesAFastBlade) {
-    if (soft()) GTEST_SKIP() << "its substeps are many";
     scene::Scene scene = fineStepSpace(8);
-    scene.quality = {.model = GetParam(), .substeps = 1};
+    scene.quality = {.model = GetParam(), .substeps = soft() ? 300U : 1U};
     setRestitution(scene, 0.5);
     // Two blades through the axis, as long as the spheres are far from it; a sphere stays in its quarter.
     constexpr double spin = 10;  // rad/s
@@ -329,7 +328,7 @@ TEST_P(Motion, NoSpherePassesAFastBlade) {
              .colour = "",
              .motion = scene::Motion{.spin = {0, 0, spin}}});
     scene::Random random(55);
-    while (scene.spheres.size() < 200) {
+    while (scene.spheres.size() < (soft() ? 40 : 200)) {
         const glm::dvec3 x(random.uniform(-2.5, 2.5), random.uniform(-2.5, 2.5), random.uniform(-0.8, 0.8));
         if (std::min(std::abs(x.x), std::abs(x.y)) > 0.12) addSphere(scene, x, 0.03);
     }
@@ -380,7 +379,9 @@ TEST(MotionOfBeds, AcceleratedBoxHoldsABed) {
         }
         const auto simulation = simulate(scene);
         run(*simulation, 1);
-        if (!accelerated) ASSERT_TRUE(simulation->apply(sim::Set{.gravity = glm::dvec3(0, 0, -6 * earth)}));
+        if (!accelerated) {
+            ASSERT_TRUE(simulation->apply(sim::Set{.gravity = glm::dvec3(0, 0, -6 * earth)}));
+        }
         run(*simulation, 0.2);
         double sum = 0;
         for (int k = 0; k < 10; ++k) {
