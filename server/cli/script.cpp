@@ -64,7 +64,12 @@ Result<sim::Command> commandOf(const std::string& where, const v1::Command& mess
         if (!remove) return wrong(where, name, remove.error());
         return *remove;
     }
-    return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn, remove and push", name));
+    if (message.has_add_obstacle()) return host::changeOf(message.add_obstacle());
+    if (message.has_move_obstacle()) return host::changeOf(message.move_obstacle());
+    if (message.has_remove_obstacle()) return host::changeOf(message.remove_obstacle());
+    return wrong(where, fmt::format("'{}' has no place in a script; it takes set, spawn, remove, push and changes of "
+                                    "obstacles",
+                                    name));
 }
 
 Result<void> checkId(const std::string& where, std::string_view does, std::uint64_t id, const scene::Scene& scene) {

@@ -33,6 +33,8 @@ constexpr std::string_view ownForms =
     "  set auto MSms | set auto PERCENT% | set auto off   adapt substeps to a time per step or a mean overlap\n"
     "  spawn JSON                                 adds a group of spheres\n"
     "  remove SPHERE ... | remove region XMIN YMIN ZMIN XMAX YMAX ZMAX\n"
+    "  add_obstacle JSON                          adds an obstacle; its motion begins now\n"
+    "  move_obstacle N [X Y Z | JSON]             moves it at once by X Y Z (m), or as the JSON says; ends its motion\n"
     "  push SPHERE JX JY JZ                       applies an impulse (N s)\n"
     "  push ray OX OY OZ DX DY DZ JX JY JZ        to the first sphere that the ray hits\n"
     "  record | record stop\n";
@@ -190,6 +192,32 @@ Result<void> spawn(Words words, v1::Command& command) {
     return {};
 }
 
+Result<void> addObstacle(Words words, v1::Command& command) {
+    if (auto right = wantWords(words, 1, "add_obstacle"); !right) return right;
+    auto obstacle = fromJson<v1::Obstacle>(words[0], "add_obstacle", "an obstacle");
+    if (!obstacle) return tl::unexpected(obstacle.error());
+    *command.mutable_add_obstacle()->mutable_obstacle() = std::move(*obstacle);
+    return {};
+}
+
+// The number of the obstacle, then either x y z, or the move as JSON. Without either, the obstacle stops.
+Result<void> moveObstacle(Words words, v1::Command& command) {
+    if (words.empty()) return refuse("'move_obstacle' needs the number of an obstacle");
+    const auto obstacle = number<std::uint32_t>(words[0]);
+    if (!obstacle) return tl::unexpected(obstacle.error());
+    v1::MoveObstacle& move = *command.mutable_move_obstacle();
+    if (words.size() == 2) {
+        auto read = fromJson<v1::MoveObstacle>(words[1], "move_obstacle", "a move");
+        if (!read) return tl::unexpected(read.error());
+        move = std::move(*read);
+    } else if (words.size() > 1) {
+        if (auto right = wantWords(words, 4, "move_obstacle"); !right) return right;
+        if (auto read = numbers(words.subspan(1), move.mutable_by()); !read) return read;
+    }
+    move.set_obstacle(*obstacle);
+    return {};
+}
+
 Result<void> remove(Words words, v1::Command& command) {
     v1::Remove& remove = *command.mutable_remove();
     if (!words.empty() && words[0] == "region") {
@@ -257,9 +285,16 @@ using Parse = Result<void> (*)(Words, v1::Command&);
 
 // The parsers of the commands with forms of their own.
 const std::map<std::string_view, Parse>& parsers() {
-    static const std::map<std::string_view, Parse> table = {{"query", query}, {"step", step},    {"load", load},
-                                                            {"set", set},     {"spawn", spawn},  {"remove", remove},
-                                                            {"push", push},   {"record", record}};
+    static const std::map<std::string_view, Parse> table = {{"query", query},
+                                                            {"step", step},
+                                                            {"load", load},
+                                                            {"set", set},
+                                                            {"spawn", spawn},
+                                                            {"remove", remove},
+                                                            {"push", push},
+                                                            {"record", record},
+                                                            {"add_obstacle", addObstacle},
+                                                            {"move_obstacle", moveObstacle}};
     return table;
 }
 

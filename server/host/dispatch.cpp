@@ -71,6 +71,12 @@ Outcome dispatch(const Request& request, SimulationHost& host, ProducerCommands&
             return host.change(spawnOf(command.spawn()));
         case v1::Command::kRemove:
             return remove(command.remove(), host);
+        case v1::Command::kAddObstacle:
+            return host.change(changeOf(command.add_obstacle()));
+        case v1::Command::kMoveObstacle:
+            return host.change(changeOf(command.move_obstacle()));
+        case v1::Command::kRemoveObstacle:
+            return host.change(changeOf(command.remove_obstacle()));
         case v1::Command::kPush:
             return push(command.push(), host);
         case v1::Command::kPull:

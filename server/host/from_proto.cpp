@@ -8,6 +8,7 @@
 
 #include "scene/check.h"
 #include "scene/group.h"
+#include "scene/obstacle_changes.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
 
@@ -67,6 +68,27 @@ Result<sim::Remove> removeOf(const v1::Remove& message) {
     if (remove.spheres.empty() && !remove.region)
         return fail(ErrorKind::Refused, "spheres", "are missing: give ids of spheres, or a region");
     return remove;
+}
+
+sim::ChangeObstacle changeOf(const v1::AddObstacle& message) {
+    return {.make = [message = message.obstacle()](const scene::Scene& scene) {
+        return scene::obstacleToAdd(message, scene).map([](scene::Obstacle made) {
+            return std::optional(std::move(made));
+        });
+    }};
+}
+
+sim::ChangeObstacle changeOf(const v1::MoveObstacle& message) {
+    return {.obstacle = message.obstacle(), .make = [message](const scene::Scene& scene) {
+                return scene::movedObstacle(message, scene).map([](scene::Obstacle made) {
+                    return std::optional(std::move(made));
+                });
+            }};
+}
+
+sim::ChangeObstacle changeOf(const v1::RemoveObstacle& message) {
+    return {.obstacle = message.obstacle(),
+            .make = [](const scene::Scene&) -> Result<std::optional<scene::Obstacle>> { return std::nullopt; }};
 }
 
 Result<sim::Push> pushOf(const v1::Push& message) {

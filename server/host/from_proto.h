@@ -18,6 +18,9 @@ namespace spherule::host {
 Result<sim::Set> setOf(const v1::Set& message);  // without the speed
 sim::Spawn spawnOf(const v1::Spawn& message);
 Result<sim::Remove> removeOf(const v1::Remove& message);
+sim::ChangeObstacle changeOf(const v1::AddObstacle& message);
+sim::ChangeObstacle changeOf(const v1::MoveObstacle& message);
+sim::ChangeObstacle changeOf(const v1::RemoveObstacle& message);
 Result<sim::Push> pushOf(const v1::Push& message);
 Result<sim::Pull> pullOf(const v1::Pull& message, std::uint64_t session);
 

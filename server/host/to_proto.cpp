@@ -268,6 +268,7 @@ v1::Applied appliedMessage(const sim::Applied& applied) {
     message.set_step(applied.step);
     if (applied.sphere) message.set_sphere(*applied.sphere);
     if (applied.removed) message.set_removed(*applied.removed);
+    if (applied.obstacle) message.set_obstacle(*applied.obstacle);
     if (applied.force) scene::setVector(*message.mutable_force(), *applied.force);
     if (applied.statistics) *message.mutable_statistics() = statisticsMessage(*applied.statistics);
     if (applied.inspected) *message.mutable_inspected() = inspectedMessage(*applied.inspected);
@@ -318,6 +319,8 @@ v1::Event eventOf(const v1::Command& command, const sim::Applied& applied, std::
         told.mutable_spawn()->mutable_group()->set_name(command.spawn().group().name());
     else if (command.has_remove())
         told.mutable_remove();
+    else if (command.has_add_obstacle())
+        told.mutable_add_obstacle();
     else if (command.has_load())
         told.mutable_load()->set_name(
             utf8(command.load().has_scene() ? command.load().scene().name() : command.load().name()));

@@ -53,8 +53,8 @@ struct Forces {
     [[nodiscard]] double lowestFieldPotential(const Function& nearestTo) const;
 };
 
-// Returns the largest acceleration (m/s^2) by gravity and fields at the places where spheres begin, and by obstacles that
-// carry spheres. It is at least gravity alone. In large scenes, 5,000 to 10,000 spheres are asked.
+// Returns the largest acceleration (m/s^2) by gravity and fields at the places where spheres begin, and by obstacles
+// that carry spheres. It is at least gravity alone. In large scenes, 5,000 to 10,000 spheres are asked.
 double strongestAcceleration(const Scene& scene);
 
 inline double potentialOf(const Attraction& attraction, double distance) {

@@ -1,5 +1,7 @@
 #include "scene/frame.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -7,6 +9,13 @@
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
+
+Rotation Rotation::of(const glm::dquat& turn) {
+    const glm::dvec3 axis(turn.x, turn.y, turn.z);
+    const double sine = glm::length(axis);
+    if (!(sine > 0)) return {};
+    return {.axis = axis / sine, .degrees = glm::degrees(2 * std::atan2(sine, turn.w))};
+}
 
 glm::dquat Rotation::quaternion() const {
     return glm::angleAxis(glm::radians(degrees), glm::normalize(axis));

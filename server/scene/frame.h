@@ -31,6 +31,7 @@ struct Rotation {
     glm::dvec3 axis{0, 0, 1};  // of any length but zero
     double degrees = 0;        // -360 to 360
 
+    static Rotation of(const glm::dquat& turn);
     [[nodiscard]] glm::dquat quaternion() const;
 };
 Rotation readRotation(Check& check, const v1::Rotation& message, const std::string& field);

@@ -186,9 +186,10 @@ Result<void> checkObstacleSpeeds(const Scene& scene) {
         if (speed <= most || !(most > 0)) continue;
         return fail(
             ErrorKind::Input, at(at("obstacles", k), "motion"),
-            fmt::format("moves its surface at up to {:.6g} m/s, the fastest that this scene can compute with its "
-                        "smallest radius of {:g} m is {:.6g} m/s; make it slower, or shorten the step",
-                        speed, smallestRadius(scene), most),
+            fmt::format(
+                "moves its surface at up to {:.6g} m/s; with a smallest radius of {:g} m, the scene can compute "
+                "{:.6g} m/s: make it slower, or shorten the step",
+                speed, smallestRadius(scene), most),
             Cause::Range, {.least = 0, .most = most});
     }
     return {};

@@ -57,6 +57,8 @@ class Placed final : public Shape {
         row.frame = row.frame ? placed * *row.frame : placed;
         return row;
     }
+    [[nodiscard]] const ShapePointer& shape() const { return shape_; }
+    [[nodiscard]] const Frame& frame() const { return frame_; }
     void write(v1::Obstacle& message) const override {
         shape_->write(message);
         writeRotation(*message.mutable_rotation(), rotation_);
@@ -97,6 +99,18 @@ ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::str
 
 ShapePointer placedShape(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation) {
     return std::make_shared<Placed>(std::move(shape), rotation, translation);
+}
+
+ShapePointer movedShape(const ShapePointer& shape, const Frame& by) {
+    const auto* const placed = dynamic_cast<const Placed*>(shape.get());
+    const Frame frame = placed != nullptr ? by * placed->frame() : by;
+    const glm::dquat turn = glm::normalize(glm::quat_cast(frame.turn));
+    return placedShape(placed != nullptr ? placed->shape() : shape, Rotation::of(turn), frame.origin);
+}
+
+glm::dvec3 originOf(const Shape& shape) {
+    const auto* const placed = dynamic_cast<const Placed*>(&shape);
+    return placed != nullptr ? placed->frame().origin : glm::dvec3(0);
 }
 
 double Ends::half() const {

@@ -98,6 +98,11 @@ ShapePointer openCylinder(const Ends& ends, double radius);
 // A shape in a frame of its own.
 ShapePointer placedShape(ShapePointer shape, const Rotation& rotation, const glm::dvec3& translation);
 
+// Returns the shape turned and moved as a whole.
+ShapePointer movedShape(const ShapePointer& shape, const Frame& by);
+// Returns where the origin of the shape's coordinates is (m).
+glm::dvec3 originOf(const Shape& shape);
+
 // How one kind of shape is read and made. Defined in its file in scene/shapes/.
 struct ShapeType {
     int field = 0;  // v1::Obstacle::ShapeCase

@@ -13,24 +13,6 @@
 
 namespace spherule::scene {
 
-namespace {
-
-Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
-                      const std::string& field) {
-    Obstacle obstacle;
-    obstacle.shape = readShape(check, message, field);
-    obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
-    obstacle.colour = check.colour(message.colour(), at(field, "colour"));
-    if (message.has_motion() && check.ok()) {
-        // A shape is turned and moved about the origin of its coordinates.
-        const glm::dvec3 origin = check.vectorOr(message.translation(), {}, at(field, "translation"));
-        obstacle.motion = readMotion(check, message.motion(), origin, at(field, "motion"));
-    }
-    return obstacle;
-}
-
-}  // namespace
-
 Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
                   std::string_view field) {
     Bounds bounds;
@@ -50,6 +32,20 @@ Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Mat
     readPeriodicAxes(check, message, field, bounds);
     bounds.material = materialNamed(check, message.material(), materials, at(field, "material"));
     return bounds;
+}
+
+Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
+                      const std::string& field) {
+    Obstacle obstacle;
+    obstacle.shape = readShape(check, message, field);
+    obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
+    obstacle.colour = check.colour(message.colour(), at(field, "colour"));
+    if (message.has_motion() && check.ok()) {
+        // A shape is turned and moved about the origin of its coordinates.
+        const glm::dvec3 origin = check.vectorOr(message.translation(), {}, at(field, "translation"));
+        obstacle.motion = readMotion(check, message.motion(), origin, at(field, "motion"));
+    }
+    return obstacle;
 }
 
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,

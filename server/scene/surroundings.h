@@ -12,6 +12,8 @@ namespace spherule::scene {
 
 Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
                   std::string_view field);
+Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
+                      const std::string& field);
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
                                     const std::vector<Material>& materials);
 

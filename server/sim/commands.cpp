@@ -135,6 +135,7 @@ class Simulation::CommandHandler {
     Result<Outcome> operator()(const Reset& reset);
     Result<Outcome> operator()(const Spawn& spawn);
     Result<Outcome> operator()(const Remove& remove);
+    Result<Outcome> operator()(const ChangeObstacle& change) { return simulation_.changeObstacle(change); }
     Result<Outcome> operator()(const Push& push);
     Result<Outcome> operator()(const Pull& pull);
     Result<Outcome> operator()(const Release& release);
@@ -191,7 +192,6 @@ Result<Simulation::Outcome> Simulation::change(scene::Scene changed, bool distur
         maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
         writeConstants(*pipeline_, scene_);
         useSubsteps(scene_.quality.substeps);
-        placeObstacles(time());
         openContactSums();
         // A change of the substeps alone wakes no sphere.
         if (disturbs) pipeline_->wakeAll();

@@ -50,6 +50,13 @@ struct Ray {
     glm::dvec3 direction{};  // any length but zero
 };
 
+// Adds, moves or removes an obstacle.
+struct ChangeObstacle {
+    std::optional<std::uint32_t> obstacle{};  // its number; nullopt: a new one, behind the others
+    // Returns the obstacle from now on; nullopt: it is removed. `scene`: the present scene, at its time.
+    std::function<Result<std::optional<scene::Obstacle>>(const scene::Scene& scene)> make{};
+};
+
 // Gives an impulse to a sphere.
 struct Push {
     std::variant<std::uint64_t, Ray> target{};  // the id of the sphere, or a ray: the first sphere that it meets
@@ -69,16 +76,17 @@ struct Release {
     std::uint64_t session = 0;
 };
 
-using Command = std::variant<Set, Reset, Spawn, Remove, Push, Pull, Release>;
+using Command = std::variant<Set, Reset, Spawn, Remove, ChangeObstacle, Push, Pull, Release>;
 
 // The result of a command.
 struct Applied {
-    std::uint64_t step = 0;                  // the command holds from this step on
-    std::optional<std::uint64_t> sphere{};   // the sphere that a push hit
-    std::optional<std::uint32_t> removed{};  // spheres that a Remove removed
-    std::optional<Statistics> statistics{};  // of a query
-    std::optional<Inspection> inspected{};   // of an inspection
-    std::optional<glm::dvec3> force{};       // of the spring of a Pull (N)
+    std::uint64_t step = 0;                   // the command holds from this step on
+    std::optional<std::uint64_t> sphere{};    // the sphere that a push hit
+    std::optional<std::uint32_t> removed{};   // spheres that a Remove removed
+    std::optional<std::uint32_t> obstacle{};  // number of the obstacle of a ChangeObstacle
+    std::optional<Statistics> statistics{};   // of a query
+    std::optional<Inspection> inspected{};    // of an inspection
+    std::optional<glm::dvec3> force{};        // of the spring of a Pull (N)
 };
 
 // Returns the scene with the settings, and with the substeps that they require. Refused if a setting is out of range;

@@ -76,8 +76,9 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
         case Extent::LaunchRow:
             return LAUNCH_ROWS;
         case Extent::Obstacle:
-            return scene.obstacles.size() + static_cast<std::uint64_t>(std::ranges::count_if(
-                                                scene.obstacles, [](const auto& one) { return one.motion.has_value(); }));
+            return scene.obstacles.size() +
+                   static_cast<std::uint64_t>(
+                       std::ranges::count_if(scene.obstacles, [](const auto& one) { return one.motion.has_value(); }));
         case Extent::ObstacleListWord:
             return obstacleListWords(scene.obstacles.size(), plan.features.has(Feature::Contacts) ? n : 0);
         case Extent::MaterialPair:
@@ -191,13 +192,15 @@ std::uint64_t Plan::bytes() const {
                            [](std::uint64_t sum, const ArraySpec& spec) { return sum + spec.bytes; });
 }
 
-Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
-             std::uint32_t pairCapacity) {
+namespace {
+
+Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t spheres, std::uint32_t room,
+              const RadiusStats& radii, std::uint32_t pairCapacity) {
     Plan plan;
     plan.features = features;
     plan.model = scene.quality.model;
     plan.spheres = spheres;
-    plan.room = roomFor(spheres);
+    plan.room = room;
     plan.periods = scene.bounds.periods();
     if (features.has(Feature::Contacts)) {
         plan.grid = gridFor(scene.bounds, radii, marginInRadii(features));
@@ -224,6 +227,17 @@ Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t 
     builder.finish();
     addRequests(plan);
     return plan;
+}
+
+}  // namespace
+
+Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
+             std::uint32_t pairCapacity) {
+    return planWith(scene, features, spheres, roomFor(spheres), radii, pairCapacity);
+}
+
+Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii) {
+    return planWith(scene, features, other.spheres, other.room, radii, other.pairCapacity);
 }
 
 }  // namespace spherule::sim

@@ -96,6 +96,9 @@ constexpr std::uint32_t blocksOf(std::uint32_t values, std::uint32_t block) {
 Plan planFor(const scene::Scene& scene, const Features& features, std::uint32_t spheres, const RadiusStats& radii,
              std::uint32_t pairCapacity = 0);
 
+// Returns a plan for a scene with the same spheres as another plan, whose arrays it can take over.
+Plan planAsOf(const Plan& other, const scene::Scene& scene, const Features& features, const RadiusStats& radii);
+
 // A part of the memory of a scene, with its name for users.
 struct MemoryPart {
     std::string_view name;

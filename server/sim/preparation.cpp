@@ -46,6 +46,14 @@ Preparation::Preparation(compute::Device& device, Build build, memory::Claim cop
     addsTo_ = &addsTo;
 }
 
+Preparation::Preparation(scene::Scene changed, memory::Claim copies, Simulation& continues, ObstacleEdit edit)
+    : device_(continues.device_),
+      copies_(std::move(copies)),
+      stage_(Stage::Planning),
+      built_{std::move(changed), {}},
+      continues_(&continues),
+      edit_(std::move(edit)) {}
+
 Preparation::~Preparation() {
     progress_.cancel();
 }
@@ -108,8 +116,9 @@ Result<void> Preparation::makePlan() {
         stage_ = Stage::Done;
         return {};
     }
-    radii_ = radiusStatsOf(built_.scene);
-    Plan plan = planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
+    radii_ = continues_ != nullptr ? continues_->radii_ : radiusStatsOf(built_.scene);
+    Plan plan = continues_ != nullptr ? planAsOf(continues_->plan(), built_.scene, featuresOf(built_.scene), radii_)
+                                      : planFor(built_.scene, featuresOf(built_.scene), built_.state.count(), radii_);
     if (plan.features.has(Feature::Contacts))
         if (auto fits = checkPeriods(built_.scene.bounds, plan.grid); !fits) return fits;
     auto claim = claimFor(device_, plan);
@@ -136,6 +145,10 @@ Result<void> Preparation::makeNext() {
 
 void Preparation::upload() {
     progress_.at("uploading", 0);
+    if (continues_ != nullptr) {
+        stage_ = Stage::Done;  // continueWith() copies the arrays
+        return;
+    }
     for (glm::vec4& velocity : built_.state.velocity) velocity.w = std::abs(velocity.w);
     pipeline_->upload(built_.state, materialsOf(built_.scene));
     writeConstants(*pipeline_, built_.scene);

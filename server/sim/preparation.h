@@ -44,6 +44,14 @@ class Preparation {
     Preparation(compute::Device& device, Build build, memory::Claim copies = {});
     // The same, to add spheres to a simulation. If its arrays and kernels suit them, only the arrays grow.
     Preparation(compute::Device& device, Build build, memory::Claim copies, Simulation& addsTo);
+    // A change of an obstacle.
+    struct ObstacleEdit {
+        std::uint32_t number = 0;
+        std::vector<scene::Obstacle> places{};                 // the obstacle before and after, as far as it exists
+        std::vector<std::optional<std::uint32_t>> surfaces{};  // the new number of each surface; nullopt: it is gone
+    };
+    // To go on with other obstacles: the spheres of the simulation stay as they are.
+    Preparation(scene::Scene changed, memory::Claim copies, Simulation& continues, ObstacleEdit edit);
     // Cancels `build` and waits for its thread.
     ~Preparation();
     Preparation(const Preparation&) = delete;
@@ -96,7 +104,9 @@ class Preparation {
     RadiusStats radii_;
     std::unique_ptr<Pipeline> pipeline_;
     Simulation* addsTo_ = nullptr;
-    bool appends_ = false;   // the simulation takes the new spheres as they are
+    bool appends_ = false;  // the simulation takes the new spheres as they are
+    Simulation* continues_ = nullptr;
+    ObstacleEdit edit_;
     double maxOverlap_ = 0;  // largest overlap allowed, as a fraction of the smaller radius
     std::unique_ptr<InitialOverlapResolver> resolver_;
     std::optional<ResolvedOverlaps> resolvedOverlaps_;

@@ -23,35 +23,7 @@ namespace {
 // Limit of the room for pairs. Spheres in a heap exceed it only if they are deep in each other.
 constexpr std::uint64_t maxPairsPerSphere = 128;
 
-static_assert(scene::safeMotion == static_cast<double>(SAFE_MOTION));
-
 constexpr double saveInterval = 1;  // s simulated
-
-// Returns how far `place` is outside an open face (m); 0 if it is inside. `place` is relative to the bounds' centre.
-double beyond(const scene::Bounds& bounds, glm::dvec3 place) {
-    const glm::dvec3 half = 0.5 * (bounds.max - bounds.min);
-    double farthest = 0;
-    for (unsigned face = 0; face < 6; ++face) {
-        const int axis = static_cast<int>(face / 2);
-        if (bounds.open[face]) farthest = std::max(farthest, (face % 2 == 0 ? -1 : 1) * place[axis] - half[axis]);
-    }
-    return farthest;
-}
-
-// Returns the largest motion of a sphere in `h` seconds, in radii. A sphere outside the bounds counts only if it may be
-// back within two steps; the device detects the others.
-double largestMotion(const scene::Scene& scene, const State& state, double h) {
-    double farthest = 0;
-    for (std::uint32_t id = 0; id < state.count(); ++id) {
-        const double speed = glm::length(glm::dvec3(state.velocity[id]));
-        const glm::dvec3 place = scene.bounds.centre() + positionOf(state, id);
-        const double acceleration = glm::length(scene.forces.accelerationAt(place));
-        const double lookAhead = 2 * scene.step * (speed + 2 * scene.step * acceleration);
-        if (beyond(scene.bounds, positionOf(state, id)) > lookAhead + radiusOf(state, id)) continue;
-        farthest = std::max(farthest, speed * h / static_cast<double>(state.position[id].w));
-    }
-    return farthest;
-}
 
 }  // namespace
 
@@ -117,7 +89,6 @@ void Simulation::install(Preparation& preparation) {
     obstacleRows_.emplace(scene_);
     useSubsteps(scene_.quality.substeps);
     limitMotionOf(preparation.built_.state);
-    placeObstacles(time());
     openContactSums();
     saveLastFinite();
 }
@@ -138,6 +109,10 @@ Applied Simulation::adopt(std::unique_ptr<Preparation> preparation) {
     if (preparation->appends_) {
         append(*preparation);
         return {.step = steps_};
+    }
+    if (preparation->continues_ != nullptr) {
+        continueWith(*preparation);
+        return {.step = steps_, .obstacle = preparation->edit_.number};
     }
     const std::uint32_t spheres = preparation->built_.state.count();
     bool newHandles = false;
@@ -170,6 +145,7 @@ void Simulation::uploadParameters() {
     parameters.perImpulseUnit = static_cast<float>(1 / loadUnits_.impulse);
     parameters.perMomentUnit = static_cast<float>(1 / loadUnits_.moment);
     pipeline_->setParameters(parameters);
+    placeObstacles(time());
     keepPulls();
 }
 
@@ -225,30 +201,6 @@ Result<bool> Simulation::advance() {
     if (std::exchange(remainderBegin_, 0) > 0) uploadParameters();
     if (auto done = checkStep(); !done) return tl::unexpected(done.error());
     return true;
-}
-
-// Returns the substep that is next, in s simulated.
-SubstepTimes Simulation::nextSubstep() const {
-    const double begin = time();
-    const double length =
-        substepsLeft_ > 0 ? (1 - remainderBegin_) * scene_.step / remainderSubsteps_ : scene_.step / substeps_;
-    return {begin, begin + length};
-}
-
-// Uploads where obstacles that move are at a time, and their motion in the next substep.
-void Simulation::placeObstacles(double framesAt) {
-    if (!obstacleRows_->anyMoves()) return;
-    obstacleRows_->place(scene_, nextSubstep(), framesAt);
-    obstacleRows_->upload(*pipeline_);
-}
-
-// Returns the largest motion of an obstacle in a substep of the next step, in radii of the smallest sphere.
-double Simulation::motionOfObstacles() const {
-    double fastest = 0;
-    for (const scene::Obstacle& obstacle : scene_.obstacles)
-        if (obstacle.motion && obstacle.motion->runsBetween(time(), time() + scene_.step))
-            fastest = std::max(fastest, obstacle.largestSpeed(scene_.bounds));
-    return fastest > 0 ? fastest * scene_.step / substeps_ / radii_.smallest : 0;
 }
 
 Statistics Simulation::statistics() {
@@ -340,43 +292,6 @@ void Simulation::rollback() {
     const double elasticBefore = elasticBefore_;
     openContactSums();
     contactSums_.dissipated -= elasticBefore_ - elasticBefore;
-}
-
-// Raises the number of substeps if one of these spheres moves too far in a substep.
-void Simulation::limitMotionOf(const State& state) {
-    limitMotionPerSubstep(std::max(largestMotion(scene_, state, scene_.step / substeps_), motionOfObstacles()));
-}
-
-// Raises the number of substeps at once when the fastest sphere has moved too far in a substep, and gives notice only
-// if the most substeps are too few. Lowers it gradually when no sphere does. After each reduction that was too early,
-// waits longer before the next.
-void Simulation::limitMotionPerSubstep(double radiiPerSubstep) {
-    constexpr double reduction = 0.8;
-    constexpr std::uint32_t maxBackoff = 256;  // steps
-    const std::uint32_t requested = scene_.quality.substeps;
-    const double most = std::max(substeps_, maxSubsteps_);
-    std::uint32_t target = substeps_;
-    bool withinLimit = true;
-    ++quietSteps_;
-    if (radiiPerSubstep > static_cast<double>(SAFE_MOTION)) {
-        const double needed = std::ceil(substeps_ * radiiPerSubstep / static_cast<double>(SAFE_MOTION));
-        withinLimit = needed <= most;
-        target = static_cast<std::uint32_t>(std::min(needed, most));
-        if (quietSteps_ > 2 * maxBackoff) backoff_ = 0;
-        if (lowered_) backoff_ = std::clamp(2 * backoff_, 4U, maxBackoff);
-        lowered_ = false;
-        quietSteps_ = 0;
-    } else if (substeps_ > requested && quietSteps_ > backoff_) {
-        target = std::max(requested, static_cast<std::uint32_t>(reduction * substeps_));
-        lowered_ = true;
-    }
-    if (withinLimit && target == requested) tooFast_ = false;
-    if (!withinLimit && !std::exchange(tooFast_, true))
-        notices_.push_back(fmt::format(
-            "at step {}, a sphere moves {:.2g} radii in a substep: even with {} substeps per step in place of {}, "
-            "it may pass through what it should hit",
-            steps_, radiiPerSubstep, target, requested));
-    if (target != substeps_) useSubsteps(target);
 }
 
 // On failure, cell groups without room go on without lists, and no further attempt is made for this scene.

@@ -159,6 +159,10 @@ class Simulation {
     };
     [[nodiscard]] PullLimits pullLimits(double radius) const;
     [[nodiscard]] glm::dvec3 forceOf(const PullSpring& spring, std::uint32_t rank);
+    Result<Outcome> changeObstacle(const ChangeObstacle& change);
+    Result<void> checkWay(const scene::Obstacle& obstacle, const scene::Obstacle* before, const State& state) const;
+    void continueWith(Preparation& preparation);
+    void wakeAt(const std::vector<scene::Obstacle>& obstacles);
     [[nodiscard]] SubstepTimes nextSubstep() const;
     void placeObstacles(double framesAt);
     [[nodiscard]] double motionOfObstacles() const;

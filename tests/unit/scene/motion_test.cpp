@@ -169,7 +169,7 @@ TEST(SceneMotion, RefusesWhatCannotBe) {
     EXPECT_EQ(refusalOfMotion(R"("spin": [1, 0])"),
               "obstacles[0].motion.spin: has 2 numbers, must have three: x, y, z");
     EXPECT_NE(refusalOfMotion(R"("velocity": [1e6, 0, 0])")
-                  .find("moves its surface at up to 1e+06 m/s; with the smallest radius of 0.1 m, the scene can compute"),
+                  .find("moves its surface at up to 1e+06 m/s; with a smallest radius of 0.1 m, the scene can compute"),
               std::string::npos)
         << refusalOfMotion(R"("velocity": [1e6, 0, 0])");
     EXPECT_NE(refusalOfMotion(R"("velocity": [1e300, 0, 0])").find("obstacles[0].motion.velocity[0]: is 1e+300"),
