@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/result.h"
 #include "scene/scene.h"
 
 namespace spherule::v1 {

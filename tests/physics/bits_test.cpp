@@ -165,6 +165,23 @@ TEST_P(Bits, OfAMixtureAmongTurnedObstaclesAreTheSameOnAllDevices) {
     expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
 }
 
+// In a box that swings, above a roller, a paddle that begins later, and a belt on a plate that shakes.
+TEST_P(Bits, OfAMixtureAmongMovingObstaclesAreTheSameOnAllDevices) {
+    scene::Scene scene = mixture(GetParam());
+    scene.sleep.enabled = true;
+    for (
+        const char* const obstacle :
+        {R"("box": {"min": [-0.45, -0.45, -0.5], "max": [0.45, 0.45, 0.7], "hollow": true},
+             "motion": {"oscillations": [{"swing": [0.02, 0.05, 0], "amplitude": [0.01, 0, 0], "frequency": 3}]})",
+         R"("cylinder": {"from": [-0.3, -0.1, -0.3], "to": [0.2, 0.1, -0.2], "radius": 0.07}, "motion": {"spin": [9, 3, 2]})",
+         R"("box": {"min": [-0.2, -0.02, -0.05], "max": [0.2, 0.02, 0.05]}, "translation": [0.1, 0.1, 0],
+             "motion": {"spin": [0, 3, 3], "velocity": [0, 0, -0.1], "begin": 0.05})",
+         R"("capsule": {"from": [-0.3, 0.2, -0.3], "to": [0.3, 0.2, -0.3], "radius": 0.05},
+             "motion": {"belt": [0.5, 0.2, 0], "oscillations": [{"amplitude": [0, 0, 0.005], "frequency": 20}]})"})
+        scene.obstacles.push_back(obstacleFrom(std::string("{") + obstacle + "}"));
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
+}
+
 TEST_P(Bits, AcrossSeamsAreTheSameOnAllDevices) {
     for (const double ratio : {1.0, 10.0})
         expectTheSameBits(periodicMixture(GetParam(), ratio), GetParam() == scene::Model::Accurate ? 0.06 : 0.25);
