@@ -1,4 +1,5 @@
 import * as vec3 from "gl-matrix/esm/vec3.js";
+import type { Pose } from "../gen/spherule/v1/frame_pb";
 import type { Placement } from "./placement";
 import type { State } from "./states";
 
@@ -11,8 +12,12 @@ const [before, after]: [Vec3, Vec3] = [
   [0, 0, 0],
 ];
 
-function poseIn({ poses }: Posed, obstacle: number): typeof rest {
-  for (const pose of poses) if (pose.obstacle === obstacle) return pose;
+function poseIn({ poses }: Posed, obstacle: number): Pose | typeof rest {
+  // They are in the order of the obstacles.
+  for (let k = Math.min(obstacle, poses.length - 1); k >= 0; k--) {
+    const pose = poses[k] as Pose;
+    if (pose.obstacle <= obstacle) return pose.obstacle === obstacle ? pose : rest;
+  }
   return rest;
 }
 
