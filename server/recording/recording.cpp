@@ -34,7 +34,7 @@ bool areOf(const google::protobuf::RepeatedPtrField<v1::Pose>& poses, int obstac
     std::int64_t before = -1;
     const auto finite = [](double value) { return std::isfinite(value); };
     for (const v1::Pose& pose : poses) {
-        if (pose.obstacle() <= before || pose.obstacle() >= obstacles) return false;
+        if (pose.obstacle() <= before || std::int64_t{pose.obstacle()} >= obstacles) return false;
         if (pose.translation_size() != 3 || !std::ranges::all_of(pose.translation(), finite)) return false;
         const auto& turn = pose.rotation();
         constexpr double tolerance = 1e-6;
