@@ -44,7 +44,10 @@ const box = {
 const cylinder = {
   channel: 2,
   colour: "#1010e0",
-  shape: { case: "cylinder", value: { from: middle(0.1, 0.3, 0), to: middle(0.9, 0.3, 0), radius: 0.15 } },
+  shape: {
+    case: "cylinder",
+    value: { from: middle(0.1, 0.3, 0), to: middle(0.9, 0.3, 0), radius: 0.15, hollow: false, open: false },
+  },
   pivot: middle(0.5, 0.3, 0),
   axis: [0, 1, 0],
   distance(p) {
@@ -177,7 +180,10 @@ test("between two states, boxes, cylinders and planes that move are drawn betwee
     ],
   ];
   const obstacles = bodies.map(({ colour, shape, pivot }) => ({ colour, shape, translation: [], motion: { pivot } }));
-  const still = { shape: { case: "sphere", value: { centre: middle(0, 0.9, 0.9), radius: 0.05 } }, translation: [] };
+  const still = {
+    shape: { case: "sphere", value: { centre: middle(0, 0.9, 0.9), radius: 0.05, hollow: false } },
+    translation: [],
+  };
   const scene = {
     ...{ epoch: 1000, name: "", description: "", count: 1, radius: 0, obstacles: [still, ...obstacles] },
     ...{ boundsMin: middle(-1, -1, -1), boundsMax: middle(1, 1, 1), open: [], periodic: [] },
@@ -233,8 +239,24 @@ function sceneFile() {
   return file;
 }
 
-test("the page shows obstacles of a server where they are at the time of the image", async () => {
-  const server = await serve(sceneFile());
+/** Checks the picture at some times (s) of a recording. */
+async function checkPlayed(file, times) {
+  const server = await play(file, { options: ["--paused"] });
+  const page = await openSmall(server.url);
+  for (const time of times) {
+    await server.ctl("seek", String(time));
+    await when(page, (wanted) => Math.abs(spherule.session.newest.simTime - wanted) < 0.1, time);
+    await settled(page);
+    await check(page, [box, cylinder], placesAt(await page.evaluate(() => spherule.shown.time)));
+  }
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  await server.stop();
+}
+
+test("the page shows obstacles of a server where they are at the time of the image, and so does a recording", async () => {
+  const file = path.join(suite.folder, "live.sph");
+  const server = await serve(sceneFile(), { options: ["--record", file] });
   const page = await openSmall(server.url);
   for (let round = 0; round < 2; round++) {
     await when(page, (time) => spherule.session.newest.simTime > time, 1 + round);
@@ -248,20 +270,11 @@ test("the page shows obstacles of a server where they are at the time of the ima
   assert.deepEqual(page.faults, []);
   await page.close();
   await server.stop();
+  await checkPlayed(file, [2, 1]);
 });
 
-test("a recording shows obstacles where they were, also after a seek back", async () => {
-  const file = path.join(suite.folder, "moving.sph");
+test("a recorded run shows obstacles where they were, also after a seek back", async () => {
+  const file = path.join(suite.folder, "run.sph");
   await spherule("run", sceneFile(), "--for", "4s", "--record", file, "--device", "cpu");
-  const server = await play(file, { options: ["--paused"] });
-  const page = await openSmall(server.url);
-  for (const time of [3, 1]) {
-    await server.ctl("seek", `${time}s`);
-    await when(page, (wanted) => Math.abs(spherule.session.newest.simTime - wanted) < 0.1, time);
-    await settled(page);
-    await check(page, [box, cylinder], placesAt(await page.evaluate(() => spherule.shown.time)));
-  }
-  assert.deepEqual(page.faults, []);
-  await page.close();
-  await server.stop();
+  await checkPlayed(file, [3, 1]);
 });
