@@ -62,6 +62,7 @@ recording::MadeExporter exporterFor(const ExportOptions& options) {
                     "cannot be standard output: vtk is many files; give a name, or --format xyz");
     if (options.format == "xyz") return recording::xyzExporter(options.out, options.replace);
     if (options.format == "csv") return recording::csvExporter(options.out, options.replace);
+    if (options.format == "poses") return recording::posesExporter(options.out, options.replace);
     return recording::vtkExporter(options.out, options.replace);
 }
 
@@ -176,9 +177,11 @@ void addExport(CLI::App& app, int& exitCode) {
     auto options = std::make_shared<ExportOptions>();
     CLI::App* command = app.add_subcommand("export", "convert a recording for other tools");
     command->add_option("file", options->file, "the recording")->required();
-    command->add_option("--format", options->format, "xyz (OVITO, ASE), vtk (ParaView) or csv")
+    command
+        ->add_option("--format", options->format,
+                     "xyz (OVITO, ASE), vtk (ParaView), csv, or poses (CSV of the obstacles that move)")
         ->required()
-        ->check(CLI::IsMember({"xyz", "vtk", "csv"}));
+        ->check(CLI::IsMember({"xyz", "vtk", "csv", "poses"}));
     command
         ->add_option("--out", options->out,
                      "output file, or - for standard output; for vtk the .pvd file, beside a folder of that name")

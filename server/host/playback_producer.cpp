@@ -93,6 +93,7 @@ Result<void> PlaybackProducer::show() {
     if (anotherScene) describe();
     time_ = recording.time();
     step_ = recording.step();
+    poses_.assign(recording.poses().begin(), recording.poses().end());
     ++version_;
     return {};
 }
@@ -152,6 +153,7 @@ void PlaybackProducer::produce(encode::StreamEncoder::Clock::time_point now) {
                              v1::Frame head;
                              head.set_step(step_);
                              head.set_sim_time(time_);
+                             head.mutable_poses()->Assign(poses_.begin(), poses_.end());
                              *head.mutable_status() = status(now);
                              return head;
                          }},

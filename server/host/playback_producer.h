@@ -47,6 +47,7 @@ class PlaybackProducer : public FrameProducer {
     codec::PerColumn<std::unique_ptr<compute::Buffer>> buffers_;  // the same on the device
     double time_ = 0;                                             // of the current frame (s)
     std::uint64_t step_ = 0;                                      // of the current frame
+    std::vector<v1::Pose> poses_;                                 // of the current frame
     std::uint64_t sceneOffset_ = 0;                               // offset of the scene facts in the recording (bytes)
     std::uint32_t epoch_ = 0;                                     // epoch that was sent to viewers
     std::uint64_t version_ = 0;

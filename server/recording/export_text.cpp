@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "recording/exporter.h"
 #include "recording/output_file.h"
@@ -90,6 +91,21 @@ class Xyz : public TextExporter {
     }
 };
 
+// The poses of v1::Pose.
+class Poses : public TextExporter {
+  public:
+    explicit Poses(OutputFile file) : TextExporter(std::move(file)) {}
+
+  private:
+    void print(const Snapshot& snapshot, std::string& text) override {
+        if (!std::exchange(begun_, true)) text += "time,obstacle,x,y,z,qx,qy,qz,qw\n";
+        for (const v1::Pose& pose : snapshot.poses)
+            fmt::format_to(std::back_inserter(text), "{:.9g},{},{:.12g},{:.12g}\n", snapshot.time, pose.obstacle(),
+                           fmt::join(pose.translation(), ","), fmt::join(pose.rotation(), ","));
+    }
+    bool begun_ = false;
+};
+
 template <class Format>
 MadeExporter make(const std::string& path, bool replace) {
     auto file =
@@ -106,6 +122,10 @@ MadeExporter csvExporter(const std::string& path, bool replace) {
 
 MadeExporter xyzExporter(const std::string& path, bool replace) {
     return make<Xyz>(path, replace);
+}
+
+MadeExporter posesExporter(const std::string& path, bool replace) {
+    return make<Poses>(path, replace);
 }
 
 }  // namespace spherule::recording

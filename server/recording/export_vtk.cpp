@@ -1,28 +1,22 @@
-// VTK's XML formats: one .vtp per snapshot with raw appended arrays, and a .pvd that lists their times.
+// VTK's XML formats: .vtp files of spheres and obstacles, and a .pvd that lists their times.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <iterator>
 #include <numeric>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
 
-#include "recording/bytes.h"
 #include "recording/exporter.h"
 #include "recording/output_file.h"
+#include "recording/vtk_poly_data.h"
+#include "scene/triangles.h"
 
 namespace spherule::recording {
 
 namespace {
-
-// Appends an array: its size in bytes, then its bytes.
-template <class T>
-void appendArray(std::string& data, std::span<const T> values) {
-    append(data, std::uint64_t{values.size_bytes()});
-    data.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-}
 
 // Returns the lengths of the periodic axes as field data; empty if there are none.
 std::string periodsData(const glm::dvec3& periods) {
@@ -33,39 +27,82 @@ std::string periodsData(const glm::dvec3& periods) {
         periods.x, periods.y, periods.z);
 }
 
+std::string timeData(double time) {
+    return fmt::format(
+        "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:.9g}</DataArray>",
+        time);
+}
+
 // Each point is also a vertex, because ParaView draws only vertices.
-std::string polyData(const Snapshot& snapshot) {
+std::string spheresData(const Snapshot& snapshot) {
     const std::size_t count = snapshot.positions.size();
     std::vector<std::int32_t> ids(count + 1);
     std::iota(ids.begin(), ids.end(), 0);
     const std::span<const std::int32_t> all(ids);
-    std::string head = fmt::format(
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
-        "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:.9g}"
-        "</DataArray>{}</FieldData>\n"
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-        "NumberOfPolys=\"0\">\n",
-        snapshot.time, periodsData(snapshot.spheres->periods), count, count);
-    std::string data;
-    const auto array = [&](std::string_view type, std::string_view name, int components, const auto values) {
-        fmt::format_to(std::back_inserter(head),
-                       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
-                       "offset=\"{}\"/>\n",
-                       type, name, components, data.size());
-        appendArray(data, values);
-    };
-    head += "<PointData Scalars=\"radius\">\n";
-    array("Float32", "radius", 1, std::span<const float>(snapshot.spheres->radii));
-    array("Int32", "id", 1, all.first(count));
-    for (const auto& [name, values] : snapshot.spheres->exportedColumns()) array("Int32", name, 1, values);
-    head += "</PointData>\n<Points>\n";
-    array("Float64", "Points", 3, snapshot.positions);
-    head += "</Points>\n<Verts>\n";
-    array("Int32", "connectivity", 1, all.first(count));
-    array("Int32", "offsets", 1, all.last(count));
-    head += "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-    return head + data + "\n</AppendedData>\n</VTKFile>\n";
+    VtkPolyData file({.points = count, .vertices = count},
+                     timeData(snapshot.time) + periodsData(snapshot.spheres->periods));
+    file.begin("PointData", " Scalars=\"radius\"");
+    file.array("radius", std::span<const float>(snapshot.spheres->radii));
+    file.array("id", all.first(count));
+    for (const auto& [name, values] : snapshot.spheres->exportedColumns()) file.array(name, values);
+    file.begin("Points");
+    file.array("Points", snapshot.positions);
+    file.begin("Verts");
+    file.array("connectivity", all.first(count));
+    file.array("offsets", all.last(count));
+    return file.finish();
+}
+
+// The surfaces of some obstacles, with the number of its obstacle for each triangle.
+struct Surfaces {
+    scene::Triangles triangles;
+    std::vector<std::int32_t> obstacles;
+
+    void add(const Snapshot& snapshot, int obstacle, const scene::Frame& pose) {
+        const scene::Box bounds{snapshot.spheres->low, snapshot.spheres->high};
+        triangles.append(scene::trianglesOf(snapshot.facts->obstacles(obstacle), pose, bounds));
+        obstacles.resize(triangles.corners.size(), obstacle);
+    }
+};
+
+std::string surfacesData(const Surfaces& surfaces, const std::string& fields) {
+    const auto& [points, corners] = surfaces.triangles;
+    std::vector<std::int32_t> connectivity;
+    std::vector<std::int32_t> offsets;
+    for (const glm::uvec3& each : corners) {
+        for (int k = 0; k < 3; ++k) connectivity.push_back(static_cast<std::int32_t>(each[k]));
+        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+    }
+    VtkPolyData file({.points = points.size(), .polygons = corners.size()}, fields);
+    file.begin("CellData", " Scalars=\"obstacle\"");
+    file.array("obstacle", std::span<const std::int32_t>(surfaces.obstacles));
+    file.begin("Points");
+    file.array("Points", std::span<const glm::dvec3>(points));
+    file.begin("Polys");
+    file.array("connectivity", std::span<const std::int32_t>(connectivity));
+    file.array("offsets", std::span<const std::int32_t>(offsets));
+    return file.finish();
+}
+
+// The obstacles without a pose.
+Surfaces atRest(const Snapshot& snapshot) {
+    Surfaces surfaces;
+    for (int k = 0; k < snapshot.facts->obstacles_size(); ++k)
+        if (std::ranges::none_of(snapshot.poses, [&](const v1::Pose& pose) { return int(pose.obstacle()) == k; }))
+            surfaces.add(snapshot, k, {});
+    return surfaces;
+}
+
+// The obstacles with a pose, where they are.
+Surfaces moving(const Snapshot& snapshot) {
+    Surfaces surfaces;
+    for (const v1::Pose& pose : snapshot.poses) {
+        const auto& [to, turn] = std::pair(pose.translation(), pose.rotation());
+        const scene::Frame frame{.turn = glm::mat3_cast(glm::dquat(turn[3], turn[0], turn[1], turn[2])),
+                                 .origin = {to[0], to[1], to[2]}};
+        surfaces.add(snapshot, static_cast<int>(pose.obstacle()), frame);
+    }
+    return surfaces;
 }
 
 // Escapes text for an XML attribute.
@@ -147,16 +184,20 @@ class Vtk : public Exporter {
     Vtk(OutputFile list, FolderBeside folder) : list_(std::move(list)), folder_(std::move(folder)) {}
 
     Result<void> add(const Snapshot& snapshot) override {
-        const std::string name = fmt::format("{:06}.vtp", frames_++);
-        const auto path = folder_.fileOf(name);
-        if (!path) return tl::unexpected(path.error());
-        auto file = OutputFile::create(*path, false);
-        if (!file) return tl::unexpected(file.error());
-        if (auto done = file->write(polyData(snapshot)); !done) return done;
-        if (auto done = file->flush(); !done) return done;
-        file->persist();
-        return list_.write(fmt::format("<DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}/{}\"/>\n", snapshot.time,
-                                       escaped(folder_.name()), name));
+        const std::string number = fmt::format("{:06}", frames_++);
+        if (auto done = addPart(snapshot.time, 0, number + ".vtp", spheresData(snapshot)); !done) return done;
+        if (scene_ != snapshot.scene || frames_ == 1) {
+            scene_ = snapshot.scene;
+            const Surfaces surfaces = atRest(snapshot);
+            resting_ = surfaces.obstacles.empty() ? "" : number + "-obstacles.vtp";
+            if (!resting_.empty())
+                if (auto done = writeFile(resting_, surfacesData(surfaces, "")); !done) return done;
+        }
+        if (!resting_.empty())
+            if (auto done = list(snapshot.time, 1, resting_); !done) return done;
+        const Surfaces surfaces = moving(snapshot);
+        if (surfaces.obstacles.empty()) return {};
+        return addPart(snapshot.time, 2, number + "-moving.vtp", surfacesData(surfaces, timeData(snapshot.time)));
     }
     Result<void> finish() override {
         if (auto done = list_.write("</Collection>\n</VTKFile>\n"); !done) return done;
@@ -166,9 +207,30 @@ class Vtk : public Exporter {
     [[nodiscard]] std::string path() const override { return list_.path(); }
 
   private:
+    Result<void> addPart(double time, int part, const std::string& name, const std::string& content) {
+        if (auto done = writeFile(name, content); !done) return done;
+        return list(time, part, name);
+    }
+    Result<void> writeFile(const std::string& name, const std::string& content) {
+        const auto path = folder_.fileOf(name);
+        if (!path) return tl::unexpected(path.error());
+        auto file = OutputFile::create(*path, false);
+        if (!file) return tl::unexpected(file.error());
+        if (auto done = file->write(content); !done) return done;
+        if (auto done = file->flush(); !done) return done;
+        file->persist();
+        return {};
+    }
+    Result<void> list(double time, int part, const std::string& name) {
+        return list_.write(fmt::format("<DataSet timestep=\"{:.9g}\" part=\"{}\" file=\"{}/{}\"/>\n", time, part,
+                                       escaped(folder_.name()), name));
+    }
+
     OutputFile list_;
     FolderBeside folder_;
     std::uint64_t frames_ = 0;
+    std::uint64_t scene_ = 0;  // of the last snapshot
+    std::string resting_;      // file of its obstacles at rest; empty: it has none
 };
 
 }  // namespace

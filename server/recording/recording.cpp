@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,22 @@ bool holds(Kind kind, const v1::ServerMessage& message) {
 bool areOf(const glm::uvec3& turns, const glm::dvec3& periods) {
     for (int axis = 0; axis < 3; ++axis)
         if (turns[axis] > 0 && !(periods[axis] > 0)) return false;
+    return true;
+}
+
+// Returns true if these are poses of some of the obstacles, in their order.
+bool areOf(const google::protobuf::RepeatedPtrField<v1::Pose>& poses, int obstacles) {
+    std::int64_t before = -1;
+    const auto finite = [](double value) { return std::isfinite(value); };
+    for (const v1::Pose& pose : poses) {
+        if (pose.obstacle() <= before || std::int64_t{pose.obstacle()} >= obstacles) return false;
+        if (pose.translation_size() != 3 || !std::ranges::all_of(pose.translation(), finite)) return false;
+        const auto& turn = pose.rotation();
+        constexpr double tolerance = 1e-6;
+        const double length = std::inner_product(turn.begin(), turn.end(), turn.begin(), 0.0);
+        if (turn.size() != 4 || !(std::abs(length - 1) < tolerance)) return false;
+        before = pose.obstacle();
+    }
     return true;
 }
 
@@ -198,6 +215,9 @@ Result<void> Recording::decode(const v1::Frame& frame, std::uint64_t offset) {
             return bad(offset, "its frame has turns along an axis that is not periodic");
         quanta_[column] = encoded.quantum;
     }
+    if (!areOf(frame.poses(), facts_.obstacles_size()))
+        return bad(offset, "its frame has poses of other obstacles than the scene before it");
+    poses_.assign(frame.poses().begin(), frame.poses().end());
     step_ = frame.step();
     return {};
 }
@@ -226,7 +246,9 @@ Snapshot Recording::now() {
             .error = quanta_[0] / 2,
             .positions = positions_,
             .spheres = table_ ? &*table_ : &none,
-            .scene = sceneOffset_};
+            .scene = sceneOffset_,
+            .facts = &facts_,
+            .poses = poses_};
 }
 
 }  // namespace spherule::recording

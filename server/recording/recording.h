@@ -23,10 +23,12 @@ namespace spherule::recording {
 struct Snapshot {
     double time = 0;  // s simulated
     std::uint64_t step = 0;
-    double error = 0;                       // largest error of a coordinate, m
-    std::span<const glm::dvec3> positions;  // by id, m
-    const SphereTable* spheres = nullptr;   // not null after Recording::now()
-    std::uint64_t scene = 0;                // differs between scenes of a recording
+    double error = 0;                                                   // largest error of a coordinate, m
+    std::span<const glm::dvec3> positions;                              // by id, m
+    const SphereTable* spheres = nullptr;                               // not null after Recording::now()
+    std::uint64_t scene = 0;                                            // differs between scenes of a recording
+    const v1::SceneFacts* facts = &v1::SceneFacts::default_instance();  // of the scene
+    std::span<const v1::Pose> poses{};                                  // of the obstacles that move
 };
 
 // Plays a recording. The file may be cut off or hostile. Used by one thread. Allocates memory for the index, the
@@ -66,6 +68,8 @@ class Recording {
     // The values of a column (see codec/columns.h): quanta(column) * cells(column), in codec order.
     [[nodiscard]] std::span<const glm::ivec3> cells(std::size_t column) const { return decoders_[column]->newest(); }
     [[nodiscard]] glm::dvec3 quanta(std::size_t column) const;  // per axis
+    // The poses of the obstacles that move: each of another obstacle of facts(), and with finite numbers.
+    [[nodiscard]] std::span<const v1::Pose> poses() const { return poses_; }
     // Returns the length of each periodic axis (m); 0 along the others.
     [[nodiscard]] const glm::dvec3& periods() const { return table_->periods; }
     [[nodiscard]] std::span<const std::uint32_t> order() const { return table_->ids; }  // ids, in codec order
@@ -99,6 +103,7 @@ class Recording {
     std::uint64_t step_ = 0;
     codec::PerColumn<double> quanta_{};
     std::vector<glm::dvec3> positions_;  // filled by now()
+    std::vector<v1::Pose> poses_;
     v1::Settings settings_;
     std::vector<v1::ServerMessage> skippedEvents_;
 };

@@ -114,7 +114,7 @@ function showScene({ scene, states }) {
   for (let k = 1; k <= copies; k++) {
     const { values, quanta, turns, box } = states[k % 2];
     const position = { values: Int32Array.from(values), quantum: Math.max(...quanta), quanta, turns };
-    const content = { columns: { position }, order: 1, boxes: Float64Array.from(box, (x) => Number(x)) };
+    const content = { columns: { position }, order: 1, boxes: Float64Array.from(box, (x) => Number(x)), poses: [] };
     const arrival = performance.timeOrigin + performance.now() - (copies + 0.9 - k) * between;
     const times = { sequence: k, epoch: scene.epoch, step: k, simTime: k, arrival, ready: 0 };
     session.handle({ kind: "frame", frame: { ...times, ...content, count: scene.count, population: 0, bytes: 0 } });

@@ -26,7 +26,7 @@ const order = { epoch: 1, number: 4, places: Uint32Array.from({ length: places }
 function state(number: number, ...centres: Vec3[]): State {
   const boxes = Float64Array.from(centres.flatMap((at) => [...at.map((x) => x - 1), ...at.map((x) => x + 1)]));
   const columns = { position: positionsAt(new Array<number>(3 * places).fill(0)) };
-  return { sequence: 1, epoch: 1, step: 1, simTime: 0, count: places, columns, order: number, boxes };
+  return { sequence: 1, epoch: 1, step: 1, simTime: 0, count: places, columns, order: number, boxes, poses: [] };
 }
 
 function viewFrom(orthographic = false): { view: View; eye: Vec3; pixel: number } {

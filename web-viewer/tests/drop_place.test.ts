@@ -1,10 +1,13 @@
+import { create } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { PoseSchema } from "../src/gen/spherule/v1/frame_pb";
 import type { Obstacle, Vec3 } from "../src/model/facts";
 import { dropAbove, placeOnRay } from "../src/tools/drop_place";
 
 const box = { min: [-1, -1, 0] as Vec3, max: [1, 1, 2] as Vec3 };
 const shaped = (shape: unknown): Obstacle => ({ shape: shape as Obstacle["shape"], colour: undefined });
+const still = { poses: [] };
 const down = { origin: [0.3, 0, 5] as Vec3, direction: [0, 0, -1] as Vec3 };
 
 function close(actual: readonly number[], expected: readonly number[], within: number): void {
@@ -13,7 +16,7 @@ function close(actual: readonly number[], expected: readonly number[], within: n
 }
 
 test("a ray meets the far side of the bounds, or an obstacle before it", () => {
-  close(placeOnRay({ ...box, obstacles: [] }, down), [0.3, 0, 0], 1e-9);
+  close(placeOnRay({ ...box, obstacles: [] }, down, still), [0.3, 0, 0], 1e-9);
   const cases: [unknown, number][] = [
     [{ case: "plane", value: { point: [0, 0, 0.5], normal: [0, 0, 3] } }, 0.5],
     [{ case: "box", value: { min: [0, -1, 0], max: [1, 1, 0.7] } }, 0.7],
@@ -31,8 +34,23 @@ test("a ray meets the far side of the bounds, or an obstacle before it", () => {
     [{ case: "box", value: { min: [-1, -1, 0.2], max: [1, 1, 1.5], hollow: true } }, 0.2],
   ];
   for (const [shape, height] of cases) {
-    close(placeOnRay({ ...box, obstacles: [shaped(shape)] }, down), [0.3, 0, height], 2e-3);
+    close(placeOnRay({ ...box, obstacles: [shaped(shape)] }, down, still), [0.3, 0, height], 2e-3);
   }
+});
+
+test("a ray meets an obstacle that moves where it is in the state", () => {
+  const bar = { case: "box", value: { min: [-0.9, -0.1, 0.2], max: [0.9, 0.1, 0.4] } };
+  const moving = { ...shaped(bar), pivot: [0, 0, 0.3] as Vec3 };
+  // A translation, after a quarter of a turn about the y axis: the bar stands upright.
+  const [rotation, translation] = [
+    [0, Math.SQRT1_2, 0, Math.SQRT1_2],
+    [0.3, 0, 1],
+  ];
+  const pose = create(PoseSchema, { obstacle: 1, rotation, translation });
+  const obstacles = [shaped({ case: "sphere", value: { centre: [0, 0, 0], radius: 0.1, hollow: false } }), moving];
+  const ray = { origin: [0.55, 0, 5] as Vec3, direction: [0, 0, -1] as Vec3 };
+  close(placeOnRay({ ...box, obstacles }, ray, still), [0.55, 0, 0.4], 2e-3);
+  close(placeOnRay({ ...box, obstacles }, ray, { poses: [pose] }), [0.55, 0, 1.9], 2e-3);
 });
 
 test("spheres are dropped above the place, against gravity", () => {

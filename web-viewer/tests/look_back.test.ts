@@ -16,7 +16,7 @@ type Shown = { x: number; simTime: number; at: number; population: number };
 
 const spacing = 1 / 30; // s between two frames
 
-/** A server whose sphere 0 is at x = k after k frames, and a page that looks back. */
+/** A server whose sphere 0 and obstacle 0 are at x = k after k frames, and a page that looks back. */
 class World {
   readonly lookBack: LookBack;
   readonly log: (SceneFacts | number | Shown)[] = []; // scenes, changes of the population, and frames, as played
@@ -79,7 +79,8 @@ class World {
           ])
         : moved(this.number, 2, [1, 0, 0]);
       const times = { simTime: this.time, stampUs: BigInt(Math.round(1e6 * this.stamp)) };
-      const frame = frameOf(spb, { epoch: this.epoch, count: 2, population, quantum: 1, ...times });
+      const poses = [{ translation: [this.x, 0, 0], rotation: [0, 0, 0, 1] }];
+      const frame = frameOf(spb, { epoch: this.epoch, count: 2, population, quantum: 1, poses, ...times });
       const message = toBinary(
         ServerMessageSchema,
         create(ServerMessageSchema, { kind: { case: "frame", value: frame } }),
@@ -98,8 +99,10 @@ class World {
   }
 }
 
-function shownOf({ columns, simTime, at = NaN, population }: Received): Shown {
-  return { x: columns.position.values[0] as number, simTime, at, population };
+function shownOf({ columns, simTime, at = NaN, population, poses }: Received): Shown {
+  const x = columns.position.values[0] as number;
+  assert.equal(poses[0]?.translation[0], x, "a state has the poses of its frame");
+  return { x, simTime, at, population };
 }
 
 /** Whether it is a frame in which sphere 0 is at x. */

@@ -232,7 +232,7 @@ test("automatic colour ranges ignore places without a sphere", () => {
   const scene = factsOf(create(SceneFactsSchema, facts));
   const at = (simTime: number, xs: number[]): State => {
     const position = positionsAt(xs.flatMap((x) => [x, 0, 0]));
-    const drawing = { order: 1, boxes: new Float64Array(0) };
+    const drawing = { order: 1, boxes: new Float64Array(0), poses: [] };
     return { sequence: 1, epoch: 3, step: 1, simTime, count: 6, columns: { position }, ...drawing };
   };
   const ranges = new ColourRanges();

@@ -24,7 +24,7 @@ const facts = factsOf(
 
 function state(simTime: number, metres: number[], quantum = 0.25): State {
   const position = positionsAt(metres, quantum);
-  const drawing = { order: 1, boxes: new Float64Array(0) };
+  const drawing = { order: 1, boxes: new Float64Array(0), poses: [] };
   return { sequence: 1, epoch: 3, step: 1, simTime, count: metres.length / 3, columns: { position }, ...drawing };
 }
 

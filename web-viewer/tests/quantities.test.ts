@@ -25,7 +25,7 @@ function legendOf(mode: Mode, of: Facts): LegendContent {
 
 function state(sequence: number, simTime: number, x: number): State {
   const position = positionsAt([x, 0, 0]);
-  const drawing = { order: 1, boxes: new Float64Array(0) };
+  const drawing = { order: 1, boxes: new Float64Array(0), poses: [] };
   return { sequence, epoch: 1, step: sequence, simTime, count: 1, columns: { position }, ...drawing };
 }
 

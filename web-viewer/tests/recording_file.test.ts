@@ -52,7 +52,8 @@ function past(frames = 300): readonly Segment[] {
       ]);
     const spb = number === 1 ? first() : moved(number, 4, [0, 1, 0]);
     const times = { step: BigInt(number), simTime: number / 10, stampUs: BigInt(number * 100_000) };
-    const frame = frameOf(spb, { count: 4, population, quantum: 0.5, ...times });
+    const poses = [{ obstacle: 1, translation: [number, 0, 0], rotation: [0, 0, 0.6, 0.8] }];
+    const frame = frameOf(spb, { count: 4, population, quantum: 0.5, poses, ...times });
     const message = create(ServerMessageSchema, { kind: { case: "frame", value: frame } });
     const decoded = decoder.decode(frame);
     assert.ok(decoded.kind === "state");
@@ -99,6 +100,19 @@ function coordinates(frame: Received | undefined, axis: 0 | 1 | 2): number[] {
 
 const xs = (frame: Received | undefined): number[] => coordinates(frame, 0);
 const firstY = (frame: Received | undefined): number | undefined => coordinates(frame, 1)[0];
+
+test("a written recording has the poses of obstacles, whatever frames are left out on the way", () => {
+  const { player, frames } = played(fileOf(past()));
+  for (const time of [5, 29.95, 0]) player.seek(time);
+  player.step(1);
+  const poses = frames.map(({ poses: [pose] }) => [pose?.obstacle, pose?.translation[0], pose?.rotation[2]]);
+  assert.deepEqual(poses, [
+    [1, 50, 0.6],
+    [1, 299, 0.6],
+    [1, 1, 0.6],
+    [1, 2, 0.6],
+  ]);
+});
 
 test("a written recording has the spheres and positions of the past", () => {
   const { content, history, player, frames, scenes } = played(fileOf(past()));

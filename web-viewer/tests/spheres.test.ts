@@ -28,7 +28,7 @@ function createContext() {
 
 function state(sequence: number): State {
   const columns = { position: positionsAt(new Array<number>(3 * places).fill(0)) };
-  const drawing = { order: 1, boxes: new Float64Array(0) };
+  const drawing = { order: 1, boxes: new Float64Array(0), poses: [] };
   return { sequence, epoch: 3, step: sequence, simTime: sequence, count: places, columns, ...drawing };
 }
 

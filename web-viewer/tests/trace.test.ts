@@ -15,7 +15,8 @@ const looped = factsOf(create(SceneFactsSchema, { epoch: 1, count: 2, radius: 0.
 /** Sphere 1 is at x (m from the centre of the bounds); sphere 0 rests. */
 function stateAt(simTime: number, x: number): State {
   const columns = { position: positionsAt([0, 0, 0, x, 0.5, 0], 2 ** -12) };
-  return { sequence: 1, epoch: 1, step: 1, simTime, count: 2, columns, order: 1, boxes: new Float64Array(6) };
+  const drawing = { order: 1, boxes: new Float64Array(6), poses: [] };
+  return { sequence: 1, epoch: 1, step: 1, simTime, count: 2, columns, ...drawing };
 }
 
 const between = (from: State, to: State, mix: number): Shown => ({ from, to, mix, moving: true });

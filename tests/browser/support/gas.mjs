@@ -2,8 +2,11 @@
 import { writeFile } from "node:fs/promises";
 import path from "node:path";
 
-/** Writes a scene of a few spheres that fly and bounce for ever, along a periodic axis. Returns its path. */
-export async function gasScene(folder, name = "gas") {
+/**
+ * Writes a scene of a few spheres that fly and bounce for ever, along a periodic axis. Returns its path. `more`: further
+ * fields of the scene.
+ */
+export async function gasScene(folder, name = "gas", more = {}) {
   const spheres = [];
   for (let k = 0; k < 24; k++) {
     const position = [0.25 + 0.5 * (k % 4), 0.25 + 0.25 * (Math.floor(k / 4) % 3), k < 12 ? 0.3 : 0.7];
@@ -15,6 +18,7 @@ export async function gasScene(folder, name = "gas") {
     bounds: { min: [0, 0, 0], max: [2, 1, 1], periodic: ["X"] },
     materials: [{ restitution: 1 }],
     groups: [{ name: "gas", radius: { constant: 0.08 }, list: { spheres } }],
+    ...more,
   };
   const file = path.join(folder, `${name}.json`);
   await writeFile(file, JSON.stringify(scene));

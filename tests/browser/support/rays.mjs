@@ -27,13 +27,29 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 
 /**
+ * Returns a function of a point of the image, in pixels from its upper left corner: the ray there. Its origin is on the
+ * near plane, relative to the eye (m); its direction is of unit length.
+ */
+export function rays({ toClip }, width, height) {
+  const fromClip = inverse(toClip);
+  return (column, row) => {
+    const [x, y] = [(2 * column) / width - 1, 1 - (2 * row) / height];
+    const near = unprojected(fromClip, x, y, -1);
+    const along = minus(unprojected(fromClip, x, y, 0), near);
+    const length = Math.hypot(...along);
+    return { near, direction: along.map((part) => part / length) };
+  };
+}
+
+/**
  * Returns a function of a point of the image, in pixels from its upper left corner: the place of the nearest sphere
  * there; -1: none. Its property `centreOf` returns the point where a sphere's centre is. `kept`: the points p with
  * normal · p ≤ offset (m) are shown; absent: all.
  */
-export function placesSeen({ eye, toClip }, spheres, width, height, kept = { normal: [0, 0, 0], offset: 0 }) {
+export function placesSeen(camera, spheres, width, height, kept = { normal: [0, 0, 0], offset: 0 }) {
+  const { eye, toClip } = camera;
   const keptOffset = kept.offset - dot(kept.normal, eye); // relative to the eye
-  const fromClip = inverse(toClip);
+  const rayAt = rays(camera, width, height);
   const seen = spheres.map(({ position, radius }) => ({ to: minus(position, eye), square: radius * radius }));
   const centreOf = (place) => {
     const { to } = seen[place];
@@ -43,11 +59,7 @@ export function placesSeen({ eye, toClip }, spheres, width, height, kept = { nor
     return [(0.5 + (0.5 * x) / w) * width, (0.5 - (0.5 * y) / w) * height];
   };
   const placeAt = (column, row) => {
-    const [x, y] = [(2 * column) / width - 1, 1 - (2 * row) / height];
-    const near = unprojected(fromClip, x, y, -1);
-    const along = minus(unprojected(fromClip, x, y, 0), near);
-    const length = Math.hypot(...along);
-    const direction = along.map((part) => part / length);
+    const { near, direction } = rayAt(column, row);
     const steep = dot(kept.normal, direction);
     const room = keptOffset - dot(kept.normal, near);
     const begin = steep < 0 ? room / steep : -Infinity; // of the part of the ray that is shown

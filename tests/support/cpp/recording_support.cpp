@@ -110,6 +110,37 @@ void filmWithRepeatedTimes(const std::string& path) {
     writeFile(path, content);
 }
 
+v1::Pose poseInFilm(std::uint32_t n) {
+    v1::Pose pose;
+    pose.set_obstacle(1);
+    for (const double part : {0.0, 0.25 * n, 0.0}) pose.add_translation(part);
+    for (const double part : {0.0, 0.0, std::sin(0.05 * n), std::cos(0.05 * n)}) pose.add_rotation(part);
+    return pose;
+}
+
+void filmWithObstacles(const std::string& path) {
+    const Film plain = film(path, 12);
+    const auto file = RecordFile::open(path);
+    std::string content = fileHead();
+    std::uint64_t offset = fileHeadBytes;
+    for (auto record = file->read(offset); record; record = file->read(record->end)) {
+        if (record->kind == Kind::Index) continue;
+        v1::ServerMessage message;
+        message.ParseFromString(record->payload);
+        for (int k = 0; message.has_scene() && k < 2; ++k) {
+            v1::Box& cube = *message.mutable_scene()->add_obstacles()->mutable_box();
+            for (const double least : {2.0 * k, 1.0, 2.5}) {
+                cube.add_min(least);
+                cube.add_max(least + 1);
+            }
+        }
+        if (message.has_frame())
+            *message.mutable_frame()->add_poses() = poseInFilm(static_cast<std::uint32_t>(message.frame().step() / 6));
+        content += recordBytes(record->kind, record->time, message.SerializeAsString());
+    }
+    writeFile(path, content);
+}
+
 std::string contentOf(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

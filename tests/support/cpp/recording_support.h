@@ -31,6 +31,11 @@ Film film(const std::string& path, std::uint32_t frames, bool finish = true);
 // Writes a film in which each two frames have the same time, as when the simulation was paused.
 void filmWithRepeatedTimes(const std::string& path);
 
+// Writes a film of 12 frames with two unit cubes as obstacles: the first is at rest, the second moves.
+void filmWithObstacles(const std::string& path);
+// The pose of the second cube in frame n.
+v1::Pose poseInFilm(std::uint32_t n);
+
 // Scene facts and order of a valid scene.
 v1::ServerMessage sceneMessage(std::uint32_t epoch, std::uint32_t spheres);
 v1::ServerMessage orderMessage(std::uint32_t epoch, std::uint32_t spheres);

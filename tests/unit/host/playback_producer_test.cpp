@@ -46,32 +46,45 @@ std::string sceneOf(std::uint32_t spheres, std::uint32_t epoch, double time) {
            recording::recordBytes(recording::Kind::Keyframe, time, message.SerializeAsString());
 }
 
-// Plays a recording in a loop until the scene has changed `changes` times. Keeps the messages that a viewer receives.
+// Plays a recording in a loop. Keeps the messages that a viewer receives.
 class Playback : private FakePublisher {
   public:
     std::vector<v1::SceneFacts> scenes;
     std::vector<v1::Frame> frames;
 
+    // Plays until the scene has changed `changes` times.
     void play(const std::string& path, std::size_t changes) {
         changes_ = changes;
+        run(path);
+    }
+    // Plays until there are `count` frames.
+    void playFrames(const std::string& path, std::size_t count) {
+        count_ = count;
+        run(path);
+    }
+
+  private:
+    void run(const std::string& path) {
         Player player(std::move(*recording::Recording::open(path)), "film.sph", true, Player::Clock::now());
         PlaybackProducer producer(std::move(*compute::openDevice("cpu:1")), std::move(player),
                                   {requests_, board_, *this, saver_});
         EXPECT_TRUE(producer.run(stop_.get_token()));
     }
-
-  private:
     void retain(codec::SharedMessage message, codec::Audience) override {
         if (message->content().has_scene()) scenes.push_back(message->content().scene());
         if (scenes.size() > changes_) stop_.request_stop();
     }
-    void publish(const codec::EncodedFrame& encoded) override { frames.push_back(encoded.message->content().frame()); }
+    void publish(const codec::EncodedFrame& encoded) override {
+        frames.push_back(encoded.message->content().frame());
+        if (frames.size() >= count_) stop_.request_stop();
+    }
     [[nodiscard]] std::uint32_t viewers() const override { return 1; }
     [[nodiscard]] std::vector<codec::Subscription> subscriptions() override {
         return {{.rendition = {v1::NORMAL, 60}, .newcomer = true}};
     }
 
-    std::size_t changes_ = 0;
+    std::size_t changes_ = SIZE_MAX;
+    std::size_t count_ = SIZE_MAX;
     Requests requests_;
     SceneSaver saver_;
     StatusBoard board_;
@@ -102,6 +115,19 @@ TEST(PlaybackProducer, ShowsScenesInSequenceWithAnyEpochNumbers) {
         for (const v1::Frame& frame : playback.frames)
             EXPECT_EQ(frame.count(), playback.scenes.at(frame.epoch() - 1).count()) << "of epoch " << frame.epoch();
     }
+}
+
+TEST(PlaybackProducer, FramesHaveThePosesOfTheRecordedFrame) {
+    const recording::TemporaryFolder folder;
+    recording::filmWithObstacles(folder / "film.sph");
+    Playback playback;
+    playback.playFrames(folder / "film.sph", 20);
+    for (const v1::Frame& frame : playback.frames) {
+        ASSERT_EQ(frame.poses_size(), 1);
+        const v1::Pose expected = recording::poseInFilm(static_cast<std::uint32_t>(frame.step() / 6));
+        EXPECT_EQ(frame.poses(0).SerializeAsString(), expected.SerializeAsString()) << frame.step();
+    }
+    EXPECT_NE(playback.frames.front().step(), playback.frames.back().step());
 }
 
 }  // namespace

@@ -134,9 +134,9 @@ export class RecordingWriter {
     const hashed = this.time - this.hashed >= hashEvery;
     if (hashed) this.hashed = this.time;
     const { spb, keyframe } = this.encoder.encode(positions, turns, hashed);
-    const { step, simTime, status, tier, stampUs } = frame;
+    const { step, simTime, status, tier, stampUs, poses } = frame;
     const head = { sequence: BigInt(this.frames + 1), epoch: this.epoch, order: 1, count: facts.count, quantum };
-    const written = create(FrameSchema, { ...head, step, simTime, status, tier, stampUs, spb });
+    const written = create(FrameSchema, { ...head, step, simTime, status, tier, stampUs, poses, spb });
     this.write(keyframe ? Kind.keyframe : Kind.delta, { case: "frame", value: written });
     this.frames += 1;
     if (keyframe) this.synced = this.time;

@@ -15,7 +15,7 @@ import type {
 } from "../gen/spherule/v1/control_pb";
 import type { Diagnostics, Dial } from "../gen/spherule/v1/diagnostics_pb";
 import type { Population, SceneFacts } from "../gen/spherule/v1/facts_pb";
-import type { Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
+import type { Pose, Quantity, Status, Tier } from "../gen/spherule/v1/frame_pb";
 
 /**
  * Messages between the page and the worker that holds its connection. The worker encodes those for the server from
@@ -65,6 +65,7 @@ export interface State {
    * They are unbounded along periodic axes.
    */
   boxes: Float64Array;
+  poses: Pose[]; // of the obstacles that move
 }
 
 export interface Received extends State {

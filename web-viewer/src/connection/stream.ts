@@ -79,7 +79,7 @@ export function received(
   content: Content,
   cost: Pick<Received, "arrival" | "bytes" | "decodeMs">,
 ): Received {
-  const { sequence, epoch, step, simTime, count, population, status, stampUs } = frame;
+  const { sequence, epoch, step, simTime, count, population, poses, status, stampUs } = frame;
   return {
     sequence: Number(sequence),
     epoch,
@@ -87,6 +87,7 @@ export function received(
     simTime,
     count,
     population,
+    poses,
     ...content,
     ready: Number(stampUs) / 1000,
     status,

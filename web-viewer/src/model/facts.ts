@@ -13,6 +13,7 @@ export type Vec3 = [number, number, number];
 export interface Obstacle {
   shape: Message["shape"]; // as in scene.proto
   placement?: Placement | undefined;
+  pivot?: Vec3 | undefined; // m: about which it turns, at the beginning; undefined: it is at rest
   colour: Rgb | undefined;
 }
 
@@ -72,7 +73,8 @@ export function factsOf(scene: SceneFacts): Facts {
 }
 
 function obstacleOf(message: Message): Obstacle {
-  return { shape: message.shape, placement: placementOf(message), colour: hexToRgb(message.colour) };
+  const { shape, colour, motion } = message;
+  return { shape, placement: placementOf(message), pivot: motion && vec3(motion.pivot), colour: hexToRgb(colour) };
 }
 
 function lightOf({ direction, strength, colour, sky }: LightMessage): Light {

@@ -120,8 +120,10 @@ export class FrameRenderer {
     if (!facts || !light || !theme || !target || !scene || !spheres || !shadow || !post) return;
     const { view, kept } = state;
     for (let axis = 0; axis < 3; axis++) eye[axis] = (view.eye[axis] as number) - (facts.origin[axis] as number);
-    if (shown) data.show(shown, eye);
-    else data.count = 0;
+    if (shown) {
+      data.show(shown, eye);
+      environment.place(shown, facts);
+    } else data.count = 0;
     const pixel = pixelOf(view, target.height);
     this.uniforms.fill(view, eye, pixel, kept);
     this.castShadows(shadow, light, shown, kept);

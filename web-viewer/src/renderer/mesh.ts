@@ -40,4 +40,9 @@ export class Mesh {
     this.gl.drawArrays(mode, 0, this.count);
     this.gl.bindVertexArray(null);
   }
+
+  free(): void {
+    this.gl.deleteVertexArray(this.array);
+    this.gl.deleteBuffer(this.buffer);
+  }
 }

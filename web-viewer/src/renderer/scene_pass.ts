@@ -56,9 +56,9 @@ export class ScenePass {
 
     this.prepare(this.solids, state, eye);
     gl.uniform1f(this.solids.at("u_opacity"), 1);
-    environment.solids.draw();
+    environment.drawObstacles(this.solids, false);
     gl.enable(gl.CULL_FACE);
-    environment.oneSided.draw();
+    environment.drawObstacles(this.solids, true);
     gl.disable(gl.CULL_FACE);
   }
 
@@ -73,7 +73,7 @@ export class ScenePass {
     environment.walls.draw();
     gl.cullFace(gl.FRONT);
     gl.uniform1f(this.solids.at("u_opacity"), seenFromBehind);
-    environment.oneSided.draw();
+    environment.drawObstacles(this.solids, true);
     gl.cullFace(gl.BACK);
     gl.disable(gl.CULL_FACE);
     this.prepare(this.lines, state, eye);

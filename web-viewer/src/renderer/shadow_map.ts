@@ -50,8 +50,8 @@ export class ShadowMap {
     this.solids.use();
     gl.uniformMatrix4fv(this.solids.at("u_matrix"), false, light.clip);
     gl.uniform3f(this.solids.at("u_from"), 0, 0, 0);
-    environment.solids.draw();
-    environment.oneSided.draw();
+    environment.drawObstacles(this.solids, false);
+    environment.drawObstacles(this.solids, true);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 

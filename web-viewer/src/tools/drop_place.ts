@@ -2,6 +2,9 @@ import type { Ray } from "../camera/ray";
 import type { Drop } from "../connection/commands";
 import type { Facts, Obstacle, Vec3 } from "../model/facts";
 import { unplaced } from "../model/placement";
+import type { Placement } from "../model/placement";
+import { writePose } from "../model/poses";
+import type { State } from "../model/states";
 
 type Bounds = Pick<Facts, "min" | "max">;
 
@@ -27,6 +30,11 @@ function crossing({ min, max }: Bounds, { origin, direction }: Ray): [number, nu
     leaves = Math.min(leaves, Math.max(a, b));
   });
   return [enters, leaves];
+}
+
+/** The place in the scene at the beginning of a point of an obstacle that moves (m). `pose`: as of writePose(). */
+function atBegin({ pivot }: Obstacle, pose: Placement | undefined, place: Vec3): Vec3 {
+  return pose && pivot ? plus(unplaced(pose, place), pivot) : place;
 }
 
 /** The distance of a point from a body, or from the free space in a hollow one, or less (m); negative inside it. */
@@ -87,17 +95,28 @@ function distanceFromCone({ height, aside, length }: FromAxis, low: number, high
 const isHollow = ({ shape: { case: kind, value } }: Obstacle): boolean =>
   (kind === "box" || kind === "sphere" || kind === "cylinder" || kind === "cone" || kind === "capsule") && value.hollow;
 
+function poseOf({ pivot }: Obstacle, obstacle: number, state: Pick<State, "poses">): Placement | undefined {
+  const pose: Placement = { turn: [0, 0, 0, 1], move: [0, 0, 0] };
+  if (pivot) writePose(pose, { from: state, to: state, mix: 1 }, obstacle, pivot);
+  return pivot && pose;
+}
+
 /** The first place on the ray at an obstacle, or else at the far side of the bounds (m). */
-export function placeOnRay(facts: Pick<Facts, "min" | "max" | "obstacles">, ray: Ray): Vec3 {
+export function placeOnRay(
+  facts: Pick<Facts, "min" | "max" | "obstacles">,
+  ray: Ray,
+  state: Pick<State, "poses">,
+): Vec3 {
   const [enters, leaves] = crossing(facts, ray);
   const far = Math.max(enters, Math.min(leaves, 1e9));
   const near = 1e-4 * Math.hypot(...minus(facts.max, facts.min));
   // The ray comes through the near side of a hollow obstacle, and meets the far side: so it is followed backwards.
-  const ends = facts.obstacles.map((obstacle) => {
+  const ends = facts.obstacles.map((obstacle, number) => {
+    const pose = poseOf(obstacle, number, state);
     const back = isHollow(obstacle);
     let distance = back ? far : enters;
     for (let step = 0; step < mostSteps && distance >= enters && distance <= far; step++) {
-      const room = distanceFrom(obstacle, along(ray, distance));
+      const room = distanceFrom(obstacle, atBegin(obstacle, pose, along(ray, distance)));
       if (room < near) return distance;
       distance += back ? -room : room;
     }

@@ -82,7 +82,7 @@ export class Tools implements LazyTools {
     const { facts, newest, settings } = session;
     if (!facts || !newest) return;
     const sphere = place === undefined ? undefined : positionOf(facts, newest, place);
-    const at = sphere ?? placeOnRay(facts, ray);
+    const at = sphere ?? placeOnRay(facts, ray, newest);
     const clear = place === undefined ? 0 : facts.population.radiusOf(place);
     void panel.dropSpheres((_, count, radius) => dropAbove(facts, settings?.gravity, at, clear, count, radius));
   }

@@ -56,7 +56,7 @@ export function createSession() {
         xs.flatMap((x) => [x, 0, 0]),
         quantum,
       );
-      const drawing = { columns: { position }, order: 1, boxes: new Float64Array(0) };
+      const drawing = { columns: { position }, order: 1, boxes: new Float64Array(0), poses: [] };
       const rest = { count: xs.length, ...drawing, bytes: 0, decodeMs: 0, status: undefined };
       session.handle({ kind: "frame", frame: { ...times, ...rest, epoch, population } });
     },

@@ -2,12 +2,14 @@ in vec3 v_position;
 in vec3 v_normal;
 in vec4 v_colour;
 uniform float u_opacity;    // factor
+uniform vec3 u_ends;        // m: the largest coordinates that are drawn, on either side; 0: all are drawn
 
 layout(location = 0) out vec4 o_colour;
 
 void main() {
     vec3 to = v_position - eye.xyz;
     if (isCut(to)) discard;
+    if (u_ends.x > 0.0 && any(greaterThan(abs(v_position), u_ends))) discard;
     vec3 toEye = -rayTo(to).direction;
     vec3 normal = normalize(v_normal);
     float lift = 2.0 * pixelAt(length(to));
