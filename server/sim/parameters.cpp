@@ -6,6 +6,7 @@
 #include "scene/materials.h"
 #include "scene/shapes.h"
 #include "scene/stiffness.h"
+#include "sim/mesh_tables.h"
 #include "sim/modules/module.h"
 
 namespace spherule::sim {
@@ -72,7 +73,7 @@ std::vector<layout::ContactParams> contactParamsTable(const scene::Scene& scene)
     return table;
 }
 
-std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
+std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene, const MeshTables* meshes) {
     constexpr std::uint32_t faces = 6;
     std::vector<layout::Obstacle> rows;
     std::uint32_t surface = faces;
@@ -80,9 +81,11 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
         const scene::Shape::Row row = obstacle.shape->row(scene.bounds.centre());
         const std::uint32_t parts = obstacle.shape->parts();
         const scene::Frame frame = row.frame.value_or(scene::Frame());
+        const MeshTables::Row mesh = meshes != nullptr ? meshes->rows[rows.size()] : MeshTables::Row();
+        const bool isMesh = obstacle.shape->kind() == scene::ShapeKind::Meshes;
         const auto axis = [&](int k) { return glm::vec4(glm::dvec4(frame.turn[k], frame.origin[k])); };
-        rows.push_back({.a = row.a,
-                        .b = row.b,
+        rows.push_back({.a = isMesh ? mesh.a : row.a,
+                        .b = isMesh ? mesh.b : row.b,
                         .frameX = axis(0),
                         .frameY = axis(1),
                         .frameZ = axis(2),
@@ -91,7 +94,9 @@ std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene) {
                         .surface = surface,
                         .material = obstacle.material,
                         .framed = row.frame ? 1U : 0U,
-                        .unusedUints = {}});
+                        .cellsAt = mesh.cellsAt,
+                        .trianglesAt = mesh.trianglesAt,
+                        .unusedUint = 0});
         surface += parts;
     }
     return rows;
@@ -107,11 +112,13 @@ std::vector<scene::Box> sinksOnDevice(const scene::Scene& scene) {
 
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
     if (pipeline.plan().has(Array::Obstacles)) {
-        pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene));
-        // An empty list, then the list of all obstacles.
+        pipeline.write<layout::Obstacle>(Array::Obstacles, obstaclesFor(scene, pipeline.plan().meshes.get()));
+        // An empty list, the list of all obstacles, and the meshes.
         std::vector<std::uint32_t> lists{END_OF_LIST};
         for (std::uint32_t k = 0; k < scene.obstacles.size(); ++k) lists.push_back(k);
         lists.push_back(END_OF_LIST);
+        if (const auto meshes = pipeline.plan().meshes)
+            lists.insert(lists.end(), meshes->words.begin(), meshes->words.end());
         pipeline.write<std::uint32_t>(Array::ObstacleLists, lists);
     }
     if (pipeline.plan().has(Array::ContactParams))

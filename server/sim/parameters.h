@@ -15,8 +15,8 @@ layout::Parameters parametersFor(const scene::Scene& scene, const Plan& plan, co
 // Returns the contact parameters for all pairs of materials, row by row.
 std::vector<layout::ContactParams> contactParamsTable(const scene::Scene& scene);
 
-// Returns the rows of the obstacles for kernels, in the order of the scene.
-std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene);
+// Returns the rows of the obstacles for kernels, in the order of the scene. `meshes`: null if there are none.
+std::vector<layout::Obstacle> obstaclesFor(const scene::Scene& scene, const MeshTables* meshes);
 
 // Writes the scene data that kernels read in addition to the spheres and the parameters.
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene);

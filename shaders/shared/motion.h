@@ -1,5 +1,5 @@
-// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
-// included shared/separation.h, shared/shapes.h, shared/fields.h, shared/outside.h, shared/drift.h and
+// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters`, `obstacles`
+// and `obstacleLists`, and has included shared/separation.h, shared/shapes.h, shared/fields.h, shared/outside.h, shared/drift.h and
 // shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
@@ -23,6 +23,12 @@ bool mayMeetFace(uint face, float separation, vec3 normal) {
 }
 
 bool mayMeetObstacle(Obstacle obstacle, vec3 p) {
+    if (HAS(MESHES) && obstacle.shape == MESH_SHAPE) {
+        // The mesh may be in the direction of the flight.
+        float speed = sqrt(dot3(flightVelocity, flightVelocity));
+        vec3 ahead = speed > 0.0f ? flightVelocity * (-1.0f / speed) : vec3(0.0f, 0.0f, 0.0f);
+        return mayCloseGap(roomAtMesh(obstacle, p) - ownRadius, ahead);
+    }
     for (uint part = 0u; part < obstacle.parts; ++part) {
         vec4 surface = surfaceAt(obstacle, part, p);
         if (mayCloseGap(surface.w - ownRadius, vec3(surface))) return true;

@@ -1,23 +1,26 @@
 // The surfaces near a sphere: the faces of the bounds, and the obstacles near it. The includer has the PRIVATE variables
 // `spherePoint` (m), which visits may move, and `sphereRadius` (m). It defines
-//   `void visitSurface(mask where, real3 normal, real separation, real recession, uint wallMaterial, uint surface)`,
+//   `void visitSurface(mask where, real3 normal, real separation, real recession, uint wallMaterial, uint surface,
+//   uint key)`,
 // all that it sees of a surface, in lanes `where`. `normal` points to the sphere. `separation` is the gap between sphere
 // and surface (m), negative if they overlap. `recession` is the speed at which a curved surface recedes from the sphere
 // while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its
 // members, and glslang would need minutes.) Surfaces are numbered through faces and obstacles in the order of the scene.
+// `key` is the number by which a contact is remembered: that of the surface, or one of the many of a mesh.
 //
 // It also defines `real3 velocityAlong()`, the velocity with which the sphere meets curved surfaces (m/s). A solver that
 // needs no look ahead returns 0.
 //
-// It binds `obstacles`, `obstacleLists`, `nearObstacles` and `listReference`, and has included shared/shapes.h.
+// It binds `obstacles`, `obstacleLists`, `nearObstacles` and `listReference`, and has included shared/shapes.h and
+// shared/mesh_layout.h. It has also included shared/gathered_contacts.h, or shared/no_gathered_contacts.h.
 
 void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
     // The springs of `accurate` need the difference of the places without rounding.
     real aboveLow = HAS(BALANCED) ? coordinate - sphereRadius - low : coordinate - low - sphereRadius;
     if ((params.closedFaces & (1u << (2u * axis))) != 0u)
-        visitSurface(true, normal, aboveLow, real(0.0f), params.wallMaterial, 2u * axis);
+        visitSurface(true, normal, aboveLow, real(0.0f), params.wallMaterial, 2u * axis, 2u * axis);
     if ((params.closedFaces & (2u << (2u * axis))) != 0u)
-        visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial,
+        visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial, 2u * axis + 1u,
                      2u * axis + 1u);
 }
 
@@ -39,8 +42,8 @@ uints obstaclesNear(uintRow at, real reach) {
 }
 
 // Visits a curved part of an obstacle. Lanes in `close` may meet it in this substep: for them it is the plane that touches
-// it where they meet it. `surface` is the surface nearest to the sphere now.
-void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface) {
+// it where they meet it. `surface` is the surface nearest to the sphere now, `number` its number.
+void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface, uint number, uint key) {
     real h = real(params.substep);
     real3 v = velocityAlong();
     real3 normal = real3(surface);
@@ -71,20 +74,27 @@ void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 sur
         real4 end = surfaceAt(obstacle, part, spherePoint + along * h);
         recession = select(close, dot3(real3(end), along) * 0.5f, recession);
     }
-    visitSurface(where, normal, separation, recession, obstacle.material, obstacle.surface + part);
+    visitSurface(where, normal, separation, recession, obstacle.material, number, key);
 }
+
+#include "shared/mesh_surfaces.h"
 
 void visitObstacle(mask where, uint number) {
     Obstacle obstacle = obstacles[number];
+    if (HAS(MESHES) && obstacle.shape == MESH_SHAPE) {
+        visitMesh(where, obstacle);
+        return;
+    }
     for (uint part = 0u; part < obstacle.parts; ++part) {
+        uint key = obstacle.surface + part;
         real4 surface = surfaceAt(obstacle, part, spherePoint);
         real separation = surface.w - sphereRadius;
         real3 v = velocityAlong();
         mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
         if (isCurved(obstacle) && anyLane(close))
-            visitCurved(where, close, obstacle, part, surface);
+            visitCurved(where, close, obstacle, part, surface, key, key);
         else
-            visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, obstacle.surface + part);
+            visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, key, key);
     }
 }
 
