@@ -33,11 +33,14 @@ vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
+                  uint key) {
     depth = max(depth, -separation);
     if (separation < TOUCHES * sphereRadius) touched = touched + 1u;
 }
 
+#include "shared/mesh_layout.h"
+#include "shared/gathered_contacts.h"
 #include "shared/surfaces.h"
 
 KERNEL(params.spheres) {
@@ -49,6 +52,7 @@ KERNEL(params.spheres) {
     bool meets = finite3(x) && finite3(vec3(v)) && !(HAS(FIXED) && isFixed(v));
     if (meets) {
         spherePoint = wrapped(x);
+        gathered = 0u;
         visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(invocation, 0.0f) : NO_OBSTACLES);
     }
     touching[invocation] = touched;

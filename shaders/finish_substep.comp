@@ -35,6 +35,7 @@ BUFFER(coherent, uint, surfaceSums)
 #include "shared/moving.h"
 #include "shared/outside.h"
 #include "shared/falling_frame.h"
+#include "shared/mesh_room.h"
 #include "shared/motion.h"
 #include "shared/surface_sums.h"
 
@@ -55,30 +56,56 @@ PRIVATE(real3, spinByWalls)     // the change of spin by them (rad/s)
 PRIVATE(real, partsBefore)      // partOfSurface() of the surfaces at which the sphere held an impulse
 PRIVATE(real, partsNow)         // the same after the substep
 PRIVATE(mask, touchesWalls)
+PRIVATE(mask, seenRow[8])  // of the rows of `wallImpulse`: the sphere has visited the surface
 PRIVATE(real3, momentOfRolling) // at one surface, about the centre of the sphere (N m s)
 
-// The row of `wallImpulse` for a surface. The first three rows are for the axes of the bounds, the others for obstacles
+// The row of `wallImpulse` for a contact. The first three rows are for the axes of the bounds, the others for obstacles
 // that the sphere touches.
-uints rowOfSurface(uint surface) {
+uints rowOfSurface(mask where, uint key) {
     uints first = sphereId * params.maxWallHistory;
-    if (surface < 6u) return first + surface / 2u;
+    if (key < 6u) return first + key / 2u;
     uints found = first + 3u;
+    real foundRow = real(3.0f);
     mask known = noLane();
     mask empty = noLane();
     for (uint k = 3u; k < params.maxWallHistory; ++k) {
         real4 row = ROW(wallImpulse, first + k);
-        mask here = isAtSurface(row, surface);
+        mask here = isAtSurface(row, key);
         mask usable = !known && (here || (!empty && row.w == 0.0f));
         found = select(usable, first + k, found);
+        foundRow = select(usable, real(float(k)), foundRow);
         known = known || here;
         empty = empty || row.w == 0.0f;
     }
+    if (HAS(MESHES))
+        for (uint k = 3u; k < params.maxWallHistory; ++k) seenRow[k] = seenRow[k] || (where && foundRow == float(k));
     return found;
 }
 
 real3 relativeVelocity() {
     if (!HAS(MOTION)) return sphereVelocity;
     return sphereVelocity - surfaceVelocity;
+}
+
+// A sphere that has moved on to another part of a mesh holds nothing at the part before: the impulse ends that it had
+// there at the beginning of the substep.
+RARE void endLeftContacts() {
+    uints first = sphereId * params.maxWallHistory;
+    for (uint k = 3u; k < params.maxWallHistory; ++k) {
+        real4 held = ROW(wallImpulse, first + k);
+        mask left = sphereAwake && containsPart(partsBefore, 6u) && !seenRow[k] && held.w != 0.0f;
+        if (!anyLane(left)) continue;
+        touchesWalls = touchesWalls || left;
+        sphereVelocity = select(left, sphereVelocity - real3(held) * inverseMass, sphereVelocity);
+        real4 none = real4(0.0f, 0.0f, 0.0f, 0.0f);
+        SET_ROW(left, wallImpulse, first + k, none, held)
+        if (HAS(FRICTION)) {
+            real4 heldTurn = ROW(wallTorque, first + k);
+            real lever = inverseMass / sphereRadius * 2.5f;
+            sphereSpin = select(left, sphereSpin + real3(heldTurn) * lever, sphereSpin);
+            SET_ROW(left, wallTorque, first + k, none, heldTurn)
+        }
+    }
 }
 
 void resistRollingAtWall(mask where, real3 n, real normalImpulse, real4 contact) {
@@ -101,11 +128,11 @@ void reportDroppedWall(uint id) {
 
 // Solves the contacts in `where` with one surface. The spheres meet it in this substep, or they may hold an impulse.
 RARE void solveSurface(mask where, mask close, real3 n, real separation, real recession, real speed, uint wallMaterial,
-                       uint surface) {
+                       uint surface, uint key) {
     float h = params.substep;
-    uints row = rowOfSurface(surface);
+    uints row = rowOfSurface(where, key);
     real4 remembered = ROW(wallImpulse, row);
-    mask held = isAtSurface(remembered, surface);
+    mask held = isAtSurface(remembered, key);
     mask involved = where && (close || held);
 
     // A sphere whose row is another surface's holds no impulse here.
@@ -209,7 +236,7 @@ RARE void solveSurface(mask where, mask close, real3 n, real separation, real re
     mask stored = touching && remembers;
     mask holds = stored && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f);
     partsNow = select(holds, withPart(partsNow, surface), partsNow);
-    real4 kept = real4(impulse, select(holds, real(float(surface + 1u)), real(0.0f)));
+    real4 kept = real4(impulse, select(holds, real(float(key + 1u)), real(0.0f)));
     SET_ROW(stored, wallImpulse, row, kept, remembered)
     if (HAS(FRICTION)) SET_ROW(stored, wallTorque, row, real4(torque, 0.0f), oldTorque)
 }
@@ -222,7 +249,7 @@ real3 velocityAlong() {
     return sphereVelocity;
 }
 
-void visitSurface(mask where, real3 n, real separation, real recession, uint wallMaterial, uint surface) {
+void visitSurface(mask where, real3 n, real separation, real recession, uint wallMaterial, uint surface, uint key) {
     real speed = dot3(relativeVelocity(), n);
     if (HAS(MOTION)) {
         real motion = -speed * params.substep;
@@ -231,9 +258,10 @@ void visitSurface(mask where, real3 n, real separation, real recession, uint wal
     }
     mask close = separation + min(speed + recession, real(0.0f)) * params.substep <= 0.0f;
     mask visited = where && sphereAwake && (close || containsPart(partsBefore, surface));
-    if (anyLane(visited)) solveSurface(visited, close, n, separation, recession, speed, wallMaterial, surface);
+    if (anyLane(visited)) solveSurface(visited, close, n, separation, recession, speed, wallMaterial, surface, key);
 }
 
+#include "shared/no_gathered_contacts.h"
 #include "shared/surfaces.h"
 
 void solveWalls(uintRow at) {
@@ -254,7 +282,10 @@ void solveWalls(uintRow at) {
     sphereId = idOf(word);
     sphereMaterial = HAS(MATERIALS) ? materialOf(word) : uints(params.material);
     startVelocity = ROW(velocityBefore, at);
+    if (HAS(MESHES))
+        for (uint k = 3u; k < params.maxWallHistory; ++k) seenRow[k] = noLane();
     visitSurfaces(near);
+    if (HAS(MESHES)) endLeftContacts();
 }
 
 void reportNonFinite(uint sphere) {

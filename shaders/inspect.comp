@@ -38,10 +38,13 @@ vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
+                  uint key) {
     if (separation < TOUCHES * sphereRadius) note(INSPECTED_SURFACE | surface, -separation / sphereRadius);
 }
 
+#include "shared/mesh_layout.h"
+#include "shared/gathered_contacts.h"
 #include "shared/surfaces.h"
 
 KERNEL(params.spheres) {
@@ -51,6 +54,7 @@ KERNEL(params.spheres) {
         if (still || !finite3(vec3(own))) return;
         sphereRadius = radiusOf(own);
         spherePoint = wrapped(vec3(own));
+        gathered = 0u;
         visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(invocation, 0.0f) : NO_OBSTACLES);
         return;
     }

@@ -21,10 +21,12 @@ BUFFER(readonly, vec4, listReference)
 BUFFER(readonly, uint, idAndMaterial)
 BUFFER(coherent, uint, counters)
 BUFFER(readonly, Obstacle, obstacles)
+BUFFER(readonly, uint, obstacleLists)
 
 #include "shared/drift.h"
 #include "shared/falling_frame.h"
 #include "shared/moving.h"
+#include "shared/mesh_room.h"
 #include "shared/motion.h"
 
 KERNEL(params.spheres) {

@@ -15,11 +15,15 @@ BUFFER(restrict, uint, obstacleLists)    // see layout.h
 BUFFER(writeonly, uvec2, nearObstacles)  // place of the list, bits of the room (m)
 BUFFER(coherent, uint, counters)
 
+#include "shared/mesh_room.h"
+
 // The lists hold for some time even if all spheres fall together, and the pair lists with them.
 #define LIST_REACH 2.0f  // in margins
 
+// Of a mesh, it is a lower limit.
 float distanceTo(uint number, vec3 point) {
     Obstacle obstacle = obstacles[number];
+    if (HAS(MESHES) && obstacle.shape == MESH_SHAPE) return roomAtMesh(obstacle, point);
     float nearest = surfaceAt(obstacle, 0u, point).w;
     for (uint part = 1u; part < obstacle.parts; ++part) nearest = min(nearest, surfaceAt(obstacle, part, point).w);
     return nearest;
@@ -43,7 +47,7 @@ KERNEL(params.spheres) {
     }
     uint place = NO_OBSTACLES;
     if (found > 0u) {
-        place = ALL_OBSTACLES + params.obstacles + 1u + atomicAdd(counters[COUNTER_NEAR_OBSTACLES], found + 1u);
+        place = ALL_OBSTACLES + params.obstacles + 1u + params.meshWords + atomicAdd(counters[COUNTER_NEAR_OBSTACLES], found + 1u);
         if (place + found < params.obstacleListWords) {
             uint at = place;
             for (uint k = 0u; k < params.obstacles; ++k) {

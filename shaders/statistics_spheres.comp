@@ -46,7 +46,8 @@ vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
+                  uint key) {
     deepest = max(deepest, -separation);
     if (separation < TOUCHES * sphereRadius) touched = touched + 1u;
     if (!HAS(LOW_BITS)) return;
@@ -56,13 +57,15 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
     if (HAS(FRICTION)) {
         uint first = idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory;
         for (uint k = first; k < first + params.maxWallHistory; ++k)
-            if (isAtSurface(wallSlip[k], surface)) displacement = vec3(wallSlip[k]);
+            if (isAtSurface(wallSlip[k], key)) displacement = vec3(wallSlip[k]);
     }
     float speed = dot3(vec3(velocity[sphereSlot]), normal);
     springs += springEnergy(overlapWithSpeed(overlap, speed), sphereRadius,
                             contactParams[wallContactIndex(sphereSlot, wallMaterial)].stiffness, displacement);
 }
 
+#include "shared/mesh_layout.h"
+#include "shared/gathered_contacts.h"
 #include "shared/surfaces.h"
 
 // True if spheres touch anything in this scene: without that, there is no array to count in.
@@ -145,6 +148,7 @@ KERNEL(params.statisticBlocks) {
         sphereRadius = radiusOf(position[k]);
         deepest = 0.0f;
         touched = 0u;
+        gathered = 0u;
         visitSurfaces(HAS(OBSTACLES) ? obstaclesNear(k, 0.0f) : NO_OBSTACLES);
         overlap = max(overlap, deepest / sphereRadius);
         if (touches()) touching[k] = touched;

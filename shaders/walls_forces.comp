@@ -47,14 +47,14 @@ PRIVATE(uint, touchedWalls)  // one bit for each remembered wall that the sphere
 #include "shared/spring.h"
 #include "shared/surface_sums.h"
 
-// The index of the displacement at this surface in `wallSlip`: its present entry, or a free one. NO_ENTRY if there is
+// The index of the displacement of this contact in `wallSlip`: its present entry, or a free one. NO_ENTRY if there is
 // none.
-uint slipEntry(uint surface) {
+uint slipEntry(uint key) {
     uint first = idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory;
     uint freeEntry = NO_ENTRY;
     for (uint k = 0u; k < params.maxWallHistory; ++k) {
         vec4 stored = wallSlip[first + k];
-        if (isAtSurface(stored, surface)) return first + k;
+        if (isAtSurface(stored, key)) return first + k;
         if (!hasSlip(stored) && freeEntry == NO_ENTRY) freeEntry = first + k;
     }
     return freeEntry;
@@ -67,8 +67,8 @@ vec3 relativeVelocity() {
 
 // `fall` is the velocity that gravity and fields have added since the middle of the last motion (m/s). `arm` is the
 // distance from the centre to the wall (m).
-void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spring, vec4 contact) {
-    uint entry = slipEntry(surface);
+void applySpringFriction(vec3 n, uint key, vec3 fall, float arm, Spring spring, vec4 contact) {
+    uint entry = slipEntry(key);
     bool known = entry != NO_ENTRY && hasSlip(wallSlip[entry]);
     displacement = known ? rotateToPlane(vec3(wallSlip[entry]), n) : vec3(0.0f, 0.0f, 0.0f);
     vec3 relative = relativeVelocity();
@@ -103,7 +103,7 @@ void applySpringFriction(vec3 n, uint surface, vec3 fall, float arm, Spring spri
         atomicAdd(counters[COUNTER_DROPPED_WALLS], 1u);
         return;
     }
-    wallSlip[entry] = vec4(displacement, float(surface + 1u));
+    wallSlip[entry] = vec4(displacement, float(key + 1u));
     touchedWalls = touchedWalls | (1u << (entry - idOf(idAndMaterial[sphereSlot]) * params.maxWallHistory));
 }
 
@@ -115,7 +115,8 @@ vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
+                  uint key) {
     float overlap = -separation - dot3(residual, normal);
     if (!(overlap > 0.0f)) return;
     uint index = wallContactIndex(sphereSlot, wallMaterial);
@@ -134,12 +135,14 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
         momentHere = vec3(0.0f, 0.0f, 0.0f);
     }
     if (HAS(FRICTION))
-        applySpringFriction(normal, surface, fall, sphereRadius - overlap, spring, contactParams[index].contact);
+        applySpringFriction(normal, key, fall, sphereRadius - overlap, spring, contactParams[index].contact);
     if (!HAS(CONTACT_SUMS)) return;
     precise vec3 moment = cross3(spherePoint, impulseHere) + momentHere;
     addToSurfaceSums(sphereSlot, surface, impulseHere, moment);
 }
 
+#include "shared/mesh_layout.h"
+#include "shared/gathered_contacts.h"
 #include "shared/surfaces.h"
 
 void clearUntouchedSlip() {
@@ -168,6 +171,7 @@ KERNEL(params.spheres) {
     torque = vec3(0.0f, 0.0f, 0.0f);
     omega = vec3(spin);
     touchedWalls = 0u;
+    gathered = 0u;
     visitSurfaces(near);
     addDeltaVelocity(invocation, impulseSum * sphereInverseMass);
     if (HAS(FRICTION)) {

@@ -70,7 +70,8 @@ vec3 velocityAlong() {
     return solvedVelocity;
 }
 
-void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
+                  uint key) {
     if (!(separation < TOUCHES * sphereRadius)) return;
     touched = true;
     vec4 contact = contactParams[wallContactIndex(sphereSlot, wallMaterial)].contact;
@@ -105,6 +106,8 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
         pushedOut = pushedOut + normal * push;
 }
 
+#include "shared/mesh_layout.h"
+#include "shared/no_gathered_contacts.h"
 #include "shared/surfaces.h"
 
 KERNEL(params.spheres) {

@@ -131,7 +131,7 @@ fuzzed() {
 if [[ -n $fuzz ]]; then
     needed packages ./deploy/install_packages.sh build run egl software test clang
     needed configure cmake --preset fuzz --log-level=WARNING -D SPHERULE_TESTS=ON
-    targets=(scene csv table text message connection codec recording)
+    targets=(scene csv mesh height_field table text message connection codec recording)
     needed build cmake --build --preset fuzz -j "$jobs" --target "${targets[@]/#/fuzz_}"
     for target in "${targets[@]}"; do phase "fuzz $target" fuzzed "$target" "$fuzz"; done
     summary

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "net/command_rules.h"
 #include "scene/check.h"
+#include "scene/mesh/mesh.h"
 #include "scene/quality.h"
 #include "scene/quality_goal.h"
 #include "scene/surroundings.h"
@@ -18,8 +19,41 @@ namespace spherule::host {
 
 namespace {
 
+constexpr std::size_t mostMeshBytes = 4U << 20U;  // of all meshes in a message
+
+// Adds the triangles, without those that would make the message too long.
+void setMesh(v1::SceneFacts& facts, v1::Obstacle& obstacle, const scene::Mesh& mesh) {
+    obstacle.mutable_mesh()->set_solid(mesh.form == scene::Mesh::Form::Solid);
+    obstacle.mutable_mesh()->set_hollow(mesh.form == scene::Mesh::Form::Hollow);
+    std::size_t sent = 0;
+    for (const v1::MeshFacts& other : facts.meshes()) sent += other.vertices().size() + other.indices().size();
+    v1::MeshFacts& message = *facts.add_meshes();
+    message.set_obstacle(static_cast<std::uint32_t>(facts.obstacles_size() - 1));
+    scene::setVector(*message.mutable_min(), mesh.centre - mesh.half);
+    scene::setVector(*message.mutable_max(), mesh.centre + mesh.half);
+    message.set_triangles(static_cast<std::uint32_t>(mesh.corners.size()));
+    const std::size_t bytes = mesh.vertices.size() * sizeof(glm::vec3) + mesh.corners.size() * sizeof(mesh.corners[0]);
+    if (sent + bytes > mostMeshBytes) return;
+    std::vector<glm::vec3> vertices;
+    for (const glm::dvec3& vertex : mesh.vertices) vertices.emplace_back(vertex + mesh.centre);
+    message.set_vertices(vertices.data(), vertices.size() * sizeof(glm::vec3));
+    message.set_indices(mesh.corners.data(), mesh.corners.size() * sizeof(mesh.corners[0]));
+}
+
 void setObstacles(v1::SceneFacts& facts, const scene::Scene& scene) {
-    for (const scene::Obstacle& obstacle : scene.obstacles) scene::writeObstacle(*facts.add_obstacles(), obstacle);
+    for (const scene::Obstacle& obstacle : scene.obstacles) {
+        v1::Obstacle& message = *facts.add_obstacles();
+        const auto mesh = obstacle.shape->mesh();
+        if (!mesh) {
+            scene::writeObstacle(message, obstacle);
+            continue;
+        }
+        // Its message may name a file of this machine.
+        obstacle.shape->writePlace(message);
+        message.set_colour(obstacle.colour);
+        if (obstacle.motion) scene::writeMotion(*message.mutable_motion(), *obstacle.motion);
+        setMesh(facts, message, *mesh);
+    }
 }
 
 void setGroup(v1::GroupFacts& message, const scene::Scene& scene, std::size_t number) {

@@ -12,7 +12,7 @@
 #include "recording/exporter.h"
 #include "recording/output_file.h"
 #include "recording/vtk_poly_data.h"
-#include "scene/triangles.h"
+#include "scene/tessellation.h"
 
 namespace spherule::recording {
 
@@ -55,12 +55,12 @@ std::string spheresData(const Snapshot& snapshot) {
 
 // The surfaces of some obstacles, with the number of its obstacle for each triangle.
 struct Surfaces {
-    scene::Triangles triangles;
+    scene::Tessellation triangles;
     std::vector<std::int32_t> obstacles;
 
     void add(const Snapshot& snapshot, int obstacle, const scene::Frame& pose) {
         const scene::Box bounds{snapshot.spheres->low, snapshot.spheres->high};
-        triangles.append(scene::trianglesOf(snapshot.facts->obstacles(obstacle), pose, bounds));
+        triangles.append(scene::tessellationOf(snapshot.facts->obstacles(obstacle), pose, bounds));
         obstacles.resize(triangles.corners.size(), obstacle);
     }
 };

@@ -14,6 +14,7 @@
 #include "scene/periodic_axes.h"
 #include "scene/quality.h"
 #include "scene/radius_distribution.h"
+#include "scene/shapes.h"
 #include "scene/surroundings.h"
 #include "scene/view.h"
 
@@ -117,7 +118,9 @@ Result<Scene> buildIn(const std::optional<std::filesystem::path>& directory, con
     scene.sleep = readSleep(check, message.sleep(), overrides.noSleep);
     if (!message.has_bounds()) check.refuse("bounds", "are missing; give min and max");
     scene.bounds = readBounds(check, message.bounds(), scene.materials, "bounds");
-    scene.obstacles = readObstacles(check, message.obstacles(), scene.materials);
+    const glm::dvec3 sides = scene.bounds.max - scene.bounds.min;
+    scene.obstacles = readObstacles(check, message.obstacles(), scene.materials,
+                                    {.directory = directory, .longestSide = std::max({sides.x, sides.y, sides.z})});
     if (check.ok()) scene.camera = readCamera(check, message.camera(), scene.bounds);
     if (message.has_light()) scene.light = readLight(check, message.light());
     if (check.ok()) readGroups(check, message, directory, overrides, scene);

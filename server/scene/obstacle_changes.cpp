@@ -24,7 +24,9 @@ void startAt(Obstacle& obstacle, double time) {
 
 Result<Obstacle> obstacleToAdd(const v1::Obstacle& message, const Scene& scene) {
     Check check;
-    Obstacle obstacle = readObstacle(check, message, scene.materials, "obstacle");
+    const glm::dvec3 side = scene.bounds.max - scene.bounds.min;
+    const ShapeInput input{.longestSide = std::max({side.x, side.y, side.z})};
+    Obstacle obstacle = readObstacle(check, message, scene.materials, input, "obstacle");
     if (!check.ok()) return check.error();
     startAt(obstacle, scene.time);
     return obstacle;
@@ -61,6 +63,7 @@ Result<void> checkObstacles(const Scene& scene) {
         const float smallest = std::ranges::min_element(scene.spheres, smaller)->radius;
         checkResolution(check, scene, static_cast<double>(smallest), "bounds");
     }
+    checkMeshParts(check, scene.obstacles);
     if (!check.ok()) return check.error();
     if (auto fits = checkPeriodicAxes(scene); !fits) return fits;
     return checkObstacleSpeeds(scene);

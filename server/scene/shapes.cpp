@@ -18,6 +18,7 @@ constexpr std::array types = {
 #define SHAPE(flag, Name, text, number, function) &shapes##Name,
 #include "shapes.def"
 #undef SHAPE
+    &shapesHeightFields,
 };
 
 // Kernels have the numbers, and C++ counts.
@@ -44,6 +45,7 @@ class Placed final : public Shape {
     [[nodiscard]] double farthest(const glm::dvec3& from) const override {
         return shape_->farthest(frame_.inside(from));
     }
+    [[nodiscard]] std::shared_ptr<const Mesh> mesh() const override { return shape_->mesh(); }
     [[nodiscard]] double largestCoordinate(const glm::dvec3& origin) const override {
         if (normalOfHalfSpace()) return 0;  // it needs no frame
         return shape_->largestCoordinate(glm::dvec3(0)) + glm::distance(frame_.origin, origin);
@@ -61,6 +63,9 @@ class Placed final : public Shape {
     [[nodiscard]] const Frame& frame() const { return frame_; }
     void write(v1::Obstacle& message) const override {
         shape_->write(message);
+        writePlace(message);
+    }
+    void writePlace(v1::Obstacle& message) const override {
         writeRotation(*message.mutable_rotation(), rotation_);
         setVector(*message.mutable_translation(), frame_.origin);
     }
@@ -82,17 +87,17 @@ ShapePointer readPlace(Check& check, const v1::Obstacle& message, const std::str
 
 std::string fieldNames() {
     const auto* const shapes = v1::Obstacle::descriptor()->FindOneofByName("shape");
-    std::string names = shapes->field(0)->name();
-    for (int k = 1; k < shapes->field_count(); ++k) names += ", " + shapes->field(k)->name();
+    std::string names = shapes->field(0)->json_name();
+    for (int k = 1; k < shapes->field_count(); ++k) names += ", " + shapes->field(k)->json_name();
     return names;
 }
 
 }  // namespace
 
-ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field) {
+ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& input) {
     for (const ShapeType* type : types)
         if (type->field == message.shape_case())
-            return readPlace(check, message, field, type->read(check, message, field));
+            return readPlace(check, message, field, type->read(check, message, field, input));
     check.refuse(field, fmt::format("has no shape, must have one of {}", fieldNames()));
     return nullptr;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ class Obstacle;
 namespace spherule::scene {
 
 class Check;
+class Mesh;
 
 // The shapes of obstacles: the rows of shaders/shapes.def. Each has a file in scene/shapes/.
 enum class ShapeKind : std::uint8_t {
@@ -46,6 +48,9 @@ class Shape {
     // `origin`; 0 if it is no larger than the coordinates of the spheres.
     [[nodiscard]] virtual double largestCoordinate(const glm::dvec3& origin) const { return farthest(origin); }
 
+    // Returns its triangles if it has the kind Meshes, in the coordinates of its frame; null for others.
+    [[nodiscard]] virtual std::shared_ptr<const Mesh> mesh() const { return nullptr; }
+
     // The members a and b of its row for kernels: see shaders/shapes/. Without a frame, positions are relative to
     // `origin`; with one, they are in the frame's coordinates.
     struct Row {
@@ -56,12 +61,21 @@ class Shape {
     [[nodiscard]] virtual Row row(const glm::dvec3& origin) const = 0;
     // Writes the shape in the form in which scenes give it.
     virtual void write(v1::Obstacle& message) const = 0;
+    // Writes only how the shape is turned and moved.
+    virtual void writePlace(v1::Obstacle& /*message*/) const {}
 };
 
 using ShapePointer = std::shared_ptr<const Shape>;
 
+// What a shape is read with besides its message.
+struct ShapeInput {
+    std::optional<std::filesystem::path> directory{};  // of files that the scene names; nullopt: it may not name any
+    double longestSide = 1;                            // of the bounds (m)
+};
+
 // Reads the shape of an obstacle, whose field in the scene is `field`. Refuses an obstacle without one.
-ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field);
+ShapePointer readShape(Check& check, const v1::Obstacle& message, const std::string& field,
+                       const ShapeInput& input = {});
 
 // The ends of a shape along a line: two points that differ.
 struct Ends {
@@ -106,11 +120,13 @@ glm::dvec3 originOf(const Shape& shape);
 // How one kind of shape is read and made. Defined in its file in scene/shapes/.
 struct ShapeType {
     int field = 0;  // v1::Obstacle::ShapeCase
-    ShapePointer (*read)(Check& check, const v1::Obstacle& message, const std::string& field) = nullptr;
+    ShapePointer (*read)(Check& check, const v1::Obstacle& message, const std::string& field,
+                         const ShapeInput& input) = nullptr;
     ShapePointer (*example)(double top) = nullptr;
 };
 #define SHAPE(flag, Name, text, number, function) extern const ShapeType shapes##Name;
 #include "shapes.def"
 #undef SHAPE
+extern const ShapeType shapesHeightFields;  // read as a message of its own, made as a mesh
 
 }  // namespace spherule::scene

@@ -8,10 +8,18 @@
 
 #include "scene/load.h"
 #include "scene/materials.h"
+#include "scene/mesh/mesh.h"
 #include "scene/periodic_axes.h"
 #include "scene/shapes.h"
 
 namespace spherule::scene {
+
+namespace {
+
+// Contacts with them are numbered in float32, exactly up to 2^24.
+constexpr std::size_t mostMeshParts = 16'700'000;
+
+}  // namespace
 
 Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
                   std::string_view field) {
@@ -35,9 +43,9 @@ Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Mat
 }
 
 Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
-                      const std::string& field) {
+                      const ShapeInput& input, const std::string& field) {
     Obstacle obstacle;
-    obstacle.shape = readShape(check, message, field);
+    obstacle.shape = readShape(check, message, field, input);
     obstacle.material = materialNamed(check, message.material(), materials, at(field, "material"));
     obstacle.colour = check.colour(message.colour(), at(field, "colour"));
     if (message.has_motion() && check.ok()) {
@@ -49,7 +57,7 @@ Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vect
 }
 
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
-                                    const std::vector<Material>& materials) {
+                                    const std::vector<Material>& materials, const ShapeInput& input) {
     std::vector<Obstacle> obstacles;
     const auto count = static_cast<std::size_t>(messages.size());
     if (count > maxObstacles) {
@@ -57,9 +65,24 @@ std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::Repeat
         return obstacles;
     }
     for (std::size_t i = 0; i < count; ++i) {
-        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], materials, at("obstacles", i)));
+        obstacles.push_back(readObstacle(check, messages[static_cast<int>(i)], materials, input, at("obstacles", i)));
+        if (!check.ok()) break;
     }
+    checkMeshParts(check, obstacles);
     return obstacles;
+}
+
+void checkMeshParts(Check& check, const std::vector<Obstacle>& obstacles) {
+    std::size_t parts = 0;
+    for (std::size_t i = 0; i < obstacles.size() && check.ok(); ++i)
+        if (const auto mesh = obstacles[i].shape->mesh()) {
+            parts += mesh->parts();
+            if (parts > mostMeshParts)
+                check.refuse(at("obstacles", i),
+                             fmt::format("has {} planes, edges and corners together with the meshes "
+                                         "before it, must have at most {}; make them coarser",
+                                         parts, mostMeshParts));
+        }
 }
 
 void checkResolution(Check& check, const Scene& scene, double smallestRadius, std::string_view field) {

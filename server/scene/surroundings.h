@@ -10,12 +10,17 @@
 
 namespace spherule::scene {
 
+struct ShapeInput;
+
 Bounds readBounds(Check& check, const v1::Bounds& message, const std::vector<Material>& materials,
                   std::string_view field);
 Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vector<Material>& materials,
-                      const std::string& field);
+                      const ShapeInput& input, const std::string& field);
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
-                                    const std::vector<Material>& materials);
+                                    const std::vector<Material>& materials, const ShapeInput& input);
+
+// Refuses meshes with so many planes, edges and corners that contacts with them could not be numbered.
+void checkMeshParts(Check& check, const std::vector<Obstacle>& obstacles);
 
 // Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius (m).
 // Also refuses round obstacles so large that distances from them would be as coarse. `field`: of the bounds.

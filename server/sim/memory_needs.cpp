@@ -8,6 +8,7 @@
 #include "scene/occupancy.h"
 #include "scene/scene.h"
 #include "sim/layout.h"
+#include "sim/mesh_tables.h"
 #include "sim/sphere_columns.h"
 
 namespace spherule::sim {
@@ -64,6 +65,7 @@ MemoryNeeds memoryNeedsOf(const Plan& plan) {
                               {"host: scene at the start", n * sizeof(scene::Sphere)},
                               {"host: last good state", n * slotBytes(plan)}},
                      .temporary = n * snapshotBytes(plan)};
+    if (plan.meshes) need.host.push_back({"host: meshes", plan.meshes->bytes()});
     if (plan.features.has(Feature::Radii)) need.host.push_back({"host: radii for viewers", n * radiiBytes});
     return need;
 }

@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "sim/mesh_tables.h"
+
 namespace spherule::sim {
 
 namespace {
@@ -21,7 +23,7 @@ glm::dvec3 cayleyVector(const glm::dquat& turn) {
 
 }  // namespace
 
-ObstacleRows::ObstacleRows(const scene::Scene& scene) : centre_(scene.bounds.centre()) {
+ObstacleRows::ObstacleRows(const scene::Scene& scene, const MeshTables* meshes) : centre_(scene.bounds.centre()) {
     std::uint32_t surface = scene::faceCount;
     for (const scene::Obstacle& obstacle : scene.obstacles) {
         // A body that moves lies in a frame about its pivot.
@@ -30,6 +32,13 @@ ObstacleRows::ObstacleRows(const scene::Scene& scene) : centre_(scene.bounds.cen
         layout::Obstacle to{};
         to.a = row.a;
         to.b = row.b;
+        if (obstacle.shape->kind() == scene::ShapeKind::Meshes) {
+            const MeshTables::Row& mesh = meshes->rows[rows_.size()];
+            to.a = mesh.a;
+            to.b = mesh.b;
+            to.cellsAt = mesh.cellsAt;
+            to.trianglesAt = mesh.trianglesAt;
+        }
         to.shape = static_cast<std::uint32_t>(obstacle.shape->kind());
         to.parts = obstacle.shape->parts();
         to.surface = surface;

@@ -10,6 +10,8 @@
 
 namespace spherule::sim {
 
+struct MeshTables;
+
 // A substep, in s simulated.
 struct SubstepTimes {
     double begin = 0;
@@ -19,7 +21,8 @@ struct SubstepTimes {
 // The rows of the array Obstacles: each obstacle, then the motion of each obstacle that may move.
 class ObstacleRows {
   public:
-    explicit ObstacleRows(const scene::Scene& scene);
+    // `meshes`: of the plan; null if there are none.
+    ObstacleRows(const scene::Scene& scene, const MeshTables* meshes);
 
     // Sets the frames and motions in a substep: see shaders/shared/layout.h. `framesAt`: its begin, or its end (s).
     void place(const scene::Scene& scene, const SubstepTimes& times, double framesAt);

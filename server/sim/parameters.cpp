@@ -5,6 +5,7 @@
 
 #include "scene/materials.h"
 #include "scene/stiffness.h"
+#include "sim/mesh_tables.h"
 #include "sim/modules/module.h"
 #include "sim/obstacle_rows.h"
 
@@ -82,11 +83,13 @@ std::vector<scene::Box> sinksOnDevice(const scene::Scene& scene) {
 
 void writeConstants(Pipeline& pipeline, const scene::Scene& scene) {
     if (pipeline.plan().has(Array::Obstacles)) {
-        pipeline.write<layout::Obstacle>(Array::Obstacles, ObstacleRows(scene).rows());
-        // An empty list, then the list of all obstacles.
+        pipeline.write<layout::Obstacle>(Array::Obstacles, ObstacleRows(scene, pipeline.plan().meshes.get()).rows());
+        // An empty list, the list of all obstacles, and the meshes.
         std::vector<std::uint32_t> lists{END_OF_LIST};
         for (std::uint32_t k = 0; k < scene.obstacles.size(); ++k) lists.push_back(k);
         lists.push_back(END_OF_LIST);
+        if (const auto meshes = pipeline.plan().meshes)
+            lists.insert(lists.end(), meshes->words.begin(), meshes->words.end());
         pipeline.write<std::uint32_t>(Array::ObstacleLists, lists);
     }
     if (pipeline.plan().has(Array::ContactParams))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,10 +65,11 @@ class Pipeline {
     // Makes room for more spheres. Refused, with the spheres unchanged, if there is no memory for it.
     Result<void> growSpheres(std::uint32_t room, const scene::Scene& scene);
 
-    // Takes over the state of a pipeline of other obstacles with the same spheres: see planAsOf(). `surfaces`: the new
-    // number of each of its surfaces; nullopt: it is gone. The lists are rebuilt in the next substep. Waits for the
-    // device.
-    void takeFrom(Pipeline& before, std::span<const std::optional<std::uint32_t>> surfaces);
+    // Returns the new key of a contact with an obstacle (shaders/shared/surfaces.h); nullopt: the contact has ended.
+    using NewKey = std::function<std::optional<std::uint32_t>(std::uint32_t key)>;
+    // Takes over the state of a pipeline of other obstacles with the same spheres: see planAsOf(). The lists are
+    // rebuilt in the next substep. Waits for the device.
+    void takeFrom(Pipeline& before, const NewKey& newKey);
     // Wakes the spheres with these handles. Waits for the device.
     void wake(std::span<const std::uint32_t> handles);
     // Makes new lists in the next substep.
@@ -144,7 +146,7 @@ class Pipeline {
     void copy(compute::Buffer& from, std::size_t begin, std::size_t bytes, compute::Buffer& to, std::size_t toBegin);
     std::uint32_t slotOf(std::uint32_t handle);
     void setSpheres(std::uint32_t count);
-    void takeWallMemory(Pipeline& before, std::span<const std::optional<std::uint32_t>> surfaces);
+    void takeWallMemory(Pipeline& before, const NewKey& newKey);
     void rebuildLists();
     void clearRows(Array array, std::size_t first, std::size_t count);
     void wakeNeighbours(const std::vector<bool>& gone, std::span<const std::uint32_t> words);

@@ -25,20 +25,19 @@ bool dependsOnObstacles(Array array) {
 
 }  // namespace
 
-void Pipeline::takeFrom(Pipeline& before, std::span<const std::optional<std::uint32_t>> surfaces) {
+void Pipeline::takeFrom(Pipeline& before, const NewKey& newKey) {
     for (const ArraySpec& spec : plan_.arrays) {
         if (dependsOnObstacles(spec.array) || !before.plan_.has(spec.array)) continue;
         const std::size_t bytes = std::min(spec.bytes, before.plan_.bytesOf(spec.array));
         copy(before.buffer(spec.array), 0, bytes, buffer(spec.array), 0);
     }
-    takeWallMemory(before, surfaces);
+    takeWallMemory(before, newKey);
     substepLength_ = before.substepLength_;
     impactsPending_ = before.impactsPending_;
     requestRebuild();
 }
 
-// Contacts with surfaces that are gone are forgotten.
-void Pipeline::takeWallMemory(Pipeline& before, std::span<const std::optional<std::uint32_t>> surfaces) {
+void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
     const std::uint32_t least = std::min(plan_.maxWallHistory, before.plan_.maxWallHistory);
     for (const Array array : {Array::WallImpulse, Array::WallTorque, Array::WallSlip}) {
         if (!plan_.has(array) || !before.plan_.has(array)) continue;
@@ -50,11 +49,11 @@ void Pipeline::takeWallMemory(Pipeline& before, std::span<const std::optional<st
             for (std::uint32_t k = 0; k < least; ++k) {
                 const std::size_t from = handle * before.plan_.maxWallHistory + k;
                 if (keys[from].w == 0) continue;
-                const std::size_t surface = static_cast<std::size_t>(keys[from].w) - 1;
-                if (!surfaces[surface]) continue;
+                const auto key = newKey(static_cast<std::uint32_t>(keys[from].w) - 1);
+                if (!key) continue;
                 glm::vec4& row = rows[handle * plan_.maxWallHistory + k];
                 row = old[from];
-                if (array != Array::WallTorque) row.w = static_cast<float>(*surfaces[surface] + 1);
+                if (array != Array::WallTorque) row.w = static_cast<float>(*key + 1);
             }
         write<glm::vec4>(array, rows);
     }

@@ -6,6 +6,7 @@
 #include "scene/load.h"
 #include "scene/shapes.h"
 #include "sim/layout.h"
+#include "sim/mesh_tables.h"
 #include "sim/modules/module.h"
 #include "sim/pipeline.h"
 
@@ -80,7 +81,8 @@ std::uint64_t elementsOf(Extent extent, const Plan& plan, const scene::Scene& sc
                    static_cast<std::uint64_t>(
                        std::ranges::count_if(scene.obstacles, [](const auto& one) { return one.motion.has_value(); }));
         case Extent::ObstacleListWord:
-            return obstacleListWords(scene.obstacles.size(), plan.features.has(Feature::Contacts) ? n : 0);
+            return obstacleListWords(scene.obstacles.size(), plan.features.has(Feature::Contacts) ? n : 0) +
+                   (plan.meshes ? plan.meshes->words.size() : 0);
         case Extent::MaterialPair:
             return scene.materials.size() * scene.materials.size();
         case Extent::Counter:
@@ -211,10 +213,14 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
                                       8 * PAIR_PADDING * static_cast<std::uint32_t>(plan.grid.levels.size());
         plan.dispatchSizes = launchTable(plan);
     }
+    if (features.has(Feature::Meshes)) plan.meshes = meshTablesFor(scene, radii.largest);
     if (features.hasSurfaceFeature()) {
         // `balanced` has one for each axis of the bounds, before the ones for obstacles.
         const std::uint32_t unused = features.has(Feature::Balanced) ? 3 : 0;
-        plan.maxWallHistory = std::min(wallHistoryLimit, scene::surfacesOf(scene) - unused);
+        // Of a mesh, a sphere may touch any number of parts.
+        plan.maxWallHistory = features.has(Feature::Meshes)
+                                  ? wallHistoryLimit
+                                  : std::min(wallHistoryLimit, scene::surfacesOf(scene) - unused);
     }
     PlanBuilder builder(plan, scene);
     builder.arrays(

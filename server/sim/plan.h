@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@
 #include "sim/radius_stats.h"
 
 namespace spherule::sim {
+
+struct MeshTables;
 
 // One step in `observedEvery` is observed: it also launches the kernels that only measure how the solver works. The
 // number of the step decides, so that every run observes the same steps.
@@ -65,15 +68,16 @@ struct Plan {
     glm::dvec3 periods{};       // m: length of each periodic axis; 0: not periodic
     Grid grid;
     std::uint32_t pairCapacity = 0;
-    std::uint32_t maxWallHistory = 0;          // remembered by each sphere
-    std::vector<ArraySpec> arrays;             // in the order of sim/arrays.def
-    std::vector<LaunchSpec> substep;           // in order
-    std::vector<LaunchSpec> newSubstep;        // when the length of the substep has changed
-    std::vector<LaunchSpec> statistics;        // on demand
-    std::vector<LaunchSpec> stepEnd;           // at the end of a step
-    std::vector<LaunchSpec> figures;           // when viewers ask for them: the figures of each sphere
-    std::vector<LaunchSpec> inspection;        // likewise: what one sphere touches
-    std::vector<std::uint32_t> dispatchSizes;  // invocations per row of the launch table
+    std::shared_ptr<const MeshTables> meshes{};  // null: the scene has no meshes
+    std::uint32_t maxWallHistory = 0;            // remembered by each sphere
+    std::vector<ArraySpec> arrays;               // in the order of sim/arrays.def
+    std::vector<LaunchSpec> substep;             // in order
+    std::vector<LaunchSpec> newSubstep;          // when the length of the substep has changed
+    std::vector<LaunchSpec> statistics;          // on demand
+    std::vector<LaunchSpec> stepEnd;             // at the end of a step
+    std::vector<LaunchSpec> figures;             // when viewers ask for them: the figures of each sphere
+    std::vector<LaunchSpec> inspection;          // likewise: what one sphere touches
+    std::vector<std::uint32_t> dispatchSizes;    // invocations per row of the launch table
 
     [[nodiscard]] bool has(Array array) const;
     [[nodiscard]] std::uint64_t bytesOf(Array array) const;

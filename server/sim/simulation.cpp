@@ -86,7 +86,7 @@ void Simulation::install(Preparation& preparation) {
             "moved apart beforehand, to {:.2g}, in {} sweeps",
             steps_, resolved->before, scene::nameOf(scene_.quality.model), resolved->after, resolved->sweeps));
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
-    obstacleRows_.emplace(scene_);
+    obstacleRows_.emplace(scene_, plan().meshes.get());
     useSubsteps(scene_.quality.substeps);
     limitMotionOf(preparation.built_.state);
     openContactSums();

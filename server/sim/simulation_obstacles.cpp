@@ -10,6 +10,7 @@
 #include "scene/quality.h"
 #include "scene/shapes.h"
 #include "sim/memory_needs.h"
+#include "sim/mesh_tables.h"
 #include "sim/parameters.h"
 #include "sim/simulation.h"
 
@@ -122,14 +123,27 @@ Result<void> Simulation::checkWay(const scene::Obstacle& obstacle, const scene::
 // Takes other obstacles, with the spheres as they are. Cannot fail.
 void Simulation::continueWith(Preparation& preparation) {
     closeContactSums();
-    preparation.pipeline_->takeFrom(*pipeline_, preparation.edit_.surfaces);
+    const auto before = plan().meshes;
+    const auto after = preparation.pipeline_->plan().meshes;
+    const Preparation::ObstacleEdit& edit = preparation.edit_;
+    const bool removed = preparation.built_.scene.obstacles.size() < scene_.obstacles.size();
+    preparation.pipeline_->takeFrom(*pipeline_, [&](std::uint32_t key) -> std::optional<std::uint32_t> {
+        if (key < edit.surfaces.size()) return edit.surfaces[key];
+        for (std::size_t k = 0; before && after && k < before->rows.size(); ++k) {
+            if (key >= before->rows[k].endKey) continue;
+            if (removed && k == edit.number) return std::nullopt;
+            const std::size_t now = k - (removed && k > edit.number ? 1 : 0);
+            return after->rows[now].firstKey + (key - before->rows[k].firstKey);
+        }
+        return std::nullopt;
+    });
     pipeline_ = std::move(preparation.pipeline_);
     wakeAt(preparation.edit_.places);
     scene_ = std::move(preparation.built_.scene);
     writeConstants(*pipeline_, scene_);
     claim_ = std::move(preparation.claim_);
     settleClaim(claim_, device_, plan());
-    obstacleRows_.emplace(scene_);
+    obstacleRows_.emplace(scene_, plan().meshes.get());
     maxSubsteps_ = scene::maxRaisedSubsteps(scene_);
     useSubsteps(std::max(substeps_, scene_.quality.substeps));
     contactSums_.loads.clear();  // surfaces have other numbers

@@ -33,6 +33,7 @@
 //   SET_ROW(where, array, at, to, old)  Sets the elements of the lanes in `where`. `old`: their present values.
 //   SET_ALL(array, at, to)      Sets the elements of all lanes of a uintRow. Lanes that do not exist must keep theirs.
 //   MEMBER(array, at, member)   A vec4 member of the structs of a buffer.
+//   wholeOf(value)              The whole number of a real from 0 to 2^24.
 //   RARE                        Before a function: keeps it out of the code around its calls.
 //   EACH_LANE(where, function, at)  Calls the function with the number of each lane in `where`.
 //   EACH_LANE_WITH(where, flag, function, at)  The same for a uintRow, in order, with the bool of a second mask.
@@ -123,6 +124,7 @@ bool finiteLanes(vec3 a) {
            (floatBitsToUint(a.z) & 0x7f800000u) != 0x7f800000u;
 }
 uint leastOf(uint a) { return a; }
+uint wholeOf(float a) { return uint(a); }
 float select(bool m, float yes, float no) { return m ? yes : no; }
 uint select(bool m, uint yes, uint no) { return m ? yes : no; }
 vec3 select(bool m, vec3 yes, vec3 no) { return m ? yes : no; }

@@ -54,7 +54,7 @@ struct Parameters {
     uint levels;
 
     uint openFaces;      // as closedFaces; a face of a periodic axis is neither
-    uint unusedUint1;
+    uint meshWords;      // in obstacleLists, behind the list of all obstacles
     float perImpulseUnit;  // 1/(N s): reciprocal of the unit of impulses on surfaces, a power of two
     float perMomentUnit;   // 1/(N m s): reciprocal of the unit of their moments
 
@@ -84,7 +84,8 @@ struct Obstacle {
     uint material;
     uint framed;         // 1: it has a frame
     uint motion;         // the row of its motion; 0: it is at rest in this substep
-    uint unusedUints[2];
+    uint cellsAt;        // of a mesh: see mesh_layout.h
+    uint trianglesAt;
 };
 
 // Behind the rows of the obstacles, `obstacles` has a row for the motion of each obstacle that may move. In these rows, a
@@ -94,7 +95,7 @@ struct Obstacle {
 // beginning of a substep, in the other models as at its end.
 
 // The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the
-// list of all obstacles.
+// list of all obstacles. The words of meshes follow (mesh_layout.h), then the lists of obstacles near spheres.
 #define NO_OBSTACLES 0u
 #define ALL_OBSTACLES 1u
 #define END_OF_LIST 0xffffffffu

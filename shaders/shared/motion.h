@@ -1,5 +1,6 @@
-// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters` and `obstacles`, and has
-// included shared/separation.h, shared/shapes.h, shared/moving.h, shared/fields.h, shared/outside.h, shared/drift.h and
+// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters`, `obstacles`
+// and `obstacleLists`, and has included shared/separation.h, shared/shapes.h, shared/moving.h, shared/fields.h,
+// shared/outside.h, shared/drift.h and
 // shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
@@ -24,6 +25,15 @@ bool mayMeetFace(uint face, float separation, vec3 normal) {
 
 bool mayMeetObstacle(Obstacle obstacle, vec3 p) {
     vec3 v = flightVelocity;
+    if (HAS(MESHES) && obstacle.shape == MESH_SHAPE) {
+        if (isMoving(obstacle)) flightVelocity = v - materialVelocity(obstacles[obstacle.motion], 0.0f, p);
+        // The mesh may be in the direction of the flight.
+        float speed = sqrt(dot3(flightVelocity, flightVelocity));
+        vec3 ahead = speed > 0.0f ? flightVelocity * (-1.0f / speed) : vec3(0.0f, 0.0f, 0.0f);
+        bool near = mayCloseGap(roomAtMesh(obstacle, p) - ownRadius, ahead);
+        flightVelocity = v;
+        return near;
+    }
     bool meets = false;
     for (uint part = 0u; part < obstacle.parts; ++part) {
         vec4 surface = surfaceAt(obstacle, part, p);

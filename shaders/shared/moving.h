@@ -95,3 +95,9 @@ ANY_REAL4 movedSurfaceAt(Obstacle obstacle, Obstacle motion, uint part, ANY_REAL
     normal = turnedBy(motion, share, normal);
     return row4(normal.x, normal.y, normal.z, surface.w);
 }
+
+// Describes the motion of the surface that is visited, where the sphere touches it.
+void setSurfaceMotion(Obstacle motion, real3 point, real3 normal) {
+    surfaceVelocity = velocityOfSurface(motion, point, normal);
+    surfaceSpin = spinOf(motion, point);
+}

@@ -41,7 +41,7 @@ ANY_MASK isCentred(ANY_REAL fromAxis, ANY_REAL distance) {
 #include "shapes.def"
 #undef SHAPE_FILES
 
-// All shapes but planes are curved, boxes at their edges.
+// All shapes but planes are curved, boxes at their edges. (Of meshes, edges and vertices are.)
 bool isCurved(Obstacle obstacle) {
     return obstacle.shape != 0u;
 }
@@ -57,9 +57,8 @@ ANY_REAL4 shapeAt(Obstacle obstacle, uint part, ANY_REAL3 point) {
     return row4(point.x, point.y, point.z, abs(point.x) + FAR_AWAY);  // no such shape
 }
 
-// The same in the coordinates of the bounds.
-ANY_REAL4 surfaceAt(Obstacle obstacle, uint part, ANY_REAL3 point) {
-    if (!HAS(FRAMES) || obstacle.framed == 0u) return shapeAt(obstacle, part, point);
+// Returns a point in the coordinates of the obstacle's frame.
+ANY_REAL3 intoFrame(Obstacle obstacle, ANY_REAL3 point) {
     ANY_REAL dx = point.x - obstacle.frameX.w;
     ANY_REAL dy = point.y - obstacle.frameY.w;
     ANY_REAL dz = point.z - obstacle.frameZ.w;
@@ -70,7 +69,13 @@ ANY_REAL4 surfaceAt(Obstacle obstacle, uint part, ANY_REAL3 point) {
     inFrame.x = px;
     inFrame.y = py;
     inFrame.z = pz;
-    ANY_REAL4 surface = shapeAt(obstacle, part, inFrame);
+    return inFrame;
+}
+
+// The same as shapeAt() in the coordinates of the bounds.
+ANY_REAL4 surfaceAt(Obstacle obstacle, uint part, ANY_REAL3 point) {
+    if (!HAS(FRAMES) || obstacle.framed == 0u) return shapeAt(obstacle, part, point);
+    ANY_REAL4 surface = shapeAt(obstacle, part, intoFrame(obstacle, point));
     precise ANY_REAL nx = obstacle.frameX.x * surface.x + obstacle.frameY.x * surface.y + obstacle.frameZ.x * surface.z;
     precise ANY_REAL ny = obstacle.frameX.y * surface.x + obstacle.frameY.y * surface.y + obstacle.frameZ.y * surface.z;
     precise ANY_REAL nz = obstacle.frameX.z * surface.x + obstacle.frameY.z * surface.y + obstacle.frameZ.z * surface.z;

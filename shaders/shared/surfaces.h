@@ -1,24 +1,27 @@
 // The surfaces near a sphere: the faces of the bounds, and the obstacles near it. The includer has the PRIVATE variables
 // `spherePoint` (m), which visits may move, and `sphereRadius` (m). It defines
-//   `void visitSurface(mask where, real3 normal, real separation, real recession, uint wallMaterial, uint surface)`,
+//   `void visitSurface(mask where, real3 normal, real separation, real recession, uint wallMaterial, uint surface,
+//   uint key)`,
 // all that it sees of a surface, in lanes `where`. `normal` points to the sphere. `separation` is the gap between sphere
 // and surface (m), negative if they overlap. `recession` is the speed at which a curved surface recedes from the sphere
 // while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its
 // members, and glslang would need minutes.) Surfaces are numbered through faces and obstacles in the order of the scene.
+// `key` is the number by which a contact is remembered: that of the surface, or one of the many of a mesh.
 //
 // It also defines `bool looksAhead()`, which returns true in a solver that finds the moment of an impact. There
 // `real3 velocityAlong()` is the velocity with which the sphere meets curved surfaces (m/s), elsewhere it is 0.
 //
 // It binds `obstacles`, `obstacleLists`, `nearObstacles`, `listReference` and `counters`, and has included
-// shared/shapes.h and shared/moving.h, whose variables describe the motion of the visited surface.
+// shared/shapes.h, shared/mesh_layout.h and shared/moving.h, whose variables describe the motion of the visited surface.
+// It has also included shared/gathered_contacts.h, or shared/no_gathered_contacts.h.
 
 void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
     // The springs of `accurate` need the difference of the places without rounding.
     real aboveLow = HAS(BALANCED) ? coordinate - sphereRadius - low : coordinate - low - sphereRadius;
     if ((params.closedFaces & (1u << (2u * axis))) != 0u)
-        visitSurface(true, normal, aboveLow, real(0.0f), params.wallMaterial, 2u * axis);
+        visitSurface(true, normal, aboveLow, real(0.0f), params.wallMaterial, 2u * axis, 2u * axis);
     if ((params.closedFaces & (2u << (2u * axis))) != 0u)
-        visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial,
+        visitSurface(true, -normal, high - coordinate - sphereRadius, real(0.0f), params.wallMaterial, 2u * axis + 1u,
                      2u * axis + 1u);
 }
 
@@ -55,8 +58,9 @@ real4 laterSurfaceAt(Obstacle obstacle, uint part, real share, real3 point) {
 
 // Visits a part of an obstacle that is curved or moves. Lanes in `close` may meet it in this substep: for them it is the
 // plane that touches it where they meet it. `surface` is the surface nearest to the sphere now. `relative` is the velocity
-// of the sphere relative to its material (m/s).
-void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface, real3 relative) {
+// of the sphere relative to its material (m/s), `number` the number of the surface.
+void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 surface, real3 relative, uint number,
+                 uint key) {
     real h = real(params.substep);
     real3 v = velocityAlong();
     real3 normal = real3(surface);
@@ -90,30 +94,40 @@ void visitCurved(mask where, mask close, Obstacle obstacle, uint part, real4 sur
         real4 end = laterSurfaceAt(obstacle, part, real(1.0f), point);
         recession = select(close, dot3(real3(end), relativeTo(obstacle, real(1.0f), point, along)) * 0.5f, recession);
     }
-    visitSurface(where, normal, separation, recession, obstacle.material, obstacle.surface + part);
+    visitSurface(where, normal, separation, recession, obstacle.material, number, key);
 }
+
+// Visits a part of an obstacle. `surface` is the surface nearest to the sphere.
+void visitPart(mask where, Obstacle obstacle, uint part, real4 surface, bool curved, uint number, uint key) {
+    real separation = surface.w - sphereRadius;
+    real3 v = velocityAlong();
+    bool moving = isMoving(obstacle);
+    if (moving) {
+        real3 normal = real3(surface);
+        real3 point = spherePoint - normal * surface.w;
+        setSurfaceMotion(obstacles[obstacle.motion], point, normal);
+        if (looksAhead()) v = relativeTo(obstacle, real(0.0f), point, v);
+    }
+    mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
+    if ((curved || moving) && anyLane(close))
+        visitCurved(where, close, obstacle, part, surface, v, number, key);
+    else
+        visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, number, key);
+    if (moving) setSurfaceAtRest();
+}
+
+#include "shared/mesh_surfaces.h"
 
 void visitObstacle(mask where, uint number) {
     Obstacle obstacle = obstacles[number];
-    bool moving = isMoving(obstacle);
-    for (uint part = 0u; part < obstacle.parts; ++part) {
-        real4 surface = surfaceAt(obstacle, part, spherePoint);
-        real separation = surface.w - sphereRadius;
-        real3 v = velocityAlong();
-        if (moving) {
-            real3 normal = real3(surface);
-            real3 point = spherePoint - normal * surface.w;
-            surfaceVelocity = velocityOfSurface(obstacles[obstacle.motion], point, normal);
-            surfaceSpin = spinOf(obstacles[obstacle.motion], point);
-            if (looksAhead()) v = relativeTo(obstacle, real(0.0f), point, v);
-        }
-        mask close = where && separation < sqrt(dot3(v, v)) * params.substep;
-        if ((isCurved(obstacle) || moving) && anyLane(close))
-            visitCurved(where, close, obstacle, part, surface, v);
-        else
-            visitSurface(where, real3(surface), separation, real(0.0f), obstacle.material, obstacle.surface + part);
+    if (HAS(MESHES) && obstacle.shape == MESH_SHAPE) {
+        visitMesh(where, obstacle);
+        return;
     }
-    if (moving) setSurfaceAtRest();
+    for (uint part = 0u; part < obstacle.parts; ++part) {
+        uint key = obstacle.surface + part;
+        visitPart(where, obstacle, part, surfaceAt(obstacle, part, spherePoint), isCurved(obstacle), key, key);
+    }
 }
 
 // Visits the lists of all lanes together, because spheres beside each other are near the same obstacles.

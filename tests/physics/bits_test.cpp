@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh_support.h"
 #include "mixed.h"
 #include "scene/quality.h"
 #include "scene/random.h"
@@ -144,6 +145,23 @@ TEST_P(Bits, OfAMixtureAmongRoundObstaclesAreTheSameOnAllDevices) {
           R"("sphere": {"centre": [0.15, 0.1, -0.3], "radius": 0.1})",
           R"("cylinder": {"from": [-0.3, -0.1, -0.35], "to": [0.2, 0.1, -0.2], "radius": 0.05})"})
         scene.obstacles.push_back(obstacleFrom(std::string("{") + shape + "}"));
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
+}
+
+// In a hollow box of triangles, above a bumpy ball, a blade and a sheet, all of triangles.
+TEST_P(Bits, OfAMixtureAmongMeshesAreTheSameOnAllDevices) {
+    scene::Scene scene = mixture(GetParam());
+    scene.obstacles.clear();
+    scene.obstacles.push_back(
+        meshOf(support::boxOf({-0.42, -0.42, -0.38}, {0.42, 0.42, 0.7}), scene::Mesh::Form::Hollow));
+    const auto place = [&](const scene::Triangles& triangles, scene::Mesh::Form form, const glm::dvec3& to) {
+        scene.obstacles.push_back(
+            {.shape = scene::placedShape(scene::meshShape(triangles, form), {{1, 2, 3}, 25}, to), .colour = ""});
+    };
+    place(support::bumpyBall(0.1, 0.03, 2), scene::Mesh::Form::Solid, {0.2, 0.15, -0.3});
+    place(support::boxOf({-0.15, -0.1, -0.01}, {0.15, 0.1, 0.01}), scene::Mesh::Form::Solid, {-0.2, 0.2, -0.25});
+    place(support::randomSheet({-0.15, -0.15}, {0.15, 0.15}, 6, 6, 1, 0.05), scene::Mesh::Form::Sheet,
+          {-0.1, -0.2, -0.3});
     expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
 }
 

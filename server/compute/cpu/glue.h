@@ -107,6 +107,9 @@ inline bool liveLanes() {
 inline uint leastOf(uint a) {
     return a;
 }
+inline uint wholeOf(Scalar a) {
+    return static_cast<uint>(a);
+}
 inline bool finiteLanes(const vec3& a) {
     constexpr Scalar largest = std::numeric_limits<float>::max();
     return abs(a.x) <= largest && abs(a.y) <= largest && abs(a.z) <= largest;

@@ -178,6 +178,10 @@ SPHERULE_INLINE std::uint32_t leastOf(const uints& a) {
     for (unsigned lane = 1; lane < lanes; ++lane) least = a.v[lane] < least ? a.v[lane] : least;
     return least;
 }
+// Whole numbers from 0 to 2^24.
+SPHERULE_INLINE uints wholeOf(real a) {
+    return uints(reinterpret_cast<Words>(__builtin_convertvector(a.v, Ints)));
+}
 // The numbers whose bits these are.
 SPHERULE_INLINE real uintBitsToFloat(const uints& a) {
     return real(reinterpret_cast<Reals>(a.words()));

@@ -52,7 +52,7 @@ ShapePointer boxShape(const Box& box, bool hollow) {
 const ShapeType shapesBoxes{
     .field = v1::Obstacle::kBox,
     .read =
-        [](Check& check, const v1::Obstacle& message, const std::string& field) {
+        [](Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& /*input*/) {
             return boxShape(check.box(message.box().min(), message.box().max(), at(field, "box")),
                             message.box().hollow());
         },

@@ -48,7 +48,8 @@ class Capsule final : public Shape {
 
 const ShapeType shapesCapsules{
     .field = v1::Obstacle::kCapsule,
-    .read = [](Check& check, const v1::Obstacle& message, const std::string& field) -> ShapePointer {
+    .read = [](Check& check, const v1::Obstacle& message, const std::string& field,
+               const ShapeInput& /*input*/) -> ShapePointer {
         const v1::CapsuleShape& capsule = message.capsule();
         const Ends ends = readEnds(check, capsule.from(), capsule.to(), at(field, "capsule"));
         const double radius = check.upTo(capsule.radius(), largestComponent, at(field, "capsule.radius"), " m");

@@ -67,7 +67,7 @@ class Cone final : public Shape {
     bool hollow_;
 };
 
-ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field) {
+ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& /*input*/) {
     const v1::ConeShape& cone = message.cone();
     const std::string here = at(field, "cone");
     const Ends ends = readEnds(check, cone.from(), cone.to(), here);

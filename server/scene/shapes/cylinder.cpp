@@ -54,7 +54,7 @@ class Cylinder final : public Shape {
     bool hollow_;
 };
 
-ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field) {
+ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& /*input*/) {
     const v1::CylinderShape& cylinder = message.cylinder();
     const Ends ends = readEnds(check, cylinder.from(), cylinder.to(), at(field, "cylinder"));
     const double radius = check.upTo(cylinder.radius(), largestComponent, at(field, "cylinder.radius"), " m");

@@ -35,7 +35,7 @@ class Plane final : public Shape {
     glm::dvec3 normal_;
 };
 
-ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field) {
+ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& /*input*/) {
     constexpr double shortest = 1e-9;
     const v1::Plane& plane = message.plane();
     const glm::dvec3 point = check.vector(plane.point(), at(field, "plane.point"));

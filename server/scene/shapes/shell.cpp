@@ -77,7 +77,8 @@ class Shell final : public Shape {
     double high_;
 };
 
-ShapePointer readDisc(Check& check, const v1::Obstacle& message, const std::string& field) {
+ShapePointer readDisc(Check& check, const v1::Obstacle& message, const std::string& field,
+                      const ShapeInput& /*input*/) {
     const v1::DiscShape& disc = message.disc();
     const std::string here = at(field, "disc");
     const glm::dvec3 centre = check.vector(disc.centre(), at(here, "centre"));

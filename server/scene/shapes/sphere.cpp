@@ -37,7 +37,7 @@ class SphereShape final : public Shape {
     bool hollow_;
 };
 
-ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field) {
+ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& field, const ShapeInput& /*input*/) {
     const v1::SphereShape& sphere = message.sphere();
     const glm::dvec3 centre = check.vector(sphere.centre(), at(field, "sphere.centre"));
     const double radius = check.upTo(sphere.radius(), largestComponent, at(field, "sphere.radius"), " m");

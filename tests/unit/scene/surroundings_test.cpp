@@ -93,7 +93,8 @@ TEST(SceneObstacles, PlanesHaveUnitNormals) {
 
 TEST(SceneObstacles, AreChecked) {
     EXPECT_EQ(refusalOf(R"("obstacles": [{}])"),
-              "obstacles[0]: has no shape, must have one of plane, box, sphere, cylinder, disc, cone, capsule");
+              "obstacles[0]: has no shape, must have one of plane, box, sphere, cylinder, disc, cone, capsule, mesh, "
+              "heightField");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,0]}}])"),
               "obstacles[0].box.max[2]: is 0, must be above min, which is 0");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"box": {"min": [0,0,0], "max": [1,1,1]}, "material": "ice"}])"),

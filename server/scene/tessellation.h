@@ -14,15 +14,15 @@ class Obstacle;
 namespace spherule::scene {
 
 // A surface of triangles. Their corners are in counter-clockwise order for a viewer in the free space.
-struct Triangles {
+struct Tessellation {
     std::vector<glm::dvec3> points;   // m
     std::vector<glm::uvec3> corners;  // of each triangle: numbers of points
 
-    void append(const Triangles& other);
+    void append(const Tessellation& other);
 };
 
 // Returns the surface of an obstacle that is moved to `pose` from its place in the scene. Round shapes have 64 sides.
 // A plane ends at the bounds. Returns an empty surface if scenes cannot have the obstacle.
-Triangles trianglesOf(const v1::Obstacle& obstacle, const Frame& pose, const Box& bounds);
+Tessellation tessellationOf(const v1::Obstacle& obstacle, const Frame& pose, const Box& bounds);
 
 }  // namespace spherule::scene

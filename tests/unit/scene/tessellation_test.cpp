@@ -1,5 +1,5 @@
 // The triangles of obstacles are their surface, seen from the free space.
-#include "scene/triangles.h"
+#include "scene/tessellation.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ double volumeOf(const Triangles& surface) {
 
 constexpr double roundness = 0.005;  // of areas and volumes with 64 sides
 
-TEST(Triangles, EncloseTheSolid) {
+TEST(Tessellation, EncloseTheSolid) {
     const double slant = std::hypot(0.5, 2);
     const struct {
         std::string shape;
@@ -63,7 +63,7 @@ TEST(Triangles, EncloseTheSolid) {
         for (const bool hollow : {false, true}) {
             std::string shape = each.shape;
             shape.replace(shape.find("%s"), 2, hollow ? R"(, "hollow": true)" : "");
-            const Triangles surface = trianglesOf(
+            const Tessellation surface = tessellationOf(
                 obstacleOf("{" + shape +
                            R"(, "rotation": {"axis": [1, 2, 3], "degrees": 50}, "translation": [1, 2, 3]})"),
                 {glm::mat3_cast(glm::angleAxis(0.7, glm::dvec3(0, 0.6, 0.8))), {3, 2, 1}}, bounds);
@@ -73,7 +73,7 @@ TEST(Triangles, EncloseTheSolid) {
     }
 }
 
-TEST(Triangles, LieOnTheSurface) {
+TEST(Tessellation, LieOnTheSurface) {
     for (const std::string shape :
          {R"("box": {"min": [1, 1, 1], "max": [2, 3, 4]})",
           R"("disc": {"centre": [1, 2, 0], "normal": [0, 1, 2], "radius": 1})",
@@ -87,28 +87,29 @@ TEST(Triangles, LieOnTheSurface) {
         Check check;
         const ShapePointer read = readShape(check, obstacle, "");
         const Frame pose{glm::mat3_cast(glm::angleAxis(0.3, glm::dvec3(0, 0.6, 0.8))), {0.3, -0.2, 0.1}};
-        const Triangles surface = trianglesOf(obstacle, pose, bounds);
+        const Tessellation surface = tessellationOf(obstacle, pose, bounds);
         EXPECT_GE(surface.corners.size(), 2U) << shape;
         for (const glm::dvec3& point : surface.points)
             EXPECT_NEAR(read->distance(pose.inside(point)), 0, 1e-9) << shape;
     }
 }
 
-TEST(Triangles, OfAPlaneEndAtTheBoundsWhereverItMoves) {
+TEST(Tessellation, OfAPlaneEndAtTheBoundsWhereverItMoves) {
     const v1::Obstacle plane = obstacleOf(R"({"plane": {"point": [0, 0, 1], "normal": [0, 0, 2]}})");
-    const Triangles level = trianglesOf(plane, {.origin = {100, 0, 2}}, bounds);
+    const Tessellation level = tessellationOf(plane, {.origin = {100, 0, 2}}, bounds);
     EXPECT_NEAR(areaOf(level), 64, 1e-9);
     EXPECT_NEAR(areaOf(level, level.corners.front()).x, 0, 1e-9);
     EXPECT_GT(areaOf(level, level.corners.front()).z, 0) << "it faces the free space";
     EXPECT_EQ(level.points.front().z, 3);
-    EXPECT_TRUE(trianglesOf(plane, {.origin = {0, 0, 4}}, bounds).corners.empty());
+    EXPECT_TRUE(tessellationOf(plane, {.origin = {0, 0, 4}}, bounds).corners.empty());
 }
 
-TEST(Triangles, AreNoneOfAnObstacleThatScenesCannotHave) {
-    EXPECT_TRUE(trianglesOf({}, {}, bounds).points.empty());
-    EXPECT_TRUE(trianglesOf(obstacleOf(R"({"sphere": {"centre": [0, 0], "radius": 1}})"), {}, bounds).points.empty());
+TEST(Tessellation, AreNoneOfAnObstacleThatScenesCannotHave) {
+    EXPECT_TRUE(tessellationOf({}, {}, bounds).points.empty());
     EXPECT_TRUE(
-        trianglesOf(obstacleOf(R"({"sphere": {"centre": [0, 0, 0], "radius": -1}})"), {}, bounds).points.empty());
+        tessellationOf(obstacleOf(R"({"sphere": {"centre": [0, 0], "radius": 1}})"), {}, bounds).points.empty());
+    EXPECT_TRUE(
+        tessellationOf(obstacleOf(R"({"sphere": {"centre": [0, 0, 0], "radius": -1}})"), {}, bounds).points.empty());
 }
 
 }  // namespace

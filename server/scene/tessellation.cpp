@@ -1,4 +1,4 @@
-#include "scene/triangles.h"
+#include "scene/tessellation.h"
 
 #include <algorithm>
 #include <array>
@@ -46,12 +46,12 @@ Outline coneOutline(double low, double high, double half, bool open) {
 }
 
 // `inside`: the free space is inside.
-void addTriangle(Triangles& surface, bool inside, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+void addTriangle(Tessellation& surface, bool inside, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     surface.corners.push_back(inside ? glm::uvec3(a, c, b) : glm::uvec3(a, b, c));
 }
 
-Triangles turnedAround(const Outline& outline, const Frame& frame, bool inside) {
-    Triangles surface;
+Tessellation turnedAround(const Outline& outline, const Frame& frame, bool inside) {
+    Tessellation surface;
     struct Ring {
         std::uint32_t first;
         std::uint32_t points;  // 1: on the axis
@@ -77,8 +77,8 @@ Triangles turnedAround(const Outline& outline, const Frame& frame, bool inside) 
     return surface;
 }
 
-Triangles boxTriangles(const v1::Box& shape, const Frame& frame) {
-    Triangles surface;
+Tessellation boxTriangles(const v1::Box& shape, const Frame& frame) {
+    Tessellation surface;
     const std::array ends = {vectorIn(shape.min()), vectorIn(shape.max())};
     for (std::uint32_t corner = 0; corner < 8; ++corner)
         surface.points.push_back(frame.outside({ends[corner & 1U].x, ends[corner >> 1U & 1U].y, ends[corner >> 2U].z}));
@@ -95,8 +95,8 @@ Triangles boxTriangles(const v1::Box& shape, const Frame& frame) {
 }
 
 // Returns the part of the plane in the box, as a polygon around its normal of unit length.
-Triangles planeTriangles(const glm::dvec3& point, const glm::dvec3& normal, const Box& box) {
-    Triangles surface;
+Tessellation planeTriangles(const glm::dvec3& point, const glm::dvec3& normal, const Box& box) {
+    Tessellation surface;
     std::vector<glm::dvec3>& points = surface.points;
     const std::array ends = {box.min, box.max};
     const auto corner = [&](unsigned k) { return glm::dvec3(ends[k & 1U].x, ends[k >> 1U & 1U].y, ends[k >> 2U].z); };
@@ -123,7 +123,7 @@ Triangles planeTriangles(const glm::dvec3& point, const glm::dvec3& normal, cons
     return surface;
 }
 
-Triangles discTriangles(const v1::DiscShape& disc, const Frame& frame) {
+Tessellation discTriangles(const v1::DiscShape& disc, const Frame& frame) {
     const glm::dvec3 centre = vectorIn(disc.centre());
     const Ends axis{centre, centre + glm::normalize(vectorIn(disc.normal()))};
     return turnedAround({{disc.hole(), 0}, {disc.radius(), 0}}, frame * Frame{axis.frame().turn, centre}, false);
@@ -136,13 +136,13 @@ Frame frameOf(const Shape& shape, double& half) {
     return ends.frame();
 }
 
-Triangles sphereTriangles(const v1::SphereShape& sphere, const Frame& frame) {
+Tessellation sphereTriangles(const v1::SphereShape& sphere, const Frame& frame) {
     Outline outline;
     addArc(outline, sphere.radius(), 0, -1, 1);
     return turnedAround(outline, frame * Frame{glm::dmat3(1), vectorIn(sphere.centre())}, sphere.hollow());
 }
 
-Triangles capsuleTriangles(const v1::CapsuleShape& capsule, const Frame& frame) {
+Tessellation capsuleTriangles(const v1::CapsuleShape& capsule, const Frame& frame) {
     double half = 0;
     const Frame own = frameOf(capsule, half);
     Outline outline;
@@ -152,7 +152,7 @@ Triangles capsuleTriangles(const v1::CapsuleShape& capsule, const Frame& frame) 
 }
 
 template <class Shape>
-Triangles coneTriangles(const Shape& shape, double low, double high, const Frame& frame) {
+Tessellation coneTriangles(const Shape& shape, double low, double high, const Frame& frame) {
     double half = 0;
     const Frame own = frameOf(shape, half);
     return turnedAround(coneOutline(low, high, half, shape.open()), frame * own, shape.hollow());
@@ -169,13 +169,13 @@ Frame placeOf(Check& check, const v1::Obstacle& obstacle) {
 
 }  // namespace
 
-void Triangles::append(const Triangles& other) {
+void Tessellation::append(const Tessellation& other) {
     const glm::uvec3 before(static_cast<std::uint32_t>(points.size()));
     points.insert(points.end(), other.points.begin(), other.points.end());
     for (const glm::uvec3& each : other.corners) corners.push_back(before + each);
 }
 
-Triangles trianglesOf(const v1::Obstacle& obstacle, const Frame& pose, const Box& bounds) {
+Tessellation tessellationOf(const v1::Obstacle& obstacle, const Frame& pose, const Box& bounds) {
     Check check;
     readShape(check, obstacle, "obstacle");
     if (!check.ok()) return {};

@@ -1,0 +1,219 @@
+#include "sim/mesh_tables.h"
+
+#include <algorithm>
+#include <bit>
+#include <mutex>
+
+#include <glm/geometric.hpp>
+
+#include "scene/mesh/mesh.h"
+#include "scene/shapes.h"
+#include "sim/layout.h"
+#include "sim/mesh_grid.h"
+
+namespace spherule::sim {
+
+namespace layout {
+#include "shared/mesh_layout.h"
+}
+
+namespace {
+
+// A sphere looks for triangles where its centre is. It may touch one at a distance of its radius, and moves by up to
+// half of it in a substep.
+constexpr double reachInRadii = 1.75;
+constexpr std::uint32_t keysPerGroup = 4;  // KEYS_PER_GROUP of shared/gathered_contacts.h
+
+using Words = std::vector<std::uint32_t>;
+
+void put(Words& words, double value) {
+    words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+}
+
+void put(Words& words, const glm::dvec3& v) {
+    for (int axis = 0; axis < 3; ++axis) put(words, v[axis]);
+}
+
+// Writes one mesh. `base`: the address of words[0]. `nextKey`: the first key that no contact has yet.
+class MeshWriter {
+  public:
+    MeshWriter(const scene::Mesh& mesh, bool smooth, Words& words, std::uint32_t base, std::uint32_t& nextKey)
+        : mesh_(mesh), smooth_(smooth), words_(words), base_(base), nextKey_(nextKey) {}
+
+    std::uint32_t write(const MeshGrid& grid, std::uint32_t& cellsAt) {
+        numberFaces();
+        findOwners();
+        writeEdges();
+        writeVertices();
+        const std::uint32_t trianglesAt = here();
+        writeTriangles();
+        writeCells(grid, cellsAt);
+        return trianglesAt;
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t here() const { return base_ + static_cast<std::uint32_t>(words_.size()); }
+
+    // Springs act on a smooth part of the mesh as a whole.
+    void numberFaces() {
+        faceKey_.resize(mesh_.patches.size());
+        for (std::uint32_t patch = 0; patch < faceKey_.size(); ++patch) {
+            if (!smooth_)
+                faceKey_[patch] = nextKey_++;
+            else if (mesh_.smoothOf[patch] != patch)
+                faceKey_[patch] = faceKey_[mesh_.smoothOf[patch]];  // a lower number
+            else
+                faceKey_[patch] = std::exchange(nextKey_, nextKey_ + keysPerGroup);
+        }
+    }
+
+    [[nodiscard]] std::uint32_t keyOf(std::uint32_t triangle) const { return faceKey_[mesh_.patchOf[triangle]]; }
+
+    std::uint32_t keyBeyond(std::uint32_t triangle) { return smooth_ ? keyOf(triangle) : nextKey_++; }
+
+    void findOwners() {
+        owner_.assign(mesh_.vertices.size(), scene::Mesh::none);
+        for (auto t = static_cast<std::uint32_t>(mesh_.corners.size()); t-- > 0;)
+            for (const std::uint32_t corner : mesh_.corners[t]) owner_[corner] = t;
+    }
+
+    // Returns the direction out of a triangle across its edge k, in the plane of its patch.
+    [[nodiscard]] glm::dvec3 awayFrom(std::uint32_t triangle, std::uint32_t edge) const {
+        unsigned k = 0;
+        while (mesh_.edgesOf[triangle][k] / 2 != edge) ++k;
+        const glm::dvec3 along = mesh_.corner(triangle, (k + 1) % 3) - mesh_.corner(triangle, k);
+        return glm::normalize(glm::cross(along, mesh_.normal(triangle)));
+    }
+
+    void writeEdges() {
+        edgesAt_ = here();
+        for (std::uint32_t k = 0; k < mesh_.edges.size(); ++k) {
+            const scene::Mesh::Edge& edge = mesh_.edges[k];
+            const glm::dvec3& from = mesh_.vertices[edge.vertices[0]];
+            const glm::dvec3 along = mesh_.vertices[edge.vertices[1]] - from;
+            const bool shared = edge.triangles[1] != scene::Mesh::none;
+            const glm::dvec3 away = awayFrom(edge.triangles[0], k);
+            put(words_, from);
+            put(words_, glm::normalize(along));
+            put(words_, glm::length(along));
+            put(words_, away);
+            put(words_, !shared || edge.flat ? -away : awayFrom(edge.triangles[1], k));
+            words_.push_back(edge.meets ? keyBeyond(edge.triangles[0]) : 0);
+            words_.push_back((edge.meets ? EDGE_MEETS : 0U) | (shared ? EDGE_SHARED : 0U));
+        }
+    }
+
+    void writeVertices() {
+        const std::size_t count = mesh_.vertices.size();
+        std::vector<std::uint32_t> first(count + 1, 0);
+        std::vector<bool> meets(count);
+        for (const scene::Mesh::Edge& edge : mesh_.edges)
+            for (const std::uint32_t v : edge.vertices) {
+                ++first[v + 1];
+                if (edge.meets) meets[v] = true;
+            }
+        for (std::size_t v = 0; v < count; ++v) first[v + 1] += first[v];
+        std::vector<std::uint32_t> fan(first.back());
+        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        for (std::uint32_t k = 0; k < mesh_.edges.size(); ++k)
+            for (std::uint32_t end = 0; end < 2; ++end)
+                fan[next[mesh_.edges[k].vertices[end]]++] = 2 * (edgesAt_ + k * EDGE_WORDS) + end;
+        vertexAt_.assign(count, 0);
+        for (std::size_t v = 0; v < count; ++v) {
+            if (!meets[v]) continue;
+            vertexAt_[v] = here();
+            put(words_, mesh_.vertices[v]);
+            put(words_, mesh_.closed() ? mesh_.vertexNormals[v] : glm::dvec3(0));
+            words_.push_back(keyBeyond(owner_[v]));
+            words_.push_back(first[v + 1] - first[v]);
+            words_.insert(words_.end(), fan.begin() + first[v], fan.begin() + first[v + 1]);
+        }
+    }
+
+    void writeTriangles() {
+        for (std::uint32_t t = 0; t < mesh_.corners.size(); ++t) {
+            const scene::Mesh::Patch& patch = mesh_.patches[mesh_.patchOf[t]];
+            put(words_, patch.normal);
+            put(words_, patch.offset);
+            words_.push_back(keyOf(t));
+            words_.push_back(mesh_.closed() ? 1 : 0);
+            for (const std::uint32_t word : mesh_.edgesOf[t])
+                words_.push_back(2 * (edgesAt_ + word / 2 * EDGE_WORDS) + word % 2);
+            for (const std::uint32_t corner : mesh_.corners[t])
+                words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
+        }
+    }
+
+    void writeCells(const MeshGrid& grid, std::uint32_t& cellsAt) {
+        cellsAt = here();
+        const std::size_t cells = words_.size();
+        words_.resize(cells + grid.count());
+        for (std::size_t cell = 0; cell < grid.count(); ++cell) {
+            if (grid.steps[cell] != 0) {
+                words_[cells + cell] = EMPTY_CELL | std::bit_cast<std::uint32_t>(static_cast<float>(grid.roomOf(cell)));
+                continue;
+            }
+            words_[cells + cell] = here();
+            words_.insert(words_.end(), grid.triangles.begin() + grid.first[cell],
+                          grid.triangles.begin() + grid.first[cell + 1]);
+            words_.push_back(END_OF_LIST);
+        }
+    }
+
+    const scene::Mesh& mesh_;
+    bool smooth_;
+    Words& words_;
+    std::uint32_t base_;
+    std::uint32_t& nextKey_;
+    std::uint32_t edgesAt_ = 0;
+    std::vector<std::uint32_t> faceKey_;   // of patches
+    std::vector<std::uint32_t> owner_;     // of vertices: their lowest triangle
+    std::vector<std::uint32_t> vertexAt_;  // address; 0: spheres cannot touch it
+};
+
+std::shared_ptr<const MeshTables> made(const scene::Scene& scene, double largestRadius) {
+    auto tables = std::make_shared<MeshTables>();
+    const auto base = static_cast<std::uint32_t>(ALL_OBSTACLES + scene.obstacles.size() + 1);
+    std::uint32_t nextKey = scene::surfacesOf(scene);
+    const bool smooth = scene.quality.model == scene::Model::Accurate;
+    for (const scene::Obstacle& obstacle : scene.obstacles) {
+        MeshTables::Row row;
+        const auto mesh = obstacle.shape->mesh();
+        row.firstKey = nextKey;
+        if (mesh) {
+            const MeshGrid grid = MeshGrid::around(*mesh, reachInRadii * largestRadius);
+            row.a = glm::vec4(glm::dvec4(grid.low, 1 / grid.width));
+            row.b = glm::vec4(glm::dvec4(grid.cells, grid.reach));
+            row.trianglesAt = MeshWriter(*mesh, smooth, tables->words, base, nextKey).write(grid, row.cellsAt);
+        }
+        row.endKey = nextKey;
+        tables->rows.push_back(row);
+        tables->meshes.push_back(mesh);
+    }
+    return tables;
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshTables> meshTablesFor(const scene::Scene& scene, double largestRadius) {
+    static std::mutex mutex;
+    static std::weak_ptr<const MeshTables> last;
+    static double lastRadius = 0;
+    static scene::Model lastModel{};
+    const std::lock_guard lock(mutex);
+    auto tables = last.lock();
+    const auto isSame = [](const scene::Obstacle& obstacle, const auto& mesh) {
+        return obstacle.shape->mesh() == mesh;
+    };
+    if (tables && lastRadius == largestRadius && lastModel == scene.quality.model &&
+        tables->rows.front().firstKey == scene::surfacesOf(scene) &&
+        std::ranges::equal(scene.obstacles, tables->meshes, isSame))
+        return tables;
+    tables = made(scene, largestRadius);
+    last = tables;
+    lastRadius = largestRadius;
+    lastModel = scene.quality.model;
+    return tables;
+}
+
+}  // namespace spherule::sim

@@ -1,0 +1,33 @@
+// The words of a mesh in the buffer `obstacleLists`, behind the list of all obstacles. All addresses are numbers of words
+// in this buffer. Coordinates are in the frame of the obstacle (m).
+//
+// The row of the obstacle has the grid: a.xyz is its lowest corner, a.w the reciprocal of the width of its cells (1/m),
+// b.xyz the number of its cells, and b.w its reach (m). A cell knows all triangles within the reach of its points.
+// `cellsAt` is the address of its cells, along x first. A cell is the address of its list: numbers of triangles in
+// ascending order, then END_OF_LIST. A cell without triangles has EMPTY_CELL, and bits of a distance (m): no point of
+// the cell is nearer to the mesh.
+#define EMPTY_CELL 0x80000000u
+
+// `trianglesAt` is the address of the triangles.
+#define TRIANGLE_WORDS 12u
+#define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
+#define TRIANGLE_KEY 4u       // of a contact with the patch
+#define TRIANGLE_CLOSED 5u    // 1: the triangle belongs to a solid
+#define TRIANGLE_EDGES 6u     // three: twice the address of an edge, plus 1 if the triangle is its second
+#define TRIANGLE_VERTICES 9u  // three: the address of a vertex that it owns and that spheres may touch, else 0
+
+#define EDGE_WORDS 15u
+#define EDGE_FROM 0u    // m: its first end
+#define EDGE_ALONG 3u   // its direction, of unit length
+#define EDGE_LENGTH 6u  // m
+#define EDGE_AWAY 7u    // two directions, of unit length: in the plane of each triangle, across the edge, out of it
+#define EDGE_KEY 13u    // of a contact with the edge
+#define EDGE_FLAGS 14u
+#define EDGE_MEETS 1u   // spheres may touch it
+#define EDGE_SHARED 2u  // two triangles have it
+
+#define VERTEX_PLACE 0u   // m
+#define VERTEX_NORMAL 3u  // mean normal of its triangles, of any length; 0 without a solid
+#define VERTEX_KEY 6u     // of a contact with the vertex
+#define VERTEX_COUNT 7u   // of its edges; they follow: twice the address, plus 1 if the edge ends here
+#define VERTEX_EDGES 8u

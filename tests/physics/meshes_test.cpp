@@ -1,0 +1,147 @@
+// Obstacles of triangles in each model: rolling over inner edges, tipping over an edge, rebounds, and no sphere lost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "mesh_support.h"
+#include "scene/quality.h"
+#include "scene/random.h"
+#include "scene/shapes.h"
+
+namespace spherule::physics {
+namespace {
+
+using scene::Mesh;
+using support::boxOf;
+using support::lathe;
+using support::randomSheet;
+
+constexpr double radius = 0.05;  // m
+
+class Meshes : public testing::TestWithParam<scene::Model> {};
+
+struct Motion {
+    glm::dvec3 x{};
+    glm::dvec3 v{};
+};
+
+Motion motionOf(sim::Simulation& simulation) {
+    const sim::State state = simulation.snapshot();
+    return {placeOf(state, simulation.scene()), velocityOf(state, 0)};
+}
+
+scene::Scene rolling(scene::Model model, bool mesh) {
+    scene::Scene scene = spaceFor(model, 24);
+    scene.forces.gravity = {0, 0, -earth};
+    setFriction(scene, 0.5);
+    setRestitution(scene, 0);
+    scene::Triangles sheet = randomSheet({-6, -1.5}, {6, 1.5}, 40, 10, 17);
+    scene.obstacles.push_back(mesh ? meshOf(sheet, Mesh::Form::Sheet)
+                                   : scene::Obstacle{.shape = scene::planeShape({}, {0, 0, 1}), .colour = ""});
+    // `accurate` begins at the depth at which it floats.
+    scene::Sphere& sphere = measure::addSphere(scene, {-5, 0.013, radius}, radius, {2, 0, 0});
+    sphere.spin = {0, static_cast<float>(2 / radius), 0};
+    return scene;
+}
+
+// 10 m over 800 triangles in one plane, against one plane.
+TEST_P(Meshes, HaveNoBumpsInAPlane) {
+    const auto sheet = simulate(rolling(GetParam(), true));
+    const auto plane = simulate(rolling(GetParam(), false));
+    double height = 0;
+    for (int k = 0; k < 48; ++k) {
+        for (sim::Simulation* one : {sheet.get(), plane.get()}) run(*one, 0.1);
+        height = std::max(height, std::abs(motionOf(*sheet).x.z - motionOf(*plane).x.z));
+    }
+    const Motion onSheet = motionOf(*sheet);
+    const Motion onPlane = motionOf(*plane);
+    EXPECT_GT(onSheet.x.x, 4.5);
+    EXPECT_LT(height, 1e-4 * radius);
+    EXPECT_NEAR(onSheet.v.x / onPlane.v.x, 1, 1e-5);
+    EXPECT_LT(std::abs(onSheet.x.y - onPlane.x.y), 1e-6 * 10);
+    RecordProperty("height", std::to_string(height / radius * 1e9) + "e-9 r");
+    RecordProperty("speed", std::to_string((onSheet.v.x / onPlane.v.x - 1) * 1e9) + "e-9");
+}
+
+// Without friction, a sphere on a sharp edge slides off it. It leaves the edge at the angle whose cosine is 2/3.
+TEST_P(Meshes, LetASphereTipOverAnEdge) {
+    if (GetParam() == scene::Model::Fast) GTEST_SKIP() << "it has no contacts that last";
+    scene::Scene scene = spaceFor(GetParam(), 8);
+    scene.forces.gravity = {0, 0, -earth};
+    setRestitution(scene, 0);
+    setFriction(scene, 0);
+    scene.step = 1.0 / 4800;
+    scene.quality.substeps = GetParam() == scene::Model::Accurate ? 50 : 1;
+    scene.obstacles.push_back(meshOf(boxOf({-1, -1, -1}, {0, 1, 0}), Mesh::Form::Solid));
+    measure::addSphere(scene, {1e-3 * radius, 0.1, radius * (1 - 1e-4)}, radius);
+    const auto simulation = simulate(scene);
+    double angle = 0;
+    for (int k = 0; k < 4800 && angle == 0; ++k) {
+        run(*simulation, scene.step);
+        const Motion now = motionOf(*simulation);
+        const double distance = std::hypot(now.x.x, now.x.z);
+        if (distance > radius * 1.0005) angle = std::atan2(now.x.x, now.x.z) * 180 / std::numbers::pi;
+    }
+    EXPECT_NEAR(angle, 48.19, 0.5 + 1.6);
+    RecordProperty("angle", std::to_string(angle));
+}
+
+// Drops a sphere in a drum of 64 sides, onto a side and onto an edge between two. Returns its restitution.
+double restitutionIn(scene::Model model, const scene::Obstacle& drum, double angle) {
+    scene::Scene scene = spaceFor(model, 8);
+    setRestitution(scene, 0.6);
+    scene.obstacles.push_back(drum);
+    const glm::dvec3 way(std::cos(angle), std::sin(angle), 0);
+    measure::addSphere(scene, 0.5 * way, radius, 2.0 * way);
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.45);
+    return -glm::dot(motionOf(*simulation).v, way) / 2;
+}
+
+TEST_P(Meshes, OfManySidesReboundAsACylinder) {
+    const scene::Obstacle exact =
+        obstacleFrom(R"({"cylinder":{"from":[0,0,-1],"to":[0,0,1],"radius":1,"hollow":true}})");
+    const scene::Obstacle drum = meshOf(lathe({{0, -1}, {1, -1}, {1, 1}, {0, 1}}, 64), Mesh::Form::Hollow);
+    const double wanted = restitutionIn(GetParam(), exact, 0.3);
+    for (const double side : {0.0, 0.1, 0.25, 0.5, 0.77}) {
+        const double angle = 2 * std::numbers::pi / 64 * (3 + side);
+        EXPECT_NEAR(restitutionIn(GetParam(), drum, angle) / wanted, 1, 0.01) << side;
+    }
+}
+
+TEST_P(Meshes, LoseNoFastSphere) {
+    const bool accurate = GetParam() == scene::Model::Accurate;
+    flyInBottle(GetParam(), accurate ? 0.1 : 0.5, 200);
+}
+
+// A sheet holds spheres on both of its sides.
+TEST_P(Meshes, WithoutThicknessHaveTwoSides) {
+    scene::Scene scene = spaceFor(GetParam(), 4);
+    setRestitution(scene, 0.5);
+    scene.obstacles.push_back(meshOf(randomSheet({-1, -1}, {1, 1}, 8, 8, 5, 0.3), Mesh::Form::Sheet));
+    scene::Random random(3);
+    for (unsigned k = 0; k < 60; ++k) {
+        const double side = k % 2 == 0 ? 1 : -1;
+        measure::addSphere(scene, {random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), 0.15 + side * 0.5}, 0.03,
+                           {0, 0, -3 * side});
+    }
+    scene.sphereContacts = false;
+    const auto simulation = simulate(scene);
+    run(*simulation, 0.5);
+    const sim::State state = simulation->snapshot();
+    for (unsigned k = 0; k < 60; ++k) {
+        const double side = k % 2 == 0 ? 1 : -1;
+        EXPECT_GT(velocityOf(state, k).z * side, 0) << k;
+        EXPECT_GT((placeOf(state, scene, k).z - 0.15) * side, 0) << k;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Meshes, testing::ValuesIn(models),
+                         [](const auto& parameter) { return std::string(scene::nameOf(parameter.param)); });
+
+}  // namespace
+}  // namespace spherule::physics
