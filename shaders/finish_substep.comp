@@ -65,7 +65,7 @@ uints rowOfSurface(mask where, uint key) {
     uints first = sphereId * params.maxWallHistory;
     if (key < 6u) return first + key / 2u;
     uints found = first + 3u;
-    real foundRow = real(3.0f);
+    real foundRow = real(0.0f);  // none
     mask known = noLane();
     mask empty = noLane();
     for (uint k = 3u; k < params.maxWallHistory; ++k) {

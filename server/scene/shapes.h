@@ -67,7 +67,7 @@ class Shape {
 
 using ShapePointer = std::shared_ptr<const Shape>;
 
-// What a shape is read with besides its message.
+// The surroundings in which a shape is read.
 struct ShapeInput {
     std::optional<std::filesystem::path> directory{};  // of files that the scene names; nullopt: it may not name any
     double longestSide = 1;                            // of the bounds (m)

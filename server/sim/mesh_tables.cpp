@@ -4,6 +4,7 @@
 #include <bit>
 #include <mutex>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "scene/mesh/mesh.h"
@@ -141,7 +142,19 @@ class MeshWriter {
                 words_.push_back(2 * (edgesAt_ + word / 2 * EDGE_WORDS) + word % 2);
             for (const std::uint32_t corner : mesh_.corners[t])
                 words_.push_back(owner_[corner] == t ? vertexAt_[corner] : 0);
+            writeBall(t);
         }
+    }
+
+    // A ball around the box of the triangle.
+    void writeBall(std::uint32_t t) {
+        const glm::dvec3 low = glm::min(mesh_.corner(t, 0), glm::min(mesh_.corner(t, 1), mesh_.corner(t, 2)));
+        const glm::dvec3 high = glm::max(mesh_.corner(t, 0), glm::max(mesh_.corner(t, 1), mesh_.corner(t, 2)));
+        const glm::dvec3 centre = 0.5 * (low + high);
+        double radius = 0;
+        for (unsigned k = 0; k < 3; ++k) radius = std::max(radius, glm::distance(centre, mesh_.corner(t, k)));
+        put(words_, centre);
+        put(words_, radius * 1.00001 + 1e-6 * glm::length(mesh_.half));
     }
 
     void writeCells(const MeshGrid& grid, std::uint32_t& cellsAt) {

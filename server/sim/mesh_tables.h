@@ -31,7 +31,8 @@ struct MeshTables {
     [[nodiscard]] std::uint64_t bytes() const { return words.size() * sizeof(std::uint32_t); }
 };
 
-// Returns the tables for spheres up to a radius (m). Keeps those of the last scene while something uses them. Any
+// Returns the tables for spheres up to a radius (m). While something uses the tables, the
+// next call for the same meshes returns them. Any
 // thread.
 std::shared_ptr<const MeshTables> meshTablesFor(const scene::Scene& scene, double largestRadius);
 

@@ -217,7 +217,7 @@ Plan planWith(const scene::Scene& scene, const Features& features, std::uint32_t
     if (features.hasSurfaceFeature()) {
         // `balanced` has one for each axis of the bounds, before the ones for obstacles.
         const std::uint32_t unused = features.has(Feature::Balanced) ? 3 : 0;
-        // Of a mesh, a sphere may touch any number of parts.
+        // A sphere may touch any number of parts of a mesh.
         plan.maxWallHistory = features.has(Feature::Meshes)
                                   ? wallHistoryLimit
                                   : std::min(wallHistoryLimit, scene::surfacesOf(scene) - unused);

@@ -95,7 +95,7 @@ struct Obstacle {
 // beginning of a substep, in the other models as at its end.
 
 // The buffer obstacleLists has lists of numbers of obstacles in ascending order. It begins with an empty list and the
-// list of all obstacles. The words of meshes follow (mesh_layout.h), then the lists of obstacles near spheres.
+// list of all obstacles. The words of meshes follow (mesh_layout.h), and then the lists of obstacles near spheres.
 #define NO_OBSTACLES 0u
 #define ALL_OBSTACLES 1u
 #define END_OF_LIST 0xffffffffu

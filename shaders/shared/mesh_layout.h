@@ -1,20 +1,22 @@
 // The words of a mesh in the buffer `obstacleLists`, behind the list of all obstacles. All addresses are numbers of words
 // in this buffer. Coordinates are in the frame of the obstacle (m).
 //
-// The row of the obstacle has the grid: a.xyz is its lowest corner, a.w the reciprocal of the width of its cells (1/m),
-// b.xyz the number of its cells, and b.w its reach (m). A cell knows all triangles within the reach of its points.
+// The row of the obstacle has the grid. a.xyz is its lowest corner, and a.w the reciprocal of the width of its cells
+// (1/m). b.xyz is the number of its cells along each axis, and b.w its reach (m). A cell knows all triangles within the
+// reach of its points.
 // `cellsAt` is the address of its cells, along x first. A cell is the address of its list: numbers of triangles in
 // ascending order, then END_OF_LIST. A cell without triangles has EMPTY_CELL, and bits of a distance (m): no point of
 // the cell is nearer to the mesh.
 #define EMPTY_CELL 0x80000000u
 
 // `trianglesAt` is the address of the triangles.
-#define TRIANGLE_WORDS 12u
+#define TRIANGLE_WORDS 16u
 #define TRIANGLE_NORMAL 0u    // of its patch, then the offset of the plane (m)
 #define TRIANGLE_KEY 4u       // of a contact with the patch
 #define TRIANGLE_CLOSED 5u    // 1: the triangle belongs to a solid
 #define TRIANGLE_EDGES 6u     // three: twice the address of an edge, plus 1 if the triangle is its second
 #define TRIANGLE_VERTICES 9u  // three: the address of a vertex that it owns and that spheres may touch, else 0
+#define TRIANGLE_CENTRE 12u   // of a ball around it (m), then the radius of the ball (m)
 
 #define EDGE_WORDS 15u
 #define EDGE_FROM 0u    // m: its first end

@@ -1,5 +1,5 @@
-// The parts of a mesh that spheres may touch. Each place is nearest to one face, edge or vertex: a face if it is above or
-// below the triangle, an edge if it lies in the wedge beyond the edge, a vertex if it lies in the cone beyond it. Faces
+// The parts of a mesh that spheres may touch. Each place is nearest to one face, edge or vertex. Above or below a
+// triangle, the face is nearest. An edge is nearest in the wedge beyond it, and a vertex in the cone beyond it. Faces
 // are tested by <=, edges and vertices by > on the same numbers, so a sphere that moves is never in none of them.
 // Triangles in one plane are one patch, and their inner edges are left out, so a sphere rolls over them without a bump.
 //
@@ -11,14 +11,20 @@
 //   `void visitGathered(Obstacle mesh)`: visits them when all contacts with the mesh are known.
 // shared/gathered_contacts.h has them, and shared/no_gathered_contacts.h for kernels of the other models.
 
-PRIVATE(real3, meshPoint)        // the centre of the sphere in the frame of the mesh when the visit began (m)
-PRIVATE(real3, meshVelocity)     // of the sphere relative to the mesh (m/s); 0 without look ahead
-PRIVATE(real, meshReach)         // how far from the centre the sphere may touch (m)
-PRIVATE(uints, lastPatch)        // keys of the last two patches that the sphere met
+PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
+PRIVATE(real3, meshStart)      // the same at the start of the substep
+PRIVATE(real3, meshVelocity)   // of the sphere relative to the mesh (m/s); 0 without look ahead
+PRIVATE(real, meshReach)       // the sphere may touch what is within this distance of its centre (m)
+PRIVATE(uints, lastPatch)      // keys of the last two patches that the sphere met
 PRIVATE(uints, patchBefore)
-PRIVATE(real, nearestOutside)    // m: the nearest feature on whose free side the centre is
-PRIVATE(real, nearestInside)     // m, negative: the nearest face on whose solid side the centre is
-PRIVATE(uints, wayOut)           // its triangle, or END_OF_LIST
+PRIVATE(real, nearestOutside)  // m: the nearest feature on whose free side the centre is
+PRIVATE(real, nearestInside)   // m, negative: the nearest face on whose solid side the centre is
+PRIVATE(uints, wayOut)         // address of its triangle, or END_OF_LIST
+PRIVATE(mask, faceFront)       // lanes that meet the front of the present triangle
+PRIVATE(mask, faceBack)
+PRIVATE(mask, closeLanes)      // lanes near the present triangle
+PRIVATE(mask, besideLanes)     // lanes near it that are beside it, neither above nor below
+PRIVATE(uint, featureKey)
 
 float meshReal(uint at) {
     return uintBitsToFloat(obstacleLists[at]);
@@ -29,25 +35,18 @@ vec3 meshVector(uint at) {
 }
 
 // Visits the feature that is in `featurePlace` and `featureAlong`.
-void visitFeature(mask where, Obstacle mesh, uint part, uint key) {
+RARE void visitFeature(mask where, Obstacle mesh, uint part) {
     real4 surface = surfaceAt(mesh, part, spherePoint);
     if (HAS(ACCURATE))
-        gather(surface, mesh, key);
+        gather(surface, mesh, featureKey);
     else
-        visitPart(where, mesh, part, surface, part >= MESH_EDGE, mesh.surface, key);
+        visitPart(where, mesh, part, surface, part >= MESH_EDGE, mesh.surface, featureKey);
 }
 
-void usePlane(uint triangle) {
-    featurePlace = vec4(meshVector(triangle + TRIANGLE_NORMAL), meshReal(triangle + TRIANGLE_NORMAL + 3u));
-}
-
-// `above`: the height of the centre over the plane (m).
-void visitFace(mask within, Obstacle mesh, uint triangle, real above) {
+// Finds which side of a triangle the spheres meet that are above or below it. `above`: the height of the centre (m).
+void findSides(mask within, uint triangle, real above) {
     uint key = obstacleLists[triangle + TRIANGLE_KEY];
-    mask met = lastPatch == key || patchBefore == key;
-    mask where = within && !met;
-    if (!anyLane(where)) return;
-    usePlane(triangle);
+    mask where = within && !(lastPatch == key || patchBefore == key);
     if (obstacleLists[triangle + TRIANGLE_CLOSED] != 0u) {
         mask inside = where && above < 0.0f;
         mask nearer = inside && above > nearestInside;
@@ -55,87 +54,118 @@ void visitFace(mask within, Obstacle mesh, uint triangle, real above) {
         wayOut = select(nearer, uints(triangle), wayOut);
         where = where && !inside;
         nearestOutside = select(where, min(nearestOutside, above), nearestOutside);
-        if (anyLane(where)) visitFeature(where, mesh, MESH_FRONT, key);
+        faceFront = where;
     } else {
-        // The sphere touches the side on which its centre was at the start of the substep. `fast` has moved it since.
+        // The sphere touches the side on which its centre was at the start of the substep.
         real start = above;
-        if (HAS(FAST)) {
-            real3 normal = real3(surfaceAt(mesh, MESH_FRONT, spherePoint));
-            start = above - dot3(meshVelocity, normal) * params.substep;
-        }
-        mask front = where && start >= 0.0f;
-        if (anyLane(front)) visitFeature(front, mesh, MESH_FRONT, key);
-        mask back = where && !front;
-        if (anyLane(back)) visitFeature(back, mesh, MESH_BACK, key);
+        if (HAS(FAST))
+            start = dot3(meshStart, real3(meshVector(triangle + TRIANGLE_NORMAL))) -
+                    meshReal(triangle + TRIANGLE_NORMAL + 3u);
+        faceFront = where && start >= 0.0f;
+        faceBack = where && !faceFront;
     }
     patchBefore = select(where, lastPatch, patchBefore);
     lastPatch = select(where, uints(key), lastPatch);
 }
 
-void visitEdge(mask where, Obstacle mesh, uint edge, real3 d, real along) {
-    featurePlace = vec4(meshVector(edge + EDGE_FROM), 0.0f);
-    featureAlong = vec4(meshVector(edge + EDGE_ALONG), 0.0f);
-    real3 across = d - real3(meshVector(edge + EDGE_ALONG)) * along;
-    real distance = sqrt(dot3(across, across));
-    nearestOutside = select(where, min(nearestOutside, distance), nearestOutside);
-    mask meets = where && distance <= meshReach;
-    if (anyLane(meets)) visitFeature(meets, mesh, MESH_EDGE, obstacleLists[edge + EDGE_KEY]);
-}
-
-void visitVertex(mask where, Obstacle mesh, uint vertex) {
-    real3 d = meshPoint - real3(meshVector(vertex + VERTEX_PLACE));
-    real distance = sqrt(dot3(d, d));
-    vec3 normal = meshVector(vertex + VERTEX_NORMAL);
-    bool solid = normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f;
-    mask meets = where && distance <= meshReach;
-    if (solid) meets = meets && dot3(d, real3(normal)) > 0.0f;
-    uint end = vertex + VERTEX_EDGES + obstacleLists[vertex + VERTEX_COUNT];
-    for (uint k = vertex + VERTEX_EDGES; k < end && anyLane(meets); ++k) {
-        uint edge = obstacleLists[k] / 2u;
-        real along = dot3(meshPoint - real3(meshVector(edge + EDGE_FROM)), real3(meshVector(edge + EDGE_ALONG)));
-        if (obstacleLists[k] % 2u == 0u)
-            meets = meets && along <= 0.0f;
-        else
-            meets = meets && along >= meshReal(edge + EDGE_LENGTH);
-    }
-    if (!anyLane(meets)) return;
-    nearestOutside = select(meets, min(nearestOutside, distance), nearestOutside);
-    featurePlace = vec4(meshVector(vertex + VERTEX_PLACE), 0.0f);
-    visitFeature(meets, mesh, MESH_VERTEX, obstacleLists[vertex + VERTEX_KEY]);
-}
-
-void visitTriangle(mask where, Obstacle mesh, uint triangle) {
+// Finds the spheres that are near a triangle, and those that are above or below it.
+void findNear(mask where, uint triangle) {
+    real3 fromCentre = meshPoint - real3(meshVector(triangle + TRIANGLE_CENTRE));
+    real distance = sqrt(dot3(fromCentre, fromCentre)) - meshReal(triangle + TRIANGLE_CENTRE + 3u);
+    closeLanes = where && distance <= meshReach;
+    besideLanes = noLane();
+    if (!anyLane(closeLanes)) return;
     real height = dot3(meshPoint, real3(meshVector(triangle + TRIANGLE_NORMAL)));
     precise real above = height - meshReal(triangle + TRIANGLE_NORMAL + 3u);
-    bool closed = obstacleLists[triangle + TRIANGLE_CLOSED] != 0u;
-    mask close = where && above <= meshReach;
-    if (closed)
-        close = close && above >= -mesh.b.w;
-    else
-        close = close && -above <= meshReach;
-    if (!anyLane(close)) return;
-    mask within = close;
+    closeLanes = closeLanes && abs(above) <= meshReach;
+    if (!anyLane(closeLanes)) return;
     for (uint k = 0u; k < 3u; ++k) {
         uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
         uint edge = word / 2u;
-        uint side = word % 2u;
         real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
-        real outward = dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u * side)));
-        mask beyond = close && outward > 0.0f;
-        within = within && !beyond;
-        uint flags = obstacleLists[edge + EDGE_FLAGS];
-        if (side != 0u || (flags & EDGE_MEETS) == 0u || !anyLane(beyond)) continue;
-        if ((flags & EDGE_SHARED) != 0u) beyond = beyond && dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u))) > 0.0f;
-        real along = dot3(d, real3(meshVector(edge + EDGE_ALONG)));
-        beyond = beyond && along > 0.0f && along < meshReal(edge + EDGE_LENGTH);
-        if (anyLane(beyond)) visitEdge(beyond, mesh, edge, d, along);
+        real beyond = dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u * (word % 2u))));
+        besideLanes = besideLanes || (closeLanes && beyond > 0.0f);
     }
-    if (anyLane(within)) visitFace(within, mesh, triangle, above);
-    mask outside = close && !within;
-    if (!anyLane(outside)) return;
-    for (uint k = 0u; k < 3u; ++k) {
-        uint vertex = obstacleLists[triangle + TRIANGLE_VERTICES + k];
-        if (vertex != 0u) visitVertex(outside, mesh, vertex);
+    mask within = closeLanes && !besideLanes;
+    if (anyLane(within)) findSides(within, triangle, above);
+}
+
+// Returns the spheres that may touch an edge of a triangle, if it is the first triangle of the edge.
+mask atEdge(uint triangle, uint k) {
+    uint word = obstacleLists[triangle + TRIANGLE_EDGES + k];
+    uint edge = word / 2u;
+    uint flags = obstacleLists[edge + EDGE_FLAGS];
+    if (word % 2u != 0u || (flags & EDGE_MEETS) == 0u || !anyLane(besideLanes)) return noLane();
+    vec3 direction = meshVector(edge + EDGE_ALONG);
+    real3 d = meshPoint - real3(meshVector(edge + EDGE_FROM));
+    real along = dot3(d, real3(direction));
+    mask where = besideLanes && dot3(d, real3(meshVector(edge + EDGE_AWAY))) > 0.0f && along > 0.0f &&
+                 along < meshReal(edge + EDGE_LENGTH);
+    if ((flags & EDGE_SHARED) != 0u) where = where && dot3(d, real3(meshVector(edge + EDGE_AWAY + 3u))) > 0.0f;
+    real3 across = d - real3(direction) * along;
+    real distance = sqrt(dot3(across, across));
+    nearestOutside = select(where, min(nearestOutside, distance), nearestOutside);
+    featurePlace = vec4(meshVector(edge + EDGE_FROM), 0.0f);
+    featureAlong = vec4(direction, 0.0f);
+    featureKey = obstacleLists[edge + EDGE_KEY];
+    return where && distance <= meshReach;
+}
+
+// Returns the spheres that may touch a vertex of a triangle, if the vertex belongs to the triangle.
+mask atVertex(uint triangle, uint k) {
+    uint vertex = obstacleLists[triangle + TRIANGLE_VERTICES + k];
+    if (vertex == 0u || !anyLane(besideLanes)) return noLane();
+    real3 d = meshPoint - real3(meshVector(vertex + VERTEX_PLACE));
+    real distance = sqrt(dot3(d, d));
+    vec3 normal = meshVector(vertex + VERTEX_NORMAL);
+    mask where = besideLanes && distance <= meshReach;
+    if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) where = where && dot3(d, real3(normal)) > 0.0f;
+    uint end = vertex + VERTEX_EDGES + obstacleLists[vertex + VERTEX_COUNT];
+    for (uint at = vertex + VERTEX_EDGES; at < end && anyLane(where); ++at) {
+        uint edge = obstacleLists[at] / 2u;
+        real along = dot3(meshPoint - real3(meshVector(edge + EDGE_FROM)), real3(meshVector(edge + EDGE_ALONG)));
+        if (obstacleLists[at] % 2u == 0u)
+            where = where && along <= 0.0f;
+        else
+            where = where && along >= meshReal(edge + EDGE_LENGTH);
+    }
+    nearestOutside = select(where, min(nearestOutside, distance), nearestOutside);
+    featurePlace = vec4(meshVector(vertex + VERTEX_PLACE), 0.0f);
+    featureKey = obstacleLists[vertex + VERTEX_KEY];
+    return where;
+}
+
+mask atFace(uint triangle, mask where) {
+    featurePlace = vec4(meshVector(triangle + TRIANGLE_NORMAL), meshReal(triangle + TRIANGLE_NORMAL + 3u));
+    featureKey = obstacleLists[triangle + TRIANGLE_KEY];
+    return where;
+}
+
+// `leaves`: the centres are in the solid, and the way out leads through the front of the triangle. (The features are in
+// one loop, because compilers would copy visitFeature() to each of its calls.)
+void visitTriangle(mask where, Obstacle mesh, uint triangle, bool leaves) {
+    faceFront = where;
+    faceBack = noLane();
+    besideLanes = noLane();
+    if (!leaves) {
+        faceFront = noLane();
+        findNear(where, triangle);
+        if (!anyLane(closeLanes)) return;
+    }
+    for (uint feature = 0u; feature < 8u; ++feature) {
+        mask meets = noLane();
+        uint part = MESH_FRONT;
+        if (feature < 3u) {
+            meets = atEdge(triangle, feature);
+            part = MESH_EDGE;
+        } else if (feature < 5u) {
+            meets = atFace(triangle, feature == 3u ? faceFront : faceBack);
+            part = feature == 3u ? MESH_FRONT : MESH_BACK;
+        } else {
+            meets = atVertex(triangle, feature - 5u);
+            part = MESH_VERTEX;
+        }
+        if (anyLane(meets)) visitFeature(meets, mesh, part);
     }
 }
 
@@ -154,6 +184,8 @@ void visitMesh(mask where, Obstacle mesh) {
     meshPoint = intoFrame(mesh, spherePoint);
     meshVelocity = velocityAlong();
     if (isMoving(mesh) && looksAhead()) meshVelocity = relativeTo(mesh, real(0.0f), spherePoint, meshVelocity);
+    meshStart = meshPoint;
+    if (HAS(FAST)) meshStart = intoFrame(mesh, spherePoint - meshVelocity * real(params.substep));
     meshReach = sphereRadius * (1.0f + TOUCHES) + sqrt(dot3(meshVelocity, meshVelocity)) * params.substep;
     lastPatch = uints(END_OF_LIST);
     patchBefore = uints(END_OF_LIST);
@@ -162,21 +194,24 @@ void visitMesh(mask where, Obstacle mesh) {
     nearestInside = real(-FAR_AWAY);
     uints place = trianglesNear(where, mesh);
     uints number = ROW(obstacleLists, place);
-    for (uint least = leastOf(number); least != END_OF_LIST; least = leastOf(number)) {
-        mask here = number == least;
-        visitTriangle(here, mesh, mesh.trianglesAt + least * TRIANGLE_WORDS);
-        place = select(here, place + 1u, place);
-        number = ROW(obstacleLists, place);
-    }
-    // A centre in the solid leaves it through the nearest face.
-    mask inside = -nearestInside < nearestOutside;
-    for (uint least = leastOf(wayOut); least != END_OF_LIST; least = leastOf(wayOut)) {
-        mask here = wayOut == least;
-        mask leaves = here && inside;
-        wayOut = select(here, uints(END_OF_LIST), wayOut);
-        if (!anyLane(leaves)) continue;
-        usePlane(least);
-        visitFeature(leaves, mesh, MESH_FRONT, obstacleLists[least + TRIANGLE_KEY]);
+    bool leaves = false;
+    while (true) {
+        uint least = leastOf(number);
+        if (least == END_OF_LIST && !leaves) {
+            // At the end, centres in the solid leave it through the nearest face.
+            leaves = true;
+            wayOut = select(-nearestInside < nearestOutside, wayOut, uints(END_OF_LIST));
+        }
+        if (leaves) least = leastOf(wayOut);
+        if (least == END_OF_LIST) break;
+        mask here = leaves ? wayOut == least : number == least;
+        visitTriangle(here, mesh, leaves ? least : mesh.trianglesAt + least * TRIANGLE_WORDS, leaves);
+        if (leaves) {
+            wayOut = select(here, uints(END_OF_LIST), wayOut);
+        } else {
+            place = select(here, place + 1u, place);
+            number = ROW(obstacleLists, place);
+        }
     }
     if (HAS(ACCURATE)) visitGathered(mesh);
 }

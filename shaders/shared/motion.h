@@ -1,7 +1,6 @@
-// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters`, `obstacles`
-// and `obstacleLists`, and has included shared/separation.h, shared/shapes.h, shared/moving.h, shared/fields.h,
-// shared/outside.h, shared/drift.h and
-// shared/falling_frame.h.
+// Checks the motion of a sphere in a substep. The includer binds `listReference`, `counters`, `obstacles` and
+// `obstacleLists`. It has included shared/separation.h, shared/shapes.h, shared/moving.h, shared/mesh_room.h,
+// shared/fields.h, shared/outside.h, shared/drift.h and shared/falling_frame.h.
 
 // The time, in steps, that a sphere looks ahead. Substeps are fitted after each step to the motions in it, so that a
 // sphere must see all that it may meet within two steps.

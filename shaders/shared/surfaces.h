@@ -6,7 +6,7 @@
 // and surface (m), negative if they overlap. `recession` is the speed at which a curved surface recedes from the sphere
 // while it moves along it (m/s), negative inside a hollow. (They are no struct, because `precise` spreads through its
 // members, and glslang would need minutes.) Surfaces are numbered through faces and obstacles in the order of the scene.
-// `key` is the number by which a contact is remembered: that of the surface, or one of the many of a mesh.
+// `key` is the number by which a contact is remembered: the surface, or one of the many parts of a mesh.
 //
 // It also defines `bool looksAhead()`, which returns true in a solver that finds the moment of an impact. There
 // `real3 velocityAlong()` is the velocity with which the sphere meets curved surfaces (m/s), elsewhere it is 0.

@@ -1,4 +1,5 @@
-// Fuzzes the readers of STL and OBJ, and what makes a mesh of their triangles. The first byte chooses the form.
+// Fuzzes the readers of STL and OBJ, and the functions that make a mesh of the triangles. The first byte chooses the
+// form.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -35,7 +35,7 @@ class Mesh {
         glm::dvec3 normal{};  // of unit length
         double offset = 0;    // m: normal . x in the plane
     };
-    // What was found while the mesh was read.
+    // Flaws of the file, found while the mesh was read.
     struct Report {
         std::size_t triangles = 0;   // in the file
         std::size_t moved = 0;       // vertices that were joined with one nearby

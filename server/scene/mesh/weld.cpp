@@ -63,20 +63,22 @@ class VertexTable {
 // Drops triangles that have the corners of an earlier one, in any order.
 void dropDuplicates(Mesh& mesh) {
     struct Sorted {
-        std::array<std::uint32_t, 3> corners;
+        std::uint64_t low;  // the two lower corners
+        std::uint32_t high;
         std::uint32_t number;
         auto operator<=>(const Sorted&) const = default;
     };
     std::vector<Sorted> all;
     all.reserve(mesh.corners.size());
     for (std::uint32_t t = 0; t < mesh.corners.size(); ++t) {
-        all.push_back({mesh.corners[t], t});
-        std::ranges::sort(all.back().corners);
+        std::array<std::uint32_t, 3> corners = mesh.corners[t];
+        std::ranges::sort(corners);
+        all.push_back({std::uint64_t{corners[0]} << 32U | corners[1], corners[2], t});
     }
     std::ranges::sort(all);
     std::vector<bool> drop(mesh.corners.size());
     for (std::size_t k = 1; k < all.size(); ++k)
-        if (all[k].corners == all[k - 1].corners) drop[all[k].number] = true;
+        if (all[k].low == all[k - 1].low && all[k].high == all[k - 1].high) drop[all[k].number] = true;
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.corners.size(); ++t)
         if (!drop[t]) mesh.corners[kept++] = mesh.corners[t];

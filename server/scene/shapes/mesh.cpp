@@ -29,7 +29,7 @@ std::string objText(const Mesh& mesh) {
     return text;
 }
 
-// A mesh with the message that gives it. What is short stays in the scene; of a long file, the scene keeps the path.
+// A mesh with the message that gives it: the bytes of a short file, or the path of a long one.
 class MeshShape final : public Shape {
   public:
     MeshShape(std::shared_ptr<const Mesh> mesh, v1::Obstacle message)

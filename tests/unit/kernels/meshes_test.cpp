@@ -96,6 +96,7 @@ struct Case {
     const char* name;
     scene::Triangles triangles;
     Mesh::Form form;
+    bool convex = false;
 };
 
 std::vector<Case> cases() {
@@ -103,16 +104,17 @@ std::vector<Case> cases() {
     return {{"ball", ball, Mesh::Form::Solid},
             {"hollow ball", ball, Mesh::Form::Hollow},
             {"thin ball", ball, Mesh::Form::Sheet},
-            {"box", support::boxOf(dvec3(-0.6, -0.5, -0.3), dvec3(0.5, 0.5, 0.5)), Mesh::Form::Solid},
-            {"blade", support::boxOf(dvec3(-0.6, -0.5, -0.005), dvec3(0.5, 0.5, 0.005)), Mesh::Form::Solid},
-            {"cone", support::lathe({{0, -0.5}, {0.6, -0.5}, {0, 0.6}}, 31), Mesh::Form::Solid},
+            {"box", support::boxOf(dvec3(-0.6, -0.5, -0.3), dvec3(0.5, 0.5, 0.5)), Mesh::Form::Solid, true},
+            {"blade", support::boxOf(dvec3(-0.6, -0.5, -0.005), dvec3(0.5, 0.5, 0.005)), Mesh::Form::Solid, true},
+            {"cone", support::lathe({{0, -0.5}, {0.6, -0.5}, {0, 0.6}}, 31), Mesh::Form::Solid, true},
             {"sheet", support::randomSheet({-0.7, -0.7}, {0.7, 0.7}, 12, 12, 4, 0.2), Mesh::Form::Sheet}};
 }
 
-// The deepest contact is the one with the nearest triangle. Only a sphere whose centre is deep inside may be lost.
+// The deepest contact is the one with the nearest triangle. A centre in a convex solid leaves it through the nearest
+// side, unless it is deeper than a radius.
 TEST(KernelsAsCpp, FindTheNearestTriangleOfAMesh) {
     constexpr double radius = 0.08;
-    for (const auto& [name, triangles, form] : cases()) {
+    for (const auto& [name, triangles, form, convex] : cases()) {
         const auto shape = scene::placedShape(scene::meshShape(triangles, form), {{1, 2, 3}, 40}, {0.1, -0.2, 0.3});
         Around around(shape, placesIn(dvec3(1), 5), radius);
         around.run("figures_surfaces");
@@ -120,7 +122,7 @@ TEST(KernelsAsCpp, FindTheNearestTriangleOfAMesh) {
         unsigned near = 0;
         for (std::size_t k = 0; k < count; ++k) {
             const double distance = shape->distance(dvec3(glm::vec3(around.position[k])));
-            if (distance < -radius) continue;
+            if (distance < (convex ? -radius : 0)) continue;
             const double depth = static_cast<double>(std::bit_cast<float>(around.deepest[k])) * radius;
             if (distance < radius) ++near;
             worst = std::max(worst, std::abs(depth - std::max(0.0, radius - distance)));
@@ -139,6 +141,7 @@ TEST(KernelsAsCpp, MeetABoxOfTrianglesAsABox) {
         const auto form = hollow ? Mesh::Form::Hollow : Mesh::Form::Solid;
         Around mesh(scene::meshShape(support::boxOf(low, high), form), placesIn({0.95, 0.75, 0.65}, 6), radius);
         Around box(scene::boxShape({low, high}, hollow), mesh.position, radius);
+        const std::vector<vec4> before = mesh.position;
         for (Around* one : {&mesh, &box}) {
             one->run("figures_surfaces");
             one->run("walls_impulses");
@@ -148,12 +151,12 @@ TEST(KernelsAsCpp, MeetABoxOfTrianglesAsABox) {
         unsigned different = 0;
         for (std::size_t k = 0; k < count; ++k) {
             const dvec3 place(glm::vec3(mesh.position[k]));
-            // A hollow mesh has no triangles beyond its corners. The centres of solids are left out near the places
-            // where two sides are equally near.
-            const glm::dvec3 beyond = glm::max(low - place, place - high);
+            // A hollow mesh has no triangles beyond its corners. Close to an edge, the direction from it is not exact.
+            const dvec3 start(glm::vec3(before[k]));
+            const dvec3 beyond = glm::max(low - start, start - high);
             if (hollow && std::max({beyond.x, beyond.y, beyond.z}) > 0) continue;
             const double deepest = static_cast<double>(std::bit_cast<float>(box.deepest[k]));
-            if (!hollow && deepest > 1) continue;
+            if (!hollow && deepest > 0.8) continue;
             contacts += mesh.touching[k];
             if (mesh.touching[k] != box.touching[k]) ++different;
             worst = std::max(worst, glm::distance(place, dvec3(glm::vec3(box.position[k]))));
@@ -172,15 +175,20 @@ TEST(KernelsAsCpp, ListsKnowALowerLimitOfTheDistanceToAMesh) {
     around.parameters.obstacleListWords = static_cast<uint>(around.obstacleLists.size());
     around.run("list_obstacles");
     double tightest = 0;
+    double shares = 0;
+    unsigned left = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const double distance = shape->distance(dvec3(glm::vec3(around.position[k])));
         if (around.nearObstacles[k].x != NO_OBSTACLES) continue;
         const double room = static_cast<double>(std::bit_cast<float>(around.nearObstacles[k].y)) + 0.02;
         EXPECT_LE(room, std::abs(distance) + 1e-6);
         tightest = std::max(tightest, room / std::abs(distance));
-        if (std::abs(distance) > 0.3) EXPECT_GT(room, 0.3 * std::abs(distance));
+        shares += room / std::abs(distance);
+        ++left;
     }
     EXPECT_GT(tightest, 0.9);
+    EXPECT_GT(shares / left, 0.7);
+    EXPECT_GT(left, count / 2);
 }
 
 // Over inner edges of a patch there is exactly one contact, also above vertices.

@@ -1,4 +1,4 @@
-// Meshes and height fields: their files, and what is refused.
+// Meshes and height fields: their files and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -204,7 +204,7 @@ TEST_F(SceneMesh, IsWrittenWithItsBytes) {
     EXPECT_TRUE(message.mesh().file().starts_with('/')) << message.mesh().file();
 }
 
-// Small errors of the corners, as those of float32, keep a plane one patch. A bend does not.
+// Small errors of the corners, as in float32, keep a plane one patch. A bend does not.
 TEST(MeshPatches, AreTrianglesInOnePlane) {
     Check check;
     scene::Triangles sheet = support::randomSheet({0, 0}, {10, 1}, 40, 10, 3);
