@@ -30,11 +30,14 @@ vec3 velocityAlong() {
     return vec3(0.0f, 0.0f, 0.0f);
 }
 
-void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface) {
+void visitSurface(bool where, vec3 normal, float separation, float recession, uint wallMaterial, uint surface,
+                  uint key) {
     float speed = sqrt(dot3(surfaceVelocity, surfaceVelocity));
     disturbed = disturbed || (speed > 0.0f && separation < wakeGap() + speed * params.substep);
 }
 
+#include "shared/mesh_layout.h"
+#include "shared/no_gathered_contacts.h"
 #include "shared/surfaces.h"
 
 KERNEL(params.spheres) {

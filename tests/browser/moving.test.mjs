@@ -254,7 +254,7 @@ async function checkPlayed(file, times) {
   await server.stop();
 }
 
-test("the page shows obstacles of a server where they are at the time of the image, and so does a recording", async () => {
+test("the page and a recording show obstacles of a server where they are at the time of the image", async () => {
   const file = path.join(suite.folder, "live.sph");
   const server = await serve(sceneFile(), { options: ["--record", file] });
   const page = await openSmall(server.url);

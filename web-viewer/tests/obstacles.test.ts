@@ -2,6 +2,7 @@ import { create } from "@bufbuild/protobuf";
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { MeshFactsSchema } from "../src/gen/spherule/v1/facts_pb";
 import { ObstacleSchema } from "../src/gen/spherule/v1/scene_pb";
 import type { Obstacle } from "../src/gen/spherule/v1/scene_pb";
 import type { Vec3 } from "../src/model/facts";
@@ -225,3 +226,38 @@ test("triangles are counter-clockwise as seen from the free side", () => {
     }
   }
 });
+
+// A tetrahedron, turned by 90 degrees about z and moved.
+for (const form of ["solid", "hollow", "sheet"]) {
+  test(`a ${form} mesh is drawn with the triangles that the server sends`, () => {
+    const mesh = { solid: form === "solid", hollow: form === "hollow" };
+    const made = create(ObstacleSchema, {
+      shape: { case: "mesh", value: mesh },
+      rotation: { axis: [0, 0, 1], degrees: 90 },
+      translation: [0, 0, 1],
+    });
+    const points = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
+    const indices = new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+    const triangles = create(MeshFactsSchema, {
+      min: [0, 0, 0],
+      max: [1, 1, 1],
+      vertices: new Uint8Array(points.buffer),
+      indices: new Uint8Array(indices.buffer),
+    });
+    const placement = placementOf(made);
+    const draw = (facts: typeof triangles): ReturnType<typeof surfaceOf> =>
+      surfaceOf({ shape: made.shape, placement, colour: undefined, triangles: facts }, grey, bounds);
+    const { vertices, oneSided } = draw(triangles);
+    assert.equal(oneSided, form === "hollow");
+    assert.equal(vertices.length, (form === "sheet" ? 24 : 12) * vertexFloats);
+    // The last triangle of a solid: (1, 0, 0), (0, 1, 0), (0, 0, 1), seen from outside.
+    const last = form === "sheet" ? 18 : 9;
+    const at = vertices.slice(last * vertexFloats, last * vertexFloats + 6);
+    [0, 1, 1, -Math.SQRT1_2 * Math.sqrt(2 / 3), Math.sqrt(1 / 3), Math.sqrt(1 / 3)].forEach((value, k) => {
+      assert.ok(Math.abs((at[k] ?? NaN) - value) < 1e-6, `${k}: ${at[k]} instead of ${value}`);
+    });
+    // Without triangles, its box is drawn.
+    const box = draw(create(MeshFactsSchema, { min: [0, 0, 0], max: [1, 1, 1] }));
+    assert.equal(box.vertices.length, 36 * vertexFloats);
+  });
+}

@@ -3,8 +3,8 @@ import { writeFile } from "node:fs/promises";
 import path from "node:path";
 
 /**
- * Writes a scene of a few spheres that fly and bounce for ever, along a periodic axis. Returns its path. `more`: further
- * fields of the scene.
+ * Writes a scene of a few spheres that fly and bounce for ever, along a periodic axis. Returns its path. `more`:
+ * further fields of the scene.
  */
 export async function gasScene(folder, name = "gas", more = {}) {
   const spheres = [];

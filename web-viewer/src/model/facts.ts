@@ -1,5 +1,5 @@
 import { periodsOf } from "../connection/periods";
-import type { SceneFacts } from "../gen/spherule/v1/facts_pb";
+import type { MeshFacts, SceneFacts } from "../gen/spherule/v1/facts_pb";
 import { Face } from "../gen/spherule/v1/scene_pb";
 import type { Light as LightMessage, Obstacle as Message } from "../gen/spherule/v1/scene_pb";
 import { hexToRgb } from "../colour/rgb";
@@ -15,6 +15,7 @@ export interface Obstacle {
   placement?: Placement | undefined;
   pivot?: Vec3 | undefined; // m: about which it turns, at the beginning; undefined: it is at rest
   colour: Rgb | undefined;
+  triangles?: MeshFacts | undefined; // of a mesh
 }
 
 /** The light that the scene asks for; what is undefined is the page's choice. */
@@ -59,7 +60,10 @@ export function factsOf(scene: SceneFacts): Facts {
     max,
     open: new Set(scene.open),
     periods,
-    obstacles: scene.obstacles.map(obstacleOf),
+    obstacles: scene.obstacles.map((message, number) => ({
+      ...obstacleOf(message),
+      triangles: scene.meshes.find(({ obstacle }) => obstacle === number),
+    })),
     population: new Population(scene),
     origin: between(min, max),
     cellSize: scene.cellSize,

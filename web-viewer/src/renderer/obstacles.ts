@@ -17,7 +17,7 @@ type Bounds = { min: Vec3; max: Vec3 };
 type Draw<Case> = (shape: Extract<Shape, { case: Case }>["value"], colour: number[]) => Surface;
 
 /** One function for each shape of scene.proto that has an end. */
-const surfaces: { [Case in Exclude<NonNullable<Shape["case"]>, "plane">]: Draw<Case> } = {
+const surfaces: { [Case in Exclude<NonNullable<Shape["case"]>, "plane" | "mesh" | "heightField">]: Draw<Case> } = {
   box: ({ min, max, hollow }, colour) => {
     const sides = faces(min as Vec3, max as Vec3);
     const inward = (normal: Vec3): Vec3 => [-normal[0], -normal[1], -normal[2]];
@@ -88,16 +88,50 @@ function turnedAround(from: Vec3, to: Vec3, outline: Outline, hollow: boolean, c
 }
 
 /** Returns the surface of an obstacle in the colour (RGBA); an empty one if its shape is unknown to this page. */
-export function surfaceOf({ shape, placement }: Obstacle, colour: number[], bounds: Bounds): Surface {
+export function surfaceOf(obstacle: Obstacle, colour: number[], bounds: Bounds): Surface {
+  const { shape, placement } = obstacle;
   if (shape.case === undefined) return { vertices: [], oneSided: false };
   if (shape.case === "plane") {
     const { point, normal } = shape.value;
     return planeIn(bounds, placed(placement, point as Vec3), turned(placement, normal as Vec3), colour);
   }
+  if (shape.case === "mesh" || shape.case === "heightField") return meshSurface(obstacle, colour);
   const draw = surfaces[shape.case] as (shape: unknown, colour: number[]) => Surface;
   const surface = draw(shape.value, colour);
   if (placement) place(surface.vertices, placement);
   return surface;
+}
+
+/** The triangles of a mesh; its box if it has too many of them for the server to send. */
+function meshSurface({ shape, placement, triangles }: Obstacle, colour: number[]): Surface {
+  const mesh = shape.case === "mesh" ? shape.value : undefined;
+  const sheet = !mesh?.solid && !mesh?.hollow;
+  if (!triangles?.indices.length) {
+    const vertices = faces(triangles?.min as Vec3, triangles?.max as Vec3).flatMap(({ normal, points }) =>
+      polygon(
+        points.map((point) => placed(placement, point)),
+        turned(placement, normal),
+        colour,
+      ),
+    );
+    return { vertices: triangles ? vertices : [], oneSided: false };
+  }
+  const numbers = new Float32Array(triangles.vertices.slice().buffer);
+  const points = Array.from({ length: numbers.length / 3 }, (_, k) =>
+    placed(placement, [...numbers.subarray(3 * k, 3 * k + 3)] as Vec3),
+  );
+  const indices = new Uint32Array(triangles.indices.slice().buffer);
+  const vertices: Vertices = [];
+  for (let k = 0; k < indices.length; k += 3) {
+    const [a, b, c] = [...indices.subarray(k, k + 3)].map((index) => points[index] ?? [0, 0, 0]) as [Vec3, Vec3, Vec3];
+    const normal = vec3.cross([0, 0, 0], vec3.subtract([0, 0, 0], b, a), vec3.subtract([0, 0, 0], c, a)) as Vec3;
+    vec3.normalize(normal, normal);
+    vertices.push(...a, ...normal, ...colour, ...b, ...normal, ...colour, ...c, ...normal, ...colour);
+    if (!sheet) continue;
+    vec3.scale(normal, normal, -1);
+    vertices.push(...a, ...normal, ...colour, ...c, ...normal, ...colour, ...b, ...normal, ...colour);
+  }
+  return { vertices, oneSided: mesh?.hollow ?? false };
 }
 
 /** The part of a plane that lies in the bounds. */
