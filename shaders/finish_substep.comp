@@ -87,8 +87,8 @@ real3 relativeVelocity() {
     return sphereVelocity - surfaceVelocity;
 }
 
-// A sphere that has moved on to another part of a mesh holds nothing at the part before: the impulse ends that it had
-// there at the beginning of the substep.
+// A sphere that has moved on to another part of a mesh holds nothing at the part before. The impulse that it held there
+// at the beginning of the substep ends.
 RARE void endLeftContacts() {
     uints first = sphereId * params.maxWallHistory;
     for (uint k = 3u; k < params.maxWallHistory; ++k) {

@@ -20,7 +20,7 @@ BUFFER(coherent, uint, counters)
 // The lists hold for some time even if all spheres fall together, and the pair lists with them.
 #define LIST_REACH 2.0f  // in margins
 
-// Of a mesh, it is a lower limit.
+// The distance from a mesh is a lower limit.
 float distanceTo(uint number, vec3 point) {
     Obstacle obstacle = obstacles[number];
     if (HAS(MESHES) && obstacle.shape == MESH_SHAPE) return roomAtMesh(obstacle, point);

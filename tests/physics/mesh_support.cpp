@@ -55,7 +55,7 @@ void flyInBottle(scene::Model model, double seconds, unsigned count) {
     constexpr double size = 0.01;  // m
     scene::Scene scene = spaceFor(model, 4);
     setRestitution(scene, 1);
-    setFriction(scene, 0);
+    measure::setFriction(scene, 0);
     scene.sphereContacts = false;
     scene.quality.substeps = model == scene::Model::Accurate ? 400 : 50;  // 4 mm in a substep
     scene.obstacles.push_back(bottle());

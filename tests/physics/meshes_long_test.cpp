@@ -29,7 +29,7 @@ double meanHeight(scene::Model model, bool mesh, unsigned seed) {
     scene.step = 1.0 / 120;
     scene.sleep.enabled = false;
     setRestitution(scene, 0.3);
-    setFriction(scene, 0.3);
+    measure::setFriction(scene, 0.3);
     const glm::dvec3 half(0.25, 0.25, 0.5);
     scene.bounds.min = -half - (mesh ? 0.1 : 0.0);
     scene.bounds.max = half + (mesh ? 0.1 : 0.0);
