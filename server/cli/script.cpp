@@ -164,8 +164,8 @@ Result<void> Script::check(const scene::Scene& scene, double duration) const {
             then.spheres.insert(then.spheres.end(), added->begin(), added->end());
         } else if (const auto* const remove = std::get_if<sim::Remove>(&line.command)) {
             if (auto fits = checkRemove(line.where, *remove, then); !fits) return fits;
-        } else if (auto fits = checkPush(line.where, std::get<sim::Push>(line.command), then); !fits) {
-            return fits;
+        } else if (const auto* const push = std::get_if<sim::Push>(&line.command)) {
+            if (auto fits = checkPush(line.where, *push, then); !fits) return fits;
         }
     }
     return {};

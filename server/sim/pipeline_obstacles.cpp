@@ -37,26 +37,44 @@ void Pipeline::takeFrom(Pipeline& before, const NewKey& newKey) {
     requestRebuild();
 }
 
+// Gives remembered contacts their new keys. Spheres no longer hold the impulses of contacts that have ended.
 void Pipeline::takeWallMemory(Pipeline& before, const NewKey& newKey) {
-    const std::uint32_t least = std::min(plan_.maxWallHistory, before.plan_.maxWallHistory);
+    const std::uint32_t oldMost = before.plan_.maxWallHistory;
+    const std::uint32_t most = std::min(plan_.maxWallHistory, oldMost);
+    const auto slots = read<std::uint32_t>(Array::SlotOf);
+    const auto slotOfHandle = [&](std::size_t handle) { return slots.empty() ? handle : std::size_t{slots[handle]}; };
+    const auto position = read<glm::vec4>(Array::Position);
+    const auto velocity = read<glm::vec4>(Array::Velocity);
+    auto held = read<glm::vec4>(Array::HeldVelocity);
+    auto heldSpin = read<glm::vec4>(Array::HeldSpin);
     for (const Array array : {Array::WallImpulse, Array::WallTorque, Array::WallSlip}) {
-        if (!plan_.has(array) || !before.plan_.has(array)) continue;
+        if (!before.plan_.has(array)) continue;
         // The rows of torques have no surface: they belong to the rows of impulses.
         const auto old = before.read<glm::vec4>(array);
         const auto keys = before.read<glm::vec4>(array == Array::WallTorque ? Array::WallImpulse : array);
         std::vector<glm::vec4> rows(std::size_t{plan_.room} * plan_.maxWallHistory);
-        for (std::size_t handle = 0; handle < plan_.room; ++handle)
-            for (std::uint32_t k = 0; k < least; ++k) {
-                const std::size_t from = handle * before.plan_.maxWallHistory + k;
-                if (keys[from].w == 0) continue;
-                const auto key = newKey(static_cast<std::uint32_t>(keys[from].w) - 1);
-                if (!key) continue;
+        for (std::size_t from = 0; from < old.size(); ++from) {
+            if (keys[from].w == 0) continue;
+            const std::size_t handle = from / oldMost;
+            const std::size_t k = from % oldMost;
+            const auto key = newKey(static_cast<std::uint32_t>(keys[from].w) - 1);
+            if (key && k < most) {
                 glm::vec4& row = rows[handle * plan_.maxWallHistory + k];
                 row = old[from];
                 if (array != Array::WallTorque) row.w = static_cast<float>(*key + 1);
+                continue;
             }
-        write<glm::vec4>(array, rows);
+            const std::size_t slot = slotOfHandle(handle);
+            const float inverseMass = std::abs(velocity[slot].w);
+            const glm::vec4 part(glm::vec3(old[from]), 0);
+            if (array == Array::WallImpulse && !held.empty()) held[slot] -= part * inverseMass;
+            if (array == Array::WallTorque && !heldSpin.empty())
+                heldSpin[slot] += part * (2.5F * inverseMass / position[slot].w);  // as in held_by_walls.comp
+        }
+        if (plan_.has(array)) write<glm::vec4>(array, rows);
     }
+    if (!held.empty()) write<glm::vec4>(Array::HeldVelocity, held);
+    if (!heldSpin.empty()) write<glm::vec4>(Array::HeldSpin, heldSpin);
 }
 
 void Pipeline::wake(std::span<const std::uint32_t> handles) {

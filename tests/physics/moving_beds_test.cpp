@@ -100,8 +100,7 @@ TEST_P(MovingBeds, TorqueOfADrumIsTheLeverOfItsContent) {
     double torque = 0;
     for (const sim::SurfaceForce& on : now.surfaceForces) torque += on.torque.y;
     EXPECT_GT(std::abs(lever), 0.2);
-    // In `fast`, pushes out of overlaps are no forces.
-    EXPECT_NEAR(torque, lever, (GetParam() == Model::Fast ? 0.05 : 0.01) * std::abs(lever));
+    EXPECT_NEAR(torque, lever, 0.01 * std::abs(lever));
     RecordProperty("error", std::to_string(torque / lever - 1));
 }
 

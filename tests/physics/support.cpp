@@ -11,6 +11,7 @@
 #include "scene/json.h"
 #include "scene/quality.h"
 #include "scene/shapes.h"
+#include "scene/surroundings.h"
 
 namespace spherule::physics {
 
@@ -26,7 +27,7 @@ scene::Scene named(const std::string& name, const scene::Overrides& overrides) {
 scene::Obstacle obstacleFrom(const std::string& json) {
     const v1::Scene message = support::valueOf(scene::parseJson("{\"obstacles\":[" + json + "]}", "obstacle"));
     scene::Check check;
-    scene::Obstacle obstacle{.shape = scene::readShape(check, message.obstacles(0), "obstacle"), .colour = ""};
+    scene::Obstacle obstacle = scene::readObstacle(check, message.obstacles(0), {scene::Material{}}, {}, "obstacle");
     if (!check.ok()) throw std::invalid_argument(check.error().value().message);
     return obstacle;
 }
