@@ -124,7 +124,7 @@ bool finiteLanes(vec3 a) {
            (floatBitsToUint(a.z) & 0x7f800000u) != 0x7f800000u;
 }
 uint leastOf(uint a) { return a; }
-uint wholeOf(float a) { return uint(a); }
+#define wholeOf(value) uint(value)  // as a function it would take glslang minutes
 float select(bool m, float yes, float no) { return m ? yes : no; }
 uint select(bool m, uint yes, uint no) { return m ? yes : no; }
 vec3 select(bool m, vec3 yes, vec3 no) { return m ? yes : no; }
