@@ -18,9 +18,7 @@ constexpr double parallel = 1e-9;  // component of a unit normal
 std::optional<std::size_t> axisAcross(const Obstacle& obstacle, const Bounds& bounds) {
     const std::optional<glm::dvec3> normal = obstacle.shape->normalOfHalfSpace();
     for (std::size_t axis = 0; axis < 3; ++axis)
-        if (bounds.periodic[axis] && (!normal || std::abs((*normal)[static_cast<int>(axis)]) > parallel ||
-                                      (obstacle.motion && obstacle.motion->speeds().turn > 0)))
-            return axis;
+        if (bounds.periodic[axis] && (!normal || std::abs((*normal)[static_cast<int>(axis)]) > parallel)) return axis;
     return std::nullopt;
 }
 
@@ -63,8 +61,12 @@ Result<void> checkPeriodicAxes(const Scene& scene) {
         if (const auto axis = axisAcross(scene.obstacles[k], scene.bounds))
             return fail(ErrorKind::Input, at("obstacles", k),
                         fmt::format("is not the same along the whole periodic axis {}; with periodic axes, obstacles "
-                                    "must be planes that are parallel to them and do not turn",
+                                    "must be planes that are parallel to them",
                                     axisNames[*axis]));
+    for (std::size_t k = 0; k < scene.obstacles.size(); ++k)
+        if (scene.obstacles[k].motion && scene.obstacles[k].motion->speeds().turn > 0)
+            return fail(ErrorKind::Input, at(at("obstacles", k), "motion"),
+                        "turns a plane; with periodic axes, planes must stay parallel to them");
     const auto& fields = scene.forces.fields;
     for (std::size_t k = 0; k < fields.size(); ++k)
         if (std::holds_alternative<Attraction>(fields[k]))

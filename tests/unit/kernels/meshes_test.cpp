@@ -14,7 +14,7 @@
 #include "scene/mesh/mesh_shape.h"
 #include "scene/shapes.h"
 #include "sim/mesh_tables.h"
-#include "sim/parameters.h"
+#include "sim/obstacle_rows.h"
 
 namespace spherule::kernels {
 namespace {
@@ -32,8 +32,8 @@ class Around {
         scene_.bounds = {.min = dvec3(-4), .max = dvec3(4)};
         scene_.obstacles = {{.shape = shape, .colour = ""}};
         const auto tables = sim::meshTablesFor(scene_, radius);
-        for (const auto& row : sim::obstaclesFor(scene_, tables.get()))
-            obstacles.push_back(std::bit_cast<layout::Obstacle>(row));
+        const sim::ObstacleRows made(scene_, tables.get());
+        for (const auto& row : made.rows()) obstacles.push_back(std::bit_cast<layout::Obstacle>(row));
         obstacleLists = {END_OF_LIST, 0, END_OF_LIST};
         obstacleLists.insert(obstacleLists.end(), tables->words.begin(), tables->words.end());
         parameters.spheres = static_cast<uint>(position.size());

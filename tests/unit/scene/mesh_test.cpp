@@ -123,7 +123,7 @@ TEST_F(SceneMesh, ThatIsNotClosedIsNoSolid) {
               std::string::npos);
     EXPECT_EQ(
         refusal("a.obj", std::string(corners) + "f 1 2 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n", R"(, "solid": true)"),
-        "a.obj: has neighbours that face opposite ways at 3 edges, the first from (0, 0, 0) to (1, 0, 0); turn all "
+        "a.obj: has neighbours that face opposite ways at 3 edges, the first from (0, 1, 0) to (0, 0, 0); turn all "
         "normals outward");
     EXPECT_EQ(refusal("a.obj", std::string(corners) + "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", R"(, "solid": true)"),
               "a.obj: encloses a volume of -0.167 m³, because its normals point inward; turn them outward");
@@ -176,7 +176,8 @@ TEST_F(SceneMesh, BinaryStlHasTheLengthOfItsTriangles) {
 }
 
 TEST_F(SceneMesh, IsRefusedWithoutItsFile) {
-    EXPECT_NE(refusal("no.stl", "", R"(, "data": "AAAA")").find("is given with `file`"), std::string::npos);
+    EXPECT_EQ(loaded("no.stl", "", R"(, "data": "AAAA")", "mesh").error().text(),
+              "obstacles[0].mesh.data: is given with `file`; leave one of them out");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"mesh": {"file": "a.stl"}}])"),
               "obstacles[0].mesh.file: names the file \"a.stl\", but only a scene file may name files");
     EXPECT_EQ(refusalOf(R"("obstacles": [{"mesh": {"solid": true}}])"),

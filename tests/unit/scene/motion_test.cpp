@@ -143,7 +143,9 @@ TEST(SceneMotion, GoesOnInADescribedScene) {
     const Scene scene = *build(parsed(withMotion(R"("velocity": [0.1, 0, 0], "spin": [0, 0, 1], "pivot": [5, 5, 4],
         "oscillations": [{"amplitude": [0, 0, 0.1], "frequency": 1, "phase": 30}], "belt": [0, 1, 0], "begin": 0.5, "duration": 9,
         "keyframes": [{"time": 2, "translation": [0, 0, 1], "rotation": {"axis": [0, 1, 0], "degrees": 20}}])")));
-    const auto later = build(describe(scene, 1.5));
+    v1::Scene message = describe(scene, 1.5);
+    message.clear_groups();
+    const auto later = build(message);
     ASSERT_TRUE(later) << later.error().text();
     for (const double time : {0.0, 0.7, 2.0, 20.0}) {
         const Frame expected = scene.obstacles[0].motion->poseAt(1.5 + time).frame();
@@ -157,7 +159,7 @@ TEST(SceneMotion, RefusesWhatCannotBe) {
     EXPECT_EQ(refusalOfMotion(R"("acceleration": [1, 0, 0])"),
               "obstacles[0].motion.duration: is missing, but `acceleration` needs one: the speed would grow for ever");
     EXPECT_EQ(refusalOfMotion(R"("oscillations": [{"amplitude": [1, 0, 0]}])"),
-              "obstacles[0].motion.oscillations[0].frequency: is 0, must be above 0");
+              "obstacles[0].motion.oscillations[0].frequency: is 0, must be positive");
     EXPECT_EQ(refusalOfMotion(R"("keyframes": [{"time": 2}, {"time": 1}])"),
               "obstacles[0].motion.keyframes[1].time: is 1 s, must be above 2 s, the time before");
     EXPECT_EQ(

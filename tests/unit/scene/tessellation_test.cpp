@@ -25,19 +25,19 @@ v1::Obstacle obstacleOf(const std::string& json) {
     return scene->obstacles(0);
 }
 
-glm::dvec3 areaOf(const Triangles& surface, const glm::uvec3& each) {
+glm::dvec3 areaOf(const Tessellation& surface, const glm::uvec3& each) {
     const glm::dvec3 a = surface.points[each.x];
     return 0.5 * glm::cross(surface.points[each.y] - a, surface.points[each.z] - a);
 }
 
-double areaOf(const Triangles& surface) {
+double areaOf(const Tessellation& surface) {
     double area = 0;
     for (const glm::uvec3& each : surface.corners) area += glm::length(areaOf(surface, each));
     return area;
 }
 
 // Returns the volume that a closed surface encloses, negative if the triangles face inwards.
-double volumeOf(const Triangles& surface) {
+double volumeOf(const Tessellation& surface) {
     double volume = 0;
     for (const glm::uvec3& each : surface.corners)
         volume += glm::dot(surface.points[each.x], areaOf(surface, each)) / 3;
