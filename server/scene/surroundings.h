@@ -19,7 +19,7 @@ Obstacle readObstacle(Check& check, const v1::Obstacle& message, const std::vect
 std::vector<Obstacle> readObstacles(Check& check, const google::protobuf::RepeatedPtrField<v1::Obstacle>& messages,
                                     const std::vector<Material>& materials, const ShapeInput& input);
 
-// Refuses meshes with so many planes, edges and corners that contacts with them could not be numbered.
+// Refuses meshes with more planes, edges and corners than contacts can be numbered for.
 void checkMeshParts(Check& check, const std::vector<Obstacle>& obstacles);
 
 // Refuses bounds in which float32 positions, relative to the centre, are coarser than 1e-4 of the smallest radius (m).

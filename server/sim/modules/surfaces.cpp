@@ -55,8 +55,7 @@ const Module moduleObstacles{
     .upload =
         [](const ParameterSource& from, layout::Parameters& p) {
             p.obstacles = static_cast<std::uint32_t>(from.scene.obstacles.size());
-            p.meshWords =
-                from.plan.meshes ? static_cast<std::uint32_t>(from.plan.meshes->words.size()) : 0;
+            p.meshWords = from.plan.meshes ? static_cast<std::uint32_t>(from.plan.meshes->words.size()) : 0;
             p.obstacleListWords =
                 static_cast<std::uint32_t>(from.plan.bytesOf(Array::ObstacleLists) / sizeof(std::uint32_t));
         },
