@@ -162,7 +162,7 @@ TEST_P(Bits, OfAMixtureAmongMeshesAreTheSameOnAllDevices) {
     place(support::boxOf({-0.15, -0.1, -0.01}, {0.15, 0.1, 0.01}), scene::Mesh::Form::Solid, {-0.2, 0.2, -0.25});
     place(support::randomSheet({-0.15, -0.15}, {0.15, 0.15}, 6, 6, 1, 0.05), scene::Mesh::Form::Sheet,
           {-0.1, -0.2, -0.3});
-    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.05 : 0.25);
 }
 
 // In a turned, hollow box, above obstacles of all shapes that have a frame.
@@ -197,7 +197,7 @@ TEST_P(Bits, OfAMixtureAmongMovingObstaclesAreTheSameOnAllDevices) {
          R"("capsule": {"from": [-0.3, 0.2, -0.3], "to": [0.3, 0.2, -0.3], "radius": 0.05},
              "motion": {"belt": [0.5, 0.2, 0], "oscillations": [{"amplitude": [0, 0, 0.005], "frequency": 20}]})"})
         scene.obstacles.push_back(obstacleFrom(std::string("{") + obstacle + "}"));
-    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.1 : 0.5);
+    expectTheSameBits(scene, GetParam() == scene::Model::Accurate ? 0.05 : 0.25);
 }
 
 TEST_P(Bits, AcrossSeamsAreTheSameOnAllDevices) {
