@@ -130,12 +130,17 @@ TEST_P(ObstacleCommands, KeepWhatOtherObstaclesHold) {
     scene.obstacles.push_back({.shape = scene::planeShape({0, 0, 0}, up), .colour = ""});
     addSphere(scene, radius * up, radius);
     const auto simulation = simulate(scene);
+    const auto place = [&] { return glm::vec3(simulation->snapshot().position[0]); };
     run(*simulation, 0.5);
-    const glm::vec3 before(simulation->snapshot().position[0]);
+    const glm::vec3 first = place();
+    run(*simulation, 0.5);
+    const glm::vec3 before = place();
     const auto done = simulation->apply(removed(0));
     ASSERT_TRUE(done) << done.error().text();
     run(*simulation, 0.5);
-    EXPECT_LT(glm::distance(glm::vec3(simulation->snapshot().position[0]), before), 1e-3F * 0.05F);
+    // Soft contacts creep a little.
+    EXPECT_LT(glm::distance(place(), before), 1.2F * glm::distance(before, first) + 1e-4F * 0.05F);
+    EXPECT_LT(glm::distance(place(), before), 3e-3F * 0.05F);
     EXPECT_EQ(simulation->scene().obstacles.size(), 1U);
 }
 

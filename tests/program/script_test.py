@@ -74,7 +74,7 @@ class Script(FolderTestCase):
                              "0.1 push ray 0 0 0 0 0 1 nan 0 0": "'nan' is no number",
                              '0.1 spawn {"radius": {"constant": 0.1}}': "spawn.group: has no spheres",
                              "0.1 spawn {": "is not JSON",
-                             "0.1 pause": "'pause' has no place in a script; it takes set, spawn, remove and push",
+                             "0.1 pause": "'pause' has no place in a script; it takes set, spawn, remove, push and changes of obstacles",
                              "0.1 reset": "'reset' has no place in a script",
                              "1s push 0 0 0 1": "comes at 1 s, when no step follows; --for ends the run at 1 s"}.items():
             said = self.refusal("# the first line is a comment", line)
