@@ -187,7 +187,7 @@ test("between two states, boxes, cylinders and planes that move are drawn betwee
   const scene = {
     ...{ epoch: 1000, name: "", description: "", count: 1, radius: 0, obstacles: [still, ...obstacles] },
     ...{ boundsMin: middle(-1, -1, -1), boundsMax: middle(1, 1, 1), open: [], periodic: [] },
-    ...{ groups: [], places: [], population: 0, cells: [], cellSize: 0, camera },
+    ...{ groups: [], places: [], population: 0, cells: [], cellSize: 0, camera, meshes: [] },
   };
   const poses = ends.map((places) => places.map((place, k) => poseOf(bodies[k], k + 1, place)));
   const server = await serve("two-spheres");
@@ -231,7 +231,7 @@ function sceneFile() {
       [shape.case]: shape.value,
       motion: { pivot, ...motions[k] },
     })),
-    groups: [{ list: { spheres: [{ position: middle(0.9, 0.9, -0.9), radius: 0.02 }] } }],
+    groups: [{ colour: "#808080", list: { spheres: [{ position: middle(0.9, 0.9, -0.9), radius: 0.02 }] } }],
     camera,
   };
   const file = path.join(suite.folder, "moving.json");
