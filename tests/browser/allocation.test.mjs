@@ -19,12 +19,7 @@ function bytesIn({ head }) {
 
 let server;
 const suite = browserSuite(async (browser, folder) => {
-  const oscillations = [{ amplitude: [0, 0, 0.02], frequency: 0.5 }];
-  const obstacles = [
-    { plane: { point: [0, 0, 0.05], normal: [0, 0, 1] }, motion: { oscillations } },
-    { box: { min: [0.9, 0.92, 0.9], max: [1, 0.98, 0.95] }, motion: { oscillations } },
-  ];
-  server = await serve(await gasScene(folder, "gas", { obstacles }));
+  server = await serve(await gasScene(folder));
 });
 
 /** Checks the bytes of an image. `arrange(page)` runs before the page moves. */
