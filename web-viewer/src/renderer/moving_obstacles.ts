@@ -53,7 +53,11 @@ export class MovingObstacles {
 
   /** Moves them to where they are between two states. */
   place(shown: Shown, origin: Vec3): void {
-    for (const { obstacle, pivot, normal, now } of this.bodies) {
+    // Iterators would allocate memory in each image.
+    for (let k = 0; k < this.bodies.length; k++) {
+      const body = this.bodies[k];
+      if (!body) continue;
+      const { obstacle, pivot, normal, now } = body;
       const { turn, move } = now;
       writePose(now, shown, obstacle, pivot);
       vec3.subtract(move, move, origin);
@@ -66,8 +70,9 @@ export class MovingObstacles {
 
   /** Draws with a program of shaders/solid.vert.glsl. */
   draw(used: Program, oneSided: boolean): void {
-    for (const body of this.bodies) {
-      if (body.oneSided !== oneSided) continue;
+    for (let k = 0; k < this.bodies.length; k++) {
+      const body = this.bodies[k];
+      if (body?.oneSided !== oneSided) continue;
       this.setUniforms(used, body.now, body.normal ? this.half : none);
       body.mesh.draw();
     }
