@@ -261,7 +261,10 @@ void visitSurface(mask where, real3 n, real separation, real recession, uint wal
     if (anyLane(visited)) solveSurface(visited, close, n, separation, recession, speed, wallMaterial, surface, key);
 }
 
-#include "shared/no_gathered_contacts.h"
+// Only `accurate` gathers contacts.
+void gather(real4 surface, Obstacle mesh, uint key) {}
+void visitGathered(Obstacle mesh) {}
+
 #include "shared/surfaces.h"
 
 void solveWalls(uintRow at) {

@@ -37,7 +37,10 @@ void visitSurface(bool where, vec3 normal, float separation, float recession, ui
 }
 
 #include "shared/mesh_layout.h"
-#include "shared/no_gathered_contacts.h"
+// Only `accurate` gathers contacts.
+void gather(vec4 surface, Obstacle mesh, uint key) {}
+void visitGathered(Obstacle mesh) {}
+
 #include "shared/surfaces.h"
 
 KERNEL(params.spheres) {

@@ -9,7 +9,7 @@
 // shared/surfaces.h includes it, and defines visitPart(). The includer of that defines, before,
 //   `void gather(real4 surface, Obstacle mesh, uint key)`: takes a contact in the model `accurate`;
 //   `void visitGathered(Obstacle mesh)`: visits them when all contacts with the mesh are known.
-// shared/gathered_contacts.h has them, and shared/no_gathered_contacts.h for kernels of the other models.
+// shared/gathered_contacts.h has them. In kernels of the other models they are empty.
 
 PRIVATE(real3, meshPoint)      // the centre of the sphere in the frame of the mesh when the visit began (m)
 PRIVATE(real3, meshStart)      // the same at the start of the substep

@@ -13,7 +13,7 @@
 //
 // It binds `obstacles`, `obstacleLists`, `nearObstacles`, `listReference` and `counters`, and has included
 // shared/shapes.h, shared/mesh_layout.h and shared/moving.h, whose variables describe the motion of the visited surface.
-// It has also included shared/gathered_contacts.h, or shared/no_gathered_contacts.h.
+// It has also included shared/gathered_contacts.h, or has defined its functions gather() and visitGathered().
 
 void visitFaces(uint axis, real coordinate, float low, float high, real3 normal) {
     // The springs of `accurate` need the difference of the places without rounding.

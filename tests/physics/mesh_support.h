@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh_triangles.h"
-#include "scene/mesh/mesh_shape.h"
+#include "scene/mesh/mesh.h"
 #include "support.h"
 
 // Scenes with obstacles of triangles.

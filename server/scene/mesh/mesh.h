@@ -12,8 +12,13 @@
 #include "scene/check.h"
 #include "scene/mesh/triangles.h"
 
+namespace spherule::v1 {
+class Obstacle;
+}
+
 namespace spherule::scene {
 
+class Shape;
 class TriangleTree;
 
 // Triangles with their edges and patches, as spheres meet them. Coordinates (m) are relative to the centre of their
@@ -90,6 +95,12 @@ class Mesh {
     mutable std::once_flag treeMade_;
     mutable std::unique_ptr<TriangleTree> tree_;
 };
+
+// An obstacle of triangles. `message` gives it in scenes: its mesh or its height field.
+std::shared_ptr<const Shape> meshShape(std::shared_ptr<const Mesh> mesh, const v1::Obstacle& message);
+
+// The same without a message, which a scene cannot be written with. Null if the triangles are refused.
+std::shared_ptr<const Shape> meshShape(Triangles triangles, Mesh::Form form);
 
 // The steps of Mesh::make(), in their order.
 

@@ -6,7 +6,7 @@
 
 #include "scene/check.h"
 #include "scene/mesh/height_grid.h"
-#include "scene/mesh/mesh_shape.h"
+#include "scene/mesh/mesh.h"
 #include "scene/shapes.h"
 #include "spherule/v1/scene.pb.h"
 
@@ -80,7 +80,7 @@ ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& 
     if (!check.ok()) return nullptr;
     const auto mesh = Mesh::make(check, {here, "", {}}, groundOf(grid, box, box.min.z - depth),
                                  {.form = Mesh::Form::Solid, .longestSide = input.longestSide});
-    return mesh ? meshShape(mesh, std::move(kept)) : nullptr;
+    return mesh ? meshShape(mesh, kept) : nullptr;
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "scene/check.h"
 #include "scene/mesh/mesh.h"
-#include "scene/mesh/mesh_shape.h"
 #include "scene/mesh/triangles.h"
 #include "scene/shapes.h"
 #include "spherule/v1/scene.pb.h"
@@ -117,13 +116,13 @@ ShapePointer read(Check& check, const v1::Obstacle& message, const std::string& 
     if (!made) return nullptr;
     if (const std::string notes = made->report.text(); !notes.empty())
         spdlog::info("{}{}: {}", from.field, from.name.empty() ? "" : fmt::format(" ({})", from.name), notes);
-    return meshShape(made, std::move(kept));
+    return meshShape(made, kept);
 }
 
 }  // namespace
 
-ShapePointer meshShape(std::shared_ptr<const Mesh> mesh, v1::Obstacle message) {
-    return std::make_shared<MeshShape>(std::move(mesh), std::move(message));
+ShapePointer meshShape(std::shared_ptr<const Mesh> mesh, const v1::Obstacle& message) {
+    return std::make_shared<MeshShape>(std::move(mesh), message);
 }
 
 ShapePointer meshShape(Triangles triangles, Mesh::Form form) {
@@ -132,7 +131,7 @@ ShapePointer meshShape(Triangles triangles, Mesh::Form form) {
     v1::Obstacle message;
     message.mutable_mesh()->set_solid(form == Mesh::Form::Solid);
     message.mutable_mesh()->set_hollow(form == Mesh::Form::Hollow);
-    return mesh ? meshShape(mesh, std::move(message)) : nullptr;
+    return mesh ? meshShape(mesh, message) : nullptr;
 }
 
 const ShapeType shapesMeshes{

@@ -11,7 +11,7 @@
 #include "compute/cpu/features.h"
 #include "kernels_support.h"
 #include "mesh_triangles.h"
-#include "scene/mesh/mesh_shape.h"
+#include "scene/mesh/mesh.h"
 #include "scene/shapes.h"
 #include "sim/mesh_tables.h"
 #include "sim/obstacle_rows.h"

@@ -8,7 +8,7 @@
 
 #include "mesh_triangles.h"
 #include "scene/mesh/mesh.h"
-#include "scene/mesh/mesh_shape.h"
+#include "scene/shapes.h"
 #include "scene_support.h"
 
 namespace spherule::scene::testing {
