@@ -51,38 +51,32 @@ struct Way {
     }
     // rad
     [[nodiscard]] double angle() const {
-        constexpr int parts = 64;  // a part is a sixth of a radian at most
+        constexpr int parts = 64;  // a part is a fifth of a radian at most
         const glm::dquat part = turnAt(1.0 / parts) * glm::conjugate(turnAt(0));
         return parts * 2 * std::atan2(glm::length(glm::dvec3(part.x, part.y, part.z)), std::abs(part.w));
     }
 };
 
-// Calls `visit` with each way between keyframes, in order, until it returns false.
-template <class Visit>
-void eachWay(const std::vector<Keyframe>& keyframes, Visit visit) {
+// Returns the way that ends at keyframe k.
+Way wayTo(const std::vector<Keyframe>& keyframes, std::size_t k) {
     static const Keyframe start;
-    const Keyframe* before = &start;
-    for (const Keyframe& key : keyframes) {
-        if (!visit(Way{*before, key})) return;
-        before = &key;
-    }
+    return {k > 0 ? keyframes[k - 1] : start, keyframes[k]};
 }
 
 void addKeyframes(Pose& pose, const Motion& motion, double t) {
     if (motion.keyframes.empty()) return;
     const Keyframe& last = motion.keyframes.back();
     if (motion.repeat) t = std::fmod(t, last.time);
-    glm::dvec3 shift = last.translation;
-    glm::dquat turn = last.rotation.quaternion();
-    eachWay(motion.keyframes, [&](const Way& way) {
-        if (t >= way.to.time) return true;
-        const double share = (t - way.from.time) / way.time();
-        shift = way.from.translation + share * (way.to.translation - way.from.translation);
-        turn = way.turnAt(share);
-        return false;
-    });
-    pose.shift += shift;
-    pose.turn = turn * pose.turn;
+    const auto next = std::ranges::upper_bound(motion.keyframes, t, {}, &Keyframe::time);
+    if (next == motion.keyframes.end()) {
+        pose.shift += last.translation;
+        pose.turn = last.rotation.quaternion() * pose.turn;
+        return;
+    }
+    const Way way = wayTo(motion.keyframes, static_cast<std::size_t>(next - motion.keyframes.begin()));
+    const double share = (t - way.from.time) / way.time();
+    pose.shift += way.from.translation + share * (way.to.translation - way.from.translation);
+    pose.turn = way.turnAt(share) * pose.turn;
 }
 
 }  // namespace
@@ -118,19 +112,19 @@ MotionSpeeds Motion::speeds() const {
     }
     double alongKeys = 0;
     double turnKeys = 0;
-    eachWay(keyframes, [&](const Way& way) {
+    for (std::size_t k = 0; k < keyframes.size(); ++k) {
+        const Way way = wayTo(keyframes, k);
         alongKeys = std::max(alongKeys, glm::distance(way.from.translation, way.to.translation) / way.time());
         turnKeys = std::max(turnKeys, way.angle() / way.time());
-        return true;
-    });
+    }
     most.pivot += alongKeys;
     most.turn += turnKeys;
     return most;
 }
 
 bool Motion::staysInPlace() const {
-    const MotionSpeeds most = speeds();
-    return most.pivot == 0 && most.turn == 0;
+    const glm::dvec3 none(0);
+    return velocity == none && acceleration == none && spin == none && oscillations.empty() && keyframes.empty();
 }
 
 namespace {

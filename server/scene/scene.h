@@ -133,6 +133,8 @@ struct Obstacle {
     std::string colour;
     std::optional<Motion> motion{};  // nullopt: at rest
 
+    // Returns how far it has moved from its place in the scene at this time.
+    [[nodiscard]] Frame movedBy(double time) const { return motion ? motion->poseAt(time).frame() : Frame(); }
     // Returns the distance of a point from the solid at this time (m), negative inside it.
     [[nodiscard]] double distance(const glm::dvec3& point, double time) const;
     // Returns the largest speed of a point of its surface at any time (m/s), without the belt's. A half-space counts

@@ -141,7 +141,7 @@ std::optional<std::size_t> obstacleAt(const Scene& scene, const glm::dvec3& cent
 }
 
 double Obstacle::distance(const glm::dvec3& point, double time) const {
-    return shape->distance(motion ? motion->poseAt(time).frame().inside(point) : point);
+    return shape->distance(motion ? movedBy(time).inside(point) : point);
 }
 
 double Obstacle::largestSpeed(const Bounds& bounds) const {

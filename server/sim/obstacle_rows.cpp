@@ -1,5 +1,6 @@
 #include "sim/obstacle_rows.h"
 
+#include <algorithm>
 #include <span>
 
 #include "sim/mesh_tables.h"
@@ -44,7 +45,8 @@ ObstacleRows::ObstacleRows(const scene::Scene& scene, const MeshTables* meshes) 
         to.surface = surface;
         to.material = obstacle.material;
         if (row.frame) setFrame(to, *row.frame);
-        if (obstacle.motion) moving_.push_back({rows_.size(), row.frame.value_or(scene::Frame())});
+        if (obstacle.motion)
+            moving_.push_back({rows_.size(), row.frame.value_or(scene::Frame()), obstacle.largestSpeed(scene.bounds)});
         rows_.push_back(to);
         surface += to.parts;
     }
@@ -52,7 +54,7 @@ ObstacleRows::ObstacleRows(const scene::Scene& scene, const MeshTables* meshes) 
     place(scene, {scene.time, scene.time}, scene.time);
 }
 
-void ObstacleRows::place(const scene::Scene& scene, const SubstepTimes& times, double framesAt) {
+void ObstacleRows::place(const scene::Scene& scene, const TimeSpan& times, double framesAt) {
     const std::size_t first = rows_.size() - moving_.size();
     for (std::size_t k = 0; k < moving_.size(); ++k) {
         layout::Obstacle& row = rows_[moving_[k].obstacle];
@@ -60,7 +62,7 @@ void ObstacleRows::place(const scene::Scene& scene, const SubstepTimes& times, d
         const scene::Motion& moves = *scene.obstacles[moving_[k].obstacle].motion;
         const scene::Pose from = moves.poseAt(times.begin);
         const scene::Pose to = moves.poseAt(times.end);
-        const scene::Pose at = moves.poseAt(framesAt);
+        const scene::Pose& at = framesAt == times.begin ? from : to;
         const glm::dvec3 pivot = at.pivot + at.shift - centre_;
         const glm::dmat3 turn = glm::mat3_cast(at.turn);
         setFrame(row, {turn * moving_[k].local.turn, pivot + turn * moving_[k].local.origin});
@@ -71,6 +73,14 @@ void ObstacleRows::place(const scene::Scene& scene, const SubstepTimes& times, d
         motion.frameX = glm::vec4(glm::dvec4(cayleyVector(to.turn * glm::conjugate(from.turn)), 0));
         motion.frameY = glm::vec4(glm::dvec4(at.turn * moves.belt, 0));
     }
+}
+
+double ObstacleRows::fastestIn(const scene::Scene& scene, const TimeSpan& times) const {
+    double fastest = 0;
+    for (const Moving& moving : moving_)
+        if (scene.obstacles[moving.obstacle].motion->runsBetween(times.begin, times.end))
+            fastest = std::max(fastest, moving.largestSpeed);
+    return fastest;
 }
 
 void ObstacleRows::upload(Pipeline& pipeline) const {

@@ -190,7 +190,7 @@ Result<bool> Simulation::advance() {
         stepObserved_ = observing_ && steps_ % observedEvery == 0;
     }
     // `balanced` solves the contacts before the spheres move.
-    const SubstepTimes times = nextSubstep();
+    const TimeSpan times = nextSubstep();
     placeObstacles(scene_.quality.model == scene::Model::Balanced ? times.begin : times.end);
     pipeline_->substep(stepObserved_);
     if (--substepsLeft_ > 0) return false;

@@ -163,7 +163,7 @@ class Simulation {
     Result<void> checkWay(const scene::Obstacle& obstacle, const scene::Obstacle* before, const State& state) const;
     void continueWith(Preparation& preparation);
     void wakeAt(const std::vector<scene::Obstacle>& obstacles);
-    [[nodiscard]] SubstepTimes nextSubstep() const;
+    [[nodiscard]] TimeSpan nextSubstep() const;
     void placeObstacles(double framesAt);
     [[nodiscard]] double motionOfObstacles() const;
     void limitMotionPerSubstep(double radiiPerSubstep);

@@ -82,10 +82,7 @@ void Simulation::limitMotionPerSubstep(double radiiPerSubstep) {
 
 // Returns the largest motion of an obstacle in a substep of the next step, in radii of the smallest sphere.
 double Simulation::motionOfObstacles() const {
-    double fastest = 0;
-    for (const scene::Obstacle& obstacle : scene_.obstacles)
-        if (obstacle.motion && obstacle.motion->runsBetween(time(), time() + scene_.step))
-            fastest = std::max(fastest, obstacle.largestSpeed(scene_.bounds));
+    const double fastest = obstacleRows_->fastestIn(scene_, {time(), time() + scene_.step});
     return fastest > 0 ? fastest * scene_.step / substeps_ / radii_.smallest : 0;
 }
 

@@ -44,7 +44,7 @@ std::vector<std::optional<std::uint32_t>> newSurfaces(const scene::Scene& before
 }  // namespace
 
 // Returns the substep that is next, in s simulated.
-SubstepTimes Simulation::nextSubstep() const {
+TimeSpan Simulation::nextSubstep() const {
     const double begin = time();
     const double length =
         substepsLeft_ > 0 ? (1 - remainderBegin_) * scene_.step / remainderSubsteps_ : scene_.step / substeps_;
@@ -100,12 +100,13 @@ Result<void> Simulation::checkWay(const scene::Obstacle& obstacle, const scene::
                                   const State& state) const {
     constexpr double allowed = 0.05;  // of the radius
     const glm::dvec3 centre = scene_.bounds.centre();
+    const scene::Frame moved = obstacle.movedBy(time());
     std::uint32_t inWay = 0;
     std::uint64_t first = 0;
     for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
         const glm::dvec3 x = positionOf(state, rank) + centre;
         const double r = radiusOf(state, rank);
-        const double depth = r - obstacle.distance(x, time());
+        const double depth = r - obstacle.shape->distance(moved.inside(x));
         if (!(depth > allowed * r)) continue;
         if (before != nullptr && depth <= r - before->distance(x, time())) continue;
         if (inWay++ == 0) first = population_.idAt(rank);
@@ -158,12 +159,17 @@ void Simulation::wakeAt(const std::vector<scene::Obstacle>& obstacles) {
     const State state = snapshot();
     const glm::dvec3 centre = scene_.bounds.centre();
     const double gap = static_cast<double>(plan().grid.margin);
+    std::vector<scene::Frame> moved;
+    for (const scene::Obstacle& one : obstacles) moved.push_back(one.movedBy(time()));
     std::vector<std::uint32_t> handles;
     for (std::uint32_t rank = 0; rank < state.count(); ++rank) {
         const glm::dvec3 x = positionOf(state, rank) + centre;
         const double reach = radiusOf(state, rank) + gap;
-        if (std::ranges::any_of(obstacles, [&](const auto& one) { return one.distance(x, time()) < reach; }))
-            handles.push_back(population_.handleAt(rank));
+        for (std::size_t k = 0; k < obstacles.size(); ++k)
+            if (obstacles[k].shape->distance(moved[k].inside(x)) < reach) {
+                handles.push_back(population_.handleAt(rank));
+                break;
+            }
     }
     pipeline_->wake(handles);
 }

@@ -12,6 +12,7 @@ import { browserSuite } from "./support/suite.mjs";
 const suite = browserSuite();
 
 const at = 1000; // m, on each axis: the middle of the scene
+const [low, high] = [at - 1, at + 1];
 const size = [240, 136]; // px
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -54,6 +55,16 @@ const cylinder = {
     return Math.max(Math.abs(x) - 0.4, Math.hypot(y, z) - 0.15);
   },
 };
+const plane = {
+  channel: 1,
+  colour: "#10c010",
+  shape: { case: "plane", value: { point: middle(0, 0, -0.9), normal: [0, 0, 2] } },
+  pivot: middle(0.5, 0, -0.4),
+  axis: [0.6, 0.8, 0],
+  ends: true, // at the bounds
+  distance: (p) => p[2] - (at - 0.9),
+};
+
 /** The obstacle that each pixel shows, as its colour channel; -1: none. `places`: the angle and move of each. */
 function expectedIn(camera, bodies, places) {
   const rayAt = rays(camera, ...size);
@@ -61,7 +72,7 @@ function expectedIn(camera, bodies, places) {
     const { near, direction } = rayAt(column, row);
     const origin = plus(camera.eye, near);
     let [found, nearest] = [-1, 10];
-    bodies.forEach(({ channel, pivot, axis, distance, shape }, k) => {
+    bodies.forEach(({ channel, pivot, axis, ends, distance, shape }, k) => {
       const { angle, move } = places[k];
       // The ray in the coordinates in which the obstacle has not moved.
       const begin = plus(turned(minus(minus(origin, pivot), move), axis, -angle), pivot);
@@ -75,20 +86,22 @@ function expectedIn(camera, bodies, places) {
         if (room < 1e-4) break;
         along += Math.max(room, 1e-4);
       }
+      const point = origin.map((x, axisOf) => x + along * direction[axisOf]);
+      if (ends && point.some((x) => x < low || x > high)) return;
       if (along < nearest) [found, nearest] = [channel, along];
     });
     return found;
   };
 }
 
-/** The channel of a clear colour; -1: none is clear. */
-function channelOf([r, g, b]) {
+/** The channel of a colour whose components differ by this share; -1: they do not. */
+function channelOf([r, g, b], share) {
   const most = Math.max(r, g, b);
-  return most - Math.min(r, g, b) > 0.5 * most && most > 20 ? [r, g, b].indexOf(most) : -1;
+  return most - Math.min(r, g, b) > share * most && most > 20 ? [r, g, b].indexOf(most) : -1;
 }
 
-/** Checks that each pixel shows what is expected there, or within two pixels of it. */
-async function check(page, bodies, places) {
+/** Checks that each pixel shows what is expected there, or within two pixels of it. `share`: see channelOf(). */
+async function check(page, bodies, places, share = 0.5) {
   const camera = await page.evaluate(() => spherule.camera);
   const expected = expectedIn(camera, bodies, places);
   const picture = await pictureOf(page);
@@ -96,7 +109,7 @@ async function check(page, bodies, places) {
   const wrong = [];
   for (let row = 0; row < size[1]; row++) {
     for (let column = 0; column < size[0]; column++) {
-      const drawn = channelOf(picture.at(column, row));
+      const drawn = channelOf(picture.at(column, row), share);
       const k = bodies.findIndex(({ channel }) => channel === drawn);
       if (k >= 0) seen[k] += 1;
       const near = [-2, -1, 0, 1, 2];
@@ -115,7 +128,86 @@ async function openSmall(url) {
   return page;
 }
 
+const quaternion = (axis, angle) => [...axis.map((x) => x * Math.sin(angle / 2)), Math.cos(angle / 2)];
+
+/** The pose of an obstacle as a message. */
+function poseOf({ pivot, axis }, obstacle, { angle, move }) {
+  const translation = minus(plus(pivot, move), turned(pivot, axis, angle));
+  return { obstacle, translation, rotation: quaternion(axis, angle) };
+}
+
 const camera = { eye: middle(1.6, -3, 2.2), target: middle(0, 0, -0.1), fieldOfView: 40 };
+
+/** Shows a scene of its own on the page, between two states. The page then ignores the server's scene. */
+function showScene({ scene, poses }) {
+  const copies = 60; // of the states, in which the page learns how much time is between them
+  const between = 1e9; // ms: the image does not change during the test
+  const { session } = spherule;
+  const radii = new Uint8Array(Float32Array.of(0.01).buffer);
+  session.handle({ kind: "scene", facts: { ...scene, radii } });
+  session.handle({ kind: "order", order: { epoch: scene.epoch, number: 1, places: Uint32Array.of(0) } });
+  for (let k = 1; k <= copies; k++) {
+    const position = {
+      values: Int32Array.of(99, 99, -99),
+      quantum: 0.01,
+      quanta: [0.01, 0.01, 0.01],
+      turns: [0, 0, 0],
+    };
+    const content = {
+      columns: { position },
+      order: 1,
+      boxes: Float64Array.of(-1, -1, -1, 1, 1, 1),
+      poses: poses[k % 2],
+    };
+    const arrival = performance.timeOrigin + performance.now() - (copies + 0.9 - k) * between;
+    const times = { sequence: k, epoch: scene.epoch, step: k, simTime: k, arrival, ready: 0 };
+    session.handle({ kind: "frame", frame: { ...times, ...content, count: 1, population: 0, bytes: 0 } });
+  }
+}
+
+test("between two states, boxes, cylinders and planes that move are drawn between their poses", async () => {
+  const bodies = [box, cylinder, plane];
+  const ends = [
+    [
+      { angle: 0.1, move: [0, 0, 0] },
+      { angle: 0.4, move: [0, 0, 0.2] },
+      { angle: -0.1, move: [0, 0, 0] },
+    ],
+    [
+      { angle: 0.5, move: [0.2, 0.1, 0.2] },
+      { angle: 1.1, move: [0, 0, 0.6] },
+      { angle: 0.4, move: [3, 1, 0.2] },
+    ],
+  ];
+  const obstacles = bodies.map(({ colour, shape, pivot }) => ({ colour, shape, translation: [], motion: { pivot } }));
+  const still = {
+    shape: { case: "sphere", value: { centre: middle(0, 0.9, 0.9), radius: 0.05, hollow: false } },
+    translation: [],
+  };
+  const scene = {
+    ...{ epoch: 1000, name: "", description: "", count: 1, radius: 0, obstacles: [still, ...obstacles] },
+    ...{ boundsMin: middle(-1, -1, -1), boundsMax: middle(1, 1, 1), open: [], periodic: [] },
+    ...{ groups: [], places: [], population: 0, cells: [], cellSize: 0, camera, meshes: [] },
+  };
+  const poses = ends.map((places) => places.map((place, k) => poseOf(bodies[k], k + 1, place)));
+  const server = await serve("two-spheres");
+  const page = await openSmall(server.url);
+  await page.evaluate(showScene, { scene, poses });
+  await ticks(page, 6);
+  const { time, from, to } = await page.evaluate(() => spherule.shown);
+  const mix = (time - from) / (to - from);
+  assert.ok(mix > 0.2 && mix < 0.95, `mix ${mix}`);
+  const [begin, end] = [ends[from % 2], ends[to % 2]];
+  const between = (a, b) => a + mix * (b - a);
+  const now = begin.map(({ angle, move }, k) => ({
+    angle: between(angle, end[k].angle),
+    move: move.map((x, axis) => between(x, end[k].move[axis])),
+  }));
+  await check(page, bodies, now, 0.12); // the states are old, so the page shows them in pale colours
+  assert.deepEqual(page.faults, []);
+  await page.close();
+  await server.stop();
+});
 
 const spin = 0.5; // rad/s
 const oscillation = { amplitude: [0.2, 0.1, 0.3], frequency: 0.25 };

@@ -8,10 +8,12 @@
 
 #include "scene/describe.h"
 #include "scene/motion.h"
+#include "scene/obstacle_changes.h"
 #include "scene/random.h"
 #include "scene/shapes.h"
 #include "scene/surroundings.h"
 #include "scene_support.h"
+#include "spherule/v1/control.pb.h"
 
 namespace spherule::scene::testing {
 namespace {
@@ -176,6 +178,32 @@ TEST(SceneMotion, RefusesWhatCannotBe) {
         << refusalOfMotion(R"("velocity": [1e6, 0, 0])");
     EXPECT_NE(refusalOfMotion(R"("velocity": [1e300, 0, 0])").find("obstacles[0].motion.velocity[0]: is 1e+300"),
               std::string::npos);
+}
+
+// A command moves an obstacle from where it is at that moment.
+TEST(SceneMotion, IsReplacedByAMove) {
+    Scene scene = *build(parsed(withMotion(R"("velocity": [1, 0, 0], "spin": [0, 0, 1], "pivot": [5, 5, 5])",
+                                           R"("box": {"min": [-1,-2,-1], "max": [1,2,1]}, "translation": [5, 5, 5])")));
+    scene.time = pi / 2;
+    v1::MoveObstacle move;
+    const Obstacle stopped = *movedObstacle(move, scene);
+    EXPECT_FALSE(stopped.motion);
+    // It has turned by a right angle, so that its long side lies along x.
+    const double x = 5 + scene.time;
+    EXPECT_NEAR(stopped.distance({x + 3, 5, 5}, 0), 1, 1e-12);
+    EXPECT_NEAR(stopped.distance({x, 7, 5}, 99), 1, 1e-12);
+    setVector(*move.mutable_by(), {0, 0, 1});
+    move.mutable_turn()->mutable_axis()->Add(1);
+    move.mutable_turn()->mutable_axis()->Add(0);
+    move.mutable_turn()->mutable_axis()->Add(0);
+    move.mutable_turn()->set_degrees(90);
+    setVector(*move.mutable_motion()->mutable_velocity(), {0, 1, 0});
+    const Obstacle moved = *movedObstacle(move, scene);
+    EXPECT_NEAR(moved.distance({x + 3, 5, 6}, scene.time), 1, 1e-12);
+    EXPECT_NEAR(moved.distance({x + 3, 7, 6}, scene.time + 2), 1, 1e-12);
+    EXPECT_NEAR(moved.distance({x + 3, 5, 6}, scene.time - 1), 1, 1e-12);
+    move.mutable_by()->Add(1);
+    EXPECT_EQ(movedObstacle(move, scene).error().text(), "by: has 4 numbers, must have three: x, y, z");
 }
 
 // Spheres are placed beside obstacles as they are at the scene's time.

@@ -106,15 +106,16 @@ export function surfaceOf(obstacle: Obstacle, colour: number[], bounds: Bounds):
 function meshSurface({ shape, placement, triangles }: Obstacle, colour: number[]): Surface {
   const mesh = shape.case === "mesh" ? shape.value : undefined;
   const sheet = !mesh?.solid && !mesh?.hollow;
-  if (!triangles?.indices.length) {
-    const vertices = faces(triangles?.min as Vec3, triangles?.max as Vec3).flatMap(({ normal, points }) =>
+  if (!triangles) return { vertices: [], oneSided: false };
+  if (triangles.indices.length === 0) {
+    const vertices = faces(triangles.min as Vec3, triangles.max as Vec3).flatMap(({ normal, points }) =>
       polygon(
         points.map((point) => placed(placement, point)),
         turned(placement, normal),
         colour,
       ),
     );
-    return { vertices: triangles ? vertices : [], oneSided: false };
+    return { vertices, oneSided: false };
   }
   const numbers = new Float32Array(triangles.vertices.slice().buffer);
   const points = Array.from({ length: numbers.length / 3 }, (_, k) =>
