@@ -60,7 +60,11 @@ struct Surfaces {
 
     void add(const Snapshot& snapshot, int obstacle, const scene::Frame& pose) {
         const scene::Box bounds{snapshot.spheres->low, snapshot.spheres->high};
-        triangles.append(scene::tessellationOf(snapshot.facts->obstacles(obstacle), pose, bounds));
+        const auto& meshes = snapshot.facts->meshes();
+        const auto mesh =
+            std::ranges::find_if(meshes, [&](const auto& one) { return int(one.obstacle()) == obstacle; });
+        triangles.append(scene::tessellationOf(snapshot.facts->obstacles(obstacle),
+                                               mesh == meshes.end() ? nullptr : &*mesh, pose, bounds));
         obstacles.resize(triangles.corners.size(), obstacle);
     }
 };

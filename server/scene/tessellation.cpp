@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -12,6 +13,7 @@
 
 #include "scene/check.h"
 #include "scene/shapes.h"
+#include "spherule/v1/facts.pb.h"
 #include "spherule/v1/scene.pb.h"
 
 namespace spherule::scene {
@@ -158,6 +160,26 @@ Tessellation coneTriangles(const Shape& shape, double low, double high, const Fr
     return turnedAround(coneOutline(low, high, half, shape.open()), frame * own, shape.hollow());
 }
 
+// Returns nothing for triangles that name vertices beyond the last one. `hollow`: of the box in place of the triangles.
+Tessellation meshTriangles(const v1::MeshFacts& mesh, bool hollow, const Frame& frame) {
+    if (mesh.vertices().empty() && mesh.min_size() == 3 && mesh.max_size() == 3) {
+        v1::Box box;
+        *box.mutable_min() = mesh.min();
+        *box.mutable_max() = mesh.max();
+        box.set_hollow(hollow);
+        return boxTriangles(box, frame);
+    }
+    Tessellation surface;
+    std::vector<glm::vec3> vertices(mesh.vertices().size() / sizeof(glm::vec3));
+    std::memcpy(vertices.data(), mesh.vertices().data(), vertices.size() * sizeof(glm::vec3));
+    for (const glm::vec3& vertex : vertices) surface.points.push_back(frame.outside(vertex));
+    surface.corners.resize(mesh.indices().size() / sizeof(glm::uvec3));
+    std::memcpy(surface.corners.data(), mesh.indices().data(), surface.corners.size() * sizeof(glm::uvec3));
+    const auto isThere = [&](const glm::uvec3& one) { return std::max({one.x, one.y, one.z}) < vertices.size(); };
+    if (!std::ranges::all_of(surface.corners, isThere)) return {};
+    return surface;
+}
+
 // Returns how the obstacle lies in the scene.
 Frame placeOf(Check& check, const v1::Obstacle& obstacle) {
     Frame place;
@@ -175,11 +197,13 @@ void Tessellation::append(const Tessellation& other) {
     for (const glm::uvec3& each : other.corners) corners.push_back(before + each);
 }
 
-Tessellation tessellationOf(const v1::Obstacle& obstacle, const Frame& pose, const Box& bounds) {
+Tessellation tessellationOf(const v1::Obstacle& obstacle, const v1::MeshFacts* mesh, const Frame& pose,
+                            const Box& bounds) {
     Check check;
-    readShape(check, obstacle, "obstacle");
-    if (!check.ok()) return {};
+    if (mesh == nullptr) readShape(check, obstacle, "obstacle");
     const Frame frame = pose * placeOf(check, obstacle);
+    if (!check.ok()) return {};
+    if (mesh != nullptr) return meshTriangles(*mesh, obstacle.mesh().hollow(), frame);
     switch (obstacle.shape_case()) {
         case v1::Obstacle::kPlane: {
             const v1::Plane& plane = obstacle.plane();

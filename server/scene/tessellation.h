@@ -8,8 +8,9 @@
 #include "scene/scene.h"
 
 namespace spherule::v1 {
+class MeshFacts;
 class Obstacle;
-}
+}  // namespace spherule::v1
 
 namespace spherule::scene {
 
@@ -23,6 +24,8 @@ struct Tessellation {
 
 // Returns the surface of an obstacle that is moved to `pose` from its place in the scene. Round shapes have 64 sides.
 // A plane ends at the bounds. Returns an empty surface if scenes cannot have the obstacle.
-Tessellation tessellationOf(const v1::Obstacle& obstacle, const Frame& pose, const Box& bounds);
+// `mesh`: the triangles of an obstacle that is a mesh, or null. A mesh without its triangles is the box around them.
+Tessellation tessellationOf(const v1::Obstacle& obstacle, const v1::MeshFacts* mesh, const Frame& pose,
+                            const Box& bounds);
 
 }  // namespace spherule::scene

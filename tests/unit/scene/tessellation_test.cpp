@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "scene/check.h"
 #include "scene/json.h"
 #include "scene/shapes.h"
+#include "spherule/v1/facts.pb.h"
 
 namespace spherule::scene {
 namespace {
@@ -66,7 +68,7 @@ TEST(Tessellation, EncloseTheSolid) {
             const Tessellation surface = tessellationOf(
                 obstacleOf("{" + shape +
                            R"(, "rotation": {"axis": [1, 2, 3], "degrees": 50}, "translation": [1, 2, 3]})"),
-                {glm::mat3_cast(glm::angleAxis(0.7, glm::dvec3(0, 0.6, 0.8))), {3, 2, 1}}, bounds);
+                nullptr, {glm::mat3_cast(glm::angleAxis(0.7, glm::dvec3(0, 0.6, 0.8))), {3, 2, 1}}, bounds);
             EXPECT_NEAR(volumeOf(surface), hollow ? -each.volume : each.volume, roundness * each.volume) << shape;
             EXPECT_NEAR(areaOf(surface), each.area, roundness * each.area) << shape;
         }
@@ -87,7 +89,7 @@ TEST(Tessellation, LieOnTheSurface) {
         Check check;
         const ShapePointer read = readShape(check, obstacle, "");
         const Frame pose{glm::mat3_cast(glm::angleAxis(0.3, glm::dvec3(0, 0.6, 0.8))), {0.3, -0.2, 0.1}};
-        const Tessellation surface = tessellationOf(obstacle, pose, bounds);
+        const Tessellation surface = tessellationOf(obstacle, nullptr, pose, bounds);
         EXPECT_GE(surface.corners.size(), 2U) << shape;
         for (const glm::dvec3& point : surface.points)
             EXPECT_NEAR(read->distance(pose.inside(point)), 0, 1e-9) << shape;
@@ -96,20 +98,44 @@ TEST(Tessellation, LieOnTheSurface) {
 
 TEST(Tessellation, OfAPlaneEndAtTheBoundsWhereverItMoves) {
     const v1::Obstacle plane = obstacleOf(R"({"plane": {"point": [0, 0, 1], "normal": [0, 0, 2]}})");
-    const Tessellation level = tessellationOf(plane, {.origin = {100, 0, 2}}, bounds);
+    const Tessellation level = tessellationOf(plane, nullptr, {.origin = {100, 0, 2}}, bounds);
     EXPECT_NEAR(areaOf(level), 64, 1e-9);
     EXPECT_NEAR(areaOf(level, level.corners.front()).x, 0, 1e-9);
     EXPECT_GT(areaOf(level, level.corners.front()).z, 0) << "it faces the free space";
     EXPECT_EQ(level.points.front().z, 3);
-    EXPECT_TRUE(tessellationOf(plane, {.origin = {0, 0, 4}}, bounds).corners.empty());
+    EXPECT_TRUE(tessellationOf(plane, nullptr, {.origin = {0, 0, 4}}, bounds).corners.empty());
+}
+
+// A mesh has its triangles, turned and moved with the obstacle. Without them, it is their box.
+TEST(Tessellation, OfAMeshAreItsTriangles) {
+    const v1::Obstacle obstacle = obstacleOf(
+        R"({"mesh": {"solid": true}, "rotation": {"axis": [0, 0, 1], "degrees": 90}, "translation": [1, 2, 3]})");
+    v1::MeshFacts mesh;
+    for (const double value : {-0.5, 0., 0.}) mesh.add_min(value);
+    for (const double value : {1., 2., 3.}) mesh.add_max(value);
+    EXPECT_NEAR(volumeOf(tessellationOf(obstacle, &mesh, {}, bounds)), 9, 1e-9);
+    const std::vector<glm::vec3> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-0.5, 0, 0}};
+    std::vector<glm::uvec3> triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    const auto fill = [&] {
+        mesh.set_vertices(vertices.data(), vertices.size() * sizeof vertices[0]);
+        mesh.set_indices(triangles.data(), triangles.size() * sizeof triangles[0]);
+    };
+    fill();
+    const Tessellation surface = tessellationOf(obstacle, &mesh, {.origin = {0, 0, 1}}, bounds);
+    EXPECT_EQ(surface.points.size(), 5U);
+    EXPECT_NEAR(volumeOf(surface), 1, 1e-9);
+    EXPECT_NEAR(glm::distance(surface.points[2], {-1, 2, 4}), 0, 1e-9);
+    triangles[3].z = 5;
+    fill();
+    EXPECT_TRUE(tessellationOf(obstacle, &mesh, {}, bounds).corners.empty()) << "there is no vertex 5";
 }
 
 TEST(Tessellation, AreNoneOfAnObstacleThatScenesCannotHave) {
-    EXPECT_TRUE(tessellationOf({}, {}, bounds).points.empty());
-    EXPECT_TRUE(
-        tessellationOf(obstacleOf(R"({"sphere": {"centre": [0, 0], "radius": 1}})"), {}, bounds).points.empty());
-    EXPECT_TRUE(
-        tessellationOf(obstacleOf(R"({"sphere": {"centre": [0, 0, 0], "radius": -1}})"), {}, bounds).points.empty());
+    EXPECT_TRUE(tessellationOf({}, nullptr, {}, bounds).points.empty());
+    EXPECT_TRUE(tessellationOf(obstacleOf(R"({"sphere": {"centre": [0, 0], "radius": 1}})"), nullptr, {}, bounds)
+                    .points.empty());
+    EXPECT_TRUE(tessellationOf(obstacleOf(R"({"sphere": {"centre": [0, 0, 0], "radius": -1}})"), nullptr, {}, bounds)
+                    .points.empty());
 }
 
 }  // namespace
